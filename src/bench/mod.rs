@@ -1,0 +1,1 @@
+//! Suites, baselines, statistics, held-out evaluation. Draws nothing.

@@ -1,0 +1,1 @@
+//! Sampling scenes and pushes, generating shards of trajectories. Trains nothing.

@@ -1,0 +1,35 @@
+//! The interface of an effect model: jobs in, trajectories out.
+
+use std::sync::Arc;
+
+use crate::scene::{Hypothesis, Record, Scene, State, ToolMotion, Trajectory, Warning};
+
+/// One rollout to compute.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Poses and velocities at the start.
+    pub start: State,
+    /// What the tool does.
+    pub motion: ToolMotion,
+    /// Other physical parameters than the scene's, where wanted.
+    pub hypothesis: Option<Arc<Hypothesis>>,
+}
+
+/// Predicts the effect of tool motions.
+///
+/// Implementations run a batch of jobs in parallel on the current rayon pool and return the
+/// same bits for any number of threads, trajectories in the order of the jobs.
+pub trait EffectModel: Send + Sync {
+    /// Short name for tables, such as `brdpn-128` or `planar`.
+    fn name(&self) -> &str;
+
+    /// What makes this model less trustworthy for this scene and motion; empty if nothing.
+    fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning>;
+
+    /// 95th percentile of the final position error on held-out pushes, metres; 0 for a
+    /// simulator that is its own truth.
+    fn error_p95(&self) -> f64;
+
+    /// Rolls every job out until everything rests.
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
+}

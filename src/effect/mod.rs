@@ -1,0 +1,8 @@
+//! The waist of the house: what a tool motion does to a scene, whoever computes it.
+//!
+//! Planner, benchmarks and trade-off see only [`EffectModel`]; learned, simulated and trivial
+//! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
+
+mod job;
+
+pub use job::{EffectModel, Job};

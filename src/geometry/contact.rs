@@ -1,0 +1,207 @@
+//! Contact points: where two footprints touch, or would touch first.
+//!
+//! Two flat faces meet in a line, whose ends carry the contact; so up to two points are
+//! returned, as a contact solver would keep them. Written here rather than taken from parry
+//! because the graph needs both points also at a distance, with the same numbers in either
+//! argument order, and a batch of them for every step of every rollout.
+
+use super::{Footprint, Pose, Vector};
+
+/// Points of one pair that lie closer together than this are one contact, metres.
+const SAME_POINT: f64 = 1e-3;
+
+/// A point where two bodies are close.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactPoint {
+    /// The point on the first body, world frame, metres.
+    pub on_first: Vector,
+    /// The point on the second body, world frame, metres.
+    pub on_second: Vector,
+    /// Unit normal, pointing from the second body into the first.
+    pub normal: Vector,
+    /// Distance along the normal, metres; negative where the bodies overlap.
+    pub gap: f64,
+}
+
+impl ContactPoint {
+    /// The same contact seen from the other body.
+    pub fn flipped(self) -> Self {
+        Self {
+            on_first: self.on_second,
+            on_second: self.on_first,
+            normal: -self.normal,
+            gap: self.gap,
+        }
+    }
+}
+
+/// The one or two contact points of two posed footprints whose gap is at most `reach` metres,
+/// closest first; none if the bodies are farther apart.
+///
+/// Two points are only ever returned for two rectangles: the closest pair of a corner of one
+/// and the boundary of the other, and the next such pair at another place.
+pub fn contact_points(
+    first: (&Footprint, &Pose),
+    second: (&Footprint, &Pose),
+    reach: f64,
+) -> ([Option<ContactPoint>; 2], usize) {
+    let apart = (first.1.position - second.1.position).norm();
+    if apart > first.0.bounding_radius() + second.0.bounding_radius() + reach {
+        return ([None, None], 0);
+    }
+    match (*first.0, *second.0) {
+        (Footprint::Disc { radius: a }, Footprint::Disc { radius: b }) => {
+            single(disc_disc(first.1.position, a, second.1.position, b), reach)
+        }
+        (Footprint::Disc { radius }, Footprint::Rectangle { half }) => {
+            single(disc_rectangle(first.1.position, radius, second.1, half), reach)
+        }
+        (Footprint::Rectangle { half }, Footprint::Disc { radius }) => {
+            single(disc_rectangle(second.1.position, radius, first.1, half).flipped(), reach)
+        }
+        (Footprint::Rectangle { half: a }, Footprint::Rectangle { half: b }) => {
+            rectangle_rectangle(first.1, a, second.1, b, reach)
+        }
+    }
+}
+
+fn single(point: ContactPoint, reach: f64) -> ([Option<ContactPoint>; 2], usize) {
+    if point.gap <= reach { ([Some(point), None], 1) } else { ([None, None], 0) }
+}
+
+fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint {
+    let between = a - b;
+    let distance = between.norm();
+    // Concentric discs have no normal; any will do.
+    let normal = if distance > 1e-12 { between / distance } else { Vector::x() };
+    ContactPoint {
+        on_first: a - normal * radius_a,
+        on_second: b + normal * radius_b,
+        normal,
+        gap: distance - radius_a - radius_b,
+    }
+}
+
+fn disc_rectangle(centre: Vector, radius: f64, pose: &Pose, half: Vector) -> ContactPoint {
+    let (boundary, normal, distance) = nearest_on_rectangle(pose.local_point(centre), half);
+    let normal = pose.vector(normal);
+    ContactPoint {
+        on_first: centre - normal * radius,
+        on_second: pose.point(boundary),
+        normal,
+        gap: distance - radius,
+    }
+}
+
+/// The boundary point of a rectangle nearest to `point`, the outward normal there towards the
+/// point, and the signed distance (negative inside). All in the rectangle's frame.
+fn nearest_on_rectangle(point: Vector, half: Vector) -> (Vector, Vector, f64) {
+    let clamped = Vector::new(point.x.clamp(-half.x, half.x), point.y.clamp(-half.y, half.y));
+    let outside = point - clamped;
+    let distance = outside.norm();
+    if distance > 1e-12 {
+        return (clamped, outside / distance, distance);
+    }
+    let depth_x = half.x - point.x.abs();
+    let depth_y = half.y - point.y.abs();
+    if depth_x <= depth_y {
+        let side = if point.x < 0.0 { -1.0 } else { 1.0 };
+        (Vector::new(side * half.x, point.y), Vector::new(side, 0.0), -depth_x)
+    } else {
+        let side = if point.y < 0.0 { -1.0 } else { 1.0 };
+        (Vector::new(point.x, side * half.y), Vector::new(0.0, side), -depth_y)
+    }
+}
+
+fn rectangle_rectangle(
+    a: &Pose,
+    half_a: Vector,
+    b: &Pose,
+    half_b: Vector,
+    reach: f64,
+) -> ([Option<ContactPoint>; 2], usize) {
+    // The relative pose once, so that eight corners cost no further sine.
+    let b_in_a = a.inverse() * *b;
+    let (sin, cos) = b_in_a.heading.sin_cos();
+    let to_a =
+        |p: Vector| b_in_a.position + Vector::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
+    let to_b = |p: Vector| {
+        let q = p - b_in_a.position;
+        Vector::new(cos * q.x + sin * q.y, -sin * q.x + cos * q.y)
+    };
+    let turn_to_a = |v: Vector| Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+
+    const CORNERS: [(f64, f64); 4] = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    // Candidates in the frame of `a`: (on a, on b, normal from b into a, gap).
+    let mut found = [(Vector::zeros(), Vector::zeros(), Vector::zeros(), f64::INFINITY); 8];
+    for (k, (x, y)) in CORNERS.into_iter().enumerate() {
+        let corner = Vector::new(x * half_a.x, y * half_a.y);
+        let (boundary, normal, distance) = nearest_on_rectangle(to_b(corner), half_b);
+        found[k] = (corner, to_a(boundary), turn_to_a(normal), distance);
+        let corner = to_a(Vector::new(x * half_b.x, y * half_b.y));
+        let (boundary, normal, distance) = nearest_on_rectangle(corner, half_a);
+        found[4 + k] = (boundary, corner, -normal, distance);
+    }
+    let Some(best) = found.iter().min_by(|p, q| p.3.total_cmp(&q.3)).copied() else {
+        return ([None, None], 0);
+    };
+    if best.3 > reach {
+        return ([None, None], 0);
+    }
+    let next = found
+        .iter()
+        .filter(|p| (p.0 - best.0).norm() > SAME_POINT && (p.1 - best.1).norm() > SAME_POINT)
+        .min_by(|p, q| p.3.total_cmp(&q.3))
+        .filter(|p| p.3 <= reach)
+        .copied();
+    let world = |p: (Vector, Vector, Vector, f64)| ContactPoint {
+        on_first: a.point(p.0),
+        on_second: a.point(p.1),
+        normal: a.vector(p.2),
+        gap: p.3,
+    };
+    ([Some(world(best)), next.map(world)], 1 + usize::from(next.is_some()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flush_faces_touch_at_both_ends_of_the_shared_edge() {
+        let wide = Footprint::Rectangle { half: Vector::new(0.01, 0.10) };
+        let small = Footprint::Rectangle { half: Vector::new(0.03, 0.03) };
+        let (points, count) =
+            contact_points((&small, &Pose::new(0.05, 0.02, 0.0)), (&wide, &Pose::default()), 0.02);
+        assert_eq!(count, 2);
+        let mut ends: Vec<f64> = points.iter().flatten().map(|p| p.on_first.y).collect();
+        ends.sort_by(f64::total_cmp);
+        assert!((ends[0] + 0.01).abs() < 1e-12 && (ends[1] - 0.05).abs() < 1e-12);
+        for p in points.iter().flatten() {
+            assert!((p.gap - 0.01).abs() < 1e-12);
+            assert!((p.normal - Vector::x()).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn both_argument_orders_agree_for_every_pair_of_shapes() {
+        let shapes = [
+            Footprint::Disc { radius: 0.04 },
+            Footprint::Rectangle { half: Vector::new(0.05, 0.02) },
+            Footprint::Rectangle { half: Vector::new(0.01, 0.07) },
+        ];
+        let (p, q) = (Pose::new(0.1, 0.02, 0.4), Pose::new(-0.01, 0.0, 2.2));
+        for a in &shapes {
+            for b in &shapes {
+                let (forward, n) = contact_points((a, &p), (b, &q), 1.0);
+                let (backward, m) = contact_points((b, &q), (a, &p), 1.0);
+                assert_eq!(n, m);
+                for (f, g) in forward.iter().flatten().zip(backward.iter().flatten()) {
+                    let g = g.flipped();
+                    assert!((f.gap - g.gap).abs() < 1e-12, "{a:?} {b:?}");
+                    assert!((f.normal - g.normal).norm() < 1e-12);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! Planar geometry: poses, footprints, closest points, clearances and swept areas.
+//!
+//! Everything is in the plane of the table, in metres and radians. It knows nothing of tools,
+//! tasks or physics; the vertical extent of a body is only a height.
+
+mod clearance;
+mod contact;
+mod pose;
+mod shape;
+
+pub use clearance::{clearance, swept_clearance};
+pub use contact::{ContactPoint, contact_points};
+pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
+pub use shape::{Footprint, Shape};

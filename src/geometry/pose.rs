@@ -1,0 +1,112 @@
+//! Planar poses and the few vector operations that nalgebra lacks in two dimensions.
+
+use std::ops::Mul;
+
+use serde::{Deserialize, Serialize};
+
+/// A planar vector or position, metres.
+pub type Vector = nalgebra::Vector2<f64>;
+
+/// A planar rigid pose: turn by `heading`, then shift by `position`.
+///
+/// The heading is not wrapped, so that turns can be counted; compare headings with
+/// [`wrap_angle`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    /// Position of the body's centre, metres.
+    pub position: Vector,
+    /// Turn about the vertical, radians, counter-clockwise.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// The pose at (`x`, `y`) metres with `heading` radians.
+    pub fn new(x: f64, y: f64, heading: f64) -> Self {
+        Self { position: Vector::new(x, y), heading }
+    }
+
+    /// Maps a point of this pose's frame into the parent frame, metres.
+    pub fn point(&self, local: Vector) -> Vector {
+        self.position + self.vector(local)
+    }
+
+    /// Turns a vector of this pose's frame into the parent frame, without shifting it.
+    pub fn vector(&self, local: Vector) -> Vector {
+        let (sin, cos) = self.heading.sin_cos();
+        Vector::new(cos * local.x - sin * local.y, sin * local.x + cos * local.y)
+    }
+
+    /// Maps a point of the parent frame into this pose's frame, metres.
+    pub fn local_point(&self, point: Vector) -> Vector {
+        self.local_vector(point - self.position)
+    }
+
+    /// Turns a vector of the parent frame into this pose's frame, without shifting it.
+    pub fn local_vector(&self, vector: Vector) -> Vector {
+        let (sin, cos) = self.heading.sin_cos();
+        Vector::new(cos * vector.x + sin * vector.y, -sin * vector.x + cos * vector.y)
+    }
+
+    /// The pose that undoes this one.
+    pub fn inverse(&self) -> Self {
+        Self { position: -self.local_vector(self.position), heading: -self.heading }
+    }
+
+    /// The pose a fraction `t` of the way to `other`, turning evenly.
+    pub fn towards(&self, other: &Self, t: f64) -> Self {
+        Self {
+            position: self.position + (other.position - self.position) * t,
+            heading: self.heading + (other.heading - self.heading) * t,
+        }
+    }
+
+    /// Whether position and heading are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.position.iter().all(|v| v.is_finite()) && self.heading.is_finite()
+    }
+}
+
+impl Mul for Pose {
+    type Output = Pose;
+
+    /// `a * b`: the pose `b`, given in the frame of `a`, in the parent frame of `a`.
+    fn mul(self, other: Pose) -> Pose {
+        Pose { position: self.point(other.position), heading: self.heading + other.heading }
+    }
+}
+
+/// The vertical component of the cross product of two planar vectors.
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// `v` turned left by a quarter turn.
+pub fn perpendicular(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// The same angle in (-pi, pi], radians.
+pub fn wrap_angle(angle: f64) -> f64 {
+    let wrapped = angle.rem_euclid(std::f64::consts::TAU);
+    if wrapped > std::f64::consts::PI { wrapped - std::f64::consts::TAU } else { wrapped }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_times_its_inverse_is_the_identity() {
+        let pose = Pose::new(0.3, -0.2, 2.1);
+        let identity = pose * pose.inverse();
+        assert!(identity.position.norm() < 1e-15 && identity.heading == 0.0);
+    }
+
+    #[test]
+    fn angles_wrap_to_the_half_open_interval() {
+        let pi = std::f64::consts::PI;
+        assert_eq!(wrap_angle(pi), pi);
+        assert_eq!(wrap_angle(-pi), pi);
+        assert!((wrap_angle(7.0 * pi + 0.1) + pi - 0.1).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,1 @@
+//! Scene and state to nodes and relations, with the feature layout. Learns nothing.

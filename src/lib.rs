@@ -1,0 +1,30 @@
+//! `pushplan` chooses a tool and pushes that bring objects on a table to goals, and shows that
+//! the plan works.
+//!
+//! The modules form one line; each imports only from those before it:
+//!
+//! ```text
+//! geometry ─ scene ─ asset
+//!              ├─ sim ─ effect ─ plan ─ verify ─ solve ─ bench ─ report ─ cli
+//!              └─ graph ─ brdpn ─ rollout ─┘
+//!                  dataset ─ train ─ (weights in models/)
+//! ```
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod asset;
+pub mod bench;
+pub mod brdpn;
+pub mod cli;
+pub mod dataset;
+pub mod effect;
+pub mod geometry;
+pub mod graph;
+pub mod plan;
+pub mod report;
+pub mod rollout;
+pub mod scene;
+pub mod sim;
+pub mod solve;
+pub mod train;
+pub mod verify;

@@ -1,0 +1,3 @@
+//! The `pushplan` command.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Candidates, parallel search and QP refinement. Verifies nothing.

@@ -1,0 +1,1 @@
+//! The one loop: features, network, integration, new contacts. Shared by training and planning; chooses no actions.

@@ -1,0 +1,26 @@
+//! The plain data of the field: objects, tools, tasks, motions, trajectories, plans.
+//!
+//! No files are read here, nothing is simulated and nothing is decided; every other room takes
+//! and gives these types. SI units and radians throughout.
+
+mod hypothesis;
+mod motion;
+mod plan;
+mod state;
+mod task;
+mod tool;
+mod trajectory;
+mod warning;
+mod world;
+
+pub use hypothesis::Hypothesis;
+pub use motion::{
+    COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
+};
+pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
+pub use state::{State, Velocity};
+pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
+pub use tool::{Part, Tool, ToolError};
+pub use trajectory::{Body, Contact, Frame, Record, Trajectory};
+pub use warning::Warning;
+pub use world::{GRAVITY, Joint, JointKind, Object, Obstacle, Scene};

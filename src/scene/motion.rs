@@ -1,0 +1,136 @@
+//! How the tool moves: pushes as planned, strokes as executed, frames as recorded.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Vector};
+
+use super::Tool;
+
+/// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
+/// this travel, so a slow and a fast push cost the same number of frames.
+pub const FRAME_TRAVEL: f64 = 0.010;
+
+/// Duration of a frame while the tool stands still and objects come to rest, seconds.
+pub const COAST_FRAME: f64 = 0.050;
+
+/// Below this speed (of the centre, m/s, or of the rim, m/s) a body counts as resting. A body
+/// this slow slides v^2/(2 mu g) < 1 um further on any table that is allowed.
+pub const REST_SPEED: f64 = 1e-3;
+
+/// Give up waiting for rest after this many coasting frames (3 s).
+pub const MAX_COAST_FRAMES: usize = 60;
+
+/// One straight push of the end effector, world frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Push {
+    /// End-effector position at the start, metres.
+    pub start: Vector,
+    /// Heading of the motion, radians from world +x.
+    pub direction: f64,
+    /// Travel, metres.
+    pub length: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+}
+
+impl Push {
+    /// Unit vector of the motion.
+    pub fn heading(&self) -> Vector {
+        Vector::new(self.direction.cos(), self.direction.sin())
+    }
+
+    /// End-effector position at the end, metres.
+    pub fn end(&self) -> Vector {
+        self.start + self.heading() * self.length
+    }
+}
+
+/// One straight piece of a tool motion at constant speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stroke {
+    /// Pose of the tool frame at the start.
+    pub from: Pose,
+    /// Pose of the tool frame at the end.
+    pub to: Pose,
+    /// Duration, seconds.
+    pub duration: f64,
+    /// Whether the tool then stands still until everything rests. The next stroke of a
+    /// settled one may begin anywhere (the tool is lifted and set down); otherwise it begins
+    /// where this one ends.
+    pub settle: bool,
+}
+
+impl Stroke {
+    /// Travel of the tool frame, metres.
+    pub fn travel(&self) -> f64 {
+        (self.to.position - self.from.position).norm()
+    }
+
+    /// Number of equal frames that the stroke is cut into.
+    pub fn frames(&self) -> usize {
+        // The small part keeps 0.2 / 0.01 at twenty frames however it is rounded.
+        ((self.travel() / FRAME_TRAVEL - 1e-6).ceil() as usize).max(1)
+    }
+
+    /// Frame `index` of the stroke.
+    pub fn frame(&self, index: usize) -> FrameStep {
+        let n = self.frames() as f64;
+        FrameStep {
+            from: self.from.towards(&self.to, index as f64 / n),
+            to: self.from.towards(&self.to, (index + 1) as f64 / n),
+            duration: self.duration / n,
+        }
+    }
+}
+
+/// The tool's motion during one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameStep {
+    /// Pose of the tool frame at the start of the frame.
+    pub from: Pose,
+    /// Pose of the tool frame at the end of the frame.
+    pub to: Pose,
+    /// Duration, seconds.
+    pub duration: f64,
+}
+
+/// A tool and its strokes, one after another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolMotion {
+    /// The tool that moves.
+    pub tool: Arc<Tool>,
+    /// Height of the parts' underside above the table, metres.
+    pub lift: f64,
+    /// In order of time.
+    pub strokes: Vec<Stroke>,
+}
+
+impl ToolMotion {
+    /// The strokes of straight pushes with a constant grip yaw (radians): `placed` pushes
+    /// settle after each, `chained` ones only after the last.
+    pub fn pushes(
+        tool: Arc<Tool>,
+        lift: f64,
+        grip_yaw: f64,
+        pushes: &[Push],
+        placed: bool,
+    ) -> Self {
+        let last = pushes.len().saturating_sub(1);
+        let strokes = pushes
+            .iter()
+            .enumerate()
+            .map(|(k, push)| {
+                let pose = |position| tool.pose(Pose { position, heading: grip_yaw });
+                Stroke {
+                    from: pose(push.start),
+                    to: pose(push.end()),
+                    duration: push.length / push.speed,
+                    settle: placed || k == last,
+                }
+            })
+            .collect();
+        Self { tool, lift, strokes }
+    }
+}

@@ -1,0 +1,165 @@
+//! A task: a scene, a robot, what pushes are allowed, and a goal.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Vector, wrap_angle};
+
+use super::{Scene, State};
+
+/// Where the end effector can be.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Robot {
+    /// End-effector position from which chained pushes start, metres; reach is measured from
+    /// the world's origin, the robot's base.
+    pub home: Vector,
+    /// Smallest distance of the end effector from the base, metres.
+    pub reach_min: f64,
+    /// Largest distance of the end effector from the base, metres.
+    pub reach_max: f64,
+}
+
+impl Robot {
+    /// Whether the end effector can stand at `position` (metres).
+    pub fn reaches(&self, position: Vector) -> bool {
+        (self.reach_min..=self.reach_max).contains(&position.norm())
+    }
+}
+
+/// Which tools a task allows.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToolChoice {
+    /// Every tool of the library.
+    All,
+    /// These, by name.
+    Named(Vec<String>),
+}
+
+/// How pushes start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PushForm {
+    /// Each push starts where it is best: the tool comes down from above, pushes, lifts.
+    Placed,
+    /// All start from `home`, each goes on where the last ended, without lifting or waiting.
+    Chained,
+}
+
+/// Which push directions are tried, world frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Directions {
+    /// +x, -x, +y, -y.
+    Principal,
+    /// This many equal directions, from +x on.
+    Count(usize),
+    /// These headings, radians.
+    List(Vec<f64>),
+}
+
+impl Directions {
+    /// The headings, radians.
+    pub fn headings(&self) -> Vec<f64> {
+        use std::f64::consts::{FRAC_PI_2, PI, TAU};
+        match self {
+            Directions::Principal => vec![0.0, PI, FRAC_PI_2, -FRAC_PI_2],
+            Directions::Count(n) => (0..*n).map(|k| TAU * k as f64 / *n as f64).collect(),
+            Directions::List(list) => list.clone(),
+        }
+    }
+}
+
+/// Coarse lateral offsets that the search tries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Offsets {
+    /// As many as the effort asks for, over the contacting face.
+    Effort,
+    /// These, metres.
+    List(Vec<f64>),
+}
+
+/// The pushes that a plan may contain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PushRules {
+    /// How pushes start.
+    pub form: PushForm,
+    /// Which way they go.
+    pub directions: Directions,
+    /// Coarse lateral offsets (placed pushes only).
+    pub offsets: Offsets,
+    /// Turns of the end effector about z against world +x, radians; one per plan.
+    pub grip_yaws: Vec<f64>,
+    /// Travel of a push, metres; refinement may shorten or lengthen a placed push by half.
+    pub length: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Largest number of pushes in a plan.
+    pub max_count: usize,
+    /// Height of the tool's underside above the table, metres.
+    pub lift: f64,
+}
+
+/// Where an object must come to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Goal {
+    /// Index into [`Scene::objects`].
+    pub object: usize,
+    /// Wanted position of its centre, metres.
+    pub position: Vector,
+    /// Largest distance that still counts as success, metres.
+    pub tolerance: f64,
+    /// Wanted heading and its tolerance, radians, where one is asked for.
+    pub heading: Option<(f64, f64)>,
+}
+
+impl Goal {
+    /// Distance of the object's centre from the goal, metres.
+    pub fn error(&self, state: &State) -> f64 {
+        (state.poses[self.object].position - self.position).norm()
+    }
+
+    /// Absolute heading error, radians, where a heading is asked for.
+    pub fn heading_error(&self, state: &State) -> Option<f64> {
+        let (wanted, _) = self.heading?;
+        Some(wrap_angle(state.poses[self.object].heading - wanted).abs())
+    }
+
+    /// Whether position (and heading, where asked for) are within tolerance.
+    pub fn reached(&self, state: &State) -> bool {
+        let turned = match (self.heading, self.heading_error(state)) {
+            (Some((_, tolerance)), Some(error)) => error <= tolerance,
+            _ => true,
+        };
+        self.error(state) <= self.tolerance && turned
+    }
+
+    /// Error in units of the tolerance, the larger of position and heading: at most 1 is
+    /// success. This is what the search minimises, so that both demands count alike.
+    pub fn score(&self, state: &State) -> f64 {
+        let position = self.error(state) / self.tolerance;
+        match (self.heading, self.heading_error(state)) {
+            (Some((_, tolerance)), Some(error)) => position.max(error / tolerance),
+            _ => position,
+        }
+    }
+}
+
+/// Everything that a planner needs to know besides the tools themselves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    /// From the file's name or its `name` key.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// The table.
+    pub scene: Scene,
+    /// The robot.
+    pub robot: Robot,
+    /// Allowed tools.
+    pub tools: ToolChoice,
+    /// Allowed pushes.
+    pub pushes: PushRules,
+    /// What to reach.
+    pub goal: Goal,
+}

@@ -1,0 +1,76 @@
+//! What happened, or was predicted to happen: states frame by frame, contacts and warnings.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Pose;
+
+use super::{State, Warning};
+
+/// One recorded instant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Frame {
+    /// Since the start of the motion, seconds.
+    pub time: f64,
+    /// Index of the stroke that this instant ends or belongs to.
+    pub stroke: usize,
+    /// Pose of the tool frame.
+    pub tool: Pose,
+    /// Every object.
+    pub state: State,
+}
+
+/// A body that a contact names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Body {
+    /// Index into the scene's objects.
+    Object(usize),
+    /// Index into the scene's obstacles.
+    Obstacle(usize),
+    /// Index into the tool's parts.
+    Part(usize),
+}
+
+/// The first frame in which two bodies touched.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Index of the frame that ends with the contact made.
+    pub frame: usize,
+    /// The object that is touched.
+    pub object: usize,
+    /// What it touches.
+    pub with: Body,
+}
+
+/// The effect of a tool motion.
+///
+/// `frames` begins with the start and ends at rest (or when waiting was given up, with a
+/// warning). When only the outcome was asked for it holds the last frame alone.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// In order of time.
+    pub frames: Vec<Frame>,
+    /// First contacts, in order of time; empty when only the outcome was asked for.
+    pub contacts: Vec<Contact>,
+    /// What the reader should know about the trust this deserves.
+    pub warnings: Vec<Warning>,
+}
+
+impl Trajectory {
+    /// The last recorded state.
+    ///
+    /// # Panics
+    /// Never for a trajectory that an effect model returned: those have at least one frame.
+    pub fn outcome(&self) -> &State {
+        &self.frames[self.frames.len() - 1].state
+    }
+}
+
+/// How much of a rollout is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Record {
+    /// Only the last frame.
+    Outcome,
+    /// Every frame and the first contacts.
+    Frames,
+}

@@ -1,0 +1,1 @@
+//! The planner: search, refine, verify in batches, and the status of the result.

@@ -1,0 +1,1 @@
+//! Losses, optimiser, schedule, checkpoints and resumption. Generates no data.

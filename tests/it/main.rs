@@ -1,0 +1,1 @@
+//! Tests across rooms, in one binary so that candle and rapier link once.
