@@ -69,6 +69,7 @@ impl Pose {
 impl Mul for Pose {
     type Output = Pose;
 
+    #[allow(clippy::suspicious_arithmetic_impl)] // composing turns adds their angles
     /// `a * b`: the pose `b`, given in the frame of `a`, in the parent frame of `a`.
     fn mul(self, other: Pose) -> Pose {
         Pose { position: self.point(other.position), heading: self.heading + other.heading }

@@ -140,6 +140,6 @@ mod tests {
                 x.hypot(y)
             })
             .sum();
-        assert!((shape.mean_radius() - sum / (n * n) as f64).abs() < 1e-8);
+        assert!((shape.mean_radius() - sum / (n * n) as f64).abs() < 1e-7);
     }
 }
