@@ -6,6 +6,7 @@
 mod hypothesis;
 mod motion;
 mod plan;
+mod ranges;
 mod state;
 mod task;
 mod tool;
@@ -18,6 +19,7 @@ pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
+pub use ranges::{Ranges, Span};
 pub use state::{State, Velocity};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};

@@ -1,0 +1,137 @@
+//! The ranges of physical quantities that a data set covers, kept in the weights file so that a
+//! scene outside them can be named.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Shape;
+
+use super::{Scene, ToolMotion, Warning};
+
+/// Values within this relative distance of a bound still count as inside, so that a bound
+/// written in decimal (0.3 m/s) does not fall out by rounding.
+const SLACK: f64 = 1e-6;
+
+/// A closed interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    /// Smallest value.
+    pub low: f64,
+    /// Largest value.
+    pub high: f64,
+}
+
+impl Span {
+    /// The interval from `low` to `high`.
+    pub const fn new(low: f64, high: f64) -> Self {
+        Self { low, high }
+    }
+
+    /// Whether `value` lies inside, up to rounding.
+    pub fn contains(&self, value: f64) -> bool {
+        value >= self.low * (1.0 - SLACK) && value <= self.high * (1.0 + SLACK)
+    }
+}
+
+/// What the scenes and motions of a data set cover.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ranges {
+    /// Number of movable objects.
+    pub objects: Span,
+    /// Mass of an object, kg.
+    pub mass: Span,
+    /// Largest ratio of two masses in one scene.
+    pub mass_ratio: f64,
+    /// Friction values of objects, tools and the table alike.
+    pub friction: Span,
+    /// Radius of a cylinder, metres.
+    pub radius: Span,
+    /// Horizontal side of a cuboid object, metres.
+    pub side: Span,
+    /// Largest ratio of a cuboid object's horizontal sides.
+    pub aspect: f64,
+    /// Number of parts of a tool.
+    pub parts: Span,
+    /// Longer horizontal side of a tool part, metres.
+    pub part_length: Span,
+    /// Shorter horizontal side of a tool part, metres.
+    pub part_width: Span,
+    /// Speed of a push, m/s.
+    pub speed: Span,
+    /// Travel of a push, metres.
+    pub travel: Span,
+    /// Number of pushes one after another.
+    pub pushes: Span,
+}
+
+impl Ranges {
+    /// A warning for every quantity of the scene and the motion that lies outside; travel and
+    /// the number of pushes are left out, because a rollout is made of frames that look the
+    /// same however many there are.
+    pub fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
+        let mut found = Vec::new();
+        let mut check = |of: &str, quantity: &str, value: f64, span: Span| {
+            if !span.contains(value) {
+                found.push(Warning::OutsideTraining {
+                    of: of.to_owned(),
+                    quantity: quantity.to_owned(),
+                    value,
+                    low: span.low,
+                    high: span.high,
+                });
+            }
+        };
+        check("scene", "number of objects", scene.objects.len() as f64, self.objects);
+        check("table", "friction", scene.table_friction, self.friction);
+        for object in &scene.objects {
+            check(&object.name, "mass (kg)", object.mass, self.mass);
+            check(&object.name, "friction", object.friction, self.friction);
+            match object.shape {
+                Shape::Cylinder { radius, .. } => {
+                    check(&object.name, "radius (m)", radius, self.radius);
+                }
+                Shape::Cuboid { size: [x, y, _] } => {
+                    check(&object.name, "size along x (m)", x, self.side);
+                    check(&object.name, "size along y (m)", y, self.side);
+                    let aspect = x.max(y) / x.min(y);
+                    check(&object.name, "ratio of sides", aspect, Span::new(1.0, self.aspect));
+                }
+            }
+        }
+        let masses = scene.objects.iter().map(|object| object.mass);
+        let heaviest = masses.clone().fold(0.0, f64::max);
+        let lightest = masses.fold(f64::INFINITY, f64::min);
+        if lightest > 0.0 && lightest.is_finite() {
+            let ratio = heaviest / lightest;
+            check("scene", "ratio of masses", ratio, Span::new(1.0, self.mass_ratio));
+        }
+        let tool = &motion.tool;
+        check(&tool.name, "friction", tool.friction, self.friction);
+        check(&tool.name, "number of parts", tool.parts.len() as f64, self.parts);
+        for part in &tool.parts {
+            let of = format!("{}/{}", tool.name, part.name);
+            let [x, y, _] = part.size;
+            check(&of, "length (m)", x.max(y), self.part_length);
+            check(&of, "width (m)", x.min(y), self.part_width);
+        }
+        let speeds = || {
+            let moving = motion.strokes.iter().filter(|s| s.duration > 0.0);
+            moving.map(|s| s.travel() / s.duration)
+        };
+        if let Some(speed) = speeds().find(|speed| !self.speed.contains(*speed)) {
+            check("push", "speed (m/s)", speed, self.speed);
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_reached_by_division_counts_as_inside() {
+        let speed = Span::new(0.03, 0.3);
+        assert!(speed.contains(0.2 / (0.2 / 0.3)) && speed.contains(0.1 / (0.1 / 0.03)));
+        assert!(!speed.contains(0.31) && !speed.contains(f64::NAN));
+    }
+}
