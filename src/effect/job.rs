@@ -33,3 +33,21 @@ pub trait EffectModel: Send + Sync {
     /// Rolls every job out until everything rests.
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
 }
+
+impl<M: EffectModel + ?Sized> EffectModel for Arc<M> {
+    fn name(&self) -> &str {
+        (**self).name()
+    }
+
+    fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
+        (**self).warnings(scene, motion)
+    }
+
+    fn error_p95(&self) -> f64 {
+        (**self).error_p95()
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        (**self).rollout(scene, jobs, record)
+    }
+}

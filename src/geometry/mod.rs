@@ -3,11 +3,13 @@
 //! Everything is in the plane of the table, in metres and radians. It knows nothing of tools,
 //! tasks or physics; the vertical extent of a body is only a height.
 
+mod cast;
 mod clearance;
 mod contact;
 mod pose;
 mod shape;
 
+pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, contact_points};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};

@@ -1,8 +1,10 @@
 //! A plan and the evidence that it works.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Push, PushForm, State};
+use super::{Goal, Push, PushForm, State, Tool, ToolMotion, Trajectory, Warning};
 
 /// A physics engine of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -29,6 +31,14 @@ pub struct Plan {
     pub pushes: Vec<Push>,
 }
 
+impl Plan {
+    /// What the tool does when the plan is carried out with `tool`, the one it names.
+    pub fn motion(&self, tool: &Arc<Tool>) -> ToolMotion {
+        let placed = self.form == PushForm::Placed;
+        ToolMotion::pushes(Arc::clone(tool), self.lift, self.grip_yaw, &self.pushes, placed)
+    }
+}
+
 /// Where a plan ends according to one source.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
@@ -42,6 +52,21 @@ pub struct Outcome {
     pub reached: bool,
 }
 
+impl Outcome {
+    /// Judges where a trajectory ended. One that did not come to rest, left the finite numbers,
+    /// or lost an object's footing does not count as reaching the goal.
+    pub fn judge(goal: &Goal, trajectory: &Trajectory) -> Self {
+        let state = trajectory.outcome().clone();
+        let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
+        Self {
+            error: goal.error(&state),
+            heading_error: goal.heading_error(&state),
+            reached: sound && state.is_finite() && goal.reached(&state),
+            state,
+        }
+    }
+}
+
 /// One replay of a plan in an engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
@@ -51,6 +76,9 @@ pub struct Evidence {
     pub disturbance: String,
     /// Where it ended.
     pub outcome: Outcome,
+    /// What happened on the way that a reader should know.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<Warning>,
 }
 
 /// Whether a plan works, with what shows it.

@@ -28,6 +28,20 @@ pub enum Warning {
     },
     /// A number became infinite or undefined and the rollout stopped at the last good frame.
     NotFinite,
+    /// The tool came down on an object instead of beside it.
+    SetDownOn {
+        /// Name of the object.
+        object: String,
+        /// Index of the stroke that the tool came down for.
+        stroke: usize,
+    },
+}
+
+impl Warning {
+    /// Whether an outcome with this warning cannot count as success.
+    pub fn forbids_success(&self) -> bool {
+        !matches!(self, Warning::OutsideTraining { .. })
+    }
 }
 
 impl fmt::Display for Warning {
@@ -42,6 +56,12 @@ impl fmt::Display for Warning {
                 f,
                 "something still moved {waited:.1} s after the push ended; the outcome is not a \
                  rest, raise the friction"
+            ),
+            Warning::SetDownOn { object, stroke } => write!(
+                f,
+                "the tool came down on {object} for push {}; what came before had moved it there, \
+                 so the plan does not work as written",
+                stroke + 1
             ),
             Warning::NotFinite => write!(
                 f,
