@@ -1,1 +1,14 @@
-//! JSON, tables, SVG. Computes nothing.
+//! Results for people and for programs: tables, pictures, charts, numbers with their units.
+//!
+//! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
+
+mod chart;
+mod number;
+mod picture;
+mod svg;
+mod table;
+
+pub use chart::{Axis, Chart, Mark, Series};
+pub use number::{degrees, millimetres, seconds};
+pub use picture::{ScenePicture, Source, Track};
+pub use table::{Align, Table};

@@ -1,0 +1,94 @@
+//! Objects, obstacles, the goal and the robot's reach.
+
+use crate::geometry::{Pose, Shape, Vector};
+use crate::report::svg::{Anchor, Font, Style, Svg};
+use crate::scene::{Goal, Object, Obstacle, Robot};
+
+use super::{palette, view::View};
+
+/// The ring that the end effector can stand in, with the robot's base in its middle.
+pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
+    let base = view.map(Vector::zeros());
+    svg.circle(base, view.length(robot.reach_max), palette::REACH_AREA);
+    svg.circle(base, view.length(robot.reach_max), palette::REACH_RIM);
+    svg.circle(base, view.length(robot.reach_min), Style::fill("#fbfcfd"));
+    svg.circle(base, view.length(robot.reach_min), palette::REACH_RIM);
+    svg.circle(base, 4.0, Style::fill(palette::INK));
+    let font = Font::new(11.0, palette::FAINT_INK).anchored(Anchor::Middle).halo();
+    svg.text(base + Vector::new(0.0, 18.0), "robot", font);
+}
+
+/// The area where the goal object may come to rest.
+pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
+    svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
+}
+
+/// Rim of the tolerance, centre cross and, where a heading is asked for, its wedge.
+pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
+    let centre = view.map(goal.position);
+    let radius = view.length(goal.tolerance);
+    svg.circle(centre, radius, palette::GOAL_RIM);
+    let arm = 7.0;
+    for side in [Vector::new(arm, 0.0), Vector::new(0.0, arm)] {
+        svg.line(centre - side, centre + side, palette::GOAL_RIM);
+    }
+    if let Some((heading, tolerance)) = goal.heading {
+        // Long enough to be seen beyond a small tolerance circle.
+        let length = radius.max(34.0) + 10.0;
+        let at = |angle: f64| centre + Vector::new(angle.cos(), -angle.sin()) * length;
+        let wedge: Vec<Vector> = std::iter::once(centre)
+            .chain((0..=12).map(|k| at(heading + tolerance * (k as f64 / 6.0 - 1.0))))
+            .collect();
+        svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
+        svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
+    }
+}
+
+/// Where a missed goal lies from where the object ended.
+pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
+    svg.line(view.map(end), view.map(goal.position), palette::GOAL_MISS);
+}
+
+pub fn obstacle(svg: &mut Svg, view: &View, obstacle: &Obstacle) {
+    svg.open_titled(&obstacle.name);
+    view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OBSTACLE);
+    svg.close();
+}
+
+/// An object where it stood at the start.
+pub fn object(svg: &mut Svg, view: &View, object: &Object, is_goal: bool) {
+    let style = if is_goal { palette::GOAL_OBJECT } else { palette::OTHER_OBJECT };
+    svg.open_titled(&format!("{}: {:.3} kg", object.name, object.mass));
+    view.footprint(svg, &object.shape.footprint(), &object.pose, style);
+    let mark = if is_goal { "#1c6fbf" } else { "#868e96" };
+    heading_mark(svg, view, &object.shape, &object.pose, Style::stroke(mark, 1.6));
+    svg.close();
+}
+
+/// An object where it ended.
+pub fn final_object(svg: &mut Svg, view: &View, object: &Object, pose: &Pose, style: Style) {
+    view.footprint(svg, &object.shape.footprint(), pose, style);
+    heading_mark(svg, view, &object.shape, pose, style);
+}
+
+/// A name in the middle of a body if it fits there, else above it.
+pub fn name(svg: &mut Svg, view: &View, name: &str, shape: &Shape, pose: &Pose) {
+    let font = Font::new(12.0, palette::INK).bold().anchored(Anchor::Middle).halo();
+    let centre = view.map(pose.position);
+    let half = Vector::new((-pose.heading).cos(), (-pose.heading).sin());
+    let extent = |direction| view.length(shape.footprint().extent(direction));
+    // Half extents of the body along the page's own axes.
+    let across = extent(Vector::new(half.x, half.y));
+    let up = extent(Vector::new(-half.y, half.x));
+    let fits = font.width(name) < 2.0 * across - 6.0 && up > 9.0;
+    let rise = if fits { -4.0 } else { up + 6.0 };
+    svg.text(centre - Vector::new(0.0, rise), name, font);
+}
+
+/// A line from the centre of a cuboid to its front face; a cylinder has no front.
+fn heading_mark(svg: &mut Svg, view: &View, shape: &Shape, pose: &Pose, style: Style) {
+    if let Shape::Cuboid { size } = *shape {
+        let front = pose.point(Vector::new(size[0] / 2.0, 0.0));
+        svg.line(view.map(pose.position), view.map(front), style);
+    }
+}

@@ -1,0 +1,13 @@
+//! A picture of a scene from above: what stood where, what the tool did, where things ended
+//! by prediction and by simulation, and the goal.
+//!
+//! It draws what it is given and computes nothing: no rollouts, no verdicts.
+
+mod bodies;
+mod legend;
+mod palette;
+mod scene_picture;
+mod strokes;
+mod view;
+
+pub use scene_picture::{ScenePicture, Source, Track};

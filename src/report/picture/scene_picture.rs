@@ -1,0 +1,290 @@
+//! The whole picture: title, plot, legend.
+
+use crate::geometry::{Vector, wrap_angle};
+use crate::report::svg::{Font, Style, Svg};
+use crate::scene::{Engine, Goal, Robot, Scene, ToolMotion, Trajectory};
+
+use super::{
+    bodies,
+    legend::{self, Sample},
+    palette, strokes,
+    view::{Bounds, View},
+};
+
+/// Objects that end nearer than this to their start, metres, and turned by less than
+/// [`STILL_TURN`] have not moved: a second outline would only blur the first.
+const STILL: f64 = 5e-4;
+/// Radians, about half a degree.
+const STILL_TURN: f64 = 0.01;
+
+/// Tracks are followed this far beyond the scene, metres; a wild prediction must not shrink
+/// everything else to a dot.
+const FOLLOW: f64 = 1.0;
+
+/// Pixels left of and above the plot, for the axis numbers.
+const LEFT: f64 = 46.0;
+const RIGHT: f64 = 16.0;
+
+const NOTE: Font = Font::new(12.5, palette::FAINT_INK);
+
+/// Who says where the objects went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The effect model that chose the plan.
+    Predicted,
+    /// A replay in an engine.
+    Simulated(Engine),
+}
+
+/// Ways of the objects by one source.
+#[derive(Clone, Copy, Debug)]
+pub struct Track<'a> {
+    /// Who says so.
+    pub source: Source,
+    /// Frame by frame; one frame alone still shows where things ended.
+    pub trajectory: &'a Trajectory,
+}
+
+/// What to draw. Only the scene is needed; everything else is drawn where it is given.
+#[derive(Clone, Debug)]
+pub struct ScenePicture<'a> {
+    /// First line, bold.
+    pub title: String,
+    /// Lines below it.
+    pub notes: Vec<String>,
+    /// Objects at their start, obstacles.
+    pub scene: &'a Scene,
+    /// Goal circle, and which object is drawn as the one that matters.
+    pub goal: Option<&'a Goal>,
+    /// Reach of the end effector.
+    pub robot: Option<&'a Robot>,
+    /// Tool outlines and push arrows.
+    pub motion: Option<&'a ToolMotion>,
+    /// Ways and ends of the objects; later ones are drawn over earlier ones.
+    pub tracks: Vec<Track<'a>>,
+}
+
+impl ScenePicture<'_> {
+    /// The picture as an SVG document.
+    pub fn to_svg(&self) -> String {
+        let mut view = View::fit(self.bounds(), Vector::new(LEFT, 0.0));
+        let notes: Vec<String> =
+            self.notes.iter().flat_map(|note| NOTE.wrap(note, view.size.x)).collect();
+        let top = 40.0 + 18.0 * notes.len() as f64;
+        view.corner.y = top;
+        let entries = self.entries();
+        let width = LEFT + view.size.x + RIGHT;
+        let below = top + view.size.y + 28.0;
+        let height = below + legend::height(&entries, view.size.x) + 10.0;
+
+        let mut svg = Svg::new(width, height, &self.title);
+        svg.define(palette::HATCH);
+        svg.text(Vector::new(LEFT, 27.0), &self.title, Font::new(16.0, palette::INK).bold());
+        for (k, note) in notes.iter().enumerate() {
+            let at = Vector::new(LEFT, 46.0 + 18.0 * k as f64);
+            svg.text(at, note, NOTE);
+        }
+        svg.rect(view.corner, view.size, 0.0, palette::PLOT);
+        self.plot(&mut svg, &view);
+        legend::draw(&mut svg, &entries, Vector::new(LEFT, below), view.size.x);
+        svg.finish()
+    }
+
+    fn plot(&self, svg: &mut Svg, view: &View) {
+        if let Some(robot) = self.robot {
+            svg.open_clipped("table", view.corner, view.size);
+            bodies::reach(svg, view, robot);
+            svg.close();
+        }
+        view.grid(svg);
+        svg.open_clipped("plot", view.corner, view.size);
+        if let Some(goal) = self.goal {
+            bodies::goal_area(svg, view, goal);
+        }
+        for obstacle in &self.scene.obstacles {
+            bodies::obstacle(svg, view, obstacle);
+        }
+        for (k, object) in self.scene.objects.iter().enumerate() {
+            bodies::object(svg, view, object, self.is_goal(k));
+        }
+        if let Some(motion) = self.motion {
+            strokes::tool(svg, view, motion);
+        }
+        if let Some(goal) = self.goal {
+            bodies::goal(svg, view, goal);
+        }
+        for track in &self.tracks {
+            self.track(svg, view, track);
+        }
+        if let Some(motion) = self.motion {
+            strokes::pushes(svg, view, motion);
+        }
+        for object in &self.scene.objects {
+            bodies::name(svg, view, &object.name, &object.shape, &object.pose);
+        }
+        for obstacle in &self.scene.obstacles {
+            bodies::name(svg, view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
+        }
+        view.scale_bar(svg);
+        svg.close();
+    }
+
+    fn track(&self, svg: &mut Svg, view: &View, track: &Track) {
+        let Some(last) = track.trajectory.frames.last() else { return };
+        let style = style(track.source);
+        for (k, (object, end)) in self.scene.objects.iter().zip(&last.state.poses).enumerate() {
+            let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
+                && !object.shape.is_cylinder();
+            let moved = (end.position - object.pose.position).norm() > STILL;
+            if !(moved || turned) || !end.is_finite() {
+                continue;
+            }
+            strokes::path(svg, view, track.trajectory, k, style);
+            bodies::final_object(svg, view, object, end, style);
+            if let Some(goal) =
+                self.goal.filter(|goal| self.is_goal(k) && !goal.reached(&last.state))
+            {
+                bodies::miss(svg, view, goal, end.position);
+            }
+        }
+    }
+
+    fn is_goal(&self, object: usize) -> bool {
+        self.goal.is_some_and(|goal| goal.object == object)
+    }
+
+    fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::empty();
+        for object in &self.scene.objects {
+            bounds.add_body(&object.shape.footprint(), &object.pose);
+        }
+        for obstacle in &self.scene.obstacles {
+            bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
+        }
+        if let Some(goal) = self.goal {
+            bounds.add(goal.position, goal.tolerance);
+        }
+        if let Some(robot) = self.robot {
+            bounds.add(Vector::zeros(), robot.reach_min);
+        }
+        for stroke in self.motion.iter().flat_map(|motion| &motion.strokes) {
+            let Some(motion) = self.motion else { break };
+            for pose in [&stroke.from, &stroke.to] {
+                bounds.add((*pose * motion.tool.grip).position, 0.01);
+                for (k, part) in motion.tool.parts.iter().enumerate() {
+                    bounds.add_body(&part.footprint(), &motion.tool.part_pose(k, pose));
+                }
+            }
+        }
+        let near = bounds;
+        for frame in self.tracks.iter().flat_map(|track| &track.trajectory.frames) {
+            for (object, pose) in self.scene.objects.iter().zip(&frame.state.poses) {
+                if near.holds(pose.position, FOLLOW) {
+                    bounds.add_body(&object.shape.footprint(), pose);
+                }
+            }
+        }
+        bounds
+    }
+
+    fn entries(&self) -> Vec<(Sample, String)> {
+        let mut entries = Vec::new();
+        let mut add = |sample, words: String| entries.push((sample, words));
+        if self.goal.is_some() {
+            add(Sample::Area(palette::GOAL_OBJECT), "object to move, at the start".to_owned());
+        }
+        if self.scene.objects.len() > usize::from(self.goal.is_some()) {
+            add(Sample::Area(palette::OTHER_OBJECT), "other object, at the start".to_owned());
+        }
+        for track in &self.tracks {
+            let words = match track.source {
+                Source::Predicted => "predicted way and end",
+                Source::Simulated(Engine::Planar) => "simulated, planar",
+                Source::Simulated(Engine::Spatial) => "simulated, 3-D",
+            };
+            add(Sample::Way(style(track.source)), words.to_owned());
+        }
+        if let Some(goal) = self.goal {
+            let heading = goal.heading.map_or(String::new(), |(_, tolerance)| {
+                format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
+            });
+            let words = format!("goal, tolerance {:.0} mm{heading}", goal.tolerance * 1e3);
+            add(Sample::Ring(palette::GOAL_RIM), words);
+        }
+        if let Some(motion) = self.motion {
+            let name = &motion.tool.name;
+            let look = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
+            let words = format!("{name} before a push");
+            add(Sample::Area(look.opacity(palette::TOOL_BEFORE)), words);
+            add(Sample::Area(look.opacity(palette::TOOL_AFTER)), format!("{name} after it"));
+            add(Sample::Push, "push of the end effector".to_owned());
+        }
+        if !self.scene.obstacles.is_empty() {
+            add(Sample::Area(palette::OBSTACLE), "obstacle".to_owned());
+        }
+        if let Some(robot) = self.robot {
+            let words = format!("reach, {:.2} to {:.2} m", robot.reach_min, robot.reach_max);
+            add(Sample::Ring(palette::REACH_RIM), words);
+        }
+        entries
+    }
+}
+
+fn style(source: Source) -> Style {
+    match source {
+        Source::Predicted => Style::stroke(palette::PREDICTED, 2.0).dashed("6 4"),
+        Source::Simulated(Engine::Planar) => Style::stroke(palette::PLANAR, 2.0),
+        Source::Simulated(Engine::Spatial) => Style::stroke(palette::SPATIAL, 1.6).dashed("2 3"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose, Shape};
+    use crate::scene::{Frame, Object};
+
+    fn picture_of(ends: Vec<Pose>) -> String {
+        let shape = Shape::Cuboid { size: [0.1, 0.06, 0.1] };
+        let object = |name: &str, x: f64| Object {
+            name: name.to_owned(),
+            shape,
+            mass: 0.4,
+            friction: 0.4,
+            pose: Pose::new(x, 0.0, 0.0),
+        };
+        let scene = Scene {
+            table_friction: 0.5,
+            objects: vec![object("box", 0.4), object("other", 0.7)],
+            ..Scene::default()
+        };
+        let end = crate::scene::State::at_rest(ends);
+        let frame = Frame { time: 1.0, stroke: 0, tool: Pose::default(), state: end };
+        let trajectory = Trajectory { frames: vec![frame], ..Trajectory::default() };
+        ScenePicture {
+            title: "a test".to_owned(),
+            notes: Vec::new(),
+            scene: &scene,
+            goal: None,
+            robot: None,
+            motion: None,
+            tracks: vec![Track { source: Source::Predicted, trajectory: &trajectory }],
+        }
+        .to_svg()
+    }
+
+    #[test]
+    fn only_what_moved_is_drawn_twice() {
+        let svg = picture_of(vec![Pose::new(0.5, 0.0, 0.0), Pose::new(0.7, 0.0, 0.0)]);
+        assert_eq!(svg.matches("<polygon").count(), 3);
+    }
+
+    #[test]
+    fn a_wild_prediction_leaves_a_readable_picture() {
+        let calm = picture_of(vec![Pose::new(0.4, 0.0, 0.0), Pose::new(0.7, 0.0, 0.0)]);
+        let wild = picture_of(vec![Pose::new(1e9, 0.0, 0.0), Pose::new(f64::NAN, 0.0, 0.0)]);
+        let size = |svg: &str| svg.split('>').next().map(str::to_owned);
+        assert_eq!(size(&calm), size(&wild));
+        assert!(!wild.contains("NaN"));
+    }
+}
