@@ -4,5 +4,7 @@
 //! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
 
 mod job;
+mod simulated;
 
 pub use job::{EffectModel, Job};
+pub use simulated::Simulated;

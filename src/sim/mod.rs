@@ -1,1 +1,13 @@
-//! rapier behind one door, in two engines: planar (default truth) and 3-D (independent check). Plans nothing.
+//! rapier behind one door, in two engines: planar (the default truth) and 3-D (the independent
+//! check).
+//!
+//! [`Simulator::run`] plays a tool motion on a scene and records what happens. Nothing is
+//! planned or judged here, and no type of rapier leaves this room.
+
+mod drive;
+mod parameters;
+mod planar;
+mod simulator;
+mod support;
+
+pub use simulator::Simulator;

@@ -1,1 +1,2 @@
 //! Tests across rooms, in one binary so that candle and rapier link once.
+mod simulation;

@@ -1,0 +1,157 @@
+//! Plays a tool motion in a world of either engine, frame by frame, and records it.
+//!
+//! Every frame is cut into equal steps no longer than the engine's, so that the tool travels
+//! exactly what the motion says; at the start of each frame it is put exactly where the motion
+//! says, so that rounding does not add up either.
+
+use crate::geometry::Pose;
+use crate::scene::{
+    Body, COAST_FRAME, Contact, Frame, FrameStep, Hypothesis, MAX_COAST_FRAMES, Record, Scene,
+    State, ToolMotion, Trajectory, Warning,
+};
+
+/// A scene in one of the engines.
+pub(super) trait World: Sized {
+    /// Builds the scene in `state`, the tool at `tool`, not moving.
+    fn build(
+        scene: &Scene,
+        state: &State,
+        parameters: &Hypothesis,
+        motion: &ToolMotion,
+        tool: &Pose,
+    ) -> Self;
+
+    /// Puts the tool at `frame.from` and gives it the velocity that brings it to `frame.to`;
+    /// later steps last `step` seconds each.
+    fn begin_frame(&mut self, frame: &FrameStep, step: f64);
+
+    /// One time step.
+    fn step(&mut self);
+
+    /// Poses and velocities of the objects, headings counted on from the start.
+    fn state(&self) -> State;
+
+    /// Calls `found` with every object that touches something, and what it touches.
+    fn touches(&self, found: &mut dyn FnMut(usize, Body));
+
+    /// An object that no longer stands upright.
+    fn toppled(&self) -> Option<usize>;
+}
+
+/// Plays `motion` in a world `W` with steps of at most `step` seconds.
+pub(super) fn drive<W: World>(
+    scene: &Scene,
+    start: &State,
+    parameters: &Hypothesis,
+    motion: &ToolMotion,
+    step: f64,
+    record: Record,
+) -> Trajectory {
+    let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
+    let mut recorder = Recorder::new(record, start, tool);
+    if !start.is_finite() {
+        recorder.trajectory.warnings.push(Warning::NotFinite);
+        return recorder.trajectory;
+    }
+    let mut world = W::build(scene, start, parameters, motion, &tool);
+    let mut time = 0.0;
+    for (index, stroke) in motion.strokes.iter().enumerate() {
+        let lifted = index > 0 && motion.strokes[index - 1].settle;
+        if lifted && world.toppled().is_none() {
+            // A fresh world, so that going on from a recorded rest and never having stopped
+            // are the same computation.
+            world = W::build(scene, &world.state(), parameters, motion, &stroke.from);
+        }
+        for k in 0..stroke.frames() {
+            let frame = stroke.frame(k);
+            play(&mut world, &frame, step, &mut recorder);
+            time += frame.duration;
+            if !recorder.record(&world, time, index, frame.to) {
+                return recorder.trajectory;
+            }
+        }
+        if !stroke.settle {
+            continue;
+        }
+        let still = FrameStep { from: stroke.to, to: stroke.to, duration: COAST_FRAME };
+        let mut waited = 0;
+        while !scene.is_resting(&recorder.last().state) {
+            if waited == MAX_COAST_FRAMES {
+                let waited = waited as f64 * COAST_FRAME;
+                recorder.trajectory.warnings.push(Warning::NotAtRest { waited });
+                break;
+            }
+            play(&mut world, &still, step, &mut recorder);
+            time += COAST_FRAME;
+            waited += 1;
+            if !recorder.record(&world, time, index, still.to) {
+                return recorder.trajectory;
+            }
+        }
+    }
+    recorder.trajectory
+}
+
+/// Plays one frame in equal steps.
+fn play<W: World>(world: &mut W, frame: &FrameStep, longest: f64, recorder: &mut Recorder) {
+    // The small part keeps 0.1 / (1 / 240) at twenty-four steps however it is rounded.
+    let steps = (frame.duration / longest - 1e-9).ceil().max(1.0);
+    let step = frame.duration / steps;
+    // A jump takes no time, so nothing can happen in it; the next frame starts where it ends.
+    if !(step > 0.0 && step.is_finite()) {
+        return;
+    }
+    world.begin_frame(frame, step);
+    for _ in 0..steps as usize {
+        world.step();
+        if recorder.record == Record::Frames {
+            recorder.note_contacts(world);
+        }
+    }
+}
+
+/// Keeps the trajectory as it grows.
+struct Recorder {
+    record: Record,
+    trajectory: Trajectory,
+    /// Frames seen, kept or not.
+    seen: usize,
+}
+
+impl Recorder {
+    fn new(record: Record, start: &State, tool: Pose) -> Self {
+        let first = Frame { time: 0.0, stroke: 0, tool, state: start.clone() };
+        let trajectory = Trajectory { frames: vec![first], ..Trajectory::default() };
+        Self { record, trajectory, seen: 1 }
+    }
+
+    fn last(&self) -> &Frame {
+        &self.trajectory.frames[self.trajectory.frames.len() - 1]
+    }
+
+    /// Takes the world's state as the end of a frame; false if it is no longer finite.
+    fn record<W: World>(&mut self, world: &W, time: f64, stroke: usize, tool: Pose) -> bool {
+        let state = world.state();
+        if !state.is_finite() {
+            self.trajectory.warnings.push(Warning::NotFinite);
+            return false;
+        }
+        let frame = Frame { time, stroke, tool, state };
+        match self.record {
+            Record::Frames => self.trajectory.frames.push(frame),
+            Record::Outcome => self.trajectory.frames[0] = frame,
+        }
+        self.seen += 1;
+        true
+    }
+
+    fn note_contacts<W: World>(&mut self, world: &W) {
+        let frame = self.seen;
+        let contacts = &mut self.trajectory.contacts;
+        world.touches(&mut |object, with| {
+            if !contacts.iter().any(|known| known.object == object && known.with == with) {
+                contacts.push(Contact { frame, object, with });
+            }
+        });
+    }
+}

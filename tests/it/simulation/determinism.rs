@@ -1,0 +1,36 @@
+//! The same job gives the same bits, whoever computes it beside what.
+
+use pushplan::effect::{EffectModel, Job, Simulated};
+use pushplan::geometry::Vector;
+use pushplan::scene::Record;
+use pushplan::sim::Simulator;
+
+use super::fixtures::{brick, can, push, table};
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let mut objects = vec![can(), brick()];
+    objects[1].pose.position = Vector::new(0.09, 0.02);
+    let scene = table(objects);
+    let jobs: Vec<Job> = (0..12)
+        .map(|k| Job {
+            start: scene.start(),
+            motion: push(Vector::new(-0.06, -0.05 + 0.01 * k as f64), 0.0, 0.15, 0.1),
+            hypothesis: None,
+        })
+        .collect();
+    for simulator in [Simulator::planar()] {
+        let model = Simulated::new(simulator);
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("a pool").install(|| model.rollout(&scene, &jobs, Record::Frames))
+        };
+        let (one, two) = (run(1), run(2));
+        for (k, (a, b)) in one.iter().zip(&two).enumerate() {
+            for (frame, (x, y)) in a.frames.iter().zip(&b.frames).enumerate() {
+                assert_eq!(x, y, "{}: job {k} differs first in frame {frame}", model.name());
+            }
+            assert_eq!(a, b);
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! The tool travels exactly what the motion says, and pushes what it meets.
+
+use pushplan::geometry::Vector;
+use pushplan::scene::{Body, Contact, Record};
+use pushplan::sim::Simulator;
+
+use super::fixtures::{can, push, table};
+
+#[test]
+fn a_can_ends_one_slide_before_the_face_that_pushed_it() {
+    let scene = table(vec![can()]);
+    for simulator in [Simulator::planar()] {
+        for speed in [0.03, 0.1, 0.3] {
+            let motion = push(Vector::new(-0.0655, 0.0), 0.0, 0.2, speed);
+            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+            let moving = &trajectory.frames[20];
+            assert_eq!(moving.tool.position, Vector::new(-0.0655 + 0.2, 0.0));
+            assert!((moving.time - 0.2 / speed).abs() < 1e-9);
+            let face = 0.1345;
+            let gap = moving.state.poses[0].position.x - 0.05 - face;
+            assert!(gap.abs() < 3e-4, "{:?} {speed}: gap {gap}", simulator.engine());
+            let slid = trajectory.outcome().poses[0].position.x - 0.05 - face;
+            let expected = speed * speed / (2.0 * 0.45 * 9.81);
+            assert!((slid - expected).abs() < 1e-3, "{speed}: {slid} for {expected}");
+            let first = Contact { frame: 2, object: 0, with: Body::Part(0) };
+            assert_eq!(trajectory.contacts, vec![first]);
+        }
+    }
+}
