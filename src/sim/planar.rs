@@ -1,6 +1,6 @@
 //! The planar engine: rapier2d seen from above, with support friction of our own.
 //!
-//! No gravity; every object is a disc or a rectangle that [`Support`] slows down before each
+//! No gravity; every object is a disc or a rectangle that [`Support`] slows down during each
 //! step. The world is centred on the objects, because rapier2d computes in `f32`; what it
 //! reports is taken as a change against its own start, so a body at rest stays where it is to
 //! the last bit of `f64`.
@@ -88,10 +88,12 @@ impl World for PlanarWorld {
         for object in &self.objects {
             let body = &mut self.world.bodies[object.body];
             let (velocity, turning) = (body.linvel(), body.angvel());
-            let (slide, turn) =
-                object.support.keep(f64::from(velocity.length()), f64::from(turning), dt);
-            body.set_linvel(velocity * slide as Real, true);
-            body.set_angvel(turning * turn as Real, true);
+            let (force, torque) =
+                object.support.drag(f64::from(velocity.length()), f64::from(turning), dt);
+            body.reset_forces(true);
+            body.reset_torques(true);
+            body.add_force(velocity * -force as Real, true);
+            body.add_torque(turning * -torque as Real, true);
         }
         self.world.step();
         for object in &mut self.objects {
@@ -189,7 +191,7 @@ impl PlanarWorld {
         let table = Scene::pair_friction(friction, parameters.table_friction);
         self.objects.push(Tracked {
             body,
-            support: Support::new(&footprint, table),
+            support: Support::new(&footprint, table, parameters.masses[index]),
             start: pose,
             first_position: self.world.bodies[body].translation(),
             last_angle: self.world.bodies[body].rotation().angle().into(),
