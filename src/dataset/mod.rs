@@ -1,1 +1,29 @@
-//! Sampling scenes and pushes, generating shards of trajectories. Trains nothing.
+//! Training data: random scenes and pushes with the planar truth of what they do.
+//!
+//! Every episode is a pure function of the configuration's seed and its own index, so data are
+//! never committed but made again, in memory or as resumable shards of files, with the same
+//! bits for any number of threads. The shipped tools never occur in it. Trains nothing.
+
+mod aim;
+mod assembly;
+mod chance;
+mod config;
+mod episode;
+mod error;
+mod jam;
+mod obstacle;
+mod store;
+mod tabletop;
+mod watch;
+
+pub use aim::{Aim, SET_DOWN, aimed_stroke};
+pub use assembly::random_tool;
+pub use chance::generator;
+pub use config::{DatasetConfig, Preset};
+pub use episode::{Episode, sample};
+pub use error::DatasetError;
+pub use store::Dataset;
+pub use tabletop::{Crowd, Solids, random_scene};
+pub use watch::{Unwatched, Watch};
+
+pub use crate::scene::{Ranges, Span};

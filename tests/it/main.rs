@@ -1,2 +1,4 @@
 //! Tests across rooms, in one binary so that candle and rapier link once.
+
+mod dataset;
 mod simulation;

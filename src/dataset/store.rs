@@ -1,0 +1,58 @@
+//! A data set in memory.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
+
+use super::{config::DatasetConfig, episode::Episode, error::DatasetError, watch::Watch};
+
+/// All episodes of a data set, in order of their index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dataset {
+    config: DatasetConfig,
+    episodes: Vec<Episode>,
+}
+
+impl Dataset {
+    /// Draws and simulates every episode, on all threads of the current rayon pool; the same
+    /// bits for any number of them.
+    ///
+    /// # Errors
+    /// If the configuration asks for nothing, or `watch` says to stop.
+    pub fn in_memory(config: &DatasetConfig, watch: &dyn Watch) -> Result<Self, DatasetError> {
+        config.check()?;
+        let done = AtomicU64::new(0);
+        let episodes = draw_range(config, 0..config.episodes, &done, watch)?;
+        Ok(Self { config: config.clone(), episodes })
+    }
+
+    /// What the data set is made of.
+    pub fn config(&self) -> &DatasetConfig {
+        &self.config
+    }
+
+    /// All episodes, in order of their index.
+    pub fn episodes(&self) -> &[Episode] {
+        &self.episodes
+    }
+}
+
+/// Draws the episodes of a range of indices in parallel, counting them in `done`.
+pub(super) fn draw_range(
+    config: &DatasetConfig,
+    indices: std::ops::Range<u64>,
+    done: &AtomicU64,
+    watch: &dyn Watch,
+) -> Result<Vec<Episode>, DatasetError> {
+    indices
+        .into_par_iter()
+        .map(|index| {
+            if watch.cancelled() {
+                return Err(DatasetError::Cancelled);
+            }
+            let episode = Episode::draw(config, index);
+            watch.progress(done.fetch_add(1, Ordering::Relaxed) + 1, config.episodes);
+            Ok(episode)
+        })
+        .collect()
+}

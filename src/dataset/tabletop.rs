@@ -1,0 +1,124 @@
+//! Random objects on a table, alone or near each other.
+
+use std::f64::consts::FRAC_PI_2;
+
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+use crate::{
+    geometry::{Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
+    scene::{Object, Ranges, Scene, Span},
+};
+
+use super::chance::{heading, log_uniform, uniform};
+
+/// Vertical extents of objects, metres; the planar truth does not see them.
+const HEIGHT: Span = Span::new(0.05, 0.15);
+
+/// Gaps of neighbours that do not touch, metres.
+const GAP: Span = Span::new(1e-3, 0.06);
+
+/// Which solids are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solids {
+    /// Cylinders and cuboids alike.
+    Any,
+    /// Cylinders alone.
+    Cylinders,
+    /// Cuboids alone.
+    Cuboids,
+}
+
+/// How objects are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crowd {
+    /// Number of objects.
+    pub count: usize,
+    /// Which solids.
+    pub solids: Solids,
+    /// Probability that a further object touches (0 to 1 mm) the ones before it.
+    pub touching: f64,
+}
+
+/// A table with `crowd` around the origin and no obstacles.
+pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
+    let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
+    let middle = log_uniform(rng, ranges.mass);
+    // Around the first mass by the root of the ratio to either side, so that any two keep it.
+    let reach = ranges.mass_ratio.sqrt();
+    let masses =
+        Span::new((middle / reach).max(ranges.mass.low), (middle * reach).min(ranges.mass.high));
+    let mut scene = Scene { table_friction: friction(rng), ..Scene::default() };
+    for index in 0..crowd.count {
+        let shape = random_shape(rng, ranges, crowd.solids);
+        let pose = if index == 0 {
+            Pose::new(0.0, 0.0, heading(rng))
+        } else {
+            beside(rng, &scene.objects, shape.footprint(), crowd.touching)
+        };
+        scene.objects.push(Object {
+            name: format!("object-{}", index + 1),
+            shape,
+            mass: if index == 0 { middle } else { log_uniform(rng, masses) },
+            friction: friction(rng),
+            pose,
+        });
+    }
+    scene
+}
+
+fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
+    let height = uniform(rng, HEIGHT.low, HEIGHT.high);
+    let cylinder = match solids {
+        Solids::Any => rng.random::<bool>(),
+        Solids::Cylinders => true,
+        Solids::Cuboids => false,
+    };
+    if cylinder {
+        return Shape::Cylinder {
+            radius: uniform(rng, ranges.radius.low, ranges.radius.high),
+            height,
+        };
+    }
+    let x = log_uniform(rng, ranges.side);
+    let others = Span::new(
+        (x / ranges.aspect).max(ranges.side.low),
+        (x * ranges.aspect).min(ranges.side.high),
+    );
+    Shape::Cuboid { size: [x, log_uniform(rng, others), height] }
+}
+
+/// A pose beside one of `objects`, found by bringing the new one in along a straight line.
+fn beside(rng: &mut Pcg64, objects: &[Object], footprint: Footprint, touching: f64) -> Pose {
+    let anchor = &objects[rng.random_range(0..objects.len())];
+    let around = anchor.shape.footprint();
+    let rectangles = matches!(around, Footprint::Rectangle { .. })
+        && matches!(footprint, Footprint::Rectangle { .. });
+    let flush = rectangles && rng.random::<bool>();
+    let quarter = |rng: &mut Pcg64| FRAC_PI_2 * f64::from(rng.random_range(0..4u8));
+    let (side, turn) = if flush {
+        (anchor.pose.heading + quarter(rng), anchor.pose.heading + quarter(rng))
+    } else {
+        (heading(rng), heading(rng))
+    };
+    let away = Vector::new(side.cos(), side.sin());
+    let reach = around.bounding_radius() + footprint.bounding_radius();
+    let wide = around.extent(anchor.pose.local_vector(perpendicular(away)))
+        + footprint.extent(Pose::new(0.0, 0.0, turn).local_vector(perpendicular(away)));
+    let aside = perpendicular(away) * uniform(rng, -0.7, 0.7) * wide;
+    // From far enough out to pass all the others, straight in until one is touched.
+    let mut pose =
+        Pose { position: anchor.pose.position + away * (reach + 1.0) + aside, heading: turn };
+    let travels = objects.iter().filter_map(|object| {
+        let still = (&object.shape.footprint(), &object.pose);
+        travel_to_contact((&footprint, &pose), -away, still)
+    });
+    let travel = travels.reduce(f64::min).unwrap_or(1.0);
+    let gap = match (rng.random_bool(touching), rng.random::<bool>()) {
+        (true, true) => 0.0,
+        (true, false) => uniform(rng, 0.0, 1e-3),
+        (false, _) => log_uniform(rng, GAP),
+    };
+    pose.position -= away * (travel - gap);
+    pose
+}
