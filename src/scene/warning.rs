@@ -28,6 +28,11 @@ pub enum Warning {
     },
     /// A number became infinite or undefined and the rollout stopped at the last good frame.
     NotFinite,
+    /// An object fell over or leans, so that its planar pose no longer tells where it is.
+    Toppled {
+        /// Its name.
+        object: String,
+    },
     /// The tool came down on an object instead of beside it.
     SetDownOn {
         /// Name of the object.
@@ -62,6 +67,10 @@ impl fmt::Display for Warning {
                 "the tool came down on {object} for push {}; what came before had moved it there, \
                  so the plan does not work as written",
                 stroke + 1
+            ),
+            Warning::Toppled { object } => write!(
+                f,
+                "{object} toppled; its pose on the table means little, push lower or slower"
             ),
             Warning::NotFinite => write!(
                 f,

@@ -34,8 +34,8 @@ pub(super) trait World: Sized {
     /// Calls `found` with every object that touches something, and what it touches.
     fn touches(&self, found: &mut dyn FnMut(usize, Body));
 
-    /// An object that no longer stands upright.
-    fn toppled(&self) -> Option<usize>;
+    /// The objects that no longer stand upright.
+    fn toppled(&self) -> Vec<usize>;
 }
 
 /// Plays `motion` in a world `W` with steps of at most `step` seconds.
@@ -51,15 +51,16 @@ pub(super) fn drive<W: World>(
     let mut recorder = Recorder::new(record, start, tool);
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
-        return recorder.trajectory;
+        return recorder.finish(scene);
     }
     let mut world = W::build(scene, start, parameters, motion, &tool);
     let mut time = 0.0;
     for (index, stroke) in motion.strokes.iter().enumerate() {
         let lifted = index > 0 && motion.strokes[index - 1].settle;
-        if lifted && world.toppled().is_none() {
+        if lifted && world.toppled().is_empty() {
             // A fresh world, so that going on from a recorded rest and never having stopped
-            // are the same computation.
+            // are the same computation. What lies on its side cannot be told by a planar state
+            // and stays in the old one, where the tool jumps.
             world = W::build(scene, &world.state(), parameters, motion, &stroke.from);
         }
         for k in 0..stroke.frames() {
@@ -67,7 +68,7 @@ pub(super) fn drive<W: World>(
             play(&mut world, &frame, step, &mut recorder);
             time += frame.duration;
             if !recorder.record(&world, time, index, frame.to) {
-                return recorder.trajectory;
+                return recorder.finish(scene);
             }
         }
         if !stroke.settle {
@@ -85,11 +86,11 @@ pub(super) fn drive<W: World>(
             time += COAST_FRAME;
             waited += 1;
             if !recorder.record(&world, time, index, still.to) {
-                return recorder.trajectory;
+                return recorder.finish(scene);
             }
         }
     }
-    recorder.trajectory
+    recorder.finish(scene)
 }
 
 /// Plays one frame in equal steps.
@@ -116,13 +117,24 @@ struct Recorder {
     trajectory: Trajectory,
     /// Frames seen, kept or not.
     seen: usize,
+    /// Objects that have toppled, in order.
+    toppled: Vec<usize>,
 }
 
 impl Recorder {
     fn new(record: Record, start: &State, tool: Pose) -> Self {
         let first = Frame { time: 0.0, stroke: 0, tool, state: start.clone() };
         let trajectory = Trajectory { frames: vec![first], ..Trajectory::default() };
-        Self { record, trajectory, seen: 1 }
+        Self { record, trajectory, seen: 1, toppled: Vec::new() }
+    }
+
+    fn finish(mut self, scene: &Scene) -> Trajectory {
+        let toppled = self
+            .toppled
+            .iter()
+            .map(|&index| Warning::Toppled { object: scene.objects[index].name.clone() });
+        self.trajectory.warnings.extend(toppled);
+        self.trajectory
     }
 
     fn last(&self) -> &Frame {
@@ -135,6 +147,11 @@ impl Recorder {
         if !state.is_finite() {
             self.trajectory.warnings.push(Warning::NotFinite);
             return false;
+        }
+        for object in world.toppled() {
+            if !self.toppled.contains(&object) {
+                self.toppled.push(object);
+            }
         }
         let frame = Frame { time, stroke, tool, state };
         match self.record {

@@ -5,9 +5,11 @@
 //! planned or judged here, and no type of rapier leaves this room.
 
 mod drive;
+mod joints;
 mod parameters;
 mod planar;
 mod simulator;
+mod spatial;
 mod support;
 
 pub use simulator::Simulator;

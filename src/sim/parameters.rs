@@ -1,5 +1,8 @@
 //! Settings that both engines share, and why they are so.
 
+use crate::geometry::Vector;
+use crate::scene::State;
+
 /// Penetration that is not corrected, metres. rapier's default of 1 mm lets bodies sink 1.4 mm.
 pub(super) const ALLOWED_ERROR: f64 = 1e-5;
 
@@ -17,6 +20,14 @@ pub(super) fn needs_stiff_contacts(masses: &[f64]) -> bool {
     let heaviest = masses.iter().copied().fold(0.0, f64::max);
     let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
     heaviest > SOFT_MASS_RATIO * lightest
+}
+
+/// Mean position of the objects, metres: where the engines put their origin, so that a scene far
+/// from the world's loses no digits.
+pub(super) fn centre(state: &State) -> Option<Vector> {
+    let count = state.poses.len();
+    let sum: Vector = state.poses.iter().map(|pose| pose.position).sum();
+    (count > 0).then(|| sum / count as f64)
 }
 
 #[cfg(test)]

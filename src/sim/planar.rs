@@ -6,16 +6,17 @@
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, Group, InteractionGroups,
-    InteractionTestMode, PhysicsWorld, Pose2 as RapierPose, Real, RigidBodyBuilder,
-    RigidBodyHandle, SpringCoefficients, Vector as RapierVector,
+    CoefficientCombineRule, ColliderBuilder, ColliderHandle, GenericJointBuilder, Group,
+    InteractionGroups, InteractionTestMode, JointAxesMask, PhysicsWorld, Pose2 as RapierPose, Real,
+    RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, Vector as RapierVector,
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
-use crate::scene::{Body, FrameStep, Hypothesis, Scene, State, ToolMotion, Velocity};
+use crate::scene::{Body, FrameStep, Hypothesis, JointKind, Scene, State, ToolMotion, Velocity};
 
 use super::drive::World;
-use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, needs_stiff_contacts};
+use super::joints::{JointFrames, neighbours_touch};
+use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, centre, needs_stiff_contacts};
 use super::support::Support;
 
 /// Tool parts.
@@ -56,10 +57,9 @@ impl World for PlanarWorld {
         motion: &ToolMotion,
         tool: &Pose,
     ) -> Self {
-        let origin = centre(state).unwrap_or(tool.position);
         let mut this = Self {
             world: empty_world(parameters),
-            origin,
+            origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
@@ -69,6 +69,7 @@ impl World for PlanarWorld {
             this.add_object(scene, state, parameters, motion.lift, index);
         }
         this.add_obstacles(scene);
+        this.add_joints(scene);
         this
     }
 
@@ -140,8 +141,8 @@ impl World for PlanarWorld {
         }
     }
 
-    fn toppled(&self) -> Option<usize> {
-        None
+    fn toppled(&self) -> Vec<usize> {
+        Vec::new()
     }
 }
 
@@ -209,6 +210,23 @@ impl PlanarWorld {
         }
     }
 
+    fn add_joints(&mut self, scene: &Scene) {
+        for joint in &scene.joints {
+            let axes = match joint.kind {
+                JointKind::Fixed => JointAxesMask::LOCKED_FIXED_AXES,
+                JointKind::Revolute { .. } => JointAxesMask::LOCKED_REVOLUTE_AXES,
+                JointKind::Prismatic { .. } => JointAxesMask::LOCKED_PRISMATIC_AXES,
+            };
+            let frames = JointFrames::new(scene, joint);
+            let built = GenericJointBuilder::new(axes)
+                .local_frame1(to_rapier(&frames.first, Vector::zeros()))
+                .local_frame2(to_rapier(&frames.second, Vector::zeros()))
+                .contacts_enabled(neighbours_touch(&joint.kind));
+            let [first, second] = joint.between.map(|index| self.objects[index].body);
+            self.world.insert_impulse_joint(first, second, built);
+        }
+    }
+
     fn insert(&mut self, collider: ColliderBuilder, label: Body, body: RigidBodyHandle) {
         let collider = collider.user_data(self.labels.len() as u128);
         self.labels.push(label);
@@ -225,13 +243,6 @@ fn empty_world(parameters: &Hypothesis) -> PhysicsWorld {
         settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     }
     world
-}
-
-/// Mean position of the objects, metres.
-fn centre(state: &State) -> Option<Vector> {
-    let count = state.poses.len();
-    let sum: Vector = state.poses.iter().map(|pose| pose.position).sum();
-    (count > 0).then(|| sum / count as f64)
 }
 
 fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {

@@ -4,6 +4,7 @@ use crate::scene::{Engine, Hypothesis, Record, Scene, State, ToolMotion, Traject
 
 use super::drive::drive;
 use super::planar::PlanarWorld;
+use super::spatial::SpatialWorld;
 
 /// Longest time step of either engine, seconds.
 ///
@@ -54,6 +55,16 @@ impl Simulator {
         Self { engine: Engine::Planar, step }
     }
 
+    /// The 3-D engine at its default step.
+    pub fn spatial() -> Self {
+        Self::spatial_with_step(DEFAULT_STEP)
+    }
+
+    /// The 3-D engine with steps of at most `step` seconds.
+    pub fn spatial_with_step(step: f64) -> Self {
+        Self { engine: Engine::Spatial, step }
+    }
+
     /// Which engine this is.
     pub fn engine(&self) -> Engine {
         self.engine
@@ -84,6 +95,10 @@ impl Simulator {
                 &nominal
             }
         };
-        drive::<PlanarWorld>(scene, start, parameters, motion, self.step, record)
+        let play = match self.engine {
+            Engine::Planar => drive::<PlanarWorld>,
+            Engine::Spatial => drive::<SpatialWorld>,
+        };
+        play(scene, start, parameters, motion, self.step, record)
     }
 }

@@ -3,9 +3,8 @@
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::scene::Record;
-use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, push, table};
+use super::fixtures::{brick, can, engines, push, table};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
@@ -19,7 +18,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             hypothesis: None,
         })
         .collect();
-    for simulator in [Simulator::planar()] {
+    for simulator in engines() {
         let model = Simulated::new(simulator);
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

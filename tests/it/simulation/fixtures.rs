@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Object, Part, Push, Scene, Tool, ToolMotion};
+use pushplan::sim::Simulator;
 
 /// A cylinder of 10 cm diameter and height at the origin.
 pub fn can() -> Object {
@@ -43,4 +44,9 @@ pub fn bar() -> Arc<Tool> {
 /// One settled straight push of the bar, its face across the direction of motion.
 pub fn push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
     ToolMotion::pushes(bar(), 0.002, direction, &[Push { start, direction, length, speed }], true)
+}
+
+/// Both engines at their default step.
+pub fn engines() -> [Simulator; 2] {
+    [Simulator::planar(), Simulator::spatial()]
 }

@@ -4,7 +4,7 @@ use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{GRAVITY, Object, Record, State, Velocity};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, push, table};
+use super::fixtures::{brick, can, engines, push, table};
 
 /// How an object that starts at the origin with `velocity` ends when nothing touches it.
 fn slide(simulator: &Simulator, object: Object, velocity: Velocity) -> (Pose, f64) {
@@ -23,7 +23,7 @@ fn without_spin_it_slides_v_squared_over_two_mu_g() {
     let speed = 0.5;
     // Friction 0.4 on a table of 0.5.
     let expected = speed * speed / (2.0 * 0.45 * GRAVITY);
-    for simulator in [Simulator::planar()] {
+    for simulator in engines() {
         for object in [can(), brick()] {
             for k in 0..8 {
                 let heading = 0.3 + k as f64 * std::f64::consts::FRAC_PI_4;

@@ -2,14 +2,13 @@
 
 use pushplan::geometry::Vector;
 use pushplan::scene::{Body, Contact, Record};
-use pushplan::sim::Simulator;
 
-use super::fixtures::{can, push, table};
+use super::fixtures::{can, engines, push, table};
 
 #[test]
 fn a_can_ends_one_slide_before_the_face_that_pushed_it() {
     let scene = table(vec![can()]);
-    for simulator in [Simulator::planar()] {
+    for simulator in engines() {
         for speed in [0.03, 0.1, 0.3] {
             let motion = push(Vector::new(-0.0655, 0.0), 0.0, 0.2, speed);
             let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
