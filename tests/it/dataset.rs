@@ -5,14 +5,18 @@ use std::{
     fs,
     path::Path,
     sync::{
-        Mutex,
+        Arc, Mutex,
         atomic::{AtomicU64, Ordering},
     },
 };
 
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, DatasetError, Episode, Unwatched, Watch, generate},
+    asset::ToolLibrary,
+    dataset::{
+        Dataset, DatasetConfig, DatasetError, Episode, Unwatched, Watch, generate, is_shipped,
+    },
     geometry::{Footprint, Pose, clearance},
+    scene::ToolMotion,
 };
 
 fn drawn(episodes: u64) -> Dataset {
@@ -97,6 +101,7 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
         let Episode { scene, motion, frames, .. } = episode;
         let outside = ranges.warnings(scene, motion);
         assert!(outside.is_empty(), "episode {}: {outside:?}", episode.index);
+        assert!(!is_shipped(&motion.tool), "episode {}", episode.index);
         assert!(ranges.pushes.contains(motion.strokes.len() as f64));
         for stroke in &motion.strokes {
             // Strokes cut short before an obstacle may be shorter than the range.
@@ -214,4 +219,24 @@ fn a_folder_of_other_settings_an_empty_order_and_a_blocked_path_are_refused() {
     assert!(matches!(blocked, Err(DatasetError::Io { .. })), "{blocked:?}");
     let nowhere = Dataset::open(&dir.path().join("nowhere"));
     assert!(matches!(nowhere, Err(DatasetError::Missing { .. })), "{nowhere:?}");
+}
+
+#[test]
+fn the_shipped_tools_are_recognised_and_within_the_trained_ranges() {
+    let config = DatasetConfig::default();
+    let scene = pushplan::scene::Scene { table_friction: 0.5, ..Default::default() };
+    let library = ToolLibrary::embedded().unwrap();
+    assert!(library.len() >= 10);
+    for tool in &library {
+        assert!(is_shipped(tool), "{}", tool.name);
+        let motion = ToolMotion { tool: Arc::clone(tool), lift: 0.002, strokes: Vec::new() };
+        let outside: Vec<String> = config
+            .ranges()
+            .warnings(&scene, &motion)
+            .iter()
+            .map(ToString::to_string)
+            .filter(|warning| !warning.starts_with("scene"))
+            .collect();
+        assert!(outside.is_empty(), "{outside:?}");
+    }
 }
