@@ -1,1 +1,31 @@
 //! Candidates, parallel search and QP refinement. Verifies nothing.
+//!
+//! [`Search`] enumerates pushes, rolls them out with an effect model and keeps a beam over
+//! sequences; [`refine()`] then moves offsets, directions and lengths of the best candidates
+//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows.
+
+mod beam;
+mod candidate;
+mod enumerate;
+mod evaluate;
+mod field;
+mod linear;
+mod parameters;
+mod qp;
+mod refine;
+mod rollouts;
+mod search;
+mod statistics;
+mod workspace;
+
+pub use candidate::{Candidate, CandidatePush, Start};
+pub use evaluate::{Evaluation, evaluate};
+pub use field::Field;
+pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
+pub use refine::{RefineSettings, Refined, refine};
+pub use rollouts::Rollouts;
+pub use search::{Found, Search, SearchSettings};
+pub use statistics::{RefineStatistics, SearchStatistics};
+pub use workspace::{
+    Infeasible, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,
+};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::geometry::{Footprint, Pose, Shape, clearance};
+use crate::geometry::{Footprint, Pose, Shape, contact_points};
 
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
@@ -89,13 +89,12 @@ impl Tool {
         for a in 0..parts.len() {
             for b in a + 1..parts.len() {
                 let said = by_hand.iter().any(|pair| *pair == [a, b] || *pair == [b, a]);
-                // Not by contact points: two bars that cross have no corner in each other.
-                let gap = clearance(
+                let (points, _) = contact_points(
                     (&parts[a].footprint(), &parts[a].pose),
                     (&parts[b].footprint(), &parts[b].pose),
-                    2.0 * JOIN_GAP,
+                    JOIN_GAP,
                 );
-                if said || gap <= JOIN_GAP {
+                if said || points[0].is_some() {
                     joints.push([a, b]);
                 }
             }

@@ -1,0 +1,84 @@
+//! Which states a search continues from: cheap ones first, but of every grip, direction and
+//! place some, because the way to a goal may begin with a detour.
+
+use std::collections::HashSet;
+
+use crate::scene::State;
+
+use super::enumerate::Extension;
+
+/// Stops whose goal object lies in one square of this side count as alike, metres.
+const CELL: f64 = 0.03;
+
+/// A place where a push may end and the next begin.
+#[derive(Clone, Debug)]
+pub(super) struct Stop {
+    /// Index of the push in the list that was rolled out.
+    pub extension: usize,
+    /// Travel up to the stop, metres.
+    pub length: f64,
+    /// Cost left from there.
+    pub cost: f64,
+    /// The state to continue from, where it is known exactly.
+    pub known: Option<State>,
+    grip: (usize, u64),
+    direction: u64,
+    cell: (i64, i64),
+}
+
+impl Stop {
+    pub fn new(
+        extension: &Extension,
+        length: f64,
+        cost: f64,
+        rest: &State,
+        object: usize,
+        known: Option<State>,
+    ) -> Self {
+        let at = rest.poses[object].position;
+        let cell = |v: f64| (v / CELL).floor() as i64;
+        Self {
+            extension: 0,
+            length,
+            cost,
+            known,
+            grip: (extension.pair.0, extension.pair.1.to_bits()),
+            direction: extension.push.direction.to_bits(),
+            cell: (cell(at.x), cell(at.y)),
+        }
+    }
+
+    /// The same stop, of the push with this index.
+    pub fn of(self, extension: usize) -> Self {
+        Self { extension, ..self }
+    }
+}
+
+/// At most `width` of the offered stops, never two of the same grip in the same cell. Half of
+/// the beam goes to the cheapest stop of each grip and direction, the rest to the cheapest.
+/// Without a width all of them.
+pub(super) fn choose(mut offers: Vec<Stop>, width: Option<usize>) -> Vec<Stop> {
+    offers.retain(|stop| stop.cost.is_finite());
+    let Some(width) = width else { return offers };
+    // Stable: equal costs keep the order of enumeration.
+    offers.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut taken = vec![false; offers.len()];
+    let (mut ways, mut cells) = (HashSet::new(), HashSet::new());
+    let mut count = 0;
+    for (k, stop) in offers.iter().enumerate() {
+        if count < width.div_ceil(2) && ways.insert((stop.grip, stop.direction)) {
+            cells.insert((stop.grip, stop.cell));
+            taken[k] = true;
+            count += 1;
+        }
+    }
+    for (k, stop) in offers.iter().enumerate() {
+        if count < width && !taken[k] && cells.insert((stop.grip, stop.cell)) {
+            taken[k] = true;
+            count += 1;
+        }
+    }
+    let mut kept = taken.into_iter();
+    offers.retain(|_| kept.next().unwrap_or(false));
+    offers
+}

@@ -1,0 +1,71 @@
+//! Candidates: a tool, how it is held, and pushes described against the object they push.
+//!
+//! A placed push is described by what decides its effect: the part of the tool whose leading
+//! face makes contact, the direction, the lateral offset and the length. Where the end effector
+//! starts follows from the object's pose at that moment (see [`super::Workspace::place`]).
+
+use serde::{Deserialize, Serialize};
+
+/// Where a push of a candidate starts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Start {
+    /// Just before the object, so that the leading face of one part meets it.
+    Placed {
+        /// Index of the part in the tool.
+        part: usize,
+        /// Signed lateral distance of the object's centre from the centre line of the
+        /// contacting face, left of the direction positive, metres.
+        offset: f64,
+    },
+    /// At the robot's home, or where the push before ended.
+    Chained,
+}
+
+/// One push of a candidate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CandidatePush {
+    /// Where it starts.
+    pub start: Start,
+    /// Heading of the motion, radians from world +x.
+    pub direction: f64,
+    /// Travel, metres.
+    pub length: f64,
+}
+
+/// A tool, its grip yaw and the pushes to make with it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Candidate {
+    /// Index into the tools that were offered.
+    pub tool: usize,
+    /// Turn of the end effector against world +x, radians.
+    pub grip_yaw: f64,
+    /// In order.
+    pub pushes: Vec<CandidatePush>,
+}
+
+impl Candidate {
+    /// The same candidate with one more push.
+    pub fn then(&self, push: CandidatePush) -> Self {
+        let mut next = self.clone();
+        next.pushes.push(push);
+        next
+    }
+
+    /// Whether both use the same tool, grip yaw, faces and directions, and so differ only in
+    /// offsets and lengths, which refinement changes anyway.
+    pub fn is_variant_of(&self, other: &Self) -> bool {
+        let face = |push: &CandidatePush| match push.start {
+            Start::Placed { part, .. } => Some(part),
+            Start::Chained => None,
+        };
+        self.tool == other.tool
+            && self.grip_yaw == other.grip_yaw
+            && self.pushes.len() == other.pushes.len()
+            && self
+                .pushes
+                .iter()
+                .zip(&other.pushes)
+                .all(|(a, b)| a.direction == b.direction && face(a) == face(b))
+    }
+}

@@ -1,0 +1,152 @@
+//! Which pushes are worth a rollout from a given state: every grip, direction, contacting face
+//! and coarse offset that can be placed.
+
+use std::collections::HashSet;
+
+use rayon::prelude::*;
+
+use crate::scene::{Offsets, Push};
+
+use super::field::Field;
+use super::search::Node;
+use super::statistics::SearchStatistics;
+use super::{CandidatePush, Infeasible, Start, Workspace};
+
+/// Two placements closer than this are one, metres.
+const SAME_PLACE: f64 = 1e-4;
+
+/// The most pushes of one node and grip that are considered: far more than tools have faces,
+/// it only bounds what a file with thousands of directions or offsets can ask for.
+const MOST_PER_GRIP: usize = 20_000;
+
+/// A push that may continue a node of the search.
+#[derive(Clone, Debug)]
+pub(super) struct Extension {
+    /// Index of the node.
+    pub node: usize,
+    /// Tool and grip yaw.
+    pub pair: (usize, f64),
+    /// The push, its length cut to what reach and obstacles allow.
+    pub planned: CandidatePush,
+    /// The same with its start.
+    pub push: Push,
+    /// Least cost left if the object were carried straight along: what is tried first.
+    pub promise: f64,
+}
+
+/// All pushes that can continue the given nodes; a node that has no grip yet takes every one of
+/// `grips`. In the order of nodes, grips, directions, parts and offsets.
+pub(super) fn extensions(
+    workspace: &Workspace,
+    field: &Field,
+    nodes: &[Node],
+    grips: &[(usize, f64)],
+    offsets: usize,
+    statistics: &mut SearchStatistics,
+) -> Vec<Extension> {
+    let work: Vec<(usize, (usize, f64))> = nodes
+        .iter()
+        .enumerate()
+        .flat_map(|(k, node)| {
+            let own = node.candidate.as_ref().map(|c| vec![(c.tool, c.grip_yaw)]);
+            own.unwrap_or_else(|| grips.to_vec()).into_iter().map(move |pair| (k, pair))
+        })
+        .collect();
+    let found: Vec<Vec<Result<Extension, Infeasible>>> = work
+        .par_iter()
+        .map(|&(node, pair)| {
+            pushes(workspace, &nodes[node], pair, offsets)
+                .into_iter()
+                .map(|push| extend(workspace, field, &nodes[node], node, pair, push))
+                .collect()
+        })
+        .collect();
+    let mut kept = Vec::new();
+    for group in found {
+        let mut places = HashSet::new();
+        for result in group {
+            statistics.considered += 1;
+            match result {
+                Err(reason) => statistics.refuse(reason),
+                Ok(extension) => {
+                    let grid = |v: f64| (v / SAME_PLACE).round() as i64;
+                    let push = &extension.push;
+                    let place = (grid(push.start.x), grid(push.start.y), push.direction.to_bits());
+                    if places.insert(place) {
+                        kept.push(extension);
+                    } else {
+                        statistics.repeated += 1;
+                    }
+                }
+            }
+        }
+    }
+    kept
+}
+
+/// The pushes to try from a node, before anything is checked.
+fn pushes(
+    workspace: &Workspace,
+    node: &Node,
+    pair: (usize, f64),
+    count: usize,
+) -> Vec<CandidatePush> {
+    let rules = &workspace.task.pushes;
+    let mut list = Vec::new();
+    for direction in rules.directions.headings() {
+        let mut add = |start| {
+            if list.len() < MOST_PER_GRIP {
+                list.push(CandidatePush { start, direction, length: rules.length });
+            }
+        };
+        if !workspace.is_placed() {
+            add(Start::Chained);
+            continue;
+        }
+        for part in 0..workspace.tools[pair.0].parts.len() {
+            match &rules.offsets {
+                Offsets::List(offsets) => {
+                    offsets.iter().for_each(|&offset| add(Start::Placed { part, offset }));
+                }
+                Offsets::Effort => {
+                    let span = workspace.offset_span(pair, &node.state, part, direction);
+                    for k in 0..count {
+                        let share = (2 * k + 1) as f64 / count as f64 - 1.0;
+                        // Ends included from two offsets on.
+                        let share = share * count as f64 / (count.max(2) - 1) as f64;
+                        add(Start::Placed { part, offset: share * span });
+                    }
+                }
+            }
+        }
+    }
+    list
+}
+
+fn extend(
+    workspace: &Workspace,
+    field: &Field,
+    node: &Node,
+    index: usize,
+    pair: (usize, f64),
+    mut planned: CandidatePush,
+) -> Result<Extension, Infeasible> {
+    let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
+    let start = workspace.place(pair, &node.state, &planned, depth, node.end)?;
+    planned.length = workspace.free_travel(pair, start, planned.direction, planned.length)?;
+    let push = Push {
+        start,
+        direction: planned.direction,
+        length: planned.length,
+        speed: workspace.task.pushes.speed,
+    };
+    let set_down = workspace.is_placed() || depth == 0;
+    if let Some(reason) = workspace.margins(pair, &node.state, &push, set_down).broken() {
+        return Err(reason);
+    }
+    let object = node.state.poses[workspace.task.goal.object].position;
+    let promise = (0..=2)
+        .map(|k| field.distance(object + push.heading() * (push.length * k as f64 / 2.0)))
+        .fold(f64::INFINITY, f64::min);
+    Ok(Extension { node: index, pair, planned, push, promise })
+}

@@ -1,0 +1,157 @@
+//! What a candidate really does: its pushes placed one after another, each rolled out from
+//! where the one before left the objects.
+
+use std::sync::Arc;
+
+use crate::effect::Job;
+use crate::scene::{Push, Record, State, ToolMotion};
+
+use super::rollouts::{final_score, single_push};
+use super::{Candidate, Infeasible, Margins, Rollouts, Workspace};
+
+/// A candidate with its pushes placed and its outcome predicted.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The candidate.
+    pub candidate: Candidate,
+    /// Its pushes, as the end effector makes them.
+    pub pushes: Vec<Push>,
+    /// By how much each push keeps the rules.
+    pub margins: Vec<Margins>,
+    /// Predicted state at rest.
+    pub outcome: State,
+    /// Predicted error in units of the tolerance; infinite if the outcome cannot count.
+    pub score: f64,
+}
+
+impl Evaluation {
+    /// Whether every push keeps every rule.
+    pub fn is_feasible(&self) -> bool {
+        self.margins.iter().all(|margins| margins.broken().is_none())
+    }
+}
+
+/// Places and rolls out every candidate, in batches over all of them.
+///
+/// A placed candidate of n pushes costs n rollouts of one push each; a chained one costs one of
+/// the whole motion. The answer's order is that of the candidates.
+///
+/// # Errors
+/// Per candidate: why a push could not be placed. Broken reach or clearance is no error here but
+/// a negative margin, so that refinement can still learn from the outcome.
+pub fn evaluate(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    candidates: &[Candidate],
+) -> Vec<Result<Evaluation, Infeasible>> {
+    let start = rollouts.scene().start();
+    let mut results: Vec<Result<Evaluation, Infeasible>> = candidates
+        .iter()
+        .map(|candidate| {
+            Ok(Evaluation {
+                candidate: candidate.clone(),
+                pushes: Vec::with_capacity(candidate.pushes.len()),
+                margins: Vec::with_capacity(candidate.pushes.len()),
+                outcome: start.clone(),
+                score: workspace.task.goal.score(&start),
+            })
+        })
+        .collect();
+    let longest = candidates.iter().map(|c| c.pushes.len()).max().unwrap_or(0);
+    if workspace.is_placed() {
+        for stage in 0..longest {
+            advance(workspace, rollouts, &mut results, stage);
+        }
+    } else {
+        for stage in 0..longest {
+            for result in &mut results {
+                add_push(workspace, result, stage);
+            }
+        }
+        run(workspace, rollouts, &mut results, |evaluation, workspace| {
+            let candidate = &evaluation.candidate;
+            let motion = ToolMotion::pushes(
+                Arc::clone(&workspace.tools[candidate.tool]),
+                workspace.task.pushes.lift,
+                candidate.grip_yaw,
+                &evaluation.pushes,
+                false,
+            );
+            (!evaluation.pushes.is_empty()).then(|| Job {
+                start: evaluation.outcome.clone(),
+                motion,
+                hypothesis: None,
+            })
+        });
+    }
+    results
+}
+
+/// Places push number `stage` of every candidate and rolls it out.
+fn advance(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    results: &mut [Result<Evaluation, Infeasible>],
+    stage: usize,
+) {
+    for result in results.iter_mut() {
+        add_push(workspace, result, stage);
+    }
+    run(workspace, rollouts, results, |evaluation, workspace| {
+        let push = evaluation.pushes.get(stage)?;
+        let candidate = &evaluation.candidate;
+        Some(single_push(
+            &workspace.tools[candidate.tool],
+            workspace.task.pushes.lift,
+            candidate.grip_yaw,
+            push,
+            evaluation.outcome.clone(),
+        ))
+    });
+}
+
+fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, stage: usize) {
+    let Ok(evaluation) = result else { return };
+    let Some(planned) = evaluation.candidate.pushes.get(stage).copied() else { return };
+    let pair = (evaluation.candidate.tool, evaluation.candidate.grip_yaw);
+    let previous = evaluation.pushes.last().map(Push::end);
+    match workspace.place(pair, &evaluation.outcome, &planned, stage, previous) {
+        Ok(start) => {
+            let push = Push {
+                start,
+                direction: planned.direction,
+                length: planned.length,
+                speed: workspace.task.pushes.speed,
+            };
+            let set_down = workspace.is_placed() || stage == 0;
+            let margins = workspace.margins(pair, &evaluation.outcome, &push, set_down);
+            evaluation.pushes.push(push);
+            evaluation.margins.push(margins);
+        }
+        Err(reason) => *result = Err(reason),
+    }
+}
+
+/// Rolls out the job of every candidate that has one and keeps its outcome.
+fn run(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    results: &mut [Result<Evaluation, Infeasible>],
+    job: impl Fn(&Evaluation, &Workspace) -> Option<Job>,
+) {
+    let (indices, jobs): (Vec<usize>, Vec<Job>) = results
+        .iter()
+        .enumerate()
+        .filter_map(|(k, result)| Some((k, job(result.as_ref().ok()?, workspace)?)))
+        .unzip();
+    let trajectories = rollouts.run(&jobs, Record::Outcome);
+    for (k, trajectory) in indices.into_iter().zip(trajectories) {
+        if let (Ok(evaluation), Some(frame)) = (&mut results[k], trajectory.frames.last()) {
+            // A push that could not count spoils those after it.
+            if evaluation.score.is_finite() {
+                evaluation.score = final_score(&workspace.task.goal, &trajectory);
+            }
+            evaluation.outcome = frame.state.clone();
+        }
+    }
+}

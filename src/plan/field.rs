@@ -1,0 +1,197 @@
+//! How far an object still has to go around obstacles: what the beam over push sequences is
+//! ranked by, because the straight distance leads into every corner.
+//!
+//! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
+//! comes from Dijkstra's algorithm on a grid with sixteen neighbours.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
+use crate::scene::{State, Task};
+
+/// Grid spacing where the scene is small enough, metres: finer than any object that is pushed.
+const SPACING: f64 = 0.02;
+
+/// At most this many cells along a side; a larger scene gets coarser cells.
+const MOST_CELLS: usize = 128;
+
+/// Room around everything that matters in which ways may lead, metres.
+const BORDER: f64 = 0.3;
+
+/// Added where no way leads to the goal, metres: worse than any way, yet still ordered.
+const CUT_OFF: f64 = 10.0;
+
+/// Weight of a heading error in units of its tolerance: it counts, but turning is left to the
+/// last push where it can be.
+const HEADING_WEIGHT: f64 = 0.5;
+
+/// Distances to the goal for the goal object's centre.
+pub struct Field<'a> {
+    task: &'a Task,
+    grid: Option<Grid>,
+}
+
+impl<'a> Field<'a> {
+    /// Lays the field for a task; costs nothing where there are no obstacles.
+    pub fn new(task: &'a Task) -> Self {
+        let grid = (!task.scene.obstacles.is_empty()).then(|| Grid::new(task));
+        Self { task, grid }
+    }
+
+    /// Length of the way from `position` to the goal, metres.
+    pub fn distance(&self, position: Vector) -> f64 {
+        let straight = (self.task.goal.position - position).norm();
+        match &self.grid {
+            Some(grid) => grid.distance(position, straight),
+            None => straight,
+        }
+    }
+
+    /// The way left and the turn left, in units of the tolerances, the larger of both.
+    pub fn cost(&self, state: &State) -> f64 {
+        let goal = &self.task.goal;
+        let way = self.distance(state.poses[goal.object].position) / goal.tolerance;
+        let cost = match (goal.heading, goal.heading_error(state)) {
+            (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
+            _ => way,
+        };
+        if cost.is_nan() { f64::INFINITY } else { cost }
+    }
+}
+
+struct Grid {
+    origin: Vector,
+    spacing: f64,
+    columns: usize,
+    rows: usize,
+    /// Per cell: length of the way, and whether the straight way is free.
+    cells: Vec<(f64, bool)>,
+}
+
+impl Grid {
+    fn new(task: &Task) -> Self {
+        let object = &task.scene.objects[task.goal.object];
+        let radius = match object.shape.footprint() {
+            Footprint::Disc { radius } => radius,
+            Footprint::Rectangle { half } => half.x.min(half.y),
+        };
+        let disc = Footprint::Disc { radius };
+        let (mut low, mut high) = (task.goal.position, task.goal.position);
+        let mut include = |position: Vector, reach: f64| {
+            low = low.inf(&(position - Vector::repeat(reach)));
+            high = high.sup(&(position + Vector::repeat(reach)));
+        };
+        include(object.pose.position, BORDER);
+        include(task.goal.position, BORDER);
+        for obstacle in &task.scene.obstacles {
+            include(
+                obstacle.pose.position,
+                obstacle.shape().footprint().bounding_radius() + radius + BORDER,
+            );
+        }
+        let size = high - low;
+        let spacing = SPACING.max(size.max() / (MOST_CELLS - 1) as f64);
+        let columns = ((size.x / spacing).ceil() as usize + 1).min(MOST_CELLS);
+        let rows = ((size.y / spacing).ceil() as usize + 1).min(MOST_CELLS);
+        let mut grid = Self { origin: low, spacing, columns, rows, cells: Vec::new() };
+        let free: Vec<bool> = (0..columns * rows)
+            .map(|cell| {
+                let at = Pose { position: grid.centre(cell), heading: 0.0 };
+                task.scene.obstacles.iter().all(|o| {
+                    clearance((&disc, &at), (&o.shape().footprint(), &o.pose), spacing) > 0.0
+                })
+            })
+            .collect();
+        let goal = Pose { position: task.goal.position, heading: 0.0 };
+        let seen = |position: Vector| {
+            let from = Pose { position, heading: 0.0 };
+            task.scene.obstacles.iter().all(|o| {
+                let still = (&o.shape().footprint(), &o.pose);
+                swept_clearance(&disc, &from, &goal, still, spacing) > 0.0
+            })
+        };
+        // Every cell that sees the goal is a source with its exact distance.
+        grid.cells = free
+            .iter()
+            .enumerate()
+            .map(|(cell, &free)| {
+                let centre = grid.centre(cell);
+                let visible = free && seen(centre);
+                let way = (task.goal.position - centre).norm();
+                (if visible { way } else { f64::INFINITY }, visible)
+            })
+            .collect();
+        grid.spread(&free);
+        grid
+    }
+
+    /// Dijkstra from all cells that see the goal. Lengths are compared as bits, which order
+    /// like the numbers because none is negative.
+    fn spread(&mut self, free: &[bool]) {
+        const STEPS: [(isize, isize); 16] = [
+            (1, 0),
+            (-1, 0),
+            (0, 1),
+            (0, -1),
+            (1, 1),
+            (1, -1),
+            (-1, 1),
+            (-1, -1),
+            (2, 1),
+            (2, -1),
+            (-2, 1),
+            (-2, -1),
+            (1, 2),
+            (1, -2),
+            (-1, 2),
+            (-1, -2),
+        ];
+        let mut queue: BinaryHeap<Reverse<(u64, usize)>> = self
+            .cells
+            .iter()
+            .enumerate()
+            .filter(|(_, (way, _))| way.is_finite())
+            .map(|(cell, (way, _))| Reverse((way.to_bits(), cell)))
+            .collect();
+        while let Some(Reverse((bits, cell))) = queue.pop() {
+            let way = f64::from_bits(bits);
+            if way > self.cells[cell].0 {
+                continue;
+            }
+            let (column, row) = (cell % self.columns, cell / self.columns);
+            for (dx, dy) in STEPS {
+                let Some(next) = self.index(column as isize + dx, row as isize + dy) else {
+                    continue;
+                };
+                let longer = way + self.spacing * (dx as f64).hypot(dy as f64);
+                if free[next] && longer < self.cells[next].0 {
+                    self.cells[next].0 = longer;
+                    queue.push(Reverse((longer.to_bits(), next)));
+                }
+            }
+        }
+    }
+
+    fn distance(&self, position: Vector, straight: f64) -> f64 {
+        let local = (position - self.origin) / self.spacing;
+        let nearest = |v: f64, n: usize| v.round().clamp(0.0, (n - 1) as f64) as isize;
+        let cell = self.index(nearest(local.x, self.columns), nearest(local.y, self.rows));
+        match cell.map(|cell| self.cells[cell]) {
+            Some((_, true)) | None => straight,
+            Some((way, false)) if way.is_finite() => way.max(straight),
+            Some(_) => straight + CUT_OFF,
+        }
+    }
+
+    fn index(&self, column: isize, row: isize) -> Option<usize> {
+        let inside =
+            (0..self.columns as isize).contains(&column) && (0..self.rows as isize).contains(&row);
+        inside.then_some(row as usize * self.columns + column as usize)
+    }
+
+    fn centre(&self, cell: usize) -> Vector {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        self.origin + Vector::new(column as f64, row as f64) * self.spacing
+    }
+}

@@ -1,0 +1,114 @@
+//! The continuous parameters of a candidate: offset, direction and length of every push, counted
+//! in steps of about equal effect.
+
+use super::workspace::MIN_LENGTH;
+use super::{Candidate, Start, Workspace};
+
+/// One step of the lateral offset, metres.
+pub(super) const OFFSET_STEP: f64 = 0.005;
+
+/// One step of the direction, radians: moves the end of a 0.1 m push by as much as an offset.
+pub(super) const DIRECTION_STEP: f64 = 0.05;
+
+/// One step of the length, metres.
+pub(super) const LENGTH_STEP: f64 = 0.005;
+
+/// A direction is turned by at most this against the one that was searched, radians (25
+/// degrees): past half the spacing of principal directions another candidate is the better start.
+const LARGEST_TURN: f64 = 0.436;
+
+/// A placed push may be lengthened to this share of the task's length.
+const LONGEST: f64 = 1.5;
+
+#[derive(Clone, Copy)]
+enum Quantity {
+    Offset,
+    Direction,
+    Length,
+}
+
+#[derive(Clone, Copy)]
+struct Parameter {
+    push: usize,
+    quantity: Quantity,
+    step: f64,
+    low: f64,
+    high: f64,
+}
+
+/// The parameters of one candidate with their steps and bounds, fixed when refinement begins.
+pub(super) struct Parameters(Vec<Parameter>);
+
+impl Parameters {
+    /// Parameters and bounds around a candidate as searched.
+    pub fn new(workspace: &Workspace, candidate: &Candidate) -> Self {
+        let pair = (candidate.tool, candidate.grip_yaw);
+        let longest = workspace.task.pushes.length;
+        let start = workspace.task.scene.start();
+        let mut list = Vec::new();
+        for (k, push) in candidate.pushes.iter().enumerate() {
+            let mut add = |quantity, step, low, high| {
+                list.push(Parameter { push: k, quantity, step, low, high });
+            };
+            let mut longest = longest;
+            if let Start::Placed { part, offset } = push.start {
+                // The span depends on the object's heading only, and little on that.
+                let span =
+                    workspace.largest_offset(pair, &start, part, push.direction).max(offset.abs());
+                add(Quantity::Offset, OFFSET_STEP, -span, span);
+                longest *= LONGEST;
+            }
+            let (low, high) = (push.direction - LARGEST_TURN, push.direction + LARGEST_TURN);
+            add(Quantity::Direction, DIRECTION_STEP, low, high);
+            add(Quantity::Length, LENGTH_STEP, MIN_LENGTH.min(longest), longest);
+        }
+        Self(list)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// How far each may go down and up from `candidate`, in steps.
+    pub fn room(&self, candidate: &Candidate) -> Vec<(f64, f64)> {
+        let range = |p: &Parameter| {
+            let value = read(candidate, p);
+            ((p.low - value) / p.step, (p.high - value) / p.step)
+        };
+        self.0.iter().map(range).collect()
+    }
+
+    /// `candidate` moved by `steps`, cut to the bounds, and the steps really made.
+    pub fn moved(&self, candidate: &Candidate, steps: &[f64]) -> (Candidate, Vec<f64>) {
+        let mut next = candidate.clone();
+        let mut made = Vec::with_capacity(steps.len());
+        for (parameter, step) in self.0.iter().zip(steps) {
+            let value = read(candidate, parameter);
+            let moved = (value + step * parameter.step).clamp(parameter.low, parameter.high);
+            write(&mut next, parameter, moved);
+            made.push((moved - value) / parameter.step);
+        }
+        (next, made)
+    }
+}
+
+fn read(candidate: &Candidate, parameter: &Parameter) -> f64 {
+    let push = &candidate.pushes[parameter.push];
+    match (parameter.quantity, push.start) {
+        (Quantity::Offset, Start::Placed { offset, .. }) => offset,
+        (Quantity::Offset, Start::Chained) => 0.0,
+        (Quantity::Direction, _) => push.direction,
+        (Quantity::Length, _) => push.length,
+    }
+}
+
+fn write(candidate: &mut Candidate, parameter: &Parameter, value: f64) {
+    let push = &mut candidate.pushes[parameter.push];
+    match (parameter.quantity, &mut push.start) {
+        (Quantity::Offset, Start::Placed { offset, .. }) => *offset = value,
+        (Quantity::Offset, Start::Chained) => {}
+        (Quantity::Direction, _) => push.direction = value,
+        (Quantity::Length, _) => push.length = value,
+    }
+}

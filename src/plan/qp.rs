@@ -1,0 +1,242 @@
+//! Small dense quadratic programmes, solved by clarabel:
+//! minimise 1/2 x'Px + q'x subject to Ax <= b.
+//!
+//! One solver is kept as long as the shape stays the same, and its numbers are replaced in
+//! place; every entry is stored, zeros too, so that the sparsity pattern never changes.
+//! Nothing here panics on bad numbers: what is no answer is a [`QpStatus`].
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use serde::{Deserialize, Serialize};
+
+/// Entries larger than this make a problem ill-posed rather than informative.
+const LARGEST: f64 = 1e12;
+
+/// Interior-point steps allowed; tiny problems take about ten.
+const MOST_STEPS: u32 = 60;
+
+/// A quadratic programme, dense, matrices by rows. Serialises to JSON, so that a hard one can
+/// be kept and looked at.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct QpProblem {
+    /// Symmetric positive semidefinite, n by n.
+    pub p: Vec<Vec<f64>>,
+    /// n numbers.
+    pub q: Vec<f64>,
+    /// m by n.
+    pub a: Vec<Vec<f64>>,
+    /// m numbers.
+    pub b: Vec<f64>,
+}
+
+/// How solving ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum QpStatus {
+    /// To full accuracy.
+    Solved,
+    /// To reduced accuracy; good enough for a step that is checked by rolling out.
+    AlmostSolved,
+    /// No x satisfies the constraints.
+    Infeasible,
+    /// The objective has no lower bound.
+    Unbounded,
+    /// Too many steps, or steps that no longer got anywhere.
+    NoProgress,
+    /// Dimensions do not match, or a number is not finite or too large.
+    BadProblem,
+}
+
+/// The answer to a quadratic programme.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QpSolution {
+    /// How solving ended.
+    pub status: QpStatus,
+    /// The minimiser; empty unless solved or almost solved.
+    pub x: Vec<f64>,
+}
+
+impl QpSolution {
+    fn none(status: QpStatus) -> Self {
+        Self { status, x: Vec::new() }
+    }
+}
+
+/// A solver that is kept from problem to problem.
+#[derive(Default)]
+pub struct QpSolver {
+    kept: Option<(usize, usize, DefaultSolver<f64>)>,
+}
+
+impl QpSolver {
+    /// Solves a problem.
+    pub fn solve(&mut self, problem: &QpProblem) -> QpSolution {
+        let Some((n, m)) = problem.shape() else {
+            return QpSolution::none(QpStatus::BadProblem);
+        };
+        if n == 0 {
+            let holds = problem.b.iter().all(|&b| b >= 0.0);
+            let status = if holds { QpStatus::Solved } else { QpStatus::Infeasible };
+            return QpSolution::none(status);
+        }
+        let Some(solver) = self.load(problem, n, m) else {
+            return QpSolution::none(QpStatus::BadProblem);
+        };
+        solver.solve();
+        let status = match solver.solution.status {
+            SolverStatus::Solved => QpStatus::Solved,
+            SolverStatus::AlmostSolved => QpStatus::AlmostSolved,
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                QpStatus::Infeasible
+            }
+            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => {
+                QpStatus::Unbounded
+            }
+            _ => QpStatus::NoProgress,
+        };
+        let x = &solver.solution.x;
+        match status {
+            QpStatus::Solved | QpStatus::AlmostSolved if x.iter().all(|v| v.is_finite()) => {
+                QpSolution { status, x: x.clone() }
+            }
+            QpStatus::Solved | QpStatus::AlmostSolved => QpSolution::none(QpStatus::NoProgress),
+            other => QpSolution::none(other),
+        }
+    }
+
+    /// The kept solver with the problem's numbers, or a new one where the shape is new.
+    fn load(&mut self, problem: &QpProblem, n: usize, m: usize) -> Option<&mut DefaultSolver<f64>> {
+        let (p, a) = (upper(&problem.p, n), full(&problem.a, n, m));
+        let fits = self.kept.as_ref().is_some_and(|&(columns, rows, _)| (columns, rows) == (n, m));
+        if fits {
+            let solver = &mut self.kept.as_mut()?.2;
+            let updated = solver.update_P(&p).is_ok()
+                && solver.update_A(&a).is_ok()
+                && solver.update_q(&problem.q).is_ok()
+                && solver.update_b(&problem.b).is_ok();
+            if updated {
+                return self.kept.as_mut().map(|kept| &mut kept.2);
+            }
+        }
+        let settings = DefaultSettings {
+            verbose: false,
+            max_iter: MOST_STEPS,
+            // Presolving would forbid replacing the numbers later.
+            presolve_enable: false,
+            // Scaling is fixed at the first problem; ours are scaled already and differ.
+            equilibrate_enable: false,
+            ..DefaultSettings::default()
+        };
+        let cones = [SupportedConeT::NonnegativeConeT(m)];
+        let solver = DefaultSolver::new(&p, &problem.q, &a, &problem.b, &cones, settings).ok()?;
+        self.kept = Some((n, m, solver));
+        self.kept.as_mut().map(|kept| &mut kept.2)
+    }
+}
+
+impl QpProblem {
+    /// Numbers of unknowns and constraints, if all dimensions match and all numbers are sane.
+    fn shape(&self) -> Option<(usize, usize)> {
+        let (n, m) = (self.q.len(), self.b.len());
+        let square = self.p.len() == n && self.p.iter().all(|row| row.len() == n);
+        let matching = self.a.len() == m && self.a.iter().all(|row| row.len() == n);
+        let sane = |v: &f64| v.is_finite() && v.abs() <= LARGEST;
+        let numbers = self.p.iter().chain(&self.a).flatten().chain(&self.q).chain(&self.b);
+        (square && matching && numbers.into_iter().all(sane)).then_some((n, m))
+    }
+}
+
+/// The upper triangle by columns, with every entry stored.
+fn upper(rows: &[Vec<f64>], n: usize) -> CscMatrix<f64> {
+    let mut starts = vec![0];
+    let (mut indices, mut values) = (Vec::new(), Vec::new());
+    for column in 0..n {
+        for (row, numbers) in rows.iter().enumerate().take(column + 1) {
+            indices.push(row);
+            values.push(numbers[column]);
+        }
+        starts.push(values.len());
+    }
+    CscMatrix::new(n, n, starts, indices, values)
+}
+
+/// The whole matrix by columns, with every entry stored.
+fn full(rows: &[Vec<f64>], n: usize, m: usize) -> CscMatrix<f64> {
+    let starts = (0..=n).map(|column| column * m).collect();
+    let indices = (0..n).flat_map(|_| 0..m).collect();
+    let values = (0..n).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
+    CscMatrix::new(m, n, starts, indices, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Minimise (x0 - 1)^2 + (x1 + 2)^2 within plus and minus `bound`.
+    fn boxed(bound: f64) -> QpProblem {
+        QpProblem {
+            p: vec![vec![2.0, 0.0], vec![0.0, 2.0]],
+            q: vec![-2.0, 4.0],
+            a: vec![vec![1.0, 0.0], vec![0.0, 1.0], vec![-1.0, 0.0], vec![0.0, -1.0]],
+            b: vec![bound; 4],
+        }
+    }
+
+    #[test]
+    fn bounds_hold_and_a_kept_solver_answers_like_a_new_one() {
+        let mut kept = QpSolver::default();
+        for bound in [5.0, 0.5, 1.5, 1e-3, 1e3] {
+            let expected = [1.0f64.min(bound), -(2.0f64.min(bound))];
+            for solution in [kept.solve(&boxed(bound)), QpSolver::default().solve(&boxed(bound))] {
+                assert_eq!(solution.status, QpStatus::Solved, "{bound}");
+                for (x, e) in solution.x.iter().zip(expected) {
+                    assert!((x - e).abs() < 1e-5 * (1.0 + e.abs()), "{bound}: {x} {e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn extreme_problems_return_a_status() {
+        let mut solver = QpSolver::default();
+        // Zero trust region: only the origin is left.
+        let tight = solver.solve(&boxed(0.0));
+        assert!(tight.x.iter().all(|x| x.abs() < 1e-6), "{tight:?}");
+        // Contradictory bounds: x0 <= -1 and -x0 <= -1.
+        let mut against = boxed(1.0);
+        against.b = vec![-1.0; 4];
+        assert_eq!(solver.solve(&against).status, QpStatus::Infeasible);
+        // Zero columns: nothing pulls, any point within bounds will do.
+        let mut flat = boxed(1.0);
+        flat.p = vec![vec![0.0; 2]; 2];
+        flat.q = vec![0.0; 2];
+        let solution = solver.solve(&flat);
+        assert!(solution.x.iter().all(|x| x.abs() <= 1.0 + 1e-6), "{solution:?}");
+        // No constraints and no curvature: no lower bound.
+        let free = QpProblem { p: vec![vec![0.0]], q: vec![1.0], a: vec![], b: vec![] };
+        assert!(solver.solve(&free).x.is_empty());
+        // Badly scaled, and numbers that are none.
+        let mut wild = boxed(1.0);
+        wild.p[0][0] = 1e11;
+        wild.p[1][1] = 1e-11;
+        let solution = solver.solve(&wild);
+        assert!(solution.x.iter().all(|x| x.is_finite()));
+        for bad in [f64::NAN, f64::INFINITY, 1e300] {
+            let mut problem = boxed(1.0);
+            problem.q[0] = bad;
+            assert_eq!(solver.solve(&problem).status, QpStatus::BadProblem);
+        }
+        let mut ragged = boxed(1.0);
+        ragged.a[1].pop();
+        assert_eq!(solver.solve(&ragged).status, QpStatus::BadProblem);
+        assert_eq!(solver.solve(&QpProblem::default()).status, QpStatus::Solved);
+        // And it still solves an ordinary one afterwards.
+        assert_eq!(solver.solve(&boxed(5.0)).status, QpStatus::Solved);
+    }
+
+    #[test]
+    fn a_problem_survives_json() {
+        let text = serde_json::to_string(&boxed(0.1)).unwrap();
+        assert_eq!(serde_json::from_str::<QpProblem>(&text).unwrap(), boxed(0.1));
+    }
+}

@@ -1,0 +1,308 @@
+//! Refinement: offsets, directions and lengths of every push of a candidate, moved by a
+//! quadratic programme on a linear model of where the object ends.
+//!
+//! Around the present parameters x0 (in steps, see `parameters`) the model
+//! y = y0 + J u is fitted by least squares from rollouts at plus and minus half the trust
+//! radius along every parameter, and a few seeded random combinations. No gradient of the
+//! effect model is needed. The programme minimises the squared goal error of y in units of the
+//! tolerances, within the trust radius, the parameters' bounds and the linearised margins of
+//! reach and clearance; it is solved for several radii and every answer is rolled out. The best
+//! rollout that keeps all rules becomes the new centre if it is better; so a candidate never
+//! gets worse. All candidates share their batches.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::geometry::wrap_angle;
+use crate::scene::{State, Task};
+
+use super::linear::slopes;
+use super::parameters::Parameters;
+use super::{
+    Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
+    Workspace, evaluate,
+};
+
+/// Trust radius at the start, in steps: an early stop is off by up to a frame, an offset by up
+/// to half the coarse spacing.
+const FIRST_RADIUS: f64 = 2.0;
+
+/// Radii between which the trust region stays, in steps. Below the smallest, changes drown in
+/// the noise of contact.
+const RADII: (f64, f64) = (0.05, 8.0);
+
+/// Radii of the programmes solved each round, in units of the trust radius.
+const TRIALS: [f64; 3] = [2.0, 1.0, 0.5];
+
+/// The radius shrinks to this share when a round brought nothing.
+const SHRINK: f64 = 0.25;
+
+/// A score, in units of the tolerance, at which there is nothing left to gain: a tenth of what
+/// effect models and robots miss by anyway.
+const GOOD_ENOUGH: f64 = 0.01;
+
+/// Weight of the step's own length against the goal, in units of the mean curvature: decides
+/// only between parameters that do not matter.
+const DAMPING: f64 = 1e-3;
+
+/// How much to refine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RefineSettings {
+    /// Rounds of fitting, solving and trying.
+    pub rounds: usize,
+    /// Random combinations per round besides the two samples of every parameter.
+    pub extra: usize,
+    /// Seed of these combinations.
+    pub seed: u64,
+}
+
+/// A candidate before and after.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// Score as the search's rounded parameters have it, rolled out exactly.
+    pub before: f64,
+    /// The best that was found; never worse.
+    pub best: Evaluation,
+    /// Score after every round.
+    pub rounds: Vec<f64>,
+}
+
+struct Work {
+    parameters: Parameters,
+    refined: Refined,
+    radius: f64,
+    random: Pcg64,
+}
+
+/// Refines candidates that keep all rules; those that do not are left out of the answer, which
+/// is otherwise in the order given. `progress` is told the rounds done and to do.
+pub fn refine(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    candidates: &[Candidate],
+    settings: RefineSettings,
+    statistics: &mut RefineStatistics,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Vec<Refined> {
+    let before = rollouts.used();
+    let mut solver = QpSolver::default();
+    let mut work: Vec<Work> = evaluate(workspace, rollouts, candidates)
+        .into_iter()
+        .enumerate()
+        .filter_map(|(index, result)| {
+            let best = result.ok().filter(Evaluation::is_feasible)?;
+            Some(Work {
+                parameters: Parameters::new(workspace, &best.candidate),
+                refined: Refined { before: best.score, rounds: vec![], best },
+                radius: FIRST_RADIUS,
+                random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
+            })
+        })
+        .collect();
+    for round in 0..settings.rounds {
+        progress(round, settings.rounds);
+        let mut active: Vec<&mut Work> = work.iter_mut().filter(|w| w.is_open()).collect();
+        if active.is_empty() {
+            break;
+        }
+        step(workspace, rollouts, &mut active, settings, &mut solver, statistics);
+    }
+    progress(settings.rounds, settings.rounds);
+    statistics.rollouts += rollouts.used() - before;
+    work.into_iter().map(|w| w.refined).collect()
+}
+
+impl Work {
+    fn is_open(&self) -> bool {
+        self.refined.best.score > GOOD_ENOUGH
+            && self.refined.best.score.is_finite()
+            && self.radius > RADII.0
+    }
+
+    /// Takes over an evaluation that is better and keeps the rules.
+    fn accept(&mut self, tried: &Evaluation) -> bool {
+        let better = tried.is_feasible() && tried.score < self.refined.best.score;
+        if better {
+            self.refined.best = tried.clone();
+        }
+        better
+    }
+}
+
+/// One round for all candidates that are still open.
+fn step(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    active: &mut [&mut Work],
+    settings: RefineSettings,
+    solver: &mut QpSolver,
+    statistics: &mut RefineStatistics,
+) {
+    let designs: Vec<Vec<Vec<f64>>> =
+        active.iter_mut().map(|work| design(work, settings.extra)).collect();
+    let sampled = evaluate_groups(workspace, rollouts, active, &designs);
+    let mut trials: Vec<Vec<Vec<f64>>> = Vec::with_capacity(active.len());
+    for (work, samples) in active.iter().zip(&sampled) {
+        trials.push(proposals(workspace.task, work, samples, solver, statistics));
+    }
+    let tried = evaluate_groups(workspace, rollouts, active, &trials);
+    for (k, work) in active.iter_mut().enumerate() {
+        let mut improved = false;
+        for (_, sample) in &sampled[k] {
+            improved |= work.accept(sample);
+        }
+        let mut radius = if improved { work.radius } else { work.radius * SHRINK };
+        for (u, trial) in &tried[k] {
+            if work.accept(trial) {
+                radius = u.iter().fold(0.0f64, |most, v| most.max(v.abs())).max(RADII.0 * 2.0);
+            }
+        }
+        work.radius = radius.min(RADII.1);
+        let score = work.refined.best.score;
+        work.refined.rounds.push(score);
+    }
+}
+
+/// Points to sample around the present parameters, in steps.
+fn design(work: &mut Work, extra: usize) -> Vec<Vec<f64>> {
+    let n = work.parameters.count();
+    let reach = 0.5 * work.radius;
+    let mut points = Vec::with_capacity(2 * n + extra);
+    for i in 0..n {
+        for side in [-reach, reach] {
+            let mut point = vec![0.0; n];
+            point[i] = side;
+            points.push(point);
+        }
+    }
+    for _ in 0..extra {
+        points.push((0..n).map(|_| work.random.random_range(-reach..=reach)).collect());
+    }
+    points
+}
+
+/// Evaluates every group of points around its candidate in one batch. Points are clamped to the
+/// bounds first; those that cannot be placed are left out.
+fn evaluate_groups(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    active: &[&mut Work],
+    groups: &[Vec<Vec<f64>>],
+) -> Vec<Vec<(Vec<f64>, Evaluation)>> {
+    let mut owners = Vec::new();
+    let mut candidates = Vec::new();
+    for (k, (work, points)) in active.iter().zip(groups).enumerate() {
+        for point in points {
+            let (candidate, point) = work.parameters.moved(&work.refined.best.candidate, point);
+            owners.push((k, point));
+            candidates.push(candidate);
+        }
+    }
+    let mut evaluated: Vec<Vec<(Vec<f64>, Evaluation)>> = groups.iter().map(|_| vec![]).collect();
+    let results = evaluate(workspace, rollouts, &candidates);
+    for ((k, point), result) in owners.into_iter().zip(results) {
+        if let Ok(evaluation) = result {
+            evaluated[k].push((point, evaluation));
+        }
+    }
+    evaluated
+}
+
+/// The minimisers of the fitted programme for every trial radius, in steps.
+fn proposals(
+    task: &Task,
+    work: &Work,
+    samples: &[(Vec<f64>, Evaluation)],
+    solver: &mut QpSolver,
+    statistics: &mut RefineStatistics,
+) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for share in TRIALS {
+        let problem = programme(task, work, samples, share * work.radius);
+        let solution = solver.solve(&problem);
+        match solution.status {
+            QpStatus::Solved | QpStatus::AlmostSolved => {
+                statistics.solved += 1;
+                // A radius that does not bind gives the same answer again.
+                let repeats = found.iter().any(|x| {
+                    x.iter().zip(&solution.x).all(|(a, b)| (a - b).abs() < 1e-3 * RADII.0)
+                });
+                if !repeats {
+                    found.push(solution.x);
+                }
+            }
+            status => statistics.failures.push((status, problem)),
+        }
+    }
+    found
+}
+
+/// The quadratic programme of one candidate: see the module's text.
+fn programme(
+    task: &Task,
+    work: &Work,
+    samples: &[(Vec<f64>, Evaluation)],
+    radius: f64,
+) -> QpProblem {
+    let (n, best) = (work.parameters.count(), &work.refined.best);
+    let centre = goal_errors(task, &best.outcome);
+    let (goals, rules) = (centre.len(), best.margins.len() * Margins::COUNT);
+    let held: Vec<f64> = best.margins.iter().flat_map(Margins::list).collect();
+    let changes: Vec<(Vec<f64>, Vec<f64>)> = samples
+        .iter()
+        .filter(|(_, sample)| sample.outcome.is_finite())
+        .map(|(u, sample)| {
+            let errors = goal_errors(task, &sample.outcome);
+            let mut y: Vec<f64> = errors.iter().zip(&centre).map(|(a, b)| a - b).collect();
+            if let (Some(turn), Some((_, tolerance))) = (y.get_mut(2), task.goal.heading) {
+                *turn = wrap_angle(*turn * tolerance) / tolerance;
+            }
+            let margins = sample.margins.iter().flat_map(Margins::list);
+            y.extend(margins.zip(&held).map(|(a, b)| a - b));
+            (u.clone(), y)
+        })
+        .collect();
+    let fitted = slopes(&changes, n, goals + rules);
+
+    let product = |i: usize, j: usize| -> f64 {
+        fitted[..goals].iter().map(|slope| 2.0 * slope[i] * slope[j]).sum()
+    };
+    let mut p: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| product(i, j)).collect()).collect();
+    let curvature = (0..n).map(|i| p[i][i]).sum::<f64>() / n.max(1) as f64;
+    for (i, row) in p.iter_mut().enumerate() {
+        row[i] += DAMPING * curvature + f64::EPSILON;
+    }
+    let q = (0..n)
+        .map(|i| fitted[..goals].iter().zip(&centre).map(|(slope, e)| 2.0 * slope[i] * e).sum())
+        .collect();
+
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    let room = work.parameters.room(&best.candidate);
+    for (i, (low, high)) in room.into_iter().enumerate() {
+        for (sign, limit) in [(1.0, high), (-1.0, -low)] {
+            let mut row = vec![0.0; n];
+            row[i] = sign;
+            a.push(row);
+            b.push(limit.min(radius).max(0.0));
+        }
+    }
+    for (slope, margin) in fitted[goals..].iter().zip(&held) {
+        // Rows scaled to about the size of the bounds' rows.
+        let scale = 1.0 / slope.iter().fold(1e-3f64, |most, v| most.max(v.abs()));
+        a.push(slope.iter().map(|v| -v * scale).collect());
+        b.push(margin.max(0.0) * scale);
+    }
+    QpProblem { p, q, a, b }
+}
+
+/// Where the goal object is against the goal, in units of the tolerances: x, y and, where asked
+/// for, the heading.
+fn goal_errors(task: &Task, outcome: &State) -> Vec<f64> {
+    let (goal, pose) = (&task.goal, outcome.poses[task.goal.object]);
+    let apart = (pose.position - goal.position) / goal.tolerance;
+    let mut errors = vec![apart.x, apart.y];
+    if let Some((wanted, tolerance)) = goal.heading {
+        errors.push(wrap_angle(pose.heading - wanted) / tolerance);
+    }
+    errors
+}

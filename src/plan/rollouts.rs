@@ -1,0 +1,95 @@
+//! Counted access to the effect model: every rollout that planning spends goes through here.
+
+use std::sync::Arc;
+
+use crate::effect::{EffectModel, Job};
+use crate::scene::{
+    GRAVITY, Goal, Push, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory,
+};
+
+/// An effect model on one scene, with a count of the rollouts made.
+pub struct Rollouts<'a> {
+    model: &'a dyn EffectModel,
+    scene: &'a Scene,
+    used: usize,
+}
+
+impl<'a> Rollouts<'a> {
+    /// Starts counting at zero.
+    pub fn new(model: &'a dyn EffectModel, scene: &'a Scene) -> Self {
+        Self { model, scene, used: 0 }
+    }
+
+    /// Rollouts made so far.
+    pub fn used(&self) -> usize {
+        self.used
+    }
+
+    /// The scene that is rolled out.
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Rolls out a batch, in parallel, and counts it.
+    pub fn run(&mut self, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        self.used += jobs.len();
+        self.model.rollout(self.scene, jobs, record)
+    }
+}
+
+/// A job for one straight push that ends with waiting for rest.
+pub(super) fn single_push(
+    tool: &Arc<Tool>,
+    lift: f64,
+    grip_yaw: f64,
+    push: &Push,
+    start: State,
+) -> Job {
+    let motion =
+        ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, std::slice::from_ref(push), true);
+    Job { start, motion, hypothesis: None }
+}
+
+/// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
+/// cannot count (not finite, not at rest).
+pub(super) fn final_score(goal: &Goal, trajectory: &Trajectory) -> f64 {
+    let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
+    let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
+    if sound { finite_score(goal, &frame.state) } else { f64::INFINITY }
+}
+
+/// Score of a state, infinite where it is not a number.
+pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
+    let score = if state.is_finite() { goal.score(state) } else { f64::NAN };
+    if score.is_nan() { f64::INFINITY } else { score }
+}
+
+/// Where the state would come to rest if the tool stopped now and nothing were in the way.
+///
+/// Sliding under the ellipsoidal limit surface slows down at about mu g along the generalised
+/// velocity s = sqrt(v^2 + c^2 omega^2), so it lasts s / (mu g) and covers half of what the
+/// present speeds would. Exact without spin; used to compare stops, never as a result.
+pub(super) fn coasted(scene: &Scene, state: &State) -> State {
+    let mut rest = state.clone();
+    for (k, object) in scene.objects.iter().enumerate() {
+        let velocity = state.velocities[k];
+        let c = object.shape.footprint().mean_radius();
+        let s = velocity.linear.norm().hypot(c * velocity.angular);
+        let braking = scene.support_friction(k) * GRAVITY;
+        if s > 0.0 && braking > 0.0 {
+            let time = 0.5 * s / braking;
+            rest.poses[k].position += velocity.linear * time;
+            rest.poses[k].heading += velocity.angular * time;
+        }
+        rest.velocities[k] = Default::default();
+    }
+    rest
+}
+
+/// The moving frames of a recorded single stroke and the tool's travel up to each:
+/// `(frame, travel)`.
+pub(super) fn stops(stroke: &Stroke, recorded: usize) -> impl Iterator<Item = (usize, f64)> {
+    let (frames, travel) = (stroke.frames(), stroke.travel());
+    (1..=frames.min(recorded.saturating_sub(1)))
+        .map(move |k| (k, travel * k as f64 / frames as f64))
+}

@@ -1,0 +1,289 @@
+//! Rollout search over push sequences: all first pushes, then a beam of the most promising
+//! states, one push more at a time.
+//!
+//! Every rollout is recorded frame by frame and the tool may stop after any of them, so one
+//! rollout scores every shorter push as well. The budget is in rollouts, never in seconds, and
+//! ties go to the lower index, so a search gives the same answer on any machine.
+
+use rayon::prelude::*;
+
+use crate::geometry::Vector;
+use crate::scene::{Push, PushForm, Record, State, Trajectory};
+
+use super::beam::{Stop, choose};
+use super::enumerate::{Extension, extensions};
+use super::field::Field;
+use super::rollouts::{coasted, final_score, finite_score, single_push, stops};
+use super::statistics::SearchStatistics;
+use super::workspace::MIN_LENGTH;
+use super::{Candidate, Rollouts, Workspace};
+
+/// Rollouts handed to the effect model at a time: enough for every thread, few enough that
+/// their recorded frames stay in the cache.
+const BATCH: usize = 256;
+
+/// Every how many frames a stop is offered to the beam, besides the best and the last one.
+const BEAM_STRIDE: usize = 5;
+
+/// How much to search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SearchSettings {
+    /// Lateral offsets tried per contacting face, where the task lists none.
+    pub offsets: usize,
+    /// States from which sequences are continued.
+    pub beam: usize,
+    /// Most rollouts for each further push of a sequence.
+    pub rollouts: usize,
+    /// Scored candidates that are kept.
+    pub kept: usize,
+}
+
+/// A candidate as the search scored it.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The candidate, its last push cut to the best stop.
+    pub candidate: Candidate,
+    /// Predicted error in units of the tolerance at that stop, estimated where the tool stops
+    /// early.
+    pub score: f64,
+}
+
+/// A state that a sequence of pushes leads to.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    /// The pushes so far; none at the start.
+    pub candidate: Option<Candidate>,
+    /// Where everything is then; still moving in the chained form.
+    pub state: State,
+    /// Where the end effector is then.
+    pub end: Option<Vector>,
+}
+
+/// A search in progress.
+pub struct Search<'a> {
+    workspace: Workspace<'a>,
+    settings: SearchSettings,
+    field: Field<'a>,
+    grips: Vec<(usize, f64)>,
+    nodes: Vec<Node>,
+    depth: usize,
+    statistics: SearchStatistics,
+}
+
+impl<'a> Search<'a> {
+    /// Prepares a search; rolls nothing out.
+    pub fn new(workspace: Workspace<'a>, settings: SearchSettings) -> Self {
+        let yaws = &workspace.task.pushes.grip_yaws;
+        let grips = (0..workspace.tools.len())
+            .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
+            .collect();
+        let start = Node { candidate: None, state: workspace.task.scene.start(), end: None };
+        Self {
+            workspace,
+            settings,
+            field: Field::new(workspace.task),
+            grips,
+            nodes: vec![start],
+            depth: 0,
+            statistics: SearchStatistics::default(),
+        }
+    }
+
+    /// Pushes per candidate that the last call of [`Search::deepen`] looked at.
+    pub fn depth(&self) -> usize {
+        self.depth
+    }
+
+    /// What the search cost so far.
+    pub fn statistics(&self) -> &SearchStatistics {
+        &self.statistics
+    }
+
+    /// Whether sequences of one push more are allowed and any state is left to continue.
+    pub fn can_deepen(&self) -> bool {
+        self.depth < self.workspace.task.pushes.max_count && !self.nodes.is_empty()
+    }
+
+    /// Looks at all sequences of one push more and returns the best of them, best first.
+    /// `progress` is told the rollouts done and to do.
+    pub fn deepen(
+        &mut self,
+        rollouts: &mut Rollouts,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Vec<Found> {
+        let before = rollouts.used();
+        let mut list = extensions(
+            &self.workspace,
+            &self.field,
+            &self.nodes,
+            &self.grips,
+            self.settings.offsets,
+            &mut self.statistics,
+        );
+        self.statistics.beyond_budget += keep_promising(&mut list, self.settings.rollouts);
+        let mut found = Vec::with_capacity(list.len());
+        let mut offers = Vec::new();
+        for (batch, chunk) in list.chunks(BATCH).enumerate() {
+            progress(batch * BATCH, list.len());
+            let jobs: Vec<_> = chunk.iter().map(|extension| self.job(extension)).collect();
+            let trajectories = rollouts.run(&jobs, Record::Frames);
+            let rated: Vec<_> = chunk
+                .par_iter()
+                .zip(&trajectories)
+                .map(|(extension, trajectory)| self.rate(extension, trajectory))
+                .collect();
+            for (k, (best, stops)) in rated.into_iter().enumerate() {
+                let (extension, index) = (&chunk[k], batch * BATCH + k);
+                if let Some((score, length)) = best {
+                    self.statistics.improve(self.statistics.rollouts + index + 1, score);
+                    found.push(Found { candidate: self.candidate(extension, length), score });
+                }
+                offers.extend(stops.into_iter().map(|stop| stop.of(index)));
+            }
+        }
+        progress(list.len(), list.len());
+        self.depth += 1;
+        if self.depth < self.workspace.task.pushes.max_count {
+            self.nodes = self.continue_from(rollouts, &list, offers);
+        }
+        self.statistics.rollouts += rollouts.used() - before;
+        // Stable, so equal scores keep the order in which they were enumerated.
+        found.sort_by(|a, b| a.score.total_cmp(&b.score));
+        found.truncate(self.settings.kept);
+        found
+    }
+
+    fn job(&self, extension: &Extension) -> crate::effect::Job {
+        single_push(
+            &self.workspace.tools[extension.pair.0],
+            self.workspace.task.pushes.lift,
+            extension.pair.1,
+            &extension.push,
+            self.nodes[extension.node].state.clone(),
+        )
+    }
+
+    fn candidate(&self, extension: &Extension, length: f64) -> Candidate {
+        let (tool, grip_yaw) = extension.pair;
+        let before = self.nodes[extension.node].candidate.clone();
+        let before = before.unwrap_or(Candidate { tool, grip_yaw, pushes: Vec::new() });
+        before.then(super::CandidatePush { length, ..extension.planned })
+    }
+
+    /// The best stop of a rollout as `(score, length)`, and the stops worth continuing from.
+    fn rate(
+        &self,
+        extension: &Extension,
+        trajectory: &Trajectory,
+    ) -> (Option<(f64, f64)>, Vec<Stop>) {
+        let (task, length) = (self.workspace.task, extension.push.length);
+        let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
+        let mut best = (final_score(&task.goal, trajectory), length);
+        let deeper = self.depth + 1 < task.pushes.max_count;
+        let placed = task.pushes.form == PushForm::Placed;
+        let stroke = &self.job(extension).motion.strokes[0];
+        let mut offers: Vec<Stop> = Vec::new();
+        let mut cheapest: Option<Stop> = None;
+        let moving = stroke.frames();
+        for (frame, travel) in stops(stroke, trajectory.frames.len()) {
+            if travel < MIN_LENGTH {
+                continue;
+            }
+            let state = &trajectory.frames[frame].state;
+            let rest = coasted(&task.scene, state);
+            let score = finite_score(&task.goal, &rest);
+            if frame < moving && score < best.0 {
+                best = (score, travel);
+            }
+            // A chained push is continued from its end only; where it turns is refined later.
+            if deeper && (placed && frame < moving) {
+                let cost = self.field.cost(&rest);
+                let stop = Stop::new(extension, travel, cost, &rest, task.goal.object, None);
+                if cheapest.as_ref().is_none_or(|c| cost < c.cost) {
+                    cheapest = Some(stop.clone());
+                }
+                if frame % BEAM_STRIDE == 0 {
+                    offers.push(stop);
+                }
+            }
+        }
+        if deeper {
+            // The whole push is known exactly and need not be rolled out again.
+            let index = if placed { trajectory.frames.len() - 1 } else { moving };
+            let known = trajectory.frames.get(index).unwrap_or(last).state.clone();
+            if known.is_finite() {
+                let rest = coasted(&task.scene, &known);
+                let cost = self.field.cost(&rest);
+                let object = task.goal.object;
+                offers.push(Stop::new(extension, length, cost, &rest, object, Some(known)));
+            }
+            offers.extend(cheapest);
+        }
+        (best.0.is_finite().then_some(best), offers)
+    }
+
+    /// The nodes of the next level: the chosen stops, rolled out exactly where they are early.
+    fn continue_from(
+        &self,
+        rollouts: &mut Rollouts,
+        list: &[Extension],
+        offers: Vec<Stop>,
+    ) -> Vec<Node> {
+        // A tree of chained pushes is small and its branches share their beginnings, so it is
+        // kept whole as long as the budget allows.
+        let ways = self.workspace.task.pushes.directions.headings().len();
+        let whole = !self.workspace.is_placed() && offers.len() * ways <= self.settings.rollouts;
+        let chosen = choose(offers, if whole { None } else { Some(self.settings.beam) });
+        let shorter = |stop: &Stop| Extension {
+            push: Push { length: stop.length, ..list[stop.extension].push },
+            ..list[stop.extension].clone()
+        };
+        let jobs: Vec<_> = chosen
+            .iter()
+            .filter(|stop| stop.known.is_none())
+            .map(|stop| self.job(&shorter(stop)))
+            .collect();
+        let mut outcomes = rollouts.run(&jobs, Record::Outcome).into_iter();
+        let mut nodes = Vec::with_capacity(chosen.len());
+        for stop in chosen {
+            let extension = shorter(&stop);
+            let state = match stop.known {
+                Some(state) => Some(state),
+                None => outcomes
+                    .next()
+                    .and_then(|trajectory| trajectory.frames.into_iter().next_back())
+                    .map(|frame| frame.state),
+            };
+            if let Some(state) = state.filter(State::is_finite) {
+                nodes.push(Node {
+                    candidate: Some(self.candidate(&extension, stop.length)),
+                    state,
+                    end: Some(extension.push.end()),
+                });
+            }
+        }
+        nodes
+    }
+}
+
+/// Cuts a list to the budget, keeping the most promising and the order; returns how many fell
+/// away. Equal promise is broken by a fixed scatter, so that no tool is favoured for its place
+/// in the list.
+fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize {
+    if list.len() <= budget {
+        return 0;
+    }
+    /// The golden section: its multiples scatter evenly over [0, 1).
+    const SCATTER: f64 = 0.618_033_988_749_894_9;
+    let mut order: Vec<usize> = (0..list.len()).collect();
+    let scatter = |k: usize| (k as f64 * SCATTER).fract();
+    order.sort_by(|&a, &b| {
+        let promise = list[a].promise.total_cmp(&list[b].promise);
+        promise.then(scatter(a).total_cmp(&scatter(b))).then(a.cmp(&b))
+    });
+    order.truncate(budget);
+    order.sort_unstable();
+    let dropped = list.len() - budget;
+    *list = order.into_iter().map(|k| list[k].clone()).collect();
+    dropped
+}

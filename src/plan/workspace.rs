@@ -1,0 +1,325 @@
+//! What a task allows the tool to do: where it can be set down, how far it can go, and by how
+//! much it keeps its distances.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::geometry::{
+    Footprint, Pose, Vector, clearance, perpendicular, swept_clearance, travel_to_contact,
+};
+use crate::scene::{Push, PushForm, State, Task, Tool};
+
+use super::{CandidatePush, Start};
+
+/// Travel of the contacting face before it meets the object, metres (the house's definition of
+/// a placed push).
+pub const STAND_OFF: f64 = 0.005;
+
+/// A tool that comes down keeps at least this distance from every object, metres. Small against
+/// the stand-off, because a glancing face stands closer to a round object than it travels.
+pub const SET_DOWN_CLEARANCE: f64 = 0.001;
+
+/// A tool keeps at least this distance from obstacles, also while pushing, metres: what a robot
+/// arm and its calibration miss by.
+pub const OBSTACLE_CLEARANCE: f64 = 0.005;
+
+/// Shortest push worth making, metres: the stand-off and then as much again to be felt.
+pub const MIN_LENGTH: f64 = 0.01;
+
+/// Offsets are tried up to the face's half width plus this share of the object's half width.
+/// Farther out the face only grazes the object.
+const OVERHANG: f64 = 0.6;
+
+/// Refinement may shift the offset up to this share of the object's half width past the face.
+const LARGEST_OVERHANG: f64 = 0.9;
+
+/// Distances larger than this are all alike to the margins, metres.
+const FAR: f64 = 0.05;
+
+/// Slack for rounding in comparisons of closed forms, metres.
+const ROUNDING: f64 = 1e-9;
+
+/// Slack in the rules, metres: iterative closest points are not exact to the last digit.
+const SLACK: f64 = 1e-6;
+
+/// Why a push cannot be made.
+#[derive(
+    Clone, Copy, Debug, Error, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Infeasible {
+    /// The face passes beside or above the object.
+    #[error("the face does not meet the object")]
+    NoContact,
+    /// Another part of the tool meets the object before the face does, or overlaps it.
+    #[error("another part of the tool meets the object first")]
+    OtherPartFirst,
+    /// The tool would come down on an object.
+    #[error("the tool would come down on an object")]
+    OnObject,
+    /// The tool would come down on an obstacle or pass through one.
+    #[error("an obstacle is in the tool's way")]
+    Obstacle,
+    /// The end effector would leave the robot's reach.
+    #[error("the end effector would leave the robot's reach")]
+    Reach,
+    /// Hardly any travel is left before the reach ends or an obstacle comes.
+    #[error("there is no room to push")]
+    NoRoom,
+}
+
+/// How far a push is from breaking each rule, metres; negative where it breaks one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margins {
+    /// Of the end effector at the start to the outer reach.
+    pub start: f64,
+    /// Of the end effector at the end to the outer reach.
+    pub end: f64,
+    /// Of the end effector's path to the inner reach.
+    pub base: f64,
+    /// Of the moving tool to the obstacles, beyond [`OBSTACLE_CLEARANCE`].
+    pub obstacle: f64,
+    /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`].
+    pub object: f64,
+}
+
+impl Margins {
+    /// How many rules there are.
+    pub const COUNT: usize = 5;
+
+    /// All of them, in a fixed order.
+    pub fn list(&self) -> [f64; Self::COUNT] {
+        [self.start, self.end, self.base, self.obstacle, self.object]
+    }
+
+    /// The first rule that is broken.
+    pub fn broken(&self) -> Option<Infeasible> {
+        let reasons = [
+            Infeasible::Reach,
+            Infeasible::Reach,
+            Infeasible::Reach,
+            Infeasible::Obstacle,
+            Infeasible::OnObject,
+        ];
+        let mut pairs = self.list().into_iter().zip(reasons);
+        pairs.find(|(margin, _)| margin.is_nan() || *margin < -SLACK).map(|(_, reason)| reason)
+    }
+}
+
+/// A task together with the tools that may be used on it.
+#[derive(Clone, Copy)]
+pub struct Workspace<'a> {
+    /// The task.
+    pub task: &'a Task,
+    /// The tools that candidates name by index.
+    pub tools: &'a [Arc<Tool>],
+    /// Added to the stand-off of every placed push after the first, metres: where the object
+    /// then stands is itself a prediction, and the tool must not come down on it.
+    pub later_stand_off: f64,
+}
+
+impl Workspace<'_> {
+    /// End-effector position at which the push of a candidate starts: for a placed push so that
+    /// the part's leading face meets the goal object after exactly the stand-off, with the
+    /// wanted offset; for a chained one `previous`, or home. `index` counts the pushes before.
+    ///
+    /// # Errors
+    /// [`Infeasible::NoContact`] and [`Infeasible::OtherPartFirst`]. Reach and collisions are
+    /// not checked here, see [`Workspace::margins`].
+    pub fn place(
+        &self,
+        (tool, grip_yaw): (usize, f64),
+        state: &State,
+        push: &CandidatePush,
+        index: usize,
+        previous: Option<Vector>,
+    ) -> Result<Vector, Infeasible> {
+        let Start::Placed { part, offset } = push.start else {
+            return Ok(previous.unwrap_or(self.task.robot.home));
+        };
+        let tool = &*self.tools[tool];
+        let (footprint, height, at) = self.goal_object(state);
+        let (ahead, left) = axes(push.direction);
+        if !self.meets(height) {
+            return Err(Infeasible::NoContact);
+        }
+        // The end effector at the world's origin; everything below is shifted from there.
+        let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
+        let parts: Vec<(Footprint, Pose)> = (0..tool.parts.len())
+            .map(|k| (tool.parts[k].footprint(), tool.part_pose(k, &frame)))
+            .collect();
+        let (face, pose) = parts[part];
+        let behind = face.bounding_radius() + footprint.bounding_radius() + 2.0 * STAND_OFF;
+        let lateral = at.position.dot(&left) - offset;
+        let far = left * lateral + ahead * (at.position.dot(&ahead) - behind);
+        let from = Pose { position: far, heading: pose.heading };
+        let travel = travel_to_contact((&face, &from), ahead, (&footprint, &at))
+            .ok_or(Infeasible::NoContact)?;
+        let stand_off = self.stand_off(index);
+        let start = far + ahead * (travel - stand_off) - pose.position;
+        for (other, (face, pose)) in parts.iter().enumerate() {
+            let there = Pose { position: pose.position + start, ..*pose };
+            let first = travel_to_contact((face, &there), ahead, (&footprint, &at));
+            if other != part && first.is_some_and(|t| t < stand_off - ROUNDING) {
+                return Err(Infeasible::OtherPartFirst);
+            }
+        }
+        Ok(start)
+    }
+
+    /// Stand-off of the placed push number `index` (from 0), metres.
+    pub fn stand_off(&self, index: usize) -> f64 {
+        if index == 0 { STAND_OFF } else { STAND_OFF + self.later_stand_off }
+    }
+
+    /// Longest travel, at most `length` metres, that keeps reach and obstacle clearance.
+    ///
+    /// # Errors
+    /// Why there is none of at least [`MIN_LENGTH`].
+    pub fn free_travel(
+        &self,
+        (tool, grip_yaw): (usize, f64),
+        start: Vector,
+        direction: f64,
+        length: f64,
+    ) -> Result<f64, Infeasible> {
+        let robot = &self.task.robot;
+        if !robot.reaches(start) {
+            return Err(Infeasible::Reach);
+        }
+        let (ahead, _) = axes(direction);
+        let along = start.dot(&ahead);
+        let square = along * along - start.norm_squared();
+        let mut free = length.min(-along + (square + robot.reach_max.powi(2)).max(0.0).sqrt());
+        let base = Footprint::Disc { radius: robot.reach_min };
+        let hand = (&Footprint::Disc { radius: 0.0 }, &Pose { position: start, heading: 0.0 });
+        if robot.reach_min > 0.0
+            && let Some(t) = travel_to_contact(hand, ahead, (&base, &Pose::default()))
+        {
+            free = free.min(t);
+        }
+        if free < MIN_LENGTH {
+            return Err(Infeasible::Reach);
+        }
+        let tool = &*self.tools[tool];
+        let frame = tool.pose(Pose { position: start, heading: grip_yaw });
+        for (k, part) in tool.parts.iter().enumerate() {
+            let from = tool.part_pose(k, &frame);
+            for obstacle in self.task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
+                let grown = obstacle.shape().footprint().grown(OBSTACLE_CLEARANCE);
+                let moving = (&part.footprint(), &from);
+                match travel_to_contact(moving, ahead, (&grown, &obstacle.pose)) {
+                    Some(t) if t <= 0.0 => return Err(Infeasible::Obstacle),
+                    Some(t) => free = free.min(t),
+                    None => {}
+                }
+            }
+        }
+        if free < MIN_LENGTH { Err(Infeasible::NoRoom) } else { Ok(free) }
+    }
+
+    /// By how much a push keeps every rule, when it starts from `state`. A chained push after
+    /// the first (`set_down` false) begins in contact, so it has no objects to keep clear of.
+    pub fn margins(
+        &self,
+        (tool, grip_yaw): (usize, f64),
+        state: &State,
+        push: &Push,
+        set_down: bool,
+    ) -> Margins {
+        let (task, tool) = (self.task, &*self.tools[tool]);
+        let frame = |position| tool.pose(Pose { position, heading: grip_yaw });
+        let (from, to) = (frame(push.start), frame(push.end()));
+        let (mut obstacle, mut object) = (FAR, FAR);
+        for (k, part) in tool.parts.iter().enumerate() {
+            let (shape, from, to) =
+                (part.footprint(), tool.part_pose(k, &from), tool.part_pose(k, &to));
+            for other in task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
+                let still = (&other.shape().footprint(), &other.pose);
+                let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
+                obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
+            }
+            if set_down {
+                for (other, pose) in task.scene.objects.iter().zip(&state.poses) {
+                    if self.meets(other.shape.height()) {
+                        let still = (&other.shape.footprint(), pose);
+                        let gap = clearance((&shape, &from), still, FAR + SET_DOWN_CLEARANCE);
+                        object = object.min(gap - SET_DOWN_CLEARANCE);
+                    }
+                }
+            }
+        }
+        Margins {
+            start: task.robot.reach_max - push.start.norm(),
+            end: task.robot.reach_max - push.end().norm(),
+            base: distance_to_origin(push.start, push.end()) - task.robot.reach_min,
+            obstacle,
+            object,
+        }
+    }
+
+    /// Offsets are tried within plus and minus this, metres.
+    pub fn offset_span(&self, pair: (usize, f64), state: &State, part: usize, along: f64) -> f64 {
+        self.span(pair, state, part, along, OVERHANG)
+    }
+
+    /// Offsets may be refined within plus and minus this, metres.
+    pub fn largest_offset(
+        &self,
+        pair: (usize, f64),
+        state: &State,
+        part: usize,
+        along: f64,
+    ) -> f64 {
+        self.span(pair, state, part, along, LARGEST_OVERHANG)
+    }
+
+    /// Whether pushes are placed rather than chained.
+    pub fn is_placed(&self) -> bool {
+        self.task.pushes.form == PushForm::Placed
+    }
+
+    fn span(
+        &self,
+        (tool, grip_yaw): (usize, f64),
+        state: &State,
+        part: usize,
+        direction: f64,
+        overhang: f64,
+    ) -> f64 {
+        let tool = &*self.tools[tool];
+        let (footprint, _, at) = self.goal_object(state);
+        let (_, left) = axes(direction);
+        let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
+        let face = tool.part_pose(part, &frame).local_vector(left);
+        tool.parts[part].footprint().extent(face)
+            + overhang * footprint.extent(at.local_vector(left))
+    }
+
+    fn goal_object(&self, state: &State) -> (Footprint, f64, Pose) {
+        let index = self.task.goal.object;
+        let shape = self.task.scene.objects[index].shape;
+        (shape.footprint(), shape.height(), state.poses[index])
+    }
+
+    /// Whether the tool's parts and a body of this height standing on the table can touch.
+    fn meets(&self, height: f64) -> bool {
+        self.task.pushes.lift < height
+    }
+}
+
+/// Unit vectors ahead and to the left.
+fn axes(direction: f64) -> (Vector, Vector) {
+    let ahead = Vector::new(direction.cos(), direction.sin());
+    (ahead, perpendicular(ahead))
+}
+
+/// Distance of the straight way between two points from the origin, metres.
+fn distance_to_origin(from: Vector, to: Vector) -> f64 {
+    let way = to - from;
+    let square = way.norm_squared();
+    let t = if square > 0.0 { (-from.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (from + way * t).norm()
+}

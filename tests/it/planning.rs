@@ -1,0 +1,241 @@
+//! Planning: where pushes are placed, what the search finds, what refinement may not do, and
+//! when a plan counts as verified.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use pushplan::effect::Simulated;
+use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
+use pushplan::plan::{
+    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
+    Search, SearchSettings, Start, Workspace, refine,
+};
+use pushplan::scene::{
+    Directions, Goal, Object, Obstacle, Offsets, Part, PushForm, PushRules, Robot, Scene, Task,
+    Tool, ToolChoice,
+};
+use pushplan::sim::Simulator;
+
+const SETTINGS: SearchSettings = SearchSettings { offsets: 5, beam: 16, rollouts: 600, kept: 32 };
+
+fn part(name: &str, size: [f64; 3], x: f64, y: f64, heading: f64) -> Part {
+    Part { name: name.into(), size, pose: Pose::new(x, y, heading) }
+}
+
+fn tool(name: &str, parts: Vec<Part>) -> Arc<Tool> {
+    let grip = Pose::default();
+    Arc::new(Tool::assemble(name.into(), String::new(), grip, 0.4, parts, &[]).unwrap())
+}
+
+fn stick() -> Arc<Tool> {
+    tool("stick", vec![part("rod", [0.4, 0.04, 0.05], 0.25, 0.0, 0.0)])
+}
+
+/// A handle along +x with a bar to the left at its end: index 0 and 1.
+fn hook() -> Arc<Tool> {
+    tool(
+        "hook",
+        vec![
+            part("handle", [0.44, 0.04, 0.05], 0.22, 0.0, 0.0),
+            part("bar", [0.16, 0.04, 0.05], 0.42, 0.10, FRAC_PI_2),
+        ],
+    )
+}
+
+fn can(x: f64, y: f64) -> Object {
+    Object {
+        name: "can".into(),
+        shape: Shape::Cylinder { radius: 0.04, height: 0.10 },
+        mass: 0.4,
+        friction: 0.4,
+        pose: Pose::new(x, y, 0.0),
+    }
+}
+
+fn wall(x: f64, y: f64, size: [f64; 3]) -> Obstacle {
+    Obstacle { name: "wall".into(), size, pose: Pose::new(x, y, 0.0), friction: 0.4 }
+}
+
+fn task(object: Object, goal: [f64; 2]) -> Task {
+    Task {
+        name: "test".into(),
+        description: String::new(),
+        scene: Scene { table_friction: 0.5, objects: vec![object], ..Scene::default() },
+        robot: Robot { home: Vector::zeros(), reach_min: 0.05, reach_max: 0.9 },
+        tools: ToolChoice::All,
+        pushes: PushRules {
+            form: PushForm::Placed,
+            directions: Directions::Principal,
+            offsets: Offsets::Effort,
+            grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
+            length: 0.2,
+            speed: 0.1,
+            max_count: 1,
+            lift: 0.002,
+        },
+        goal: Goal {
+            object: 0,
+            position: Vector::new(goal[0], goal[1]),
+            tolerance: 0.03,
+            heading: None,
+        },
+    }
+}
+
+fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
+    Workspace { task, tools, later_stand_off: 0.0 }
+}
+
+fn placed(part: usize, offset: f64, direction: f64) -> CandidatePush {
+    CandidatePush { start: Start::Placed { part, offset }, direction, length: 0.15 }
+}
+
+fn planar() -> Simulated {
+    Simulated::new(Simulator::planar())
+}
+
+#[test]
+fn a_placed_face_stands_five_millimetres_before_the_object() {
+    let tools = [stick(), hook()];
+    let mut box_ = can(0.5, 0.12);
+    box_.shape = Shape::Cuboid { size: [0.06, 0.09, 0.1] };
+    box_.pose.heading = 0.4;
+    for object in [can(0.5, 0.12), box_] {
+        let task = task(object.clone(), [0.3, 0.1]);
+        let space = workspace(&task, &tools);
+        let state = task.scene.start();
+        let (mut met, mut refused) = (0, 0);
+        for (index, tool) in tools.iter().enumerate() {
+            for yaw in [0.0, FRAC_PI_2, -FRAC_PI_2, 0.3] {
+                for direction in [0.0, PI, FRAC_PI_2, -FRAC_PI_2, 0.7] {
+                    for part in 0..tool.parts.len() {
+                        for offset in [-0.03, 0.0, 0.02] {
+                            let push = placed(part, offset, direction);
+                            let place = space.place((index, yaw), &state, &push, 0, None);
+                            let Ok(start) = place else {
+                                refused += 1;
+                                continue;
+                            };
+                            met += 1;
+                            let frame = tool.pose(Pose { position: start, heading: yaw });
+                            let ahead = Vector::new(direction.cos(), direction.sin());
+                            let left = Vector::new(-ahead.y, ahead.x);
+                            let travel = |part: usize| {
+                                travel_to_contact(
+                                    (&tool.parts[part].footprint(), &tool.part_pose(part, &frame)),
+                                    ahead,
+                                    (&object.shape.footprint(), &object.pose),
+                                )
+                            };
+                            // The named face is first, after exactly the stand-off.
+                            assert!((travel(part).unwrap() - STAND_OFF).abs() < 1e-9);
+                            for other in 0..tool.parts.len() {
+                                assert!(travel(other).is_none_or(|t| t > STAND_OFF - 1e-8));
+                            }
+                            // The object's centre lies `offset` to the left of the face's centre.
+                            let face = tool.part_pose(part, &frame).position;
+                            let aside = (object.pose.position - face).dot(&left);
+                            assert!((aside - offset).abs() < 1e-12);
+                        }
+                    }
+                }
+            }
+        }
+        assert!(met > 60 && refused > 5, "{met} {refused}");
+    }
+}
+
+#[test]
+fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
+    let tools = [hook()];
+    let task = task(can(0.60, 0.12), [0.45, 0.12]);
+    let space = workspace(&task, &tools);
+    let state = task.scene.start();
+    // The bar (part 1), pulled towards the robot, stands behind the can.
+    let start = space.place((0, 0.0), &state, &placed(1, 0.0, PI), 0, None).unwrap();
+    let frame = tools[0].pose(Pose { position: start, heading: 0.0 });
+    let bar = tools[0].part_pose(1, &frame);
+    assert!((bar.position.x - (0.60 + 0.04 + STAND_OFF + 0.02)).abs() < 1e-9);
+    for (k, part) in tools[0].parts.iter().enumerate() {
+        let object = (&task.scene.objects[0].shape.footprint(), &state.poses[0]);
+        assert!(
+            clearance((&part.footprint(), &tools[0].part_pose(k, &frame)), object, 1.0) > 0.001
+        );
+    }
+    // The handle lies beside the can: its own leading end cannot meet it while pulling.
+    let beside = space.place((0, 0.0), &state, &placed(0, 0.12, PI), 0, None);
+    assert_eq!(beside.unwrap_err(), Infeasible::NoContact);
+
+    let model = planar();
+    let mut rollouts = Rollouts::new(&model, &task.scene);
+    let mut search = Search::new(space, SETTINGS);
+    let found = search.deepen(&mut rollouts, &mut |_, _| {});
+    let best = &found[0];
+    assert!(best.score < 0.3, "{best:?}");
+    assert_eq!(best.candidate.pushes[0].direction, PI);
+}
+
+#[test]
+fn reach_obstacles_and_height_limit_a_push() {
+    let tools = [stick()];
+    let mut task = task(can(0.6, 0.0), [0.8, 0.0]);
+    let pair = (0, 0.0);
+    let place = |task: &Task| {
+        let space = workspace(task, &tools);
+        let push = placed(0, 0.0, 0.0);
+        let start = space.place(pair, &task.scene.start(), &push, 0, None)?;
+        space.free_travel(pair, start, 0.0, 0.3)
+    };
+    // The rod's tip is 0.45 from the grip, so the grip starts at 0.105.
+    assert!((place(&task).unwrap() - 0.3).abs() < 1e-12);
+    task.robot.reach_max = 0.305;
+    assert!((place(&task).unwrap() - 0.2).abs() < 1e-9);
+    task.robot.reach_max = 0.1;
+    assert_eq!(place(&task).unwrap_err(), Infeasible::Reach);
+    task.robot.reach_max = 0.9;
+    // The rod stops 5 mm before a wall.
+    task.scene.obstacles = vec![wall(0.75, 0.0, [0.02, 0.4, 0.1])];
+    let start_tip = 0.6 - 0.04 - STAND_OFF;
+    assert!((place(&task).unwrap() - (0.74 - 0.005 - start_tip)).abs() < 1e-9);
+    // A wall lower than the tool's underside is no wall.
+    task.scene.obstacles[0].size[2] = 0.001;
+    assert!((place(&task).unwrap() - 0.3).abs() < 1e-12);
+    task.scene.obstacles = vec![wall(0.3, 0.0, [0.02, 0.02, 0.1])];
+    assert_eq!(place(&task).unwrap_err(), Infeasible::Obstacle);
+    task.pushes.lift = 0.2;
+    assert_eq!(place(&task).unwrap_err(), Infeasible::NoContact);
+}
+
+#[test]
+fn refinement_never_makes_a_candidate_worse() {
+    let tools = [stick(), hook()];
+    let model = planar();
+    for (k, goal) in [[0.62, 0.16], [0.45, -0.1], [0.42, 0.1], [0.3, 0.3]].into_iter().enumerate() {
+        let mut task = task(can(0.5, 0.05), goal);
+        task.goal.tolerance = 0.01;
+        if k == 3 {
+            task.pushes.form = PushForm::Chained;
+            task.pushes.max_count = 2;
+            task.robot.reach_min = 0.0;
+        }
+        let space = workspace(&task, &tools);
+        let mut rollouts = Rollouts::new(&model, &task.scene);
+        let mut search = Search::new(space, SETTINGS);
+        let mut found = Vec::new();
+        while search.can_deepen() {
+            found = search.deepen(&mut rollouts, &mut |_, _| {});
+        }
+        let candidates: Vec<Candidate> =
+            found.iter().take(6).map(|f| f.candidate.clone()).collect();
+        let settings = RefineSettings { rounds: 3, extra: 2, seed: 1 };
+        let mut statistics = RefineStatistics::default();
+        let refined =
+            refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &mut |_, _| {});
+        assert!(!refined.is_empty(), "{goal:?}");
+        for one in &refined {
+            assert!(one.best.score <= one.before);
+            assert!(one.rounds.windows(2).all(|pair| pair[1] <= pair[0]));
+            assert!(one.best.is_feasible());
+        }
+    }
+}
