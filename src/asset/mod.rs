@@ -1,1 +1,27 @@
-//! Reading and writing user files: tools, tasks, plans, trajectories. Strict, with source positions; simulates nothing.
+//! Reading and writing user files: tools, tasks, plans, trajectories.
+//!
+//! Strict, with source positions and all faults of a file at once; the only room that names
+//! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
+//! their place (`node`), the tree is checked against what such a file may hold (`spec`,
+//! `strict`), and the rules that span several keys are applied while the domain's type is
+//! built (`tool`, `task`). Nothing is simulated here and nothing is drawn.
+
+mod fault;
+mod library;
+mod node;
+mod schema;
+mod spec;
+mod strict;
+mod take;
+mod task;
+mod text;
+mod tool;
+mod write;
+
+pub use fault::{Fault, Faults, Place};
+pub use library::ToolLibrary;
+pub use schema::{task_schema, tool_schema};
+pub use task::load_task;
+pub use write::write_atomic;
+
+use text::read_text;

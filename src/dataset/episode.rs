@@ -10,7 +10,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Pose, Vector},
-    scene::{Frame, Object, Ranges, Record, Scene, State, Stroke, ToolMotion, Trajectory},
+    scene::{Frame, Object, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
     sim::Simulator,
 };
 
@@ -20,6 +20,7 @@ use super::{
     chance::{generator, heading, log_uniform, uniform, weighted},
     config::DatasetConfig,
     jam::{crosses_obstacle, shortened_before_jam},
+    novelty::is_shipped,
     obstacle::place_obstacle,
     tabletop::{Crowd, Solids, random_scene},
 };
@@ -82,7 +83,7 @@ fn attempt(rng: &mut Pcg64, ranges: &Ranges) -> Option<(Scene, ToolMotion, Traje
         Crowd { count: 1 + weighted(rng, &OBJECT_COUNTS), solids: Solids::Any, touching: 0.45 };
     let scene = random_scene(rng, ranges, crowd);
     let mut scene = moved_anywhere(rng, scene);
-    let tool = Arc::new(random_tool(rng, ranges));
+    let tool = Arc::new(new_tool(rng, ranges));
     let count = 1 + weighted(rng, &PUSH_COUNTS);
     let placed = rng.random::<bool>();
 
@@ -136,6 +137,16 @@ fn cut_short(scene: &Scene, motion: &mut ToolMotion) -> Option<Trajectory> {
     }
     *motion.strokes.last_mut()? = shorter;
     Some(simulate(scene, motion))
+}
+
+/// A random tool that is none of the shipped ones.
+fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
+    loop {
+        let tool = random_tool(rng, ranges);
+        if !is_shipped(&tool) {
+            return tool;
+        }
+    }
 }
 
 /// The scene turned by any angle and put anywhere on the table.

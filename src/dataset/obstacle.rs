@@ -66,7 +66,7 @@ pub(super) fn place_obstacle(
             name: format!("obstacle-{}", scene.obstacles.len() + 1),
             size,
             pose,
-            friction: uniform(rng, 0.15, 1.0),
+            friction: uniform(rng, 0.1, 1.0),
         })
     })
 }

@@ -26,6 +26,10 @@ impl Dataset {
         Ok(Self { config: config.clone(), episodes })
     }
 
+    pub(super) fn from_parts(config: DatasetConfig, episodes: Vec<Episode>) -> Self {
+        Self { config, episodes }
+    }
+
     /// What the data set is made of.
     pub fn config(&self) -> &DatasetConfig {
         &self.config

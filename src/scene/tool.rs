@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::geometry::{Footprint, Pose, Shape, contact_points};
+use crate::geometry::{Footprint, Pose, Shape, clearance};
 
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
@@ -89,12 +89,13 @@ impl Tool {
         for a in 0..parts.len() {
             for b in a + 1..parts.len() {
                 let said = by_hand.iter().any(|pair| *pair == [a, b] || *pair == [b, a]);
-                let (points, _) = contact_points(
+                // Not by contact points: two bars that cross have no corner in each other.
+                let gap = clearance(
                     (&parts[a].footprint(), &parts[a].pose),
                     (&parts[b].footprint(), &parts[b].pose),
-                    JOIN_GAP,
+                    2.0 * JOIN_GAP,
                 );
-                if said || points[0].is_some() {
+                if said || gap <= JOIN_GAP {
                     joints.push([a, b]);
                 }
             }

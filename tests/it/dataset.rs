@@ -1,14 +1,27 @@
 //! Sampled data: what it covers, that every draw is sound, and that its bits depend on the
 //! seed alone.
 
+use std::{
+    fs,
+    path::Path,
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, Episode, Unwatched},
+    asset::ToolLibrary,
+    dataset::{
+        Dataset, DatasetConfig, DatasetError, Episode, Unwatched, Watch, generate, is_shipped,
+    },
     geometry::{Footprint, Pose, clearance},
+    scene::ToolMotion,
 };
 
 fn drawn(episodes: u64) -> Dataset {
     let config = DatasetConfig { seed: 11, episodes, ..DatasetConfig::default() };
-    Dataset::in_memory(&config, &Unwatched).expect("nothing stops it")
+    Dataset::in_memory(&config, &Unwatched).unwrap()
 }
 
 /// Indices of the frames at which the tool is set down: the start, and the first frame after
@@ -18,7 +31,7 @@ fn set_downs(episode: &Episode) -> Vec<(usize, Pose)> {
     let mut found = vec![(0, strokes[0].from)];
     for k in 1..strokes.len() {
         if strokes[k - 1].settle {
-            let rest = episode.frames.iter().rposition(|f| f.stroke == k - 1).expect("recorded");
+            let rest = episode.frames.iter().rposition(|f| f.stroke == k - 1).unwrap();
             found.push((rest, strokes[k].from));
         }
     }
@@ -64,10 +77,10 @@ fn most_strokes_move_something() {
     let (mut strokes, mut moving) = (0, 0);
     for episode in data.episodes() {
         for k in 0..episode.motion.strokes.len() {
-            let last = episode.frames.iter().rposition(|f| f.stroke == k).expect("recorded");
+            let last = episode.frames.iter().rposition(|f| f.stroke == k).unwrap();
             let before = match k {
                 0 => 0,
-                _ => episode.frames.iter().rposition(|f| f.stroke == k - 1).expect("recorded"),
+                _ => episode.frames.iter().rposition(|f| f.stroke == k - 1).unwrap(),
             };
             let (a, b) = (&episode.frames[before].state, &episode.frames[last].state);
             strokes += 1;
@@ -83,11 +96,12 @@ fn most_strokes_move_something() {
 fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
     let config = DatasetConfig { seed: 12, episodes: 2000, ..DatasetConfig::default() };
     let ranges = config.ranges();
-    let data = Dataset::in_memory(&config, &Unwatched).expect("nothing stops it");
+    let data = Dataset::in_memory(&config, &Unwatched).unwrap();
     for episode in data.episodes() {
         let Episode { scene, motion, frames, .. } = episode;
         let outside = ranges.warnings(scene, motion);
         assert!(outside.is_empty(), "episode {}: {outside:?}", episode.index);
+        assert!(!is_shipped(&motion.tool), "episode {}", episode.index);
         assert!(ranges.pushes.contains(motion.strokes.len() as f64));
         for stroke in &motion.strokes {
             // Strokes cut short before an obstacle may be shorter than the range.
@@ -101,7 +115,7 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
 #[test]
 fn one_and_two_threads_draw_the_same_bits() {
     let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| drawn(60))
     };
     let (one, two) = (with(1), with(2));
@@ -109,4 +123,120 @@ fn one_and_two_threads_draw_the_same_bits() {
         assert_eq!(a, b, "episode {}", a.index);
     }
     assert_eq!(one, two);
+}
+
+/// Stops after some episodes; keeps the notes.
+#[derive(Default)]
+struct Script {
+    stop_after: Option<u64>,
+    seen: AtomicU64,
+    notes: Mutex<Vec<String>>,
+}
+
+impl Watch for Script {
+    fn progress(&self, _: u64, _: u64) {
+        self.seen.fetch_add(1, Ordering::SeqCst);
+    }
+
+    fn note(&self, message: &str) {
+        self.notes.lock().unwrap().push(message.to_owned());
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop_after.is_some_and(|limit| self.seen.load(Ordering::SeqCst) >= limit)
+    }
+}
+
+fn small() -> DatasetConfig {
+    DatasetConfig { seed: 3, episodes: 44, episodes_per_shard: 10, ..DatasetConfig::default() }
+}
+
+/// Every file of a folder by name, with its bytes.
+fn files(dir: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found: Vec<_> = fs::read_dir(dir)
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .map(|e| (e.file_name().to_string_lossy().into_owned(), fs::read(e.path()).unwrap()))
+        .collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memory_holds() {
+    let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    generate(&small(), whole.path(), &Unwatched).unwrap();
+    let names: Vec<String> = files(whole.path()).into_iter().map(|f| f.0).collect();
+    assert_eq!(names.len(), 6, "{names:?}");
+
+    let script = Script { stop_after: Some(23), ..Script::default() };
+    let stopped = generate(&small(), broken.path(), &script);
+    assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
+    let left = files(broken.path());
+    assert_eq!(left.len(), 3, "two shards and the manifest");
+    assert!(left.iter().all(|(name, _)| !name.contains("partial")));
+    assert!(matches!(Dataset::open(broken.path()), Err(DatasetError::Unfinished { .. })));
+
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    pool.install(|| generate(&small(), broken.path(), &Unwatched)).unwrap();
+    assert!(files(whole.path()) == files(broken.path()), "the files differ");
+    let (read, made) =
+        (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&small(), &Unwatched).unwrap());
+    assert_eq!(read, made);
+}
+
+#[test]
+fn a_damaged_or_cut_shard_is_found_named_and_made_again() {
+    let dir = tempfile::tempdir().unwrap();
+    generate(&small(), dir.path(), &Unwatched).unwrap();
+    let before = files(dir.path());
+    let (flipped, cut) = (dir.path().join("shard-00001.bin"), dir.path().join("shard-00003.bin"));
+    let mut bytes = fs::read(&flipped).unwrap();
+    bytes[5000] ^= 4;
+    fs::write(&flipped, &bytes).unwrap();
+    fs::write(&cut, &fs::read(&cut).unwrap()[..777]).unwrap();
+    let opened = Dataset::open(dir.path());
+    assert!(matches!(opened, Err(DatasetError::Damaged { .. })), "{opened:?}");
+
+    let script = Script::default();
+    generate(&small(), dir.path(), &script).unwrap();
+    let notes = script.notes.into_inner().unwrap();
+    assert_eq!(notes.len(), 2, "{notes:?}");
+    assert!(notes[0].contains("shard-00001.bin") && notes[1].contains("shard-00003.bin"));
+    assert!(files(dir.path()) == before, "the files differ");
+}
+
+#[test]
+fn a_folder_of_other_settings_an_empty_order_and_a_blocked_path_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let one = DatasetConfig { episodes: 2, ..small() };
+    generate(&one, dir.path(), &Unwatched).unwrap();
+    let other = generate(&small(), dir.path(), &Unwatched);
+    assert!(matches!(other, Err(DatasetError::OtherSettings { .. })), "{other:?}");
+    let nothing = generate(&DatasetConfig { episodes: 0, ..small() }, dir.path(), &Unwatched);
+    assert!(matches!(nothing, Err(DatasetError::Empty("episodes"))), "{nothing:?}");
+    let blocked = generate(&one, &dir.path().join("manifest.json"), &Unwatched);
+    assert!(matches!(blocked, Err(DatasetError::Io { .. })), "{blocked:?}");
+    let nowhere = Dataset::open(&dir.path().join("nowhere"));
+    assert!(matches!(nowhere, Err(DatasetError::Missing { .. })), "{nowhere:?}");
+}
+
+#[test]
+fn the_shipped_tools_are_recognised_and_within_the_trained_ranges() {
+    let config = DatasetConfig::default();
+    let scene = pushplan::scene::Scene { table_friction: 0.5, ..Default::default() };
+    let library = ToolLibrary::embedded().unwrap();
+    assert!(library.len() >= 10);
+    for tool in &library {
+        assert!(is_shipped(tool), "{}", tool.name);
+        let motion = ToolMotion { tool: Arc::clone(tool), lift: 0.002, strokes: Vec::new() };
+        let outside: Vec<String> = config
+            .ranges()
+            .warnings(&scene, &motion)
+            .iter()
+            .map(ToString::to_string)
+            .filter(|warning| !warning.starts_with("scene"))
+            .collect();
+        assert!(outside.is_empty(), "{outside:?}");
+    }
 }

@@ -1,0 +1,168 @@
+//! Faults of user files: where, what was expected and found, and what to try.
+
+use std::fmt;
+use std::path::Path;
+
+/// A line and a column, both counted from one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+}
+
+/// One thing that is wrong with a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The file as the user named it.
+    pub file: String,
+    /// Where in the file; `None` if the fault is of the file as a whole.
+    pub place: Option<Place>,
+    /// What was expected and what was found.
+    pub message: String,
+    /// What to try; may be empty.
+    pub advice: String,
+}
+
+impl Fault {
+    /// A fault of the whole of `file`.
+    pub fn of_file(file: &str, message: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self { file: file.into(), place: None, message: message.into(), advice: advice.into() }
+    }
+
+    /// A file that cannot be read or written.
+    pub fn io(path: &Path, doing: &str, error: &std::io::Error) -> Self {
+        use std::io::ErrorKind;
+        let advice = match error.kind() {
+            ErrorKind::NotFound => "check the path; it is relative to the folder you are in",
+            ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+                "check the permissions, or name another folder"
+            }
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                "free some space, or name a folder on another disk"
+            }
+            ErrorKind::IsADirectory => "name a file, not a folder",
+            ErrorKind::InvalidData => "the file must be text in UTF-8",
+            _ => "",
+        };
+        Self::of_file(&path.display().to_string(), format!("cannot {doing}: {error}"), advice)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        if let Some(place) = self.place {
+            write!(f, ":{}:{}", place.line, place.column)?;
+        }
+        write!(f, ": error: {}", self.message)?;
+        if !self.advice.is_empty() {
+            write!(f, "\n  help: {}", self.advice)?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything that is wrong with one or more files; never empty when returned as an error.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Faults(pub Vec<Fault>);
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, fault) in self.0.iter().enumerate() {
+            if k > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{fault}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Faults {}
+
+impl From<Fault> for Faults {
+    fn from(fault: Fault) -> Self {
+        Faults(vec![fault])
+    }
+}
+
+/// Advice that names the known word nearest to `word`, or else all of them.
+pub(super) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    let known: Vec<&str> = known.into_iter().collect();
+    let nearest = known.iter().map(|k| (edit_distance(word, k), *k)).min();
+    match nearest {
+        // A third of the letters wrong still looks like a slip rather than another word.
+        Some((distance, name)) if distance <= 1 + name.chars().count() / 3 => {
+            format!("did you mean `{name}`?")
+        }
+        Some(_) => {
+            let names: Vec<String> = known.iter().map(|k| format!("`{k}`")).collect();
+            format!("use {}", one_of(&names))
+        }
+        None => String::new(),
+    }
+}
+
+/// `a`, `a or b`, `a, b or c`.
+pub(super) fn one_of(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} or {last}", first.join(", ")),
+    }
+}
+
+/// Number of single-letter insertions, deletions, replacements and swaps of neighbours that
+/// turn `a` into `b` (optimal string alignment), ignoring case.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.to_lowercase().chars().collect();
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
+    for (i, row) in rows.iter_mut().enumerate() {
+        row[0] = i;
+    }
+    for (j, cell) in rows[0].iter_mut().enumerate() {
+        *cell = j;
+    }
+    for i in 1..=a.len() {
+        for j in 1..=b.len() {
+            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut best = replaced.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                best = best.min(rows[i - 2][j - 2] + 1);
+            }
+            rows[i][j] = best;
+        }
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_are_recognised_and_other_words_are_not() {
+        let known = ["position", "yaw_deg", "friction"];
+        assert_eq!(did_you_mean("positon", known), "did you mean `position`?");
+        assert_eq!(did_you_mean("yaw", known), "use `position`, `yaw_deg` or `friction`");
+        assert_eq!(edit_distance("mass", "amss"), 1);
+        assert_eq!(did_you_mean("x", []), "");
+    }
+
+    #[test]
+    fn a_fault_reads_like_a_compiler_message() {
+        let fault = Fault {
+            file: "tasks/x.yaml".into(),
+            place: Some(Place { line: 12, column: 7 }),
+            message: "unknown key `masss`".into(),
+            advice: "did you mean `mass`?".into(),
+        };
+        assert_eq!(
+            fault.to_string(),
+            "tasks/x.yaml:12:7: error: unknown key `masss`\n  help: did you mean `mass`?"
+        );
+    }
+}

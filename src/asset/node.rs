@@ -1,0 +1,259 @@
+//! YAML text as a tree of numbered nodes that know their place.
+//!
+//! The YAML crate tells positions only in its errors. So nodes are numbered in the order in
+//! which they are read, and the place of one is found by reading the text again and failing on
+//! purpose at its number. That costs one more parse per fault and nothing for a good file, and
+//! the positions are the parser's own.
+
+use std::cell::Cell;
+use std::fmt;
+
+use serde::de::{self, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, Visitor};
+
+use super::fault::{Fault, Faults, Place};
+
+/// The largest file that is read, bytes: far above any task, and small enough that a wrong
+/// file is refused at once.
+const MAX_BYTES: usize = 1 << 18;
+
+/// The most values that a file may hold; anchors and aliases can write many with few letters.
+const MAX_NODES: usize = 100_000;
+
+/// A value and its number in reading order.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Node {
+    pub id: usize,
+    pub content: Content,
+}
+
+/// What a node holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Content {
+    Nothing,
+    Switch(bool),
+    Whole(i128),
+    Number(f64),
+    Text(String),
+    List(Vec<Node>),
+    Map(Vec<(Node, Node)>),
+}
+
+impl Node {
+    /// Reads `text`.
+    ///
+    /// # Errors
+    /// One fault if it is not YAML.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
+        if text.len() > MAX_BYTES {
+            let message =
+                format!("the file has {} bytes; at most {MAX_BYTES} are read", text.len());
+            return Err(Fault::of_file(file, message, "is this the right file?").into());
+        }
+        read(text, usize::MAX).map_err(|error| {
+            let place = error.location().map(|l| Place { line: l.line(), column: l.column() });
+            // The place is said once, in front.
+            let message = error.to_string();
+            let message = message.split(" at line ").next().unwrap_or(&message);
+            let advice = if message.contains("end of stream") || text.trim().is_empty() {
+                "the file is empty; `pushplan schema` shows what belongs into it"
+            } else if text.contains('\t') {
+                "YAML indents with spaces; tabs are not allowed"
+            } else {
+                "check indentation, brackets and quotes around this place"
+            };
+            Faults(vec![Fault {
+                file: file.into(),
+                place,
+                message: format!("not valid YAML: {message}"),
+                advice: advice.into(),
+            }])
+        })
+    }
+
+    /// The value under `key`, if this is a map that has it.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        self.pairs().iter().find(|(k, _)| k.text() == Some(key)).map(|(_, value)| value)
+    }
+
+    /// The pairs of a map; empty for anything else.
+    pub fn pairs(&self) -> &[(Node, Node)] {
+        match &self.content {
+            Content::Map(pairs) => pairs,
+            _ => &[],
+        }
+    }
+
+    /// The items of a list; empty for anything else.
+    pub fn items(&self) -> &[Node] {
+        match &self.content {
+            Content::List(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// The text, if it is one.
+    pub fn text(&self) -> Option<&str> {
+        match &self.content {
+            Content::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self.content {
+            Content::Whole(value) => Some(value as f64),
+            Content::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Content {
+    /// What a fault message says was found.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Content::Nothing => f.write_str("nothing"),
+            Content::Switch(value) => write!(f, "the truth value {value}"),
+            Content::Whole(value) => write!(f, "the number {value}"),
+            Content::Number(value) => write!(f, "the number {value}"),
+            Content::Text(text) if text.chars().count() > 40 => {
+                write!(f, "the text \"{}...\"", text.chars().take(40).collect::<String>())
+            }
+            Content::Text(text) => write!(f, "the text \"{text}\""),
+            Content::List(items) if items.len() == 1 => f.write_str("a list of 1 item"),
+            Content::List(items) => write!(f, "a list of {} items", items.len()),
+            Content::Map(_) => f.write_str("a map"),
+        }
+    }
+}
+
+/// Where node `id` of `text` begins.
+pub(super) fn locate(text: &str, id: usize) -> Option<Place> {
+    let error = read(text, id).err()?;
+    error.location().map(|l| Place { line: l.line(), column: l.column() })
+}
+
+/// Reads all nodes, failing on purpose at node `stop`.
+fn read(text: &str, stop: usize) -> Result<Node, serde_yaml::Error> {
+    let reader = Reader { next: &Cell::new(0), stop };
+    reader.deserialize(serde_yaml::Deserializer::from_str(text))
+}
+
+#[derive(Clone, Copy)]
+struct Reader<'a> {
+    next: &'a Cell<usize>,
+    stop: usize,
+}
+
+impl Reader<'_> {
+    fn number<E: de::Error>(self) -> Result<usize, E> {
+        let id = self.next.get();
+        self.next.set(id + 1);
+        if id == self.stop {
+            return Err(E::custom("located"));
+        }
+        if id == MAX_NODES {
+            return Err(E::custom(format_args!("more than {MAX_NODES} values")));
+        }
+        Ok(id)
+    }
+
+    fn leaf<E: de::Error>(self, content: Content) -> Result<Node, E> {
+        Ok(Node { id: self.number()?, content })
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Reader<'_> {
+    type Value = Node;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Reader<'_> {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_unit<E: de::Error>(self) -> Result<Node, E> {
+        self.leaf(Content::Nothing)
+    }
+
+    fn visit_none<E: de::Error>(self) -> Result<Node, E> {
+        self.leaf(Content::Nothing)
+    }
+
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Node, E> {
+        self.leaf(Content::Switch(value))
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Node, E> {
+        self.leaf(Content::Whole(value.into()))
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Node, E> {
+        self.leaf(Content::Whole(value.into()))
+    }
+
+    fn visit_i128<E: de::Error>(self, value: i128) -> Result<Node, E> {
+        self.leaf(Content::Whole(value))
+    }
+
+    fn visit_u128<E: de::Error>(self, value: u128) -> Result<Node, E> {
+        self.leaf(i128::try_from(value).map_or(Content::Number(value as f64), Content::Whole))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Node, E> {
+        self.leaf(Content::Number(value))
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
+        self.leaf(Content::Text(value.into()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Node, A::Error> {
+        let id = self.number()?;
+        let mut items = Vec::new();
+        while let Some(item) = access.next_element_seed(self)? {
+            items.push(item);
+        }
+        Ok(Node { id, content: Content::List(items) })
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Node, A::Error> {
+        let id = self.number()?;
+        let mut pairs = Vec::new();
+        while let Some(pair) = access.next_entry_seed(self, self)? {
+            pairs.push(pair);
+        }
+        Ok(Node { id, content: Content::Map(pairs) })
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, _: A) -> Result<Node, A::Error> {
+        Err(de::Error::custom("tags such as `!name` have no meaning here"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_node_is_found_again() {
+        let text = "a: {b: 1, c: [x, .nan]}\nä: [\n  2.5,\n  ]\n";
+        let root = Node::parse("t", text).unwrap();
+        let place = |node: &Node| locate(text, node.id).map(|p| (p.line, p.column));
+        assert_eq!(place(&root), Some((1, 1)));
+        let a = root.get("a").unwrap();
+        assert_eq!(place(a), Some((1, 4)));
+        assert_eq!(place(a.get("b").unwrap()), Some((1, 8)));
+        assert_eq!(place(&a.pairs()[1].0), Some((1, 11)));
+        assert_eq!(place(&a.get("c").unwrap().items()[1]), Some((1, 18)));
+        assert_eq!(place(&root.get("ä").unwrap().items()[0]), Some((3, 3)));
+        assert_eq!(locate(text, 1000), None);
+    }
+}

@@ -1,0 +1,209 @@
+//! The strict check of a tree against what a file may hold, and the ledger of faults.
+
+use super::fault::{Fault, Faults, did_you_mean, one_of};
+use super::node::{Content, Node, locate};
+use super::spec::{Key, Range, Value};
+
+/// More faults than this are counted rather than shown; a wrong file would bury the reader.
+const MAX_SHOWN: usize = 50;
+
+/// Collects faults by node; places are looked up at the end.
+pub(super) struct Ledger<'a> {
+    file: &'a str,
+    text: &'a str,
+    found: Vec<(usize, String, String)>,
+}
+
+impl<'a> Ledger<'a> {
+    pub fn new(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, found: Vec::new() }
+    }
+
+    /// Notes a fault at `node`.
+    pub fn fault(&mut self, node: &Node, message: impl Into<String>, advice: impl Into<String>) {
+        self.found.push((node.id, message.into(), advice.into()));
+    }
+
+    /// `value` if it exists and nothing was wrong.
+    pub fn finish<T>(mut self, value: Option<T>) -> Result<T, Faults> {
+        if let (Some(value), true) = (value, self.found.is_empty()) {
+            return Ok(value);
+        }
+        self.found.sort_by_key(|(id, ..)| *id);
+        let more = self.found.len().saturating_sub(MAX_SHOWN);
+        let mut faults: Vec<Fault> = self
+            .found
+            .drain(..)
+            .take(MAX_SHOWN)
+            .map(|(id, message, advice)| Fault {
+                file: self.file.into(),
+                place: locate(self.text, id),
+                message,
+                advice,
+            })
+            .collect();
+        if more > 0 {
+            faults.push(Fault::of_file(self.file, format!("and {more} more"), ""));
+        }
+        Err(Faults(faults))
+    }
+}
+
+/// Checks `node` against `value` and notes every fault. What is faulty is emptied, so that
+/// later rules can work on all that is sound and none repeats a fault.
+pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
+    match value {
+        Value::Text if node.text().is_some() => {}
+        Value::Name if node.text().is_some() => check_name(node, ledger),
+        Value::Word(words) if node.text().is_some() => check_word(node, words, ledger),
+        Value::Number(range) if node.number().is_some() => check_range(node, range, ledger),
+        Value::Count(range) if matches!(node.content, Content::Whole(_)) => {
+            check_range(node, range, ledger);
+        }
+        Value::List { of, min, max, .. } if matches!(node.content, Content::List(_)) => {
+            let fits = (*min..=*max).contains(&node.items().len());
+            if let Content::List(items) = &mut node.content {
+                items.iter_mut().for_each(|item| check(item, of, ledger));
+            }
+            if !fits {
+                reject(node, value, ledger);
+            }
+        }
+        Value::Map(keys) if matches!(node.content, Content::Map(_)) => {
+            let unknown = check_keys(node, keys, ledger);
+            for key in keys.iter().filter(|key| key.required && node.get(key.name).is_none()) {
+                // A misspelled key is one fault, not two.
+                if !unknown.iter().any(|advice| advice.contains(&format!("`{}`?", key.name))) {
+                    let message = format!("missing key `{}`", key.name);
+                    ledger.fault(node, message, format!("{}: {}", key.name, key.meaning));
+                }
+            }
+        }
+        Value::Variant(keys) if matches!(node.content, Content::Map(_)) => {
+            let unknown = check_keys(node, keys, ledger);
+            let given = keys.iter().filter(|key| node.get(key.name).is_some()).count();
+            if given > 1 || (given == 0 && unknown.is_empty()) {
+                reject(node, value, ledger);
+            }
+        }
+        Value::Either(values) => match values.iter().find(|value| same_kind(node, value)) {
+            Some(value) => check(node, value, ledger),
+            None => reject(node, value, ledger),
+        },
+        _ => reject(node, value, ledger),
+    }
+}
+
+/// Checks the keys of a map and the values of the known ones; returns the advice given for
+/// the unknown ones.
+fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String> {
+    let mut unknown = Vec::new();
+    let mut seen = Vec::new();
+    let Content::Map(pairs) = &mut node.content else { return unknown };
+    for (key, value) in pairs {
+        let Some(name) = key.text().map(str::to_owned) else {
+            ledger.fault(key, format!("expected a key, found {}", key.content), "");
+            continue;
+        };
+        if seen.contains(&name) {
+            let message = format!("key `{name}` is given twice");
+            ledger.fault(key, message, "keep one of the two");
+            continue;
+        }
+        match keys.iter().find(|known| known.name == name) {
+            Some(known) => check(value, &known.value, ledger),
+            None => {
+                let advice = did_you_mean(&name, keys.iter().map(|key| key.name));
+                ledger.fault(key, format!("unknown key `{name}`"), advice.clone());
+                unknown.push(advice);
+            }
+        }
+        seen.push(name);
+    }
+    unknown
+}
+
+fn check_name(node: &mut Node, ledger: &mut Ledger) {
+    let name = node.text().unwrap_or_default();
+    let allowed = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || name.chars().count() > 64 || !name.chars().all(allowed) {
+        reject(node, &Value::Name, ledger);
+    }
+}
+
+fn check_word(node: &mut Node, words: &[&str], ledger: &mut Ledger) {
+    let word = node.text().unwrap_or_default();
+    if !words.contains(&word) {
+        let known: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+        let message = format!("expected {}, found `{word}`", one_of(&known));
+        let advice = did_you_mean(word, words.iter().copied());
+        ledger.fault(node, message, advice);
+        node.content = Content::Nothing;
+    }
+}
+
+fn check_range(node: &mut Node, range: &Range, ledger: &mut Ledger) {
+    // A NaN is in no range.
+    if !node.number().is_some_and(|x| (range.low..=range.high).contains(&x)) {
+        let message = format!("expected {}, found {}", in_range(range), node.content);
+        ledger.fault(node, message, range.advice);
+        node.content = Content::Nothing;
+    }
+}
+
+/// Notes that `node` is not a `value`, and empties it.
+fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
+    let message = format!("expected {}, found {}", describe(value), node.content);
+    let numeric = matches!(value, Value::Number(_) | Value::Count(_));
+    let advice = match (&node.content, value) {
+        (Content::Text(text), _) if numeric && text.trim().parse::<f64>().is_ok() => {
+            "remove the quotes".into()
+        }
+        (Content::Text(_), Value::Number(range) | Value::Count(range)) => {
+            format!("write the bare number, without a unit; {}", range.advice)
+        }
+        (Content::Whole(_) | Content::Number(_), Value::Name | Value::Text) => {
+            "write it in quotes".into()
+        }
+        (_, Value::Name) => "use letters, digits, `-` and `_`, at most 64".into(),
+        (Content::Number(_), Value::Count(_)) => "write a whole number".into(),
+        (Content::Nothing, _) => "remove the key, or write its value behind it".into(),
+        _ => String::new(),
+    };
+    ledger.fault(node, message, advice);
+    node.content = Content::Nothing;
+}
+
+fn same_kind(node: &Node, value: &Value) -> bool {
+    match value {
+        Value::Text | Value::Name | Value::Word(_) => node.text().is_some(),
+        Value::Number(_) | Value::Count(_) => node.number().is_some(),
+        Value::List { .. } => matches!(node.content, Content::List(_)),
+        Value::Map(_) | Value::Variant(_) => matches!(node.content, Content::Map(_)),
+        Value::Either(values) => values.iter().any(|value| same_kind(node, value)),
+    }
+}
+
+/// What was expected, in words.
+pub(super) fn describe(value: &Value) -> String {
+    let names = |keys: &[Key]| -> Vec<String> {
+        keys.iter().map(|key| format!("`{}`", key.name)).collect()
+    };
+    match value {
+        Value::Text => "text".into(),
+        Value::Name => "a name".into(),
+        Value::Word(words) => {
+            one_of(&words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>())
+        }
+        Value::Number(range) | Value::Count(range) => in_range(range),
+        Value::List { items, min, max, .. } if min == max => format!("a list of {min} {items}"),
+        Value::List { items, min, max, .. } => format!("a list of {min} to {max} {items}"),
+        Value::Map(keys) => format!("a map with the keys {}", names(keys).join(", ")),
+        Value::Variant(keys) => format!("a map with one key, {}", one_of(&names(keys))),
+        Value::Either(values) => one_of(&values.iter().map(describe).collect::<Vec<_>>()),
+    }
+}
+
+fn in_range(range: &Range) -> String {
+    format!("{}, {} to {}", range.what, range.low, range.high)
+}

@@ -1,0 +1,160 @@
+//! From a checked tree to a [`Task`].
+
+use std::path::Path;
+
+use crate::asset::node::{Content, Node};
+use crate::asset::take::{angle, name_of, number_or, pose, position, triple, vector};
+use crate::geometry::{Shape, Vector};
+use crate::scene::{
+    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Task,
+    ToolChoice,
+};
+
+use super::spec::default;
+
+/// The task, or `None` if anything needed is missing or was faulty.
+pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
+    let stem = || Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let scene = scene(root.get("scene")?)?;
+    let goal = goal(root.get("goal")?, &scene)?;
+    Some(Task {
+        name: name_of(root).map(str::to_owned).or_else(stem).unwrap_or_default(),
+        description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
+        scene,
+        robot: robot(root.get("robot")?)?,
+        tools: tools(root.get("tools")?),
+        pushes: match root.get("pushes") {
+            Some(node) => pushes(node)?,
+            None => pushes(&Node { id: root.id, content: Content::Map(Vec::new()) })?,
+        },
+        goal,
+    })
+}
+
+fn scene(node: &Node) -> Option<Scene> {
+    let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
+    Some(Scene {
+        table_friction: match node.get("table") {
+            Some(table) => table.get("friction")?.number()?,
+            None => default::FRICTION,
+        },
+        objects: items("objects").map(object).collect::<Option<_>>()?,
+        // A task with joints is refused by the rules.
+        joints: Vec::new(),
+        obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
+    })
+}
+
+fn object(node: &Node) -> Option<Object> {
+    Some(Object {
+        name: name_of(node)?.into(),
+        shape: shape(node.get("shape")?)?,
+        mass: node.get("mass")?.number()?,
+        friction: node.get("friction")?.number()?,
+        pose: pose(node)?,
+    })
+}
+
+/// The solid under `shape`.
+pub(super) fn shape(node: &Node) -> Option<Shape> {
+    if let Some(cylinder) = node.get("cylinder") {
+        let radius = cylinder.get("radius")?.number()?;
+        return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
+    }
+    Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
+}
+
+fn obstacle(node: &Node) -> Option<Obstacle> {
+    Some(Obstacle {
+        name: name_of(node)?.into(),
+        size: triple(node, "size")?,
+        pose: pose(node)?,
+        friction: number_or(node, "friction", default::FRICTION)?,
+    })
+}
+
+fn robot(node: &Node) -> Option<Robot> {
+    let reach = node.get("reach")?;
+    let reach_min = number_or(reach, "min", 0.0)?;
+    Some(Robot {
+        home: match node.get("home") {
+            Some(_) => home(node)?,
+            None => Vector::new(reach_min, 0.0),
+        },
+        reach_min,
+        reach_max: reach.get("max")?.number()?,
+    })
+}
+
+/// The `home` of a robot, metres.
+pub(super) fn home(robot: &Node) -> Option<Vector> {
+    vector(robot.get("home")?)
+}
+
+fn tools(node: &Node) -> ToolChoice {
+    match node.text() {
+        Some(_) => ToolChoice::All,
+        None => {
+            ToolChoice::Named(node.items().iter().filter_map(Node::text).map(Into::into).collect())
+        }
+    }
+}
+
+fn pushes(node: &Node) -> Option<PushRules> {
+    let max_count = number_or(node, "max_count", 1.0)?;
+    Some(PushRules {
+        form: match node.get("form").map(Node::text) {
+            None | Some(Some("placed")) => PushForm::Placed,
+            Some(Some(_)) => PushForm::Chained,
+            Some(None) => return None,
+        },
+        directions: match node.get("directions") {
+            None => Directions::Principal,
+            Some(node) => directions(node)?,
+        },
+        offsets: match node.get("offsets") {
+            None => Offsets::Effort,
+            Some(list) => Offsets::List(numbers(list)?),
+        },
+        grip_yaws: match node.get("grip_yaws_deg") {
+            None => default::GRIP_YAWS.map(f64::to_radians).to_vec(),
+            Some(list) => numbers(list)?.into_iter().map(f64::to_radians).collect(),
+        },
+        length: number_or(node, "length", default::LENGTH)?,
+        speed: number_or(node, "speed", default::SPEED)?,
+        // Whole and in range: the check has seen to it.
+        max_count: max_count as usize,
+        lift: number_or(node, "lift", default::LIFT)?,
+    })
+}
+
+fn directions(node: &Node) -> Option<Directions> {
+    match &node.content {
+        Content::Text(_) => Some(Directions::Principal),
+        Content::Whole(count) => Some(Directions::Count(usize::try_from(*count).ok()?)),
+        Content::List(_) => {
+            Some(Directions::List(numbers(node)?.into_iter().map(f64::to_radians).collect()))
+        }
+        _ => None,
+    }
+}
+
+fn numbers(list: &Node) -> Option<Vec<f64>> {
+    list.items().iter().map(Node::number).collect()
+}
+
+fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
+    let heading = match node.get("heading_deg") {
+        Some(_) => Some((
+            angle(node, "heading_deg", 0.0)?,
+            angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?,
+        )),
+        None => None,
+    };
+    Some(Goal {
+        object: scene.object(node.get("object")?.text()?)?,
+        position: position(node)?,
+        tolerance: node.get("tolerance")?.number()?,
+        heading,
+    })
+}

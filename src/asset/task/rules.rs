@@ -1,0 +1,225 @@
+//! Rules that span several keys of a task file: what no single value can break.
+
+use crate::asset::fault::did_you_mean;
+use crate::asset::node::Node;
+use crate::asset::strict::Ledger;
+use crate::asset::take::{name_of, number_or, pose, triple, unique_names};
+use crate::geometry::{Footprint, Pose, Shape, clearance};
+use crate::scene::PushForm;
+
+use super::build;
+use super::spec::default;
+
+/// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
+/// sizes written in whole millimetres and turned by degrees.
+const SLACK: f64 = 1e-4;
+
+/// The largest ratio of two objects' masses. At 1000 a simulated body sinks 41 mm into its
+/// neighbour unless contacts are stiffened, which beyond that no longer helps.
+const MASS_RATIO: f64 = 1000.0;
+
+/// The same where three or more objects can form a chain: light bodies between heavy ones
+/// break the simulator at every setting.
+const CHAIN_MASS_RATIO: f64 = 100.0;
+
+/// Notes every fault that lies between values.
+pub(super) fn check(root: &Node, ledger: &mut Ledger) {
+    let empty = Node { id: root.id, content: crate::asset::node::Content::Nothing };
+    let section = |key| root.get(key).unwrap_or(&empty);
+    let (scene, pushes) = (section("scene"), section("pushes"));
+    let objects = scene.get("objects").map(Node::items).unwrap_or_default();
+    let obstacles = scene.get("obstacles").map(Node::items).unwrap_or_default();
+    unique_names(objects.iter().chain(obstacles), "bodies", ledger);
+    overlaps(objects, obstacles, ledger);
+    masses(objects, ledger);
+    joints(scene, objects, ledger);
+    robot(section("robot"), pushes, ledger);
+    tools(section("tools"), ledger);
+    push_rules(pushes, objects, ledger);
+    goal(section("goal"), objects, obstacles, ledger);
+}
+
+fn overlaps(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
+    let solid = |node: &Node| -> Option<(Footprint, Pose)> {
+        let shape = match node.get("shape") {
+            Some(shape) => build::shape(shape)?,
+            None => Shape::Cuboid { size: triple(node, "size")? },
+        };
+        Some((shape.footprint().grown(-SLACK / 2.0), pose(node)?))
+    };
+    let solids: Vec<_> = objects.iter().chain(obstacles).map(|n| (n, solid(n))).collect();
+    for (k, (node, solid)) in solids.iter().enumerate() {
+        for (other, other_solid) in &solids[..k.min(objects.len())] {
+            let (Some((a, at)), Some((b, bt))) = (solid, other_solid) else { continue };
+            if clearance((a, at), (b, bt), SLACK) <= 0.0 {
+                let name = |node| name_of(node).unwrap_or("?").to_owned();
+                ledger.fault(
+                    node.get("position").unwrap_or(node),
+                    format!("`{}` overlaps `{}`", name(node), name(other)),
+                    "move one of them; bodies may touch but not share space",
+                );
+            }
+        }
+    }
+}
+
+fn masses(objects: &[Node], ledger: &mut Ledger) {
+    let mut known: Vec<(f64, &Node)> = objects
+        .iter()
+        .filter_map(|object| object.get("mass"))
+        .filter_map(|node| Some((node.number()?, node)))
+        .collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (Some(lightest), Some(heaviest)) = (known.first(), known.last()) else { return };
+    let limit = if known.len() > 2 { CHAIN_MASS_RATIO } else { MASS_RATIO };
+    let ratio = heaviest.0 / lightest.0;
+    if ratio > limit {
+        ledger.fault(
+            heaviest.1,
+            format!(
+                "the heaviest object has {ratio:.0} times the mass of the lightest ({} kg); at \
+                 most {limit} times can be simulated among {} objects",
+                lightest.0,
+                known.len()
+            ),
+            "bring the masses closer together, or make the heaviest an obstacle",
+        );
+    }
+}
+
+fn joints(scene: &Node, objects: &[Node], ledger: &mut Ledger) {
+    let Some(list) = scene.get("joints").filter(|list| !list.items().is_empty()) else { return };
+    for name in list.items().iter().filter_map(|joint| joint.get("between")).flat_map(Node::items) {
+        known_object(name, objects, &[], ledger);
+    }
+    ledger.fault(
+        list,
+        "joints between objects are not supported in this version",
+        "remove `joints`, or write the jointed objects as one cuboid",
+    );
+}
+
+fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
+    let Some(reach) = robot.get("reach") else { return };
+    let (Some(min), Some(max)) =
+        (number_or(reach, "min", 0.0), reach.get("max").and_then(Node::number))
+    else {
+        return;
+    };
+    if min >= max {
+        ledger.fault(
+            reach,
+            format!("the smallest reach, {min}, is not below the largest, {max}"),
+            "swap them, or widen the reach",
+        );
+        return;
+    }
+    let (Some(node), Some(home)) = (robot.get("home"), build::home(robot)) else { return };
+    let distance = home.norm();
+    // Placed pushes never start from home, so it may lie within the smallest reach.
+    let chained = form(pushes) == Some(PushForm::Chained);
+    if distance > max || (chained && distance < min) {
+        ledger.fault(
+            node,
+            format!("home is {distance:.3} m from the base, outside the reach of {min} to {max} m"),
+            "move home, or widen the reach; the base is at the origin",
+        );
+    }
+}
+
+fn form(pushes: &Node) -> Option<PushForm> {
+    match pushes.get("form").map(Node::text) {
+        None | Some(Some("placed")) => Some(PushForm::Placed),
+        Some(Some(_)) => Some(PushForm::Chained),
+        Some(None) => None,
+    }
+}
+
+fn tools(tools: &Node, ledger: &mut Ledger) {
+    for (k, node) in tools.items().iter().enumerate() {
+        if node.text().is_some() && tools.items()[..k].iter().any(|t| t.content == node.content) {
+            ledger.fault(node, "this tool is named twice", "remove one of the two");
+        }
+    }
+}
+
+fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
+    for (key, turn) in
+        [("directions", Some(360.0)), ("grip_yaws_deg", Some(360.0)), ("offsets", None)]
+    {
+        let items = pushes.get(key).map(Node::items).unwrap_or_default();
+        // 180 and -180 degrees are one direction.
+        let wrapped = |x: f64| turn.map_or(x, |turn| x.rem_euclid(turn));
+        for (k, node) in items.iter().enumerate() {
+            let value = node.number().map(wrapped);
+            let same = |other: &Node| value.is_some() && other.number().map(wrapped) == value;
+            if let Some(first) = items[..k].iter().position(same) {
+                let message = format!("this is the same as item {} of `{key}`", first + 1);
+                ledger.fault(node, message, "remove one of the two");
+            }
+        }
+    }
+    if let (Some(PushForm::Chained), Some(offsets)) = (form(pushes), pushes.get("offsets")) {
+        ledger.fault(
+            offsets,
+            "chained pushes have no offsets: they start from `home`",
+            "remove `offsets`, or use `form: placed`",
+        );
+    }
+    let heights: Option<Vec<f64>> = objects
+        .iter()
+        .map(|object| build::shape(object.get("shape")?).map(|shape| shape.height()))
+        .collect();
+    let highest = heights.and_then(|heights| heights.into_iter().reduce(f64::max));
+    let lift = number_or(pushes, "lift", default::LIFT);
+    if let (Some(lift), Some(highest)) = (lift, highest)
+        && lift >= highest
+    {
+        ledger.fault(
+            pushes.get("lift").or_else(|| objects.first()).unwrap_or(pushes),
+            format!("at a lift of {lift} m the tool passes over every object ({highest} m high)"),
+            "lower `lift` below the objects' height",
+        );
+    }
+}
+
+fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
+    if let (Some(node), None) = (goal.get("heading_tolerance_deg"), goal.get("heading_deg")) {
+        ledger.fault(
+            node,
+            "a heading tolerance without a heading",
+            "add `heading_deg`, or remove the tolerance",
+        );
+    }
+    let Some(name) = goal.get("object") else { return };
+    let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
+    let shape = object.get("shape").and_then(build::shape);
+    if let (Some(heading), Some(true)) = (goal.get("heading_deg"), shape.map(|s| s.is_cylinder())) {
+        ledger.fault(
+            heading,
+            "a cylinder looks the same at every heading, so it cannot have a heading goal",
+            "remove `heading_deg`, or make the object a cuboid",
+        );
+    }
+}
+
+/// The object that `name` names; notes a fault if there is none.
+fn known_object<'a>(
+    name: &Node,
+    objects: &'a [Node],
+    obstacles: &[Node],
+    ledger: &mut Ledger,
+) -> Option<&'a Node> {
+    let wanted = name.text()?;
+    let found = objects.iter().find(|object| name_of(object) == Some(wanted));
+    if found.is_none() {
+        if obstacles.iter().any(|obstacle| name_of(obstacle) == Some(wanted)) {
+            let message = format!("`{wanted}` is an obstacle, fixed to the table");
+            ledger.fault(name, message, "name an object; objects can be pushed");
+        } else {
+            let advice = did_you_mean(wanted, objects.iter().filter_map(name_of));
+            ledger.fault(name, format!("no object is called `{wanted}`"), advice);
+        }
+    }
+    found
+}

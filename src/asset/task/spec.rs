@@ -1,0 +1,245 @@
+//! What a task file may hold.
+
+use crate::asset::spec::{ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SIZE, Value};
+
+/// Defaults of optional keys; the words of the keys below repeat them.
+pub(super) mod default {
+    /// Friction value of the table and of obstacles: plain wood.
+    pub const FRICTION: f64 = 0.5;
+    /// Travel of a push, metres: that of the reference benchmark.
+    pub const LENGTH: f64 = 0.20;
+    /// Speed of a push, m/s: that of the reference benchmark.
+    pub const SPEED: f64 = 0.10;
+    /// Height of the tool above the table, metres: clear of it, yet below every object.
+    pub const LIFT: f64 = 0.002;
+    /// Grip yaws, degrees: those of the reference benchmark.
+    pub const GRIP_YAWS: [f64; 3] = [0.0, 90.0, -90.0];
+    /// Tolerance of a heading, degrees.
+    pub const HEADING_TOLERANCE: f64 = 10.0;
+}
+
+/// What a task file may hold.
+pub(in crate::asset) static TASK: Value = Value::Map(&[
+    Key::optional("name", Value::Name, "The task's name; by default the file's."),
+    Key::optional("description", Value::Text, "One line for people; by default empty."),
+    Key::required("scene", SCENE, "What stands on the table."),
+    Key::required("robot", ROBOT, "Where the end effector can be."),
+    Key::required(
+        "tools",
+        Value::Either(&[
+            Value::Word(&["all"]),
+            Value::List { of: &Value::Name, items: "tool names", min: 1, max: 64 },
+        ]),
+        "Names of the tools to choose from, or `all`.",
+    ),
+    Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
+    Key::required("goal", GOAL, "Where an object must come to rest."),
+]);
+
+const SCENE: Value = Value::Map(&[
+    Key::optional(
+        "table",
+        Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
+        "The table; by default of friction 0.5.",
+    ),
+    Key::required(
+        "objects",
+        Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
+        "The movable objects.",
+    ),
+    Key::optional(
+        "joints",
+        Value::List { of: &JOINT, items: "joints", min: 0, max: 64 },
+        "Joints between objects; by default none.",
+    ),
+    Key::optional(
+        "obstacles",
+        Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
+        "Cuboids fixed to the table; by default none.",
+    ),
+]);
+
+const OBJECT: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The object's name, unique in the scene."),
+    Key::required("shape", SHAPE, "The object's solid, standing upright."),
+    Key::required("mass", MASS, "Mass in kg."),
+    Key::required(
+        "friction",
+        FRICTION,
+        "Friction value; the coefficient of a pair is the mean of the two values.",
+    ),
+    Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
+    Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
+]);
+
+const SHAPE: Value = Value::Variant(&[
+    Key::optional(
+        "cylinder",
+        Value::Map(&[
+            Key::required("radius", SIZE, "Radius in metres."),
+            Key::required("height", SIZE, "Height in metres."),
+        ]),
+        "An upright cylinder; no default.",
+    ),
+    Key::optional(
+        "cuboid",
+        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
+        "A cuboid with its faces along its own axes; no default.",
+    ),
+]);
+
+const OBSTACLE: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
+    Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
+    Key::required("position", POSITION, "Centre, [x, y] in metres."),
+    Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
+    Key::optional("friction", FRICTION, "Friction value; default 0.5."),
+]);
+
+const JOINT: Value = Value::Map(&[
+    Key::required(
+        "between",
+        Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
+        "The names of the two objects.",
+    ),
+    Key::required("kind", Value::Word(&["fixed", "revolute", "prismatic"]), "What it allows."),
+    Key::optional(
+        "at",
+        POSITION,
+        "Where the axis of a revolute joint stands, [x, y] in metres; no default.",
+    ),
+    Key::optional(
+        "axis",
+        POSITION,
+        "Direction of a prismatic joint, [x, y] of any length; no default.",
+    ),
+]);
+
+const ROBOT: Value = Value::Map(&[
+    Key::optional(
+        "home",
+        POSITION,
+        "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach \
+         in front of the base.",
+    ),
+    Key::required(
+        "reach",
+        Value::Map(&[
+            Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
+            Key::required("max", REACH, "Largest distance from the base, metres."),
+        ]),
+        "Distances from the base, at the origin, at which the end effector can be.",
+    ),
+]);
+
+const REACH: Value = Value::Number(Range {
+    what: "a reach in metres",
+    low: 0.0,
+    high: 10.0,
+    advice: "reach is measured from the base at the origin, in metres",
+});
+
+const PUSHES: Value = Value::Map(&[
+    Key::optional(
+        "form",
+        Value::Word(&["placed", "chained"]),
+        "`placed`: each push starts where it is best, the tool comes from above and lifts after \
+         it; `chained`: all start from `home`, each goes on where the last ended; default placed.",
+    ),
+    Key::optional(
+        "directions",
+        Value::Either(&[
+            Value::Word(&["principal"]),
+            Value::Count(Range {
+                what: "a number of directions",
+                low: 1.0,
+                high: 64.0,
+                advice: "8 or 16 directions are usual",
+            }),
+            Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 64 },
+        ]),
+        "Directions of pushes in the world frame: `principal` (+x, -x, +y, -y), a number of equal \
+         directions, or a list in degrees; default principal.",
+    ),
+    Key::optional(
+        "offsets",
+        Value::List { of: &OFFSET, items: "offsets", min: 1, max: 64 },
+        "Signed distances in metres of the object's centre from the centre line of the contacting \
+         face, left of the direction positive (placed pushes only); by default chosen by the \
+         planner.",
+    ),
+    Key::optional(
+        "grip_yaws_deg",
+        Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 16 },
+        "Turns of the end effector against world +x, degrees, one per plan; default 0, 90, -90.",
+    ),
+    Key::optional("length", LENGTH, "Travel of a push in metres; default 0.20."),
+    Key::optional("speed", SPEED, "Speed of a push in m/s; default 0.10."),
+    Key::optional("max_count", MAX_COUNT, "Largest number of pushes in a plan; default 1."),
+    Key::optional(
+        "lift",
+        LIFT,
+        "Height of the tool's underside above the table in metres; default 0.002.",
+    ),
+]);
+
+const OFFSET: Value = Value::Number(Range {
+    what: "an offset in metres",
+    low: -1.0,
+    high: 1.0,
+    advice: "offsets are in metres: 20 mm is 0.02",
+});
+
+const LENGTH: Value = Value::Number(Range {
+    what: "a length in metres",
+    low: 0.01,
+    high: 2.0,
+    advice: "20 cm is 0.20; longer ways are several pushes, see `max_count`",
+});
+
+const SPEED: Value = Value::Number(Range {
+    what: "a speed in m/s",
+    low: 0.01,
+    high: 1.0,
+    advice: "10 cm/s is 0.10",
+});
+
+const MAX_COUNT: Value = Value::Count(Range {
+    what: "a number of pushes",
+    low: 1.0,
+    high: 8.0,
+    advice: "three pushes bring an object around a corner",
+});
+
+const LIFT: Value = Value::Number(Range {
+    what: "a height in metres",
+    low: 0.0,
+    high: 1.0,
+    advice: "2 mm is 0.002",
+});
+
+const GOAL: Value = Value::Map(&[
+    Key::required("object", Value::Name, "Name of the object to bring to the goal."),
+    Key::required("position", POSITION, "Wanted position of its centre, [x, y] in metres."),
+    Key::required(
+        "tolerance",
+        Value::Number(Range {
+            what: "a tolerance in metres",
+            low: 0.001,
+            high: 1.0,
+            advice: "2 cm is 0.02; simulators themselves differ by millimetres",
+        }),
+        "Largest distance from the goal that still counts as success, metres.",
+    ),
+    Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
+    Key::optional(
+        "heading_tolerance_deg",
+        Value::Number(Range {
+            what: "a tolerance in degrees",
+            low: 0.1,
+            high: 180.0,
+            advice: "5 to 15 degrees are usual",
+        }),
+        "Largest heading error that still counts as success, degrees; default 10.",
+    ),
+]);

@@ -1,0 +1,28 @@
+//! Text files as the user names them.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::fault::Fault;
+
+/// The largest file that is read, bytes; a trajectory of hundreds of objects is smaller.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// The file's name for messages, and its text.
+pub(super) fn read_text(path: &Path) -> Result<(String, String), Fault> {
+    let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);
+    let name = path.display().to_string();
+    let mut text = String::new();
+    // Read through a limit rather than trust the length that a device or pipe claims.
+    File::open(path)
+        .map_err(fault)?
+        .take(MAX_BYTES + 1)
+        .read_to_string(&mut text)
+        .map_err(fault)?;
+    if text.len() as u64 > MAX_BYTES {
+        let message = format!("the file has more than {MAX_BYTES} bytes");
+        return Err(Fault::of_file(&name, message, "is this the right file?"));
+    }
+    Ok((name, text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)))
+}

@@ -1,0 +1,168 @@
+//! Tool files.
+
+use std::path::Path;
+
+use crate::geometry::Pose;
+use crate::scene::{Part, Tool, ToolError};
+
+use super::fault::{Faults, did_you_mean};
+use super::node::Node;
+use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, Value};
+use super::strict::{Ledger, check};
+use super::take::{angle, name_of, pose, position, triple, unique_names};
+
+/// What a tool file may hold.
+pub(super) static TOOL: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The tool's name, unique in its folder."),
+    Key::optional("description", Value::Text, "One line for people; by default empty."),
+    Key::optional(
+        "grip",
+        Value::Map(&[
+            Key::required(
+                "position",
+                POSITION,
+                "Where the end effector holds the tool, [x, y] in metres in the tool frame.",
+            ),
+            Key::optional(
+                "yaw_deg",
+                ANGLE,
+                "Turn of the end effector in the tool frame, degrees; default 0.",
+            ),
+        ]),
+        "The end effector's pose in the tool frame; by default its origin, unturned.",
+    ),
+    Key::required(
+        "friction",
+        FRICTION,
+        "Friction value; the coefficient of a pair is the mean of the two values.",
+    ),
+    Key::required(
+        "parts",
+        Value::List { of: &PART, items: "parts", min: 1, max: 32 },
+        "The cuboids that make the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
+    ),
+    Key::optional(
+        "joints",
+        Value::List {
+            of: &Value::List { of: &Value::Name, items: "part names", min: 2, max: 2 },
+            items: "pairs of part names",
+            min: 0,
+            max: 64,
+        },
+        "Pairs of parts joined rigidly although they do not touch; by default none.",
+    ),
+]);
+
+const PART: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The part's name, unique in the tool."),
+    Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
+    Key::required(
+        "position",
+        Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 },
+        "The part's centre in the tool frame, [x, y] or [x, y, 0] in metres.",
+    ),
+    Key::optional("yaw_deg", ANGLE, "Turn of the part in the tool frame, degrees; default 0."),
+]);
+
+impl Tool {
+    /// Reads a tool file.
+    ///
+    /// # Errors
+    /// All faults of the file, each with its place.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        let (file, text) = super::read_text(path.as_ref())?;
+        Self::parse(&text, &file)
+    }
+
+    /// Reads a tool from `text`; `file` names it in faults.
+    ///
+    /// # Errors
+    /// All faults of the text, each with its place.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
+        let mut root = Node::parse(file, text)?;
+        let mut ledger = Ledger::new(file, text);
+        check(&mut root, &TOOL, &mut ledger);
+        let tool = build(&root, &mut ledger);
+        ledger.finish(tool)
+    }
+}
+
+/// Applies the rules that span several keys; `None` if anything needed is missing.
+fn build(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
+    let list = root.get("parts")?;
+    unique_names(list.items(), "parts", ledger);
+    for part in list.items() {
+        let height = part.get("position").and_then(|position| position.items().get(2));
+        if let Some(node) = height.filter(|node| node.number().is_some_and(|z| z != 0.0)) {
+            ledger.fault(
+                node,
+                "parts at different heights are not supported",
+                "write 0; all parts stand side by side with their undersides at the push's `lift`",
+            );
+        }
+    }
+    let by_hand = joints(root, list, ledger);
+    let parts: Vec<Part> = list.items().iter().filter_map(part).collect();
+    if parts.len() < list.items().len() {
+        return None;
+    }
+    let grip = match root.get("grip") {
+        Some(grip) => Pose { position: position(grip)?, heading: angle(grip, "yaw_deg", 0.0)? },
+        None => Pose::default(),
+    };
+    let name = name_of(root).unwrap_or_default().to_owned();
+    let description = root.get("description").and_then(Node::text).unwrap_or_default().to_owned();
+    let friction = root.get("friction").and_then(Node::number);
+    // Whether the parts hold together does not depend on the friction value.
+    let assembled =
+        Tool::assemble(name, description, grip, friction.unwrap_or(1.0), parts, &by_hand);
+    match assembled {
+        Ok(tool) => friction.map(|_| tool),
+        Err(error) => {
+            let advice = match error {
+                ToolError::Apart { .. } => {
+                    "move the pieces until they touch, or name a pair under `joints`"
+                }
+                ToolError::NoParts => "add a part",
+            };
+            ledger.fault(list, error.to_string(), advice);
+            None
+        }
+    }
+}
+
+fn part(node: &Node) -> Option<Part> {
+    let name = name_of(node)?.to_owned();
+    Some(Part { name, size: triple(node, "size")?, pose: pose(node)? })
+}
+
+/// The pairs joined by hand, by index.
+fn joints(root: &Node, parts: &Node, ledger: &mut Ledger) -> Vec<[usize; 2]> {
+    let names: Vec<&str> = parts.items().iter().map(|part| name_of(part).unwrap_or("")).collect();
+    let mut pairs = Vec::new();
+    for pair in root.get("joints").map(Node::items).unwrap_or_default() {
+        let mut indices = Vec::new();
+        for node in pair.items() {
+            let Some(name) = node.text() else { continue };
+            match names.iter().position(|known| *known == name) {
+                Some(index) => indices.push(index),
+                None => {
+                    let known = names.iter().copied().filter(|known| !known.is_empty());
+                    ledger.fault(
+                        node,
+                        format!("no part is called `{name}`"),
+                        did_you_mean(name, known),
+                    );
+                }
+            }
+        }
+        match indices[..] {
+            [a, b] if a == b => {
+                ledger.fault(pair, "a joint of a part with itself", "name two different parts");
+            }
+            [a, b] => pairs.push([a, b]),
+            _ => {}
+        }
+    }
+    pairs
+}

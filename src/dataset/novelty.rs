@@ -1,0 +1,115 @@
+//! Telling a sampled tool from the shipped ones, which are the unseen test.
+
+use std::{f64::consts::FRAC_PI_2, sync::LazyLock};
+
+use crate::{
+    asset::ToolLibrary,
+    geometry::{Pose, Vector},
+    scene::{Part, Tool},
+};
+
+/// Part centres and half sides that differ by less than this are the same, metres.
+const SAME: f64 = 2e-3;
+
+/// Whether `tool` has the parts of a tool that is shipped with the program.
+pub fn is_shipped(tool: &Tool) -> bool {
+    // The embedded files are read in a test; a program in which they are broken has no tools
+    // that could be left out of training.
+    static SHIPPED: LazyLock<ToolLibrary> =
+        LazyLock::new(|| ToolLibrary::embedded().unwrap_or_default());
+    SHIPPED.iter().any(|shipped| same_parts(shipped, tool))
+}
+
+/// Whether two tools have the same parts, wherever their frames lie, in whatever order the
+/// parts are written, and also if one is the mirror image of the other.
+fn same_parts(a: &Tool, b: &Tool) -> bool {
+    if a.parts.len() != b.parts.len() {
+        return false;
+    }
+    let Some(first) = a.parts.first() else { return true };
+    [false, true].into_iter().any(|mirrored| {
+        let target: Vec<Part> = b.parts.iter().map(|p| mirror(p, mirrored)).collect();
+        // The motion that carries the first part of `a` onto some part of `b`, in any of the
+        // quarter turns under which a rectangle may look the same.
+        target.iter().any(|onto| {
+            (0..4).any(|quarter| {
+                let turn = Pose::new(0.0, 0.0, FRAC_PI_2 * f64::from(quarter));
+                let motion = onto.pose * turn * first.pose.inverse();
+                matches_all(a, &motion, &target)
+            })
+        })
+    })
+}
+
+fn mirror(part: &Part, mirrored: bool) -> Part {
+    let mut part = part.clone();
+    if mirrored {
+        part.pose.position.y = -part.pose.position.y;
+        part.pose.heading = -part.pose.heading;
+    }
+    part
+}
+
+fn matches_all(a: &Tool, motion: &Pose, target: &[Part]) -> bool {
+    let mut free: Vec<&Part> = target.iter().collect();
+    a.parts.iter().all(|part| {
+        let found = free.iter().position(|other| same_place(part, &(*motion * part.pose), other));
+        found.map(|index| free.swap_remove(index)).is_some()
+    })
+}
+
+/// Whether `part` put at `pose` covers the same rectangle as `other`.
+fn same_place(part: &Part, pose: &Pose, other: &Part) -> bool {
+    let axes = |size: &[f64; 3], pose: &Pose| {
+        [Vector::new(size[0] / 2.0, 0.0), Vector::new(0.0, size[1] / 2.0)].map(|v| pose.vector(v))
+    };
+    let ours = axes(&part.size, pose);
+    let theirs = axes(&other.size, &other.pose);
+    let same = |u: Vector, v: Vector| (u - v).norm() < SAME || (u + v).norm() < SAME;
+    (pose.position - other.pose.position).norm() < SAME
+        && (same(ours[0], theirs[0]) && same(ours[1], theirs[1])
+            || same(ours[0], theirs[1]) && same(ours[1], theirs[0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hook(mirrored: bool) -> Tool {
+        let side = if mirrored { -1.0 } else { 1.0 };
+        let part = |size, pose| Part { name: String::new(), size, pose };
+        Tool {
+            name: String::new(),
+            description: String::new(),
+            grip: Pose::default(),
+            friction: 0.4,
+            parts: vec![
+                part([0.14, 0.08, 0.05], Pose::new(0.12, 0.0, 0.0)),
+                part([0.16, 0.08, 0.05], Pose::new(0.15, 0.12 * side, FRAC_PI_2)),
+            ],
+            joints: vec![[0, 1]],
+        }
+    }
+
+    #[test]
+    fn turned_shifted_reordered_and_mirrored_tools_are_the_same() {
+        let mut moved = hook(true);
+        moved.parts.reverse();
+        for part in &mut moved.parts {
+            part.pose = Pose::new(0.3, -1.0, 0.7) * part.pose;
+            part.size.swap(0, 1);
+            part.pose.heading += FRAC_PI_2;
+        }
+        assert!(same_parts(&hook(false), &moved) && same_parts(&moved, &hook(false)));
+    }
+
+    #[test]
+    fn another_size_or_place_is_another_tool() {
+        let mut longer = hook(false);
+        longer.parts[1].size[0] += 0.01;
+        assert!(!same_parts(&hook(false), &longer));
+        let mut shifted = hook(false);
+        shifted.parts[1].pose.position.x += 0.01;
+        assert!(!same_parts(&hook(false), &shifted));
+    }
+}

@@ -1,0 +1,61 @@
+//! Every shipped file loads, and broken files are refused with all their faults.
+
+use std::path::PathBuf;
+
+use pushplan::asset::{ToolLibrary, load_task};
+use pushplan::scene::Tool;
+
+fn folder(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+#[test]
+fn every_shipped_tool_is_embedded() {
+    let embedded = ToolLibrary::embedded().unwrap();
+    let loaded = ToolLibrary::load(folder("tools")).unwrap();
+    let names = |library: &ToolLibrary| -> Vec<String> {
+        library.iter().map(|tool| tool.name.clone()).collect()
+    };
+    assert_eq!(names(&embedded), names(&loaded));
+    assert!(embedded.len() >= 10);
+    for tool in &loaded {
+        assert_eq!(embedded.get(&tool.name), Some(tool));
+        let file = folder("tools").join(format!("{}.yaml", tool.name));
+        assert_eq!(&Tool::load(file).unwrap(), &**tool, "the file is named after its tool");
+    }
+}
+
+#[test]
+fn every_shipped_task_loads_and_names_tools_that_exist() {
+    let library = ToolLibrary::embedded().unwrap();
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
+        let path = entry.unwrap().path();
+        let task = load_task(&path, &library).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_eq!(task.name, path.file_stem().unwrap().to_string_lossy());
+        assert!(!task.description.is_empty(), "{}", task.name);
+        assert!(!task.tools(&library).unwrap().is_empty());
+        count += 1;
+    }
+    assert!(count >= 12, "{count} tasks");
+}
+
+#[test]
+fn the_reference_tools_have_the_reference_geometry() {
+    let library = ToolLibrary::embedded().unwrap();
+    for (name, last, turn) in [
+        ("stick", [0.54, 0.0], 0.0),
+        ("l-hook", [0.43, 0.12], 90.0),
+        ("inverse-l", [0.43, -0.12], -90.0),
+    ] {
+        let tool = library.get(name).unwrap();
+        assert_eq!(tool.parts.len(), 4);
+        for (part, x) in tool.parts.iter().zip([0.12, 0.26, 0.40]) {
+            assert_eq!(part.size, [0.14, 0.08, 0.05]);
+            assert_eq!([part.pose.position.x, part.pose.position.y], [x, 0.0]);
+        }
+        let part = &tool.parts[3];
+        assert_eq!([part.pose.position.x, part.pose.position.y], last);
+        assert_eq!(part.pose.heading, f64::to_radians(turn));
+    }
+}
