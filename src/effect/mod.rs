@@ -5,6 +5,8 @@
 
 mod job;
 mod simulated;
+mod trivial;
 
 pub use job::{EffectModel, Job};
 pub use simulated::Simulated;
+pub use trivial::{Follow, Projection, Still};

@@ -1,0 +1,70 @@
+//! What the tool touches sticks to it.
+
+use crate::{
+    effect::{EffectModel, Job},
+    geometry::Pose,
+    scene::{Body, Record, Scene, ToolMotion, Trajectory, Warning},
+};
+
+use super::play::{Rule, Table, play_all};
+
+/// From the moment the tool runs into an object, the object moves with the tool, until the tool
+/// is lifted; and so does whatever a moving object runs into.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Follow;
+
+struct Sticking {
+    held: Vec<bool>,
+}
+
+impl Rule for Sticking {
+    fn begin(objects: usize) -> Self {
+        Self { held: vec![false; objects] }
+    }
+
+    fn step(&mut self, table: &Table, from: &Pose, to: &Pose, poses: &mut [Pose]) {
+        let motion = *to * from.inverse();
+        for (pose, _) in poses.iter_mut().zip(&self.held).filter(|(_, held)| **held) {
+            *pose = motion * *pose;
+        }
+        // Each round takes hold of at least one more object or is the last.
+        for _ in 0..poses.len() {
+            let run_into = (0..poses.len()).find(|&object| {
+                let others = (0..poses.len())
+                    .filter(|&other| self.held[other])
+                    .map(|other| (Body::Object(other), poses[other]));
+                !self.held[object]
+                    && table.parts(to).chain(others).any(|(body, pose)| {
+                        let point = table.contact(object, &poses[object], (body, &pose), 0.0);
+                        point.is_some_and(|point| point.gap < 0.0)
+                    })
+            });
+            let Some(object) = run_into else { break };
+            self.held[object] = true;
+            poses[object] = motion * poses[object];
+        }
+    }
+
+    fn lift(&mut self) {
+        self.held.fill(false);
+    }
+}
+
+impl EffectModel for Follow {
+    fn name(&self) -> &str {
+        "follow"
+    }
+
+    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    /// Unknown.
+    fn error_p95(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        play_all::<Sticking>(scene, jobs, record)
+    }
+}

@@ -1,0 +1,128 @@
+//! The loop over strokes and frames that the trivial models share.
+
+use rayon::prelude::*;
+
+use crate::{
+    effect::Job,
+    geometry::{ContactPoint, Pose, contact_points},
+    scene::{Body, Contact, Frame, Record, Scene, State, Tool, ToolMotion, Trajectory},
+};
+
+/// Tool travel per small step, metres: overlaps stay much smaller than any body.
+const STEP: f64 = 1e-3;
+
+/// Bodies this near count as touching where first contacts are listed, metres.
+const TOUCHING: f64 = 1e-4;
+
+/// How a model moves objects when the tool moves.
+pub(super) trait Rule {
+    /// A new rule for a job with `objects` objects, nothing touched yet.
+    fn begin(objects: usize) -> Self;
+
+    /// Moves `poses` for a small step of the tool.
+    fn step(&mut self, table: &Table, from: &Pose, to: &Pose, poses: &mut [Pose]);
+
+    /// The tool is lifted away.
+    fn lift(&mut self) {}
+}
+
+/// Scene and motion, with the questions that rules ask.
+pub(super) struct Table<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) motion: &'a ToolMotion,
+}
+
+impl Table<'_> {
+    fn tool(&self) -> &Tool {
+        &self.motion.tool
+    }
+
+    /// The closest point of object `index` at `pose` and another body, within `reach` metres;
+    /// the normal points into the object. Nothing if they pass above each other.
+    pub(super) fn contact(
+        &self,
+        index: usize,
+        pose: &Pose,
+        other: (Body, &Pose),
+        reach: f64,
+    ) -> Option<ContactPoint> {
+        let object = &self.scene.objects[index];
+        let footprint = match other.0 {
+            Body::Object(other) => self.scene.objects[other].shape.footprint(),
+            Body::Obstacle(other) => self.scene.obstacles[other].shape().footprint(),
+            Body::Part(other) if self.motion.lift < object.shape.height() => {
+                self.tool().parts[other].footprint()
+            }
+            Body::Part(_) => return None,
+        };
+        let first = (&object.shape.footprint(), pose);
+        contact_points(first, (&footprint, other.1), reach).0[0]
+    }
+
+    /// The tool's parts with their poses when the tool frame is at `tool`.
+    pub(super) fn parts(&self, tool: &Pose) -> impl Iterator<Item = (Body, Pose)> + use<'_> {
+        let tool = *tool;
+        (0..self.tool().parts.len())
+            .map(move |part| (Body::Part(part), self.tool().part_pose(part, &tool)))
+    }
+
+    /// The obstacles with their poses.
+    pub(super) fn obstacles(&self) -> impl Iterator<Item = (Body, Pose)> + use<'_> {
+        let obstacles = self.scene.obstacles.iter().enumerate();
+        obstacles.map(|(index, obstacle)| (Body::Obstacle(index), obstacle.pose))
+    }
+}
+
+/// Plays every job with a fresh rule.
+pub(super) fn play_all<R: Rule>(scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+    jobs.par_iter().map(|job| play::<R>(scene, job, record)).collect()
+}
+
+fn play<R: Rule>(scene: &Scene, job: &Job, record: Record) -> Trajectory {
+    let table = Table { scene, motion: &job.motion };
+    let mut rule = R::begin(scene.objects.len());
+    let mut poses = job.start.poses.clone();
+    let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+    let mut frame = Frame { time: 0.0, stroke: 0, tool, state: job.start.clone() };
+    let mut trajectory = Trajectory::default();
+    let mut count = 0;
+    for (index, stroke) in job.motion.strokes.iter().enumerate() {
+        for step in (0..stroke.frames()).map(|k| stroke.frame(k)) {
+            let travel = (step.to.position - step.from.position).norm();
+            let steps = (travel / STEP).ceil().max(1.0);
+            for k in 0..steps as usize {
+                let from = step.from.towards(&step.to, k as f64 / steps);
+                let to = step.from.towards(&step.to, (k + 1) as f64 / steps);
+                rule.step(&table, &from, &to, &mut poses);
+            }
+            let state = State::at_rest(poses.clone());
+            let next =
+                Frame { time: frame.time + step.duration, stroke: index, tool: step.to, state };
+            let before = std::mem::replace(&mut frame, next);
+            if record == Record::Frames {
+                trajectory.frames.push(before);
+                count += 1;
+                note_contacts(&table, &frame, count, &mut trajectory.contacts);
+            }
+        }
+        if stroke.settle {
+            rule.lift();
+        }
+    }
+    trajectory.frames.push(frame);
+    trajectory
+}
+
+/// Adds the pairs that touch now and have not touched before.
+fn note_contacts(table: &Table, frame: &Frame, index: usize, contacts: &mut Vec<Contact>) {
+    let poses = &frame.state.poses;
+    for (object, pose) in poses.iter().enumerate() {
+        let objects = (object + 1..poses.len()).map(|other| (Body::Object(other), poses[other]));
+        for (with, other) in table.parts(&frame.tool).chain(table.obstacles()).chain(objects) {
+            let known = contacts.iter().any(|c| c.object == object && c.with == with);
+            if !known && table.contact(object, pose, (with, &other), TOUCHING).is_some() {
+                contacts.push(Contact { frame: index, object, with });
+            }
+        }
+    }
+}

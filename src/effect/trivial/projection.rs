@@ -1,0 +1,135 @@
+//! Overlaps are removed, and nothing else happens.
+
+use crate::{
+    effect::{EffectModel, Job},
+    geometry::Pose,
+    scene::{Body, Record, Scene, ToolMotion, Trajectory, Warning},
+};
+
+use super::play::{Rule, Table, play_all};
+
+/// Overlaps below this are left, metres.
+const LEFT: f64 = 1e-6;
+
+/// Rounds over all pairs in one small step; a row of three touching objects needs about twenty.
+const ROUNDS: usize = 60;
+
+/// After every small step of the tool, objects are shifted along the contact normals until
+/// nothing overlaps: the tool and the obstacles stay, two objects share the shift evenly, and
+/// nothing turns.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Projection;
+
+struct Shifting;
+
+impl Rule for Shifting {
+    fn begin(_: usize) -> Self {
+        Shifting
+    }
+
+    fn step(&mut self, table: &Table, _: &Pose, to: &Pose, poses: &mut [Pose]) {
+        for _ in 0..ROUNDS {
+            let mut largest: f64 = 0.0;
+            for object in 0..poses.len() {
+                for (body, pose) in table.parts(to).chain(table.obstacles()) {
+                    if let Some(point) = table.contact(object, &poses[object], (body, &pose), 0.0) {
+                        poses[object].position -= point.normal * point.gap;
+                        largest = largest.max(-point.gap);
+                    }
+                }
+                for other in object + 1..poses.len() {
+                    let body = (Body::Object(other), &poses[other]);
+                    if let Some(point) = table.contact(object, &poses[object], body, 0.0) {
+                        let shift = point.normal * (0.5 * point.gap);
+                        poses[object].position -= shift;
+                        poses[other].position += shift;
+                        largest = largest.max(-point.gap);
+                    }
+                }
+            }
+            if largest < LEFT {
+                break;
+            }
+        }
+    }
+}
+
+impl EffectModel for Projection {
+    fn name(&self) -> &str {
+        "projection"
+    }
+
+    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    /// Unknown.
+    fn error_p95(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        play_all::<Shifting>(scene, jobs, record)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::{
+        effect::{EffectModel, Follow, Job, Projection, Still},
+        geometry::{Pose, Shape, Vector},
+        scene::{Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory},
+    };
+
+    /// A wide bar pushes 0.20 m along x; a can 5 mm before it, and a second one 20 mm further.
+    fn roll(model: &dyn EffectModel) -> Trajectory {
+        let can = |name: &str, x| Object {
+            name: name.into(),
+            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
+            mass: 0.4,
+            friction: 0.4,
+            pose: Pose::new(x, 0.0, 0.0),
+        };
+        let objects = vec![can("near", 0.065), can("far", 0.185)];
+        let scene = Scene { table_friction: 0.5, objects, ..Scene::default() };
+        let bar = Part { name: "bar".into(), size: [0.02, 0.2, 0.05], pose: Pose::default() };
+        let tool = Tool {
+            name: "bar".into(),
+            description: String::new(),
+            grip: Pose::default(),
+            friction: 0.4,
+            parts: vec![bar],
+            joints: vec![],
+        };
+        let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
+        let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.0, &[push], true);
+        let job = Job { start: scene.start(), motion, hypothesis: None };
+        model.rollout(&scene, &[job], Record::Frames).remove(0)
+    }
+
+    #[test]
+    fn the_three_models_end_where_their_rules_say() {
+        for (model, expected, slack) in [
+            (&Still as &dyn EffectModel, [0.065, 0.185], 0.0),
+            // Stuck at the first small step with an overlap, so up to a step deep.
+            (&Follow, [0.26, 0.36], 2.1e-3),
+            (&Projection, [0.26, 0.36], 1e-4),
+        ] {
+            let trajectory = roll(model);
+            assert_eq!(trajectory.frames.len(), 21, "{}", model.name());
+            for (pose, expected) in trajectory.outcome().poses.iter().zip(expected) {
+                let off = (pose.position - Vector::new(expected, 0.0)).norm();
+                assert!(off <= slack, "{}: {pose:?}", model.name());
+            }
+        }
+    }
+
+    #[test]
+    fn first_contacts_are_listed_in_order_of_time() {
+        let contacts = roll(&Projection).contacts;
+        assert_eq!(contacts.len(), 2);
+        assert!(contacts[0].frame == 1 && contacts[1].frame == 3, "{contacts:?}");
+    }
+}
