@@ -5,10 +5,12 @@
 mod chart;
 mod number;
 mod picture;
+mod plan_text;
 mod svg;
 mod table;
 
 pub use chart::{Axis, Chart, Mark, Series};
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
+pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use table::{Align, Table};

@@ -1,5 +1,6 @@
 //! Tests across rooms, in one binary so that candle and rapier link once.
 
+mod architecture;
 mod assets;
 mod dataset;
 mod planning;

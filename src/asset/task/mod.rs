@@ -1,96 +1,9 @@
 //! Task files: what they may hold, their reading, and the rules that span several keys.
 
 mod build;
+mod load;
 mod rules;
 mod spec;
 
-use std::path::Path;
-use std::sync::Arc;
-
-use crate::scene::{Task, Tool, ToolChoice};
-
-use super::fault::{Fault, Faults, did_you_mean};
-use super::library::ToolLibrary;
-use super::node::Node;
-use super::strict::{Ledger, check};
-
+pub use load::load_task;
 pub(super) use spec::TASK;
-
-impl Task {
-    /// Reads a task file. Whether the named tools exist is for [`Task::tools`] to say.
-    ///
-    /// # Errors
-    /// All faults of the file, each with its place.
-    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
-        let (file, text) = super::read_text(path.as_ref())?;
-        Self::parse(&text, &file)
-    }
-
-    /// Reads a task from `text`; `file` names it in faults, and its stem names a task that has
-    /// no `name`.
-    ///
-    /// # Errors
-    /// All faults of the text, each with its place.
-    pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
-        parse_with(text, file, None)
-    }
-
-    /// The tools that the task allows, in its order (all: in the library's order).
-    ///
-    /// # Errors
-    /// A fault for every name that the library does not know, or one if there is no tool.
-    pub fn tools(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
-        let names = match &self.tools {
-            ToolChoice::All if library.is_empty() => {
-                let advice = "add a tool file to the folder, or name another folder";
-                let message = "all tools are allowed, but the library has none";
-                return Err(Fault::of_file(&self.name, message, advice).into());
-            }
-            ToolChoice::All => return Ok(library.iter().cloned().collect()),
-            ToolChoice::Named(names) => names,
-        };
-        let mut faults = Vec::new();
-        let mut tools = Vec::new();
-        for name in names {
-            match library.get(name) {
-                Some(tool) => tools.push(tool.clone()),
-                None => {
-                    let (message, advice) = unknown_tool(name, library);
-                    faults.push(Fault::of_file(&self.name, message, advice));
-                }
-            }
-        }
-        if faults.is_empty() { Ok(tools) } else { Err(Faults(faults)) }
-    }
-}
-
-/// Reads a task file and checks the tools it names against `library`, so that an unknown one
-/// is reported at its place with all other faults.
-///
-/// # Errors
-/// All faults of the file, each with its place.
-pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, Faults> {
-    let (file, text) = super::read_text(path.as_ref())?;
-    parse_with(&text, &file, Some(library))
-}
-
-fn parse_with(text: &str, file: &str, library: Option<&ToolLibrary>) -> Result<Task, Faults> {
-    let mut root = Node::parse(file, text)?;
-    let mut ledger = Ledger::new(file, text);
-    check(&mut root, &TASK, &mut ledger);
-    rules::check(&root, &mut ledger);
-    if let Some(library) = library {
-        for node in root.get("tools").map(Node::items).unwrap_or_default() {
-            if let Some(name) = node.text().filter(|name| library.get(name).is_none()) {
-                let (message, advice) = unknown_tool(name, library);
-                ledger.fault(node, message, advice);
-            }
-        }
-    }
-    ledger.finish(build::task(&root, file))
-}
-
-fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {
-    let known = library.iter().map(|tool| tool.name.as_str());
-    (format!("unknown tool `{name}`"), did_you_mean(name, known))
-}

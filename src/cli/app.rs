@@ -1,0 +1,72 @@
+//! From the command line to an exit code.
+
+use std::ffi::OsString;
+use std::io::{IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use super::{
+    completions,
+    error::CliError,
+    exit_code, interrupt, schema,
+    session::{GlobalArgs, Session},
+};
+
+/// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
+/// works.
+#[derive(Debug, Parser)]
+#[command(name = "pushplan", version, after_help = exit_code::HELP)]
+pub struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Schema(schema::SchemaArgs),
+    Completions(completions::CompletionsArgs),
+}
+
+/// Runs the command with the given arguments, the program's name first.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(message) => {
+            // Help and version come here too, for stdout and with code 0.
+            let _ = message.print();
+            let wrong = message.use_stderr();
+            return if wrong { exit_code::USAGE } else { exit_code::DONE }.into();
+        }
+    };
+    match execute(&cli) {
+        Ok(code) => code.into(),
+        Err(error) => {
+            report(&error);
+            error.exit_code().into()
+        }
+    }
+}
+
+fn execute(cli: &Cli) -> Result<u8, CliError> {
+    interrupt::install()?;
+    let session = Session::start(&cli.global)?;
+    match &cli.command {
+        Command::Schema(args) => schema::run(args, &session),
+        Command::Completions(args) => completions::run(args, &session),
+    }
+}
+
+fn report(error: &CliError) {
+    let text = match error {
+        CliError::Closed => return,
+        // Every fault says so itself, behind its place.
+        CliError::Files(faults) => faults.to_string(),
+        _ => format!("error: {error}"),
+    };
+    let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let text = if colour { text.replace("error:", "\u{1b}[1;31merror:\u{1b}[0m") } else { text };
+    let _ = writeln!(std::io::stderr(), "{text}");
+}

@@ -1,0 +1,63 @@
+//! Everything that ends a command early, with its exit code.
+
+use std::fmt::Display;
+use std::io;
+
+use thiserror::Error;
+
+use crate::asset::Faults;
+
+use super::exit_code;
+
+/// Why a command could not finish.
+#[derive(Debug, Error)]
+pub enum CliError {
+    /// Arguments that only make sense together, or not at all, for this task.
+    #[error("{message}\n  help: {advice}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to try.
+        advice: String,
+    },
+    /// Faults of given files; each says `error:` itself.
+    #[error("{0}")]
+    Files(#[from] Faults),
+    /// Nobody reads the results any more.
+    #[error("the output was closed")]
+    Closed,
+    /// Anything else.
+    #[error("{0}")]
+    Unexpected(String),
+}
+
+impl CliError {
+    /// A wrong command line.
+    pub fn usage(message: impl Into<String>, advice: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), advice: advice.into() }
+    }
+
+    /// A failure outside the given files.
+    pub fn unexpected(doing: &str, error: &dyn Display) -> Self {
+        Self::Unexpected(format!("{doing}: {error}"))
+    }
+
+    /// A failure to write results.
+    pub fn output(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::Closed,
+            _ => Self::unexpected("cannot write the results", error),
+        }
+    }
+
+    /// The process's exit code.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage { .. } => exit_code::USAGE,
+            Self::Files(_) => exit_code::INVALID_FILE,
+            // `pushplan ... | head` is no failure.
+            Self::Closed => exit_code::DONE,
+            Self::Unexpected(_) => exit_code::UNEXPECTED,
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! What the process tells the shell. Scripts rely on these numbers: never change their meaning.
+
+/// Did what was asked.
+pub const DONE: u8 = 0;
+/// Could not finish for a reason outside the given files: a folder that cannot be written, a full
+/// disk, or a defect of pushplan.
+pub const UNEXPECTED: u8 = 1;
+/// The command line is wrong. Nothing was run.
+pub const USAGE: u8 = 2;
+/// A given file is missing, unreadable or wrong. Every fault found was printed.
+pub const INVALID_FILE: u8 = 3;
+/// The search ended and no plan reaches the goal; the nearest one is shown.
+pub const NO_PLAN: u8 = 4;
+/// Plans reach the goal by prediction, but none of those tried does in the 3-D simulation.
+pub const FAILED_VERIFICATION: u8 = 5;
+/// Stopped by Ctrl-C or a termination signal; what was finished is saved.
+pub const INTERRUPTED: u8 = 130;
+
+/// The list for `--help`.
+pub const HELP: &str = "\
+Exit codes:
+    0  done
+    1  could not finish (folder not writable, disk full, internal error)
+    2  wrong command line
+    3  a file is missing or invalid
+    4  no plan found
+    5  plans were found but failed verification
+  130  interrupted; finished work is saved";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_help_lists_every_code() {
+        let listed: Vec<u8> = HELP
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split_whitespace().next()?.parse().ok())
+            .collect();
+        let all =
+            [DONE, UNEXPECTED, USAGE, INVALID_FILE, NO_PLAN, FAILED_VERIFICATION, INTERRUPTED];
+        assert_eq!(listed, all);
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 130]);
+    }
+}

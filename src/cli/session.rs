@@ -1,0 +1,89 @@
+//! What every subcommand shares: where to write, how to show progress, how many threads.
+
+use std::io::{IsTerminal, Write};
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::error::CliError;
+
+/// Options of every subcommand.
+#[derive(Args, Clone, Debug)]
+pub struct GlobalArgs {
+    /// Worker threads; 0 means one per core. Results never depend on it
+    #[arg(long, global = true, value_name = "N", default_value_t = 0,
+          value_parser = clap::value_parser!(u16).range(0..=1024))]
+    pub threads: u16,
+    /// No progress and no warnings on stderr
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+}
+
+/// One run of the command.
+#[derive(Debug)]
+pub struct Session {
+    pool: ThreadPool,
+    quiet: bool,
+}
+
+impl Session {
+    /// Starts the threads.
+    ///
+    /// # Errors
+    /// [`CliError::Unexpected`] if the system refuses that many threads.
+    pub fn start(args: &GlobalArgs) -> Result<Self, CliError> {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(usize::from(args.threads))
+            .build()
+            .map_err(|error| CliError::unexpected("cannot start the threads", &error))?;
+        Ok(Self { pool, quiet: args.quiet })
+    }
+
+    /// Runs `work` on the session's threads.
+    pub fn compute<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(work)
+    }
+
+    /// Writes results to stdout.
+    ///
+    /// # Errors
+    /// [`CliError::Closed`] if the reader went away, [`CliError::Unexpected`] for anything else.
+    pub fn print(&self, text: &str) -> Result<(), CliError> {
+        let mut out = std::io::stdout().lock();
+        out.write_all(text.as_bytes())
+            .and_then(|()| out.flush())
+            .map_err(|error| CliError::output(&error))
+    }
+
+    /// Writes a warning to stderr.
+    pub fn warn(&self, text: &str) {
+        if !self.quiet {
+            // Were stderr gone, there would be nobody left to tell.
+            let _ = writeln!(std::io::stderr(), "warning: {text}");
+        }
+    }
+
+    /// A bar over `total` units, or a spinner if the total is unknown. Invisible unless stderr is
+    /// a terminal.
+    pub fn progress(&self, what: &str, total: Option<u64>) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = match total {
+            Some(total) => ProgressBar::new(total)
+                .with_style(style("{prefix} [{bar:30}] {pos}/{len} {per_sec} {msg} eta {eta}")),
+            None => ProgressBar::new_spinner().with_style(style("{spinner} {prefix} {elapsed}")),
+        };
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+        bar.set_prefix(what.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(200));
+        bar
+    }
+}
+
+fn style(template: &str) -> ProgressStyle {
+    // Only a typing mistake in a template above can fail; the default bar then does.
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}

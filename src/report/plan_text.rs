@@ -1,0 +1,105 @@
+//! A plan and where it ends, in words and tables for the terminal.
+
+use crate::geometry::{Vector, wrap_angle};
+use crate::scene::{Outcome, Plan, Task};
+
+use super::{
+    number::{degrees, millimetres},
+    table::{Align, Table},
+};
+
+/// Stands for a number that is not asked for.
+const NONE: &str = "\u{2013}";
+
+/// One line: tool, grip yaw, number of pushes.
+pub fn plan_line(plan: &Plan) -> String {
+    let count = plan.pushes.len();
+    let pushes = if count == 1 { "push" } else { "pushes" };
+    format!("{}, grip yaw {}, {count} {pushes}", plan.tool, whole_degrees(plan.grip_yaw))
+}
+
+/// One row per push.
+pub fn push_table(plan: &Plan) -> Table {
+    let mut table = Table::new([
+        ("push", Align::Right),
+        ("end effector starts at", Align::Left),
+        ("direction", Align::Right),
+        ("length", Align::Right),
+        ("speed", Align::Right),
+    ]);
+    for (k, push) in plan.pushes.iter().enumerate() {
+        table.row([
+            (k + 1).to_string(),
+            point(push.start),
+            degrees(wrap_angle(push.direction)),
+            millimetres(push.length),
+            format!("{:.2} m/s", push.speed),
+        ]);
+    }
+    table
+}
+
+/// Where the goal object ends by several sources, one row each.
+pub fn outcome_table(task: &Task, outcomes: &[(&str, &Outcome)]) -> Table {
+    let mut table = Table::new([
+        ("", Align::Left),
+        ("final position", Align::Left),
+        ("error", Align::Right),
+        ("heading error", Align::Right),
+        ("reached", Align::Left),
+    ]);
+    for (source, outcome) in outcomes {
+        let end = outcome.state.poses.get(task.goal.object);
+        table.row([
+            (*source).to_owned(),
+            end.map_or(NONE.to_owned(), |pose| point(pose.position)),
+            millimetres(outcome.error),
+            outcome.heading_error.map_or(NONE.to_owned(), degrees),
+            if outcome.reached { "yes" } else { "no" }.to_owned(),
+        ]);
+    }
+    table
+}
+
+/// One line: what must come where.
+pub fn goal_line(task: &Task) -> String {
+    let goal = &task.goal;
+    let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
+    let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
+        format!(", heading {} \u{00b1} {}", degrees(heading), degrees(tolerance))
+    });
+    let (at, within) = (point(goal.position), millimetres(goal.tolerance));
+    format!("{name} at {at} within {within}{heading}")
+}
+
+/// A position on the table.
+pub fn point(position: Vector) -> String {
+    format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
+}
+
+fn whole_degrees(radians: f64) -> String {
+    format!("{:.0}\u{00b0}", radians.to_degrees() + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Push, PushForm};
+
+    #[test]
+    fn a_plan_reads_as_a_table() {
+        let push = Push { start: Vector::new(0.42, -0.0), direction: 3.2, length: 0.2, speed: 0.1 };
+        let plan = Plan {
+            tool: "l-hook".to_owned(),
+            grip_yaw: -std::f64::consts::FRAC_PI_2,
+            form: PushForm::Placed,
+            lift: 0.002,
+            pushes: vec![push],
+        };
+        insta::assert_snapshot!(plan_line(&plan), @"l-hook, grip yaw -90°, 1 push");
+        insta::assert_snapshot!(push_table(&plan).to_text(), @r"
+        push  end effector starts at  direction  length     speed
+           1  (0.420, 0.000) m          -176.7°  200 mm  0.10 m/s
+        ");
+    }
+}
