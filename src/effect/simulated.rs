@@ -45,3 +45,52 @@ impl EffectModel for Simulated {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::geometry::{Pose, Shape, Vector};
+    use crate::scene::{Hypothesis, Object, Part, Push, Tool};
+
+    use super::*;
+
+    #[test]
+    fn trajectories_come_in_the_order_of_the_jobs_each_under_its_hypothesis() {
+        let puck = Object {
+            name: "puck".into(),
+            shape: Shape::Cylinder { radius: 0.03, height: 0.05 },
+            mass: 0.2,
+            friction: 0.3,
+            pose: Pose::new(0.05, 0.0, 0.0),
+        };
+        let scene = Scene { table_friction: 0.3, objects: vec![puck], ..Scene::default() };
+        let bar = Part { name: "bar".into(), size: [0.02, 0.1, 0.05], pose: Pose::default() };
+        let tool =
+            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![bar], &[]);
+        let tool = Arc::new(tool.expect("one part is one piece"));
+        let jobs: Vec<Job> = (0..6)
+            .map(|k| {
+                let length = 0.04 + 0.02 * f64::from(k);
+                let push = Push { start: Vector::zeros(), direction: 0.0, length, speed: 0.1 };
+                let nominal = Hypothesis::nominal(&scene, &tool);
+                let slow = Hypothesis { table_friction: 0.9, ..nominal };
+                Job {
+                    start: scene.start(),
+                    motion: ToolMotion::pushes(tool.clone(), 0.002, 0.0, &[push], true),
+                    hypothesis: (k % 2 == 1).then(|| Arc::new(slow)),
+                }
+            })
+            .collect();
+        let simulator = Simulator::planar();
+        let model = Simulated::new(simulator.clone());
+        assert_eq!((model.name(), model.error_p95()), ("planar", 0.0));
+        let trajectories = model.rollout(&scene, &jobs, Record::Frames);
+        for (job, trajectory) in jobs.iter().zip(&trajectories) {
+            let hypothesis = job.hypothesis.as_deref();
+            let alone = simulator.run(&scene, &job.start, hypothesis, &job.motion, Record::Frames);
+            assert_eq!(trajectory, &alone);
+        }
+        assert!(model.rollout(&scene, &[], Record::Frames).is_empty());
+    }
+}

@@ -64,8 +64,8 @@ impl fmt::Display for Warning {
             ),
             Warning::SetDownOn { object, stroke } => write!(
                 f,
-                "the tool came down on {object} for push {}; what came before had moved it there, \
-                 so the plan does not work as written",
+                "the tool came down on {object} for push {} instead of beside it, so the plan does \
+                 not work as written",
                 stroke + 1
             ),
             Warning::Toppled { object } => write!(

@@ -4,11 +4,14 @@
 //! exactly what the motion says; at the start of each frame it is put exactly where the motion
 //! says, so that rounding does not add up either.
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, contact_points};
 use crate::scene::{
     Body, COAST_FRAME, Contact, Frame, FrameStep, Hypothesis, MAX_COAST_FRAMES, Record, Scene,
     State, ToolMotion, Trajectory, Warning,
 };
+
+/// Overlap that still counts as touching when the tool comes down, metres.
+const TOUCHING: f64 = 1e-4;
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
@@ -63,6 +66,10 @@ pub(super) fn drive<W: World>(
             // and stays in the old one, where the tool jumps.
             world = W::build(scene, &world.state(), parameters, motion, &stroke.from);
         }
+        if index == 0 || lifted {
+            let warnings = set_down_on(scene, &recorder.last().state, motion, index);
+            recorder.trajectory.warnings.extend(warnings);
+        }
         for k in 0..stroke.frames() {
             let frame = stroke.frame(k);
             play(&mut world, &frame, step, &mut recorder);
@@ -91,6 +98,25 @@ pub(super) fn drive<W: World>(
         }
     }
     recorder.finish(scene)
+}
+
+/// A warning for each object that the tool overlaps at the start of a stroke.
+fn set_down_on(scene: &Scene, state: &State, motion: &ToolMotion, stroke: usize) -> Vec<Warning> {
+    let tool = &motion.strokes[stroke].from;
+    let parts: Vec<_> = (motion.tool.parts.iter().enumerate())
+        .map(|(index, part)| (part.footprint(), motion.tool.part_pose(index, tool)))
+        .collect();
+    let mut warnings = Vec::new();
+    for (object, pose) in scene.objects.iter().zip(&state.poses) {
+        let footprint = object.shape.footprint();
+        let overlaps = parts
+            .iter()
+            .any(|(part, at)| contact_points((part, at), (&footprint, pose), -TOUCHING).1 > 0);
+        if overlaps && object.shape.height() > motion.lift {
+            warnings.push(Warning::SetDownOn { object: object.name.clone(), stroke });
+        }
+    }
+    warnings
 }
 
 /// Plays one frame in equal steps.

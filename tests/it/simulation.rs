@@ -1,6 +1,13 @@
 //! The two engines against closed forms, symmetries and themselves.
 
+mod contacts;
 mod determinism;
+mod energy;
 mod fixtures;
+mod joints;
+mod rapier_035_friction_direction;
+mod sequences;
 mod sliding;
+mod steps;
+mod symmetry;
 mod travel;

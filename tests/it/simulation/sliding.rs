@@ -1,6 +1,6 @@
 //! An object that slides freely goes as far as its support law says.
 
-use pushplan::geometry::{Pose, Vector};
+use pushplan::geometry::{Pose, Shape, Vector, cross};
 use pushplan::scene::{GRAVITY, Object, Record, State, Velocity};
 use pushplan::sim::Simulator;
 
@@ -36,4 +36,87 @@ fn without_spin_it_slides_v_squared_over_two_mu_g() {
             }
         }
     }
+}
+
+/// Integrates a support law independently of any engine, in steps of 10 us, until rest:
+/// `law(heading, velocity)` gives the acceleration. Returns where an object at the origin ends.
+fn integrate(start: Velocity, law: impl Fn(f64, Velocity) -> Velocity) -> Pose {
+    let dt = 1e-5;
+    let (mut pose, mut velocity) = (Pose::default(), start);
+    for _ in 0..1_000_000 {
+        let rate = law(pose.heading, velocity);
+        let half = step(velocity, rate, dt / 2.0);
+        let rate = law(pose.heading + velocity.angular * dt / 2.0, half);
+        let next = step(velocity, rate, dt);
+        // Friction stops an object within one step; it does not send it back.
+        if next.linear.dot(&start.linear) <= 0.0 || next.angular * start.angular < 0.0 {
+            break;
+        }
+        pose.position += half.linear * dt;
+        pose.heading += half.angular * dt;
+        velocity = next;
+    }
+    pose
+}
+
+fn step(velocity: Velocity, rate: Velocity, dt: f64) -> Velocity {
+    Velocity {
+        linear: velocity.linear + rate.linear * dt,
+        angular: velocity.angular + rate.angular * dt,
+    }
+}
+
+const SPINNING: Velocity = Velocity { linear: Vector::new(0.4, 0.3), angular: 12.0 };
+
+#[test]
+fn with_spin_the_planar_engine_follows_its_limit_surface_and_goes_further() {
+    for object in [can(), brick()] {
+        let footprint = object.shape.footprint();
+        let (c, rho) = (footprint.mean_radius(), footprint.gyration_radius());
+        let a = 0.45 * GRAVITY;
+        let expected = integrate(SPINNING, |_, v| {
+            let s = v.linear.norm().hypot(c * v.angular);
+            Velocity {
+                linear: v.linear * (-a / s),
+                angular: -a * c * c / (rho * rho) * v.angular / s,
+            }
+        });
+        let (end, _) = slide(&Simulator::planar(), object.clone(), SPINNING);
+        let error = (end.position - expected.position).norm();
+        assert!(error < 0.5e-3, "{}: {error}", object.name);
+        assert!((end.heading - expected.heading).abs() < 0.01, "{end:?} for {expected:?}");
+
+        let straight = Velocity { angular: 0.0, ..SPINNING };
+        let (without, _) = slide(&Simulator::planar(), object, straight);
+        assert!(end.position.norm() > without.position.norm() + 5e-3);
+    }
+}
+
+#[test]
+fn with_spin_the_3d_engine_follows_friction_at_four_corners_and_goes_further() {
+    // So flat that braking hardly shifts the load between the corners.
+    let mut plate = brick();
+    plate.shape = Shape::Cuboid { size: [0.10, 0.06, 0.002] };
+    let corners = [(0.05, 0.03), (-0.05, 0.03), (-0.05, -0.03), (0.05, -0.03)];
+    let rho = plate.shape.footprint().gyration_radius();
+    let a = 0.45 * GRAVITY;
+    let expected = integrate(SPINNING, |heading, v| {
+        let mut rate = Velocity::default();
+        for (x, y) in corners {
+            let arm = Pose::new(0.0, 0.0, heading).vector(Vector::new(x, y));
+            let slip = v.at(arm);
+            let push = slip * (-0.25 * a / slip.norm().max(1e-12));
+            rate.linear += push;
+            rate.angular += cross(arm, push) / (rho * rho);
+        }
+        rate
+    });
+    let (end, _) = slide(&Simulator::spatial(), plate.clone(), SPINNING);
+    let error = (end.position - expected.position).norm();
+    assert!(error < 1.5e-3, "{error}: {end:?} for {expected:?}");
+    assert!((end.heading - expected.heading).abs() < 0.05, "{end:?} for {expected:?}");
+
+    let straight = Velocity { angular: 0.0, ..SPINNING };
+    let (without, _) = slide(&Simulator::spatial(), plate, straight);
+    assert!(end.position.norm() > without.position.norm() + 5e-3);
 }

@@ -1,0 +1,125 @@
+//! Who meets whom, and what is reported when things go wrong.
+
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::scene::{Body, Hypothesis, Obstacle, Record, Warning};
+use pushplan::sim::Simulator;
+
+use super::fixtures::{bar, brick, can, engines, push, table};
+
+#[test]
+fn a_lifted_tool_passes_over_a_low_object() {
+    let mut low = brick();
+    low.shape = Shape::Cuboid { size: [0.10, 0.06, 0.02] };
+    let scene = table(vec![low]);
+    let mut motion = push(Vector::new(-0.07, 0.0), 0.0, 0.2, 0.1);
+    for simulator in engines() {
+        for (lift, meets) in [(0.018, true), (0.021, false)] {
+            motion.lift = lift;
+            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+            let moved = trajectory.outcome().poses[0].position.norm() > 0.01;
+            assert_eq!(moved, meets, "{:?} at lift {lift}", simulator.engine());
+            assert_eq!(!trajectory.contacts.is_empty(), meets);
+        }
+    }
+}
+
+#[test]
+fn an_obstacle_holds_what_is_pushed_against_it() {
+    let mut scene = table(vec![can()]);
+    scene.obstacles.push(Obstacle {
+        name: "wall".into(),
+        size: [0.02, 0.3, 0.1],
+        pose: Pose::new(0.16, 0.0, 0.0),
+        friction: 0.5,
+    });
+    // The face ends 0.2 mm further from the wall than the can is wide; it slides the rest.
+    let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1098, 0.1);
+    for simulator in engines() {
+        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let end = trajectory.outcome().poses[0].position;
+        assert!((end.x - 0.1).abs() < 0.3e-3, "{:?}: {end}", simulator.engine());
+        let with: Vec<Body> = trajectory.contacts.iter().map(|contact| contact.with).collect();
+        assert_eq!(with, vec![Body::Part(0), Body::Obstacle(0)], "{:?}", simulator.engine());
+    }
+}
+
+#[test]
+fn a_heavy_object_behind_a_light_one_is_not_sunk_into() {
+    let mut light = can();
+    light.mass = 0.05;
+    let mut heavy = can();
+    heavy.name = "heavy".into();
+    heavy.mass = 5.0;
+    heavy.pose = Pose::new(0.105, 0.0, 0.0);
+    let scene = table(vec![light, heavy]);
+    let motion = push(Vector::new(-0.055, 0.0), 0.0, 0.1, 0.1);
+    for simulator in engines() {
+        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let deepest = trajectory.frames.iter().map(|frame| {
+            let poses = &frame.state.poses;
+            0.1 - (poses[0].position - poses[1].position).norm()
+        });
+        let deepest = deepest.fold(f64::NEG_INFINITY, f64::max);
+        assert!(deepest < 1e-3, "{:?}: {deepest}", simulator.engine());
+    }
+}
+
+#[test]
+fn a_hypothesis_replaces_what_the_scene_says() {
+    let scene = table(vec![can()]);
+    let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.3);
+    let slippery = Hypothesis {
+        frictions: vec![0.1],
+        table_friction: 0.1,
+        ..Hypothesis::nominal(&scene, &bar())
+    };
+    for simulator in engines() {
+        let end = |hypothesis| {
+            let run = simulator.run(&scene, &scene.start(), hypothesis, &motion, Record::Outcome);
+            run.outcome().poses[0].position.x
+        };
+        let (nominal, far) = (end(None), end(Some(&slippery)));
+        // The face ends at 0.04; slides are v^2 / 2 mu g.
+        assert!((nominal - 0.09 - 0.0102).abs() < 1e-3, "{nominal}");
+        assert!((far - 0.09 - 0.0459).abs() < 2e-3, "{far}");
+    }
+}
+
+#[test]
+fn a_tall_object_pushed_at_its_top_topples_in_3d() {
+    let mut tower = brick();
+    tower.name = "tower".into();
+    tower.shape = Shape::Cuboid { size: [0.02, 0.06, 0.2] };
+    let scene = table(vec![tower]);
+    let mut motion = push(Vector::new(-0.03, 0.0), 0.0, 0.1, 0.1);
+    motion.lift = 0.14;
+    let trajectory =
+        Simulator::spatial().run(&scene, &scene.start(), None, &motion, Record::Outcome);
+    let toppled = Warning::Toppled { object: "tower".into() };
+    assert!(trajectory.warnings.contains(&toppled), "{:?}", trajectory.warnings);
+}
+
+#[test]
+fn a_start_that_is_not_finite_is_returned_with_a_warning() {
+    let scene = table(vec![can()]);
+    let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.1);
+    let mut start = scene.start();
+    start.velocities[0].angular = f64::NAN;
+    for simulator in engines() {
+        let trajectory = simulator.run(&scene, &start, None, &motion, Record::Frames);
+        assert_eq!(trajectory.frames.len(), 1);
+        assert_eq!(trajectory.warnings, vec![Warning::NotFinite]);
+    }
+}
+
+#[test]
+fn on_ice_waiting_is_given_up_with_a_warning() {
+    let mut scene = table(vec![can()]);
+    scene.table_friction = 0.0;
+    scene.objects[0].friction = 0.0;
+    let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.1);
+    for simulator in engines() {
+        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        assert_eq!(trajectory.warnings, vec![Warning::NotAtRest { waited: 3.0 }]);
+    }
+}
