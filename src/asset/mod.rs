@@ -4,11 +4,13 @@
 //! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
 //! their place (`node`), the tree is checked against what such a file may hold (`spec`,
 //! `strict`), and the rules that span several keys are applied while the domain's type is
-//! built (`tool`, `task`). Nothing is simulated here and nothing is drawn.
+//! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
 
 mod fault;
+mod kind;
 mod library;
 mod node;
+mod saved;
 mod schema;
 mod spec;
 mod strict;
@@ -19,8 +21,10 @@ mod tool;
 mod write;
 
 pub use fault::{Fault, Faults, Place};
+pub use kind::{Kind, check};
 pub use library::ToolLibrary;
-pub use schema::{task_schema, tool_schema};
+pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
+pub use schema::{plan_schema, task_schema, tool_schema, trajectory_schema};
 pub use task::load_task;
 pub use write::write_atomic;
 

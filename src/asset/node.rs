@@ -1,9 +1,10 @@
-//! YAML text as a tree of numbered nodes that know their place.
+//! YAML or JSON text as a tree of numbered nodes that know their place.
 //!
-//! The YAML crate tells positions only in its errors. So nodes are numbered in the order in
-//! which they are read, and the place of one is found by reading the text again and failing on
-//! purpose at its number. That costs one more parse per fault and nothing for a good file, and
-//! the positions are the parser's own.
+//! The crates that read both tell positions only in their errors. So nodes are numbered in the
+//! order in which they are read, and the place of one is found by reading the text again and
+//! failing on purpose at its number. That costs one more parse per fault and nothing for a good
+//! file, and the positions are the parser's own (YAML: where the value begins; JSON: where the
+//! parser stood, which is the value's last character or first bracket).
 
 use std::cell::Cell;
 use std::fmt;
@@ -11,13 +12,15 @@ use std::fmt;
 use serde::de::{self, DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, Visitor};
 
 use super::fault::{Fault, Faults, Place};
+use super::text::{Language, Source};
 
-/// The largest file that is read, bytes: far above any task, and small enough that a wrong
+/// The longest YAML text that is read, bytes: far above any task, and small enough that a wrong
 /// file is refused at once.
-const MAX_BYTES: usize = 1 << 18;
+const MAX_YAML_BYTES: usize = 1 << 18;
 
-/// The most values that a file may hold; anchors and aliases can write many with few letters.
-const MAX_NODES: usize = 100_000;
+/// The most values that a YAML text may hold; anchors and aliases can write many with few
+/// letters.
+const MAX_YAML_NODES: usize = 100_000;
 
 /// A value and its number in reading order.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,32 +42,31 @@ pub(super) enum Content {
 }
 
 impl Node {
-    /// Reads `text`.
+    /// Reads a text.
     ///
     /// # Errors
-    /// One fault if it is not YAML.
-    pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
-        if text.len() > MAX_BYTES {
+    /// One fault if it is not of its language.
+    pub fn parse(source: Source) -> Result<Self, Faults> {
+        let Source { file, text, language } = source;
+        if language == Language::Yaml && text.len() > MAX_YAML_BYTES {
             let message =
-                format!("the file has {} bytes; at most {MAX_BYTES} are read", text.len());
+                format!("the file has {} bytes; at most {MAX_YAML_BYTES} are read", text.len());
             return Err(Fault::of_file(file, message, "is this the right file?").into());
         }
-        read(text, usize::MAX).map_err(|error| {
-            let place = error.location().map(|l| Place { line: l.line(), column: l.column() });
-            // The place is said once, in front.
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or(&message);
-            let advice = if message.contains("end of stream") || text.trim().is_empty() {
+        read(source, usize::MAX).map_err(|failure| {
+            let advice = if text.trim().is_empty() {
                 "the file is empty; `pushplan schema` shows what belongs into it"
-            } else if text.contains('\t') {
+            } else if language == Language::Yaml && text.contains('\t') {
                 "YAML indents with spaces; tabs are not allowed"
             } else {
                 "check indentation, brackets and quotes around this place"
             };
+            // The place is said once, in front.
+            let message = failure.message.split(" at line ").next().unwrap_or_default();
             Faults(vec![Fault {
                 file: file.into(),
-                place,
-                message: format!("not valid YAML: {message}"),
+                place: failure.place,
+                message: format!("not valid {language:?}: {message}"),
                 advice: advice.into(),
             }])
         })
@@ -128,22 +130,45 @@ impl fmt::Display for Content {
     }
 }
 
-/// Where node `id` of `text` begins.
-pub(super) fn locate(text: &str, id: usize) -> Option<Place> {
-    let error = read(text, id).err()?;
-    error.location().map(|l| Place { line: l.line(), column: l.column() })
+/// Where node `id` of a text is.
+pub(super) fn locate(source: Source, id: usize) -> Option<Place> {
+    read(source, id).err()?.place
+}
+
+/// Why and where reading stopped.
+struct Failure {
+    message: String,
+    place: Option<Place>,
 }
 
 /// Reads all nodes, failing on purpose at node `stop`.
-fn read(text: &str, stop: usize) -> Result<Node, serde_yaml::Error> {
-    let reader = Reader { next: &Cell::new(0), stop };
-    reader.deserialize(serde_yaml::Deserializer::from_str(text))
+fn read(source: Source, stop: usize) -> Result<Node, Failure> {
+    let next = Cell::new(0);
+    match source.language {
+        Language::Yaml => {
+            let reader = Reader { next: &next, stop, limit: MAX_YAML_NODES };
+            reader.deserialize(serde_yaml::Deserializer::from_str(source.text)).map_err(|error| {
+                let place = error.location().map(|l| Place { line: l.line(), column: l.column() });
+                Failure { message: error.to_string(), place }
+            })
+        }
+        Language::Json => {
+            let reader = Reader { next: &next, stop, limit: usize::MAX };
+            let mut json = serde_json::Deserializer::from_str(source.text);
+            let read = reader.deserialize(&mut json).and_then(|node| json.end().map(|()| node));
+            read.map_err(|error| {
+                let place = Place { line: error.line(), column: error.column() };
+                Failure { message: error.to_string(), place: Some(place) }
+            })
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
 struct Reader<'a> {
     next: &'a Cell<usize>,
     stop: usize,
+    limit: usize,
 }
 
 impl Reader<'_> {
@@ -153,8 +178,8 @@ impl Reader<'_> {
         if id == self.stop {
             return Err(E::custom("located"));
         }
-        if id == MAX_NODES {
-            return Err(E::custom(format_args!("more than {MAX_NODES} values")));
+        if id == self.limit {
+            return Err(E::custom(format_args!("more than {} values", self.limit)));
         }
         Ok(id)
     }
@@ -245,8 +270,9 @@ mod tests {
     #[test]
     fn every_node_is_found_again() {
         let text = "a: {b: 1, c: [x, .nan]}\nä: [\n  2.5,\n  ]\n";
-        let root = Node::parse("t", text).unwrap();
-        let place = |node: &Node| locate(text, node.id).map(|p| (p.line, p.column));
+        let source = Source::yaml("t", text);
+        let root = Node::parse(source).unwrap();
+        let place = |node: &Node| locate(source, node.id).map(|p| (p.line, p.column));
         assert_eq!(place(&root), Some((1, 1)));
         let a = root.get("a").unwrap();
         assert_eq!(place(a), Some((1, 4)));
@@ -254,6 +280,17 @@ mod tests {
         assert_eq!(place(&a.pairs()[1].0), Some((1, 11)));
         assert_eq!(place(&a.get("c").unwrap().items()[1]), Some((1, 18)));
         assert_eq!(place(&root.get("ä").unwrap().items()[0]), Some((3, 3)));
-        assert_eq!(locate(text, 1000), None);
+        assert_eq!(locate(source, 1000), None);
+    }
+
+    #[test]
+    fn nodes_of_json_are_found_too() {
+        let text = "{\n  \"a\": [1.5,\n    {\"b\": true}]\n}";
+        let source = Source::json("t", text);
+        let root = Node::parse(source).unwrap();
+        let place = |node: &Node| locate(source, node.id).map(|p| (p.line, p.column));
+        let items = root.get("a").unwrap().items();
+        assert_eq!(place(&items[0]), Some((2, 11)));
+        assert_eq!(place(items[1].get("b").unwrap()), Some((3, 14)));
     }
 }

@@ -15,6 +15,16 @@ pub fn task_schema() -> Json {
     document("pushplan task", &super::task::TASK)
 }
 
+/// The schema of plan files.
+pub fn plan_schema() -> Json {
+    document("pushplan plan", &super::saved::PLAN_FILE)
+}
+
+/// The schema of trajectory files.
+pub fn trajectory_schema() -> Json {
+    document("pushplan trajectory", &super::saved::TRAJECTORY_FILE)
+}
+
 fn document(title: &str, value: &Value) -> Json {
     let mut schema = schema(value);
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
@@ -24,6 +34,9 @@ fn document(title: &str, value: &Value) -> Json {
 
 fn schema(value: &Value) -> Json {
     match value {
+        Value::Anything => json!({}),
+        Value::Nothing => json!({"type": "null"}),
+        Value::Switch => json!({"type": "boolean"}),
         Value::Text => json!({"type": "string"}),
         Value::Name => {
             json!({"type": "string", "minLength": 1, "maxLength": 64, "pattern": "^[\\p{L}\\p{N}_-]+$"})
@@ -74,7 +87,7 @@ mod tests {
 
     #[test]
     fn schemas_describe_every_key() {
-        for schema in [tool_schema(), task_schema()] {
+        for schema in [tool_schema(), task_schema(), plan_schema(), trajectory_schema()] {
             let properties = schema["properties"].as_object().unwrap();
             assert!(!properties.is_empty());
             assert!(properties.values().all(|p| p["description"].is_string()));

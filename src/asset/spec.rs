@@ -24,6 +24,12 @@ impl Key {
 
 /// A kind of value.
 pub(super) enum Value {
+    /// Anything; what it must be is told by the type that it is read into.
+    Anything,
+    /// No value, where that has a meaning.
+    Nothing,
+    /// True or false.
+    Switch,
     /// Free text.
     Text,
     /// A short word that messages and other keys can refer to.
@@ -101,6 +107,7 @@ pub(super) const MASS: Value = Value::Number(Range {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::asset::saved::{PLAN_FILE, TRAJECTORY_FILE};
     use crate::asset::{task::TASK, tool::TOOL};
 
     fn walk(value: &Value, visit: &mut impl FnMut(&Value)) {
@@ -117,7 +124,7 @@ mod tests {
 
     #[test]
     fn every_key_is_explained_and_every_range_holds_something() {
-        for root in [&TOOL, &TASK] {
+        for root in [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE] {
             walk(root, &mut |value| match value {
                 Value::Map(keys) | Value::Variant(keys) => {
                     for key in *keys {
@@ -127,7 +134,7 @@ mod tests {
                     }
                 }
                 Value::Number(range) | Value::Count(range) => {
-                    assert!(range.low < range.high, "{}", range.what);
+                    assert!(range.low <= range.high, "{}", range.what);
                 }
                 Value::List { min, max, .. } => assert!(min <= max),
                 _ => {}

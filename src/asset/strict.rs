@@ -3,20 +3,20 @@
 use super::fault::{Fault, Faults, did_you_mean, one_of};
 use super::node::{Content, Node, locate};
 use super::spec::{Key, Range, Value};
+use super::text::Source;
 
 /// More faults than this are counted rather than shown; a wrong file would bury the reader.
 const MAX_SHOWN: usize = 50;
 
 /// Collects faults by node; places are looked up at the end.
 pub(super) struct Ledger<'a> {
-    file: &'a str,
-    text: &'a str,
+    source: Source<'a>,
     found: Vec<(usize, String, String)>,
 }
 
 impl<'a> Ledger<'a> {
-    pub fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, found: Vec::new() }
+    pub fn new(source: Source<'a>) -> Self {
+        Self { source, found: Vec::new() }
     }
 
     /// Notes a fault at `node`.
@@ -24,10 +24,25 @@ impl<'a> Ledger<'a> {
         self.found.push((node.id, message.into(), advice.into()));
     }
 
+    /// Whether nothing was wrong so far.
+    ///
+    /// # Errors
+    /// All faults noted so far.
+    pub fn sound(&self) -> Result<(), Faults> {
+        if self.found.is_empty() {
+            return Ok(());
+        }
+        Self { source: self.source, found: self.found.clone() }.finish(None)
+    }
+
     /// `value` if it exists and nothing was wrong.
     pub fn finish<T>(mut self, value: Option<T>) -> Result<T, Faults> {
         if let (Some(value), true) = (value, self.found.is_empty()) {
             return Ok(value);
+        }
+        if self.found.is_empty() {
+            // Whatever makes a value missing notes a fault; this is for a rule that forgot.
+            return Err(Fault::of_file(self.source.file, "the file is incomplete", "").into());
         }
         self.found.sort_by_key(|(id, ..)| *id);
         let more = self.found.len().saturating_sub(MAX_SHOWN);
@@ -36,14 +51,14 @@ impl<'a> Ledger<'a> {
             .drain(..)
             .take(MAX_SHOWN)
             .map(|(id, message, advice)| Fault {
-                file: self.file.into(),
-                place: locate(self.text, id),
+                file: self.source.file.into(),
+                place: locate(self.source, id),
                 message,
                 advice,
             })
             .collect();
         if more > 0 {
-            faults.push(Fault::of_file(self.file, format!("and {more} more"), ""));
+            faults.push(Fault::of_file(self.source.file, format!("and {more} more"), ""));
         }
         Err(Faults(faults))
     }
@@ -53,6 +68,9 @@ impl<'a> Ledger<'a> {
 /// later rules can work on all that is sound and none repeats a fault.
 pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     match value {
+        Value::Anything => {}
+        Value::Nothing if node.content == Content::Nothing => {}
+        Value::Switch if matches!(node.content, Content::Switch(_)) => {}
         Value::Text if node.text().is_some() => {}
         Value::Name if node.text().is_some() => check_name(node, ledger),
         Value::Word(words) if node.text().is_some() => check_word(node, words, ledger),
@@ -176,6 +194,9 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
 
 fn same_kind(node: &Node, value: &Value) -> bool {
     match value {
+        Value::Anything => true,
+        Value::Nothing => node.content == Content::Nothing,
+        Value::Switch => matches!(node.content, Content::Switch(_)),
         Value::Text | Value::Name | Value::Word(_) => node.text().is_some(),
         Value::Number(_) | Value::Count(_) => node.number().is_some(),
         Value::List { .. } => matches!(node.content, Content::List(_)),
@@ -190,6 +211,9 @@ pub(super) fn describe(value: &Value) -> String {
         keys.iter().map(|key| format!("`{}`", key.name)).collect()
     };
     match value {
+        Value::Anything => "any value".into(),
+        Value::Nothing => "null".into(),
+        Value::Switch => "`true` or `false`".into(),
         Value::Text => "text".into(),
         Value::Name => "a name".into(),
         Value::Word(words) => {
@@ -205,5 +229,8 @@ pub(super) fn describe(value: &Value) -> String {
 }
 
 fn in_range(range: &Range) -> String {
+    if range.low == range.high {
+        return format!("{}, {}", range.what, range.low);
+    }
     format!("{}, {} to {}", range.what, range.low, range.high)
 }

@@ -1,4 +1,4 @@
-//! Text files as the user names them.
+//! The text of a file, with the name that faults give it and the language it is in.
 
 use std::fs::File;
 use std::io::Read;
@@ -8,6 +8,31 @@ use super::fault::Fault;
 
 /// The largest file that is read, bytes; a trajectory of hundreds of objects is smaller.
 const MAX_BYTES: u64 = 1 << 28;
+
+/// The language of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Language {
+    Yaml,
+    Json,
+}
+
+/// A text and its name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Source<'a> {
+    pub file: &'a str,
+    pub text: &'a str,
+    pub language: Language,
+}
+
+impl<'a> Source<'a> {
+    pub fn yaml(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, language: Language::Yaml }
+    }
+
+    pub fn json(file: &'a str, text: &'a str) -> Self {
+        Self { file, text, language: Language::Json }
+    }
+}
 
 /// The file's name for messages, and its text.
 pub(super) fn read_text(path: &Path) -> Result<(String, String), Fault> {

@@ -10,9 +10,13 @@ use super::node::Node;
 use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, Value};
 use super::strict::{Ledger, check};
 use super::take::{angle, name_of, pose, position, triple, unique_names};
+use super::text::Source;
 
 /// What a tool file may hold.
-pub(super) static TOOL: Value = Value::Map(&[
+pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
+
+/// The keys of a tool.
+pub(super) const TOOL_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The tool's name, unique in its folder."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::optional(
@@ -51,7 +55,7 @@ pub(super) static TOOL: Value = Value::Map(&[
         },
         "Pairs of parts joined rigidly although they do not touch; by default none.",
     ),
-]);
+];
 
 const PART: Value = Value::Map(&[
     Key::required("name", Value::Name, "The part's name, unique in the tool."),
@@ -79,16 +83,17 @@ impl Tool {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
-        let mut root = Node::parse(file, text)?;
-        let mut ledger = Ledger::new(file, text);
+        let source = Source::yaml(file, text);
+        let mut root = Node::parse(source)?;
+        let mut ledger = Ledger::new(source);
         check(&mut root, &TOOL, &mut ledger);
-        let tool = build(&root, &mut ledger);
+        let tool = tool_of(&root, &mut ledger);
         ledger.finish(tool)
     }
 }
 
 /// Applies the rules that span several keys; `None` if anything needed is missing.
-fn build(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
+pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     let list = root.get("parts")?;
     unique_names(list.items(), "parts", ledger);
     for part in list.items() {

@@ -9,6 +9,7 @@ use crate::asset::fault::{Fault, Faults, did_you_mean};
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};
+use crate::asset::text::Source;
 
 use super::{build, rules, spec::TASK};
 
@@ -70,11 +71,16 @@ pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, 
     parse_with(&text, &file, Some(library))
 }
 
-fn parse_with(text: &str, file: &str, library: Option<&ToolLibrary>) -> Result<Task, Faults> {
-    let mut root = Node::parse(file, text)?;
-    let mut ledger = Ledger::new(file, text);
+/// Reads a task from `text`, with the tools it names checked against `library`, if one is given.
+pub(in crate::asset) fn parse_with(
+    text: &str,
+    file: &str,
+    library: Option<&ToolLibrary>,
+) -> Result<Task, Faults> {
+    let source = Source::yaml(file, text);
+    let mut root = Node::parse(source)?;
+    let mut ledger = Ledger::new(source);
     check(&mut root, &TASK, &mut ledger);
-    rules::check(&root, &mut ledger);
     if let Some(library) = library {
         for node in root.get("tools").map(Node::items).unwrap_or_default() {
             if let Some(name) = node.text().filter(|name| library.get(name).is_none()) {
@@ -83,7 +89,14 @@ fn parse_with(text: &str, file: &str, library: Option<&ToolLibrary>) -> Result<T
             }
         }
     }
-    ledger.finish(build::task(&root, file))
+    let task = task_of(&root, file, &mut ledger);
+    ledger.finish(task)
+}
+
+/// Applies the rules that span several keys; `None` if anything needed is missing.
+pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Task> {
+    rules::check(root, ledger);
+    build::task(root, file)
 }
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {

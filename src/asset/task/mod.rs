@@ -6,4 +6,5 @@ mod rules;
 mod spec;
 
 pub use load::load_task;
-pub(super) use spec::TASK;
+pub(super) use load::{parse_with, task_of};
+pub(super) use spec::{TASK, TASK_KEYS};

@@ -19,7 +19,10 @@ pub(super) mod default {
 }
 
 /// What a task file may hold.
-pub(in crate::asset) static TASK: Value = Value::Map(&[
+pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
+
+/// The keys of a task.
+pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::required("scene", SCENE, "What stands on the table."),
@@ -34,7 +37,7 @@ pub(in crate::asset) static TASK: Value = Value::Map(&[
     ),
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
     Key::required("goal", GOAL, "Where an object must come to rest."),
-]);
+];
 
 const SCENE: Value = Value::Map(&[
     Key::optional(

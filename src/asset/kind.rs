@@ -1,0 +1,75 @@
+//! Recognising and checking any user file.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::scene::Tool;
+
+use super::fault::{Fault, Faults};
+use super::library::ToolLibrary;
+use super::node::Node;
+use super::saved::{PlanFile, TrajectoryFile};
+use super::text::{Source, read_text};
+use super::{spec::Key, task, tool};
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A tool file.
+    Tool,
+    /// A task file.
+    Task,
+    /// A plan file.
+    Plan,
+    /// A trajectory file.
+    Trajectory,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Kind::Tool => "tool",
+            Kind::Task => "task",
+            Kind::Plan => "plan",
+            Kind::Trajectory => "trajectory",
+        })
+    }
+}
+
+/// Recognises the file at `path` by what it holds and checks all of it; the tools that a task
+/// names must be in `library`, if one is given.
+///
+/// # Errors
+/// All faults of the file, each with its place.
+pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Kind, Faults> {
+    let (file, text) = read_text(path.as_ref())?;
+    let kind = recognise(&file, &text)?;
+    match kind {
+        Kind::Tool => Tool::parse(&text, &file).map(|_| kind),
+        Kind::Task => task::parse_with(&text, &file, library).map(|_| kind),
+        Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
+        Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
+    }
+}
+
+fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
+    let json = Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
+    let root = Node::parse(if json { Source::json(file, text) } else { Source::yaml(file, text) })?;
+    match root.get("kind").and_then(Node::text) {
+        Some("plan") => return Ok(Kind::Plan),
+        Some("trajectory") => return Ok(Kind::Trajectory),
+        _ => {}
+    }
+    // By the number of keys that fit, so that a misspelled one does not hide what was meant.
+    let fitting = |keys: &[Key]| keys.iter().filter(|key| root.get(key.name).is_some()).count();
+    let (tool, task) = (fitting(tool::TOOL_KEYS), fitting(task::TASK_KEYS));
+    match tool.cmp(&task) {
+        std::cmp::Ordering::Greater => Ok(Kind::Tool),
+        std::cmp::Ordering::Less => Ok(Kind::Task),
+        std::cmp::Ordering::Equal => {
+            let message = "this is not a tool, task, plan or trajectory file";
+            let advice = "`pushplan schema` shows what belongs into such files";
+            Err(Fault::of_file(file, message, advice).into())
+        }
+    }
+}

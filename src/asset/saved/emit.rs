@@ -1,0 +1,164 @@
+//! Tasks and tools written back in the keys of their files.
+
+use serde_json::{Value as Json, json};
+
+use crate::geometry::{Pose, Shape, Vector};
+use crate::scene::{
+    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
+    Task, Tool, ToolChoice,
+};
+
+/// A task as in a task file.
+pub(super) fn task(task: &Task) -> Json {
+    json!({
+        "name": task.name,
+        "description": task.description,
+        "scene": scene(&task.scene),
+        "robot": {
+            "home": vector(task.robot.home),
+            "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
+        },
+        "tools": match &task.tools {
+            ToolChoice::All => json!("all"),
+            ToolChoice::Named(names) => json!(names),
+        },
+        "pushes": pushes(&task.pushes),
+        "goal": goal(&task.goal, &task.scene),
+    })
+}
+
+/// A tool as in a tool file.
+pub(super) fn tool(tool: &Tool) -> Json {
+    let parts: Vec<Json> = tool
+        .parts
+        .iter()
+        .map(|part| posed(json!({"name": part.name, "size": part.size}), &part.pose))
+        .collect();
+    // Every joint is written, those of touching parts too: to name one by hand does no harm.
+    let joints: Vec<Json> =
+        tool.joints.iter().map(|pair| json!(pair.map(|k| &tool.parts[k].name))).collect();
+    json!({
+        "name": tool.name,
+        "description": tool.description,
+        "grip": posed(json!({}), &tool.grip),
+        "friction": tool.friction,
+        "parts": parts,
+        "joints": joints,
+    })
+}
+
+fn scene(scene: &Scene) -> Json {
+    let object = |object: &Object| {
+        let shape = match object.shape {
+            Shape::Cylinder { radius, height } => {
+                json!({"cylinder": {"radius": radius, "height": height}})
+            }
+            Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
+        };
+        let fields = json!({
+            "name": object.name, "shape": shape, "mass": object.mass, "friction": object.friction,
+        });
+        posed(fields, &object.pose)
+    };
+    let obstacle = |obstacle: &Obstacle| {
+        let fields = json!({
+            "name": obstacle.name, "size": obstacle.size, "friction": obstacle.friction,
+        });
+        posed(fields, &obstacle.pose)
+    };
+    let joint = |joint: &Joint| {
+        let between = joint.between.map(|k| &scene.objects[k].name);
+        match joint.kind {
+            JointKind::Fixed => json!({"between": between, "kind": "fixed"}),
+            JointKind::Revolute { at } => {
+                json!({"between": between, "kind": "revolute", "at": vector(at)})
+            }
+            JointKind::Prismatic { axis } => {
+                json!({"between": between, "kind": "prismatic", "axis": vector(axis)})
+            }
+        }
+    };
+    json!({
+        "table": {"friction": scene.table_friction},
+        "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
+        "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
+        "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
+    })
+}
+
+fn pushes(rules: &PushRules) -> Json {
+    let angles = |list: &[f64]| list.iter().map(|angle| degrees(*angle)).collect::<Vec<_>>();
+    let mut pushes = json!({
+        "form": match rules.form {
+            PushForm::Placed => "placed",
+            PushForm::Chained => "chained",
+        },
+        "directions": match &rules.directions {
+            Directions::Principal => json!("principal"),
+            Directions::Count(count) => json!(count),
+            Directions::List(list) => json!(angles(list)),
+        },
+        "grip_yaws_deg": angles(&rules.grip_yaws),
+        "length": rules.length,
+        "speed": rules.speed,
+        "max_count": rules.max_count,
+        "lift": rules.lift,
+    });
+    if let Offsets::List(offsets) = &rules.offsets {
+        pushes["offsets"] = json!(offsets);
+    }
+    pushes
+}
+
+fn goal(goal: &Goal, scene: &Scene) -> Json {
+    let mut json = json!({
+        "object": scene.objects[goal.object].name,
+        "position": vector(goal.position),
+        "tolerance": goal.tolerance,
+    });
+    if let Some((heading, tolerance)) = goal.heading {
+        json["heading_deg"] = json!(degrees(heading));
+        json["heading_tolerance_deg"] = json!(degrees(tolerance));
+    }
+    json
+}
+
+fn posed(mut fields: Json, pose: &Pose) -> Json {
+    fields["position"] = json!(vector(pose.position));
+    fields["yaw_deg"] = json!(degrees(pose.heading));
+    fields
+}
+
+fn vector(vector: Vector) -> [f64; 2] {
+    [vector.x, vector.y]
+}
+
+/// The angle in degrees that reads back as exactly `radians`: the roundest such number, so
+/// that a plan made from a file is verified with the same bits. An angle that came from no
+/// file may have none; it then reads back as a neighbouring number.
+fn degrees(radians: f64) -> f64 {
+    let plain = radians.to_degrees();
+    // A full turn and more looks the same.
+    let plain = if plain.abs() > 360.0 { plain % 360.0 } else { plain };
+    let round = (plain * 1e9).round() / 1e9;
+    let (mut up, mut down) = (plain, plain);
+    let mut candidates = vec![round, plain];
+    for _ in 0..2 {
+        (up, down) = (up.next_up(), down.next_down());
+        candidates.extend([up, down]);
+    }
+    candidates.into_iter().find(|angle| angle.to_radians() == radians).unwrap_or(plain)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn degrees_read_back_exactly() {
+        for tenth in -3600..=3600 {
+            let angle = f64::from(tenth) / 10.0;
+            assert_eq!(degrees(angle.to_radians()), angle);
+        }
+    }
+}

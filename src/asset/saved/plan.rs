@@ -1,0 +1,130 @@
+//! Plan files.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+
+use crate::asset::fault::Faults;
+use crate::asset::read_text;
+use crate::scene::{Outcome, Plan, Task, Tool, Verdict};
+
+use super::read::{self, Opened};
+use super::{PLAN_FILE, SCHEMA_VERSION, emit};
+
+/// A plan with everything that is needed to carry it out, and what is known of its effect.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanFile {
+    /// The task that it solves.
+    pub task: Task,
+    /// The tool that it uses.
+    pub tool: Arc<Tool>,
+    /// The pushes.
+    pub plan: Plan,
+    /// Name of the effect model that predicted the outcome.
+    pub model: Option<String>,
+    /// Where that model says the plan ends.
+    pub predicted: Option<Outcome>,
+    /// Whether simulation confirms it.
+    pub verdict: Option<Verdict>,
+}
+
+impl PlanFile {
+    /// Reads a plan file.
+    ///
+    /// # Errors
+    /// All faults of the file, each with its place.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        let (file, text) = read_text(path.as_ref())?;
+        Self::parse(&text, &file)
+    }
+
+    /// Reads a plan file's text; `file` names it in faults.
+    ///
+    /// # Errors
+    /// All faults of the text, each with its place.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
+        let mut opened = Opened::new(file, text, &PLAN_FILE)?;
+        opened.ledger.sound()?;
+        let own: Own = opened.typed()?;
+        opened.check_plan(&own.plan);
+        if let Some(outcome) = &own.predicted {
+            let node = opened.root.get("predicted").cloned();
+            opened.check_outcome(node.as_ref(), outcome);
+        }
+        if let Some(verdict) = &own.verdict {
+            let replays = opened.root.get("verdict").and_then(|v| v.get("evidence")).cloned();
+            let nodes = replays.iter().flat_map(|list| list.items());
+            for (node, evidence) in nodes.zip(&verdict.evidence) {
+                opened.check_outcome(node.get("outcome"), &evidence.outcome);
+            }
+        }
+        let file = match (opened.task, opened.tool) {
+            (Some(task), Some(tool)) => Some(Self {
+                task,
+                tool,
+                plan: own.plan,
+                model: own.model,
+                predicted: own.predicted,
+                verdict: own.verdict,
+            }),
+            _ => None,
+        };
+        opened.ledger.finish(file)
+    }
+
+    /// Writes the file; a partial one is never left behind.
+    ///
+    /// # Errors
+    /// A path that cannot be written; contents that could not be read again, such as numbers
+    /// that are not finite.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
+        read::write(path.as_ref(), self, Self::parse)
+    }
+}
+
+/// The keys that are the program's own types.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Own {
+    #[serde(rename = "schema_version")]
+    _schema_version: IgnoredAny,
+    #[serde(rename = "kind")]
+    _kind: IgnoredAny,
+    #[serde(rename = "task")]
+    _task: IgnoredAny,
+    #[serde(rename = "tool")]
+    _tool: IgnoredAny,
+    plan: Plan,
+    model: Option<String>,
+    predicted: Option<Outcome>,
+    verdict: Option<Verdict>,
+}
+
+impl Serialize for PlanFile {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Written<'a> {
+            schema_version: u32,
+            kind: &'static str,
+            plan: &'a Plan,
+            model: &'a Option<String>,
+            predicted: &'a Option<Outcome>,
+            verdict: &'a Option<Verdict>,
+            tool: serde_json::Value,
+            task: serde_json::Value,
+        }
+        Written {
+            schema_version: SCHEMA_VERSION,
+            kind: "plan",
+            plan: &self.plan,
+            model: &self.model,
+            predicted: &self.predicted,
+            verdict: &self.verdict,
+            tool: emit::tool(&self.tool),
+            task: emit::task(&self.task),
+        }
+        .serialize(serializer)
+    }
+}

@@ -1,0 +1,96 @@
+//! What plan and trajectory files have in common: the strict check, the task and the tool.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::asset::fault::{Fault, Faults, Place};
+use crate::asset::node::Node;
+use crate::asset::spec::Value;
+use crate::asset::strict::{Ledger, check};
+use crate::asset::text::Source;
+use crate::asset::{task, tool, write_atomic};
+use crate::scene::{Outcome, Plan, State, Task, Tool};
+
+/// A file that has passed the strict check, open for the rules that span several keys.
+pub(super) struct Opened<'a> {
+    pub source: Source<'a>,
+    pub root: Node,
+    pub ledger: Ledger<'a>,
+    pub task: Option<Task>,
+    pub tool: Option<Arc<Tool>>,
+}
+
+impl<'a> Opened<'a> {
+    /// Reads `text` as `value` tells.
+    ///
+    /// # Errors
+    /// One fault if it is not JSON; everything else is in the ledger.
+    pub fn new(file: &'a str, text: &'a str, value: &Value) -> Result<Self, Faults> {
+        let source = Source::json(file, text);
+        let mut root = Node::parse(source)?;
+        let mut ledger = Ledger::new(source);
+        check(&mut root, value, &mut ledger);
+        let task = root.get("task").and_then(|node| task::task_of(node, file, &mut ledger));
+        let tool = root.get("tool").and_then(|node| tool::tool_of(node, &mut ledger));
+        Ok(Self { source, root, ledger, task, tool: tool.map(Arc::new) })
+    }
+
+    /// The parts of the file that are the program's own types.
+    pub fn typed<T: DeserializeOwned>(&self) -> Result<T, Fault> {
+        serde_json::from_str(self.source.text).map_err(|error| {
+            let message = error.to_string();
+            let message = message.split(" at line ").next().unwrap_or_default();
+            Fault {
+                file: self.source.file.into(),
+                place: Some(Place { line: error.line(), column: error.column() }),
+                message: message.into(),
+                advice: "the file is damaged or of another version; make it again".into(),
+            }
+        })
+    }
+
+    /// Checks that the plan is one of this task with this tool.
+    pub fn check_plan(&mut self, plan: &Plan) {
+        let Some(node) = self.root.get("plan").and_then(|plan| plan.get("tool")) else { return };
+        if let Some(tool) = self.tool.as_ref().filter(|tool| tool.name != plan.tool) {
+            let message = format!("the plan uses `{}`, the file holds `{}`", plan.tool, tool.name);
+            self.ledger.fault(node, message, "the file is mixed from two; make it again");
+        }
+    }
+
+    /// Checks that an outcome is one of this task's scene.
+    pub fn check_outcome(&mut self, node: Option<&Node>, outcome: &Outcome) {
+        self.check_state(node.and_then(|node| node.get("state")), &outcome.state);
+    }
+
+    /// Checks that a state has every object of the scene.
+    pub fn check_state(&mut self, node: Option<&Node>, state: &State) {
+        let (Some(node), Some(task)) = (node, &self.task) else { return };
+        let expected = task.scene.objects.len();
+        for (what, found) in [("poses", state.poses.len()), ("velocities", state.velocities.len())]
+        {
+            if found != expected {
+                let message = format!("expected {expected} {what}, one per object, found {found}");
+                self.ledger.fault(node, message, "the file is damaged; make it again");
+            }
+        }
+    }
+}
+
+/// Writes `file` as JSON to `path`, after reading it back with `read`: what is written can be
+/// read.
+pub(super) fn write<T>(
+    path: &Path,
+    file: &impl Serialize,
+    read: impl Fn(&str, &str) -> Result<T, Faults>,
+) -> Result<(), Faults> {
+    let name = path.display().to_string();
+    let mut text = serde_json::to_string_pretty(file)
+        .map_err(|error| Fault::of_file(&name, format!("cannot write it as JSON: {error}"), ""))?;
+    text.push('\n');
+    read(&text, &name)?;
+    write_atomic(path, text.as_bytes())
+}

@@ -1,0 +1,193 @@
+//! What plan and trajectory files may hold.
+
+use crate::asset::spec::{Key, Range, Value, numbers};
+use crate::asset::task::TASK_KEYS;
+use crate::asset::tool::TOOL_KEYS;
+
+/// Version of both formats; raised when a reader of this version could not read the new form.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// What a plan file may hold.
+pub(in crate::asset) static PLAN_FILE: Value = Value::Map(&[
+    Key::required("schema_version", VERSION, "Version of the format."),
+    Key::required("kind", Value::Word(&["plan"]), "What the file is."),
+    Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
+    Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
+    Key::required("plan", PLAN, "The pushes."),
+    Key::optional("model", or_null(&[Value::Text, Value::Nothing]), MODEL),
+    Key::optional(
+        "predicted",
+        or_null(&[OUTCOME, Value::Nothing]),
+        "Where the model says the plan ends; by default unknown.",
+    ),
+    Key::optional(
+        "verdict",
+        or_null(&[VERDICT, Value::Nothing]),
+        "Whether simulation confirms it; by default unknown.",
+    ),
+]);
+
+/// What a trajectory file may hold.
+pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
+    Key::required("schema_version", VERSION, "Version of the format."),
+    Key::required("kind", Value::Word(&["trajectory"]), "What the file is."),
+    Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
+    Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
+    Key::required("plan", PLAN, "The pushes."),
+    Key::optional("model", or_null(&[Value::Text, Value::Nothing]), MODEL),
+    Key::required("trajectory", TRAJECTORY, "What happened."),
+]);
+
+const MODEL: &str = "Name of the model or engine that computed the motion; by default unknown.";
+
+const fn or_null(values: &'static [Value]) -> Value {
+    Value::Either(values)
+}
+
+const VERSION: Value = Value::Count(Range {
+    what: "the schema version",
+    low: SCHEMA_VERSION as f64,
+    high: SCHEMA_VERSION as f64,
+    advice: "the file is of another version of pushplan; make it again with this one",
+});
+
+/// Large enough for anything on a table, small enough to betray a blown-up simulation.
+const REAL: Value =
+    Value::Number(Range { what: "a number", low: -1e6, high: 1e6, advice: "is the file damaged?" });
+
+const POSITIVE: Value = Value::Number(Range {
+    what: "a number above zero",
+    low: 1e-4,
+    high: 100.0,
+    advice: "lengths are in metres, speeds in m/s",
+});
+
+const UNSIGNED: Value = Value::Number(Range {
+    what: "a number from zero",
+    low: 0.0,
+    high: 1e6,
+    advice: "is the file damaged?",
+});
+
+const INDEX: Value =
+    Value::Count(Range { what: "an index", low: 0.0, high: 1e6, advice: "is the file damaged?" });
+
+const SHARE: Value =
+    Value::Number(Range { what: "a share", low: 0.0, high: 1.0, advice: "half is 0.5" });
+
+const VECTOR: Value = numbers(&REAL, 2);
+
+const PLAN: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
+    Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),
+    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
+    Key::required(
+        "pushes",
+        Value::List { of: &PUSH, items: "pushes", min: 1, max: 64 },
+        "The pushes, in order.",
+    ),
+]);
+
+const PUSH: Value = Value::Map(&[
+    Key::required("start", VECTOR, "End-effector position at the start, metres."),
+    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
+    Key::required("length", POSITIVE, "Travel, metres."),
+    Key::required("speed", POSITIVE, "Speed, m/s."),
+]);
+
+const POSE: Value = Value::Map(&[
+    Key::required("position", VECTOR, "Position of the centre, metres."),
+    Key::required("heading", REAL, "Turn about the vertical, radians."),
+]);
+
+const VELOCITY: Value = Value::Map(&[
+    Key::required("linear", VECTOR, "Of the centre, m/s."),
+    Key::required("angular", REAL, "About the vertical, rad/s."),
+]);
+
+const STATE: Value = Value::Map(&[
+    Key::required(
+        "poses",
+        Value::List { of: &POSE, items: "poses", min: 1, max: 64 },
+        "Poses of the objects, in the task's order.",
+    ),
+    Key::required(
+        "velocities",
+        Value::List { of: &VELOCITY, items: "velocities", min: 1, max: 64 },
+        "Velocities of the objects, in the task's order.",
+    ),
+]);
+
+const OUTCOME: Value = Value::Map(&[
+    Key::required("state", STATE, "Final poses of all objects."),
+    Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
+    Key::optional(
+        "heading_error",
+        or_null(&[UNSIGNED, Value::Nothing]),
+        "Heading error, radians; by default none is asked for.",
+    ),
+    Key::required("reached", Value::Switch, "Whether the goal is reached at rest."),
+]);
+
+const WARNINGS: Value = Value::List { of: &Value::Anything, items: "warnings", min: 0, max: 1000 };
+
+const VERDICT: Value = Value::Map(&[
+    Key::required(
+        "passed",
+        Value::Switch,
+        "Whether the nominal replay in 3-D reaches the goal at rest.",
+    ),
+    Key::required(
+        "evidence",
+        Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 1000 },
+        "All replays, nominal ones first.",
+    ),
+    Key::optional(
+        "robustness",
+        or_null(&[SHARE, Value::Nothing]),
+        "Share of the disturbed replays that reach the goal; by default none was made.",
+    ),
+]);
+
+const EVIDENCE: Value = Value::Map(&[
+    Key::required("engine", Value::Word(&["planar", "spatial"]), "Which engine replayed it."),
+    Key::required("disturbance", Value::Text, "What was changed; `nominal` for nothing."),
+    Key::required("outcome", OUTCOME, "Where it ended."),
+    Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
+]);
+
+const TRAJECTORY: Value = Value::Map(&[
+    Key::required(
+        "frames",
+        Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 },
+        "The recorded instants, in order of time.",
+    ),
+    Key::required(
+        "contacts",
+        Value::List { of: &CONTACT, items: "contacts", min: 0, max: 100_000 },
+        "First contacts, in order of time.",
+    ),
+    Key::required("warnings", WARNINGS, "What a reader should know."),
+]);
+
+const FRAME: Value = Value::Map(&[
+    Key::required("time", UNSIGNED, "Since the start, seconds."),
+    Key::required("stroke", INDEX, "Index of the push that this instant belongs to."),
+    Key::required("tool", POSE, "Pose of the tool frame."),
+    Key::required("state", STATE, "Every object."),
+]);
+
+const CONTACT: Value = Value::Map(&[
+    Key::required("frame", INDEX, "Index of the frame that ends with the contact made."),
+    Key::required("object", INDEX, "Index of the object that is touched."),
+    Key::required(
+        "with",
+        Value::Variant(&[
+            Key::optional("object", INDEX, "Index of an object; no default."),
+            Key::optional("obstacle", INDEX, "Index of an obstacle; no default."),
+            Key::optional("part", INDEX, "Index of a part of the tool; no default."),
+        ]),
+        "What it touches.",
+    ),
+]);
