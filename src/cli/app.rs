@@ -7,10 +7,11 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use super::{
-    completions,
+    check, completions,
     error::CliError,
-    exit_code, interrupt, schema,
+    exit_code, interrupt, predict, schema,
     session::{GlobalArgs, Session},
+    simulate,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -26,6 +27,9 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Predict(predict::PredictArgs),
+    Simulate(simulate::SimulateArgs),
+    Check(check::CheckArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -54,6 +58,9 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
     interrupt::install()?;
     let session = Session::start(&cli.global)?;
     match &cli.command {
+        Command::Predict(args) => predict::run(args, &session),
+        Command::Simulate(args) => simulate::run(args, &session),
+        Command::Check(args) => check::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),
         Command::Completions(args) => completions::run(args, &session),
     }
@@ -63,7 +70,7 @@ fn report(error: &CliError) {
     let text = match error {
         CliError::Closed => return,
         // Every fault says so itself, behind its place.
-        CliError::Files(faults) => faults.to_string(),
+        CliError::Files(faults) | CliError::Output(faults) => faults.to_string(),
         _ => format!("error: {error}"),
     };
     let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

@@ -23,6 +23,9 @@ pub enum CliError {
     /// Faults of given files; each says `error:` itself.
     #[error("{0}")]
     Files(#[from] Faults),
+    /// Results that cannot be written; each fault says `error:` itself.
+    #[error("{0}")]
+    Output(Faults),
     /// Nobody reads the results any more.
     #[error("the output was closed")]
     Closed,
@@ -57,7 +60,7 @@ impl CliError {
             Self::Files(_) => exit_code::INVALID_FILE,
             // `pushplan ... | head` is no failure.
             Self::Closed => exit_code::DONE,
-            Self::Unexpected(_) => exit_code::UNEXPECTED,
+            Self::Output(_) | Self::Unexpected(_) => exit_code::UNEXPECTED,
         }
     }
 }

@@ -4,12 +4,19 @@
 
 #![allow(dead_code)] // Until the commands that plan and train are here.
 
+mod action;
 mod app;
+mod check;
 mod completions;
 mod error;
 pub mod exit_code;
 mod interrupt;
+mod model;
+mod output;
+mod predict;
+mod push_argument;
 mod schema;
 mod session;
+mod simulate;
 
 pub use app::run;

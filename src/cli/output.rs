@@ -1,0 +1,32 @@
+//! The folder that results are written to.
+
+use std::path::{Path, PathBuf};
+
+use crate::asset::{Fault, write_atomic};
+
+use super::error::CliError;
+
+/// Where results go unless `--out` says otherwise.
+pub const FOLDER: &str = "plans";
+
+/// Makes the folder and sees that it can be written to, before anything long is computed.
+///
+/// # Errors
+/// [`CliError::Output`] if it cannot be made or written to.
+pub fn prepare(folder: &Path) -> Result<(), CliError> {
+    let refused = |error: std::io::Error| {
+        CliError::Output(Fault::io(folder, "write to the folder", &error).into())
+    };
+    std::fs::create_dir_all(folder).map_err(refused)?;
+    tempfile::tempfile_in(folder).map(drop).map_err(refused)
+}
+
+/// Writes a file of the folder whole or not at all, and gives its path.
+///
+/// # Errors
+/// [`CliError::Output`] if that fails.
+pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, CliError> {
+    let path = folder.join(name);
+    write_atomic(&path, bytes).map_err(CliError::Output)?;
+    Ok(path)
+}

@@ -1,0 +1,140 @@
+//! `pushplan predict`: one action's effect, learned beside simulated.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::asset::SCHEMA_VERSION;
+use crate::effect::Job;
+use crate::report::{
+    Align, Table, degrees, goal_line, millimetres, plan_line, point, push_table, seconds,
+};
+use crate::scene::{Record, State, Task, Trajectory};
+
+use super::{
+    action::{ActionArgs, LibraryArgs},
+    error::CliError,
+    exit_code, model,
+    push_argument::FORMS,
+    session::Session,
+};
+
+/// Objects that move less than this are left out of the table, metres.
+const STILL: f64 = 1e-4;
+
+/// Predict what pushes do: the network beside both simulations
+#[derive(Args, Debug)]
+#[command(after_help = FORMS, after_long_help = FORMS)]
+pub struct PredictArgs {
+    /// The task whose scene is pushed
+    task: PathBuf,
+    #[command(flatten)]
+    action: ActionArgs,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+struct Effect {
+    model: String,
+    trajectory: Trajectory,
+    seconds: f64,
+}
+
+pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.library.load()?;
+    let task = Task::load(&args.task)?;
+    let (plan, tool) = args.action.plan(&task, &library, session)?;
+    let motion = plan.motion(&tool);
+    let mut effects = Vec::new();
+    for model in model::ladder()? {
+        for warning in model.warnings(&task.scene, &motion) {
+            session.warn(&format!("{}: {warning}", model.name()));
+        }
+        let job = Job { start: task.scene.start(), motion: motion.clone(), hypothesis: None };
+        let jobs = [job];
+        let (found, seconds) = session.compute(|| {
+            let start = Instant::now();
+            let found = model.rollout(&task.scene, &jobs, Record::Outcome);
+            (found, start.elapsed().as_secs_f64())
+        });
+        let name = model.name().to_owned();
+        effects.extend(found.into_iter().map(|trajectory| Effect {
+            model: name.clone(),
+            trajectory,
+            seconds,
+        }));
+    }
+    for effect in &effects {
+        for warning in &effect.trajectory.warnings {
+            session.warn(&format!("{}: {warning}", effect.model));
+        }
+    }
+    if args.json {
+        let effects: Vec<_> = effects
+            .iter()
+            .map(|effect| {
+                let end = effect.trajectory.outcome();
+                json!({
+                    "model": effect.model,
+                    "state": end,
+                    "goal_error": task.goal.error(end),
+                    "warnings": effect.trajectory.warnings,
+                    "seconds": effect.seconds,
+                })
+            })
+            .collect();
+        let objects: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
+        let report = json!({
+            "schema_version": SCHEMA_VERSION, "task": task.name, "plan": plan,
+            "objects": objects, "effects": effects,
+        });
+        session.print(&format!("{report:#}\n"))?;
+    } else {
+        let (line, pushes) = (plan_line(&plan), push_table(&plan).to_text());
+        let effects = effect_table(&task, &effects).to_text();
+        session.print(&format!("{line}\n{pushes}\n{effects}\ngoal: {}\n", goal_line(&task)))?;
+    }
+    Ok(exit_code::DONE)
+}
+
+fn effect_table(task: &Task, effects: &[Effect]) -> Table {
+    let mut table = Table::new([
+        ("object", Align::Left),
+        ("model", Align::Left),
+        ("final position", Align::Left),
+        ("moved", Align::Right),
+        ("turned", Align::Right),
+        ("goal error", Align::Right),
+        ("computed in", Align::Right),
+    ]);
+    let start = task.scene.start();
+    let moved =
+        |state: &State, k: usize| (state.poses[k].position - start.poses[k].position).norm();
+    for (k, object) in task.scene.objects.iter().enumerate() {
+        let is_goal = task.goal.object == k;
+        let still = effects.iter().all(|effect| moved(effect.trajectory.outcome(), k) < STILL);
+        if still && !is_goal {
+            continue;
+        }
+        for effect in effects {
+            let end = effect.trajectory.outcome();
+            let turned = end.poses[k].heading - start.poses[k].heading;
+            let cylinder = object.shape.is_cylinder();
+            table.row([
+                object.name.clone(),
+                effect.model.clone(),
+                point(end.poses[k].position),
+                millimetres(moved(end, k)),
+                if cylinder { "\u{2013}".to_owned() } else { degrees(turned) },
+                if is_goal { millimetres(task.goal.error(end)) } else { String::new() },
+                seconds(effect.seconds),
+            ]);
+        }
+    }
+    table
+}
