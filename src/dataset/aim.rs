@@ -1,14 +1,16 @@
 //! Aiming a push: where the tool starts so that it meets an object after a short gap.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact},
-    scene::{Scene, State, Stroke, Tool},
+    scene::{Object, Scene, State, Stroke, Tool},
 };
 
-use super::chance::{uniform, weighted};
+use super::chance::{heading, uniform, weighted};
 
 /// The tool is set down at least this far from everything, metres.
 pub const SET_DOWN: f64 = 1e-4;
@@ -98,6 +100,33 @@ pub fn aimed_stroke(
         duration: aim.travel / aim.speed,
         settle: true,
     })
+}
+
+/// A push direction: along a line through two objects, square to an object's face, or any;
+/// radians.
+pub fn random_direction(rng: &mut Pcg64, objects: &[Object], state: &State) -> f64 {
+    let object = rng.random_range(0..objects.len());
+    match weighted(rng, &[0.35, 0.25, 0.40]) {
+        0 if objects.len() > 1 => {
+            let other = (object + rng.random_range(1..objects.len())) % objects.len();
+            let line = state.poses[other].position - state.poses[object].position;
+            line.y.atan2(line.x) + uniform(rng, -0.4, 0.4)
+        }
+        1 if !objects[object].shape.is_cylinder() => {
+            state.poses[object].heading + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
+        }
+        _ => uniform(rng, 0.0, TAU),
+    }
+}
+
+/// A heading of the tool for a push in `direction`, radians: square to it in two thirds of the
+/// cases, as principal directions and grips make it.
+pub fn random_heading(rng: &mut Pcg64, direction: f64) -> f64 {
+    if rng.random_bool(0.65) {
+        direction + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
+    } else {
+        heading(rng)
+    }
 }
 
 /// Travel of the tool along the unit vector `direction` until one of its parts touches, metres.

@@ -19,7 +19,7 @@ pub(super) fn uniform(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
 }
 
 /// Uniform in the logarithm, so that every decade is drawn equally often.
-pub(super) fn log_uniform(rng: &mut Pcg64, span: Span) -> f64 {
+pub fn log_uniform(rng: &mut Pcg64, span: Span) -> f64 {
     uniform(rng, span.low.ln(), span.high.ln()).exp().clamp(span.low, span.high)
 }
 

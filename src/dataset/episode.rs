@@ -1,28 +1,25 @@
 //! One episode: a random scene, a random tool motion and what it does.
 
-use std::{
-    f64::consts::{FRAC_PI_2, TAU},
-    sync::Arc,
-};
+use std::{f64::consts::FRAC_PI_2, sync::Arc};
 
 use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Pose, Vector},
-    scene::{Frame, Object, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
+    scene::{Frame, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
     sim::Simulator,
 };
 
 use super::{
-    aim::{Aim, aimed_stroke, tool_travel},
+    aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel},
     assembly::random_tool,
     chance::{generator, heading, log_uniform, uniform, weighted},
     config::DatasetConfig,
     jam::{crosses_obstacle, shortened_before_jam},
     novelty::is_shipped,
     obstacle::place_obstacle,
-    tabletop::{Crowd, Solids, random_scene},
+    tabletop::{Crowd, Solids, anywhere, random_scene},
 };
 
 /// How often there are one, two or three objects.
@@ -82,7 +79,7 @@ fn attempt(rng: &mut Pcg64, ranges: &Ranges) -> Option<(Scene, ToolMotion, Traje
     let crowd =
         Crowd { count: 1 + weighted(rng, &OBJECT_COUNTS), solids: Solids::Any, touching: 0.45 };
     let scene = random_scene(rng, ranges, crowd);
-    let mut scene = moved_anywhere(rng, scene);
+    let mut scene = anywhere(rng, scene);
     let tool = Arc::new(new_tool(rng, ranges));
     let count = 1 + weighted(rng, &PUSH_COUNTS);
     let placed = rng.random::<bool>();
@@ -149,15 +146,6 @@ fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     }
 }
 
-/// The scene turned by any angle and put anywhere on the table.
-fn moved_anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
-    let motion = Pose::new(uniform(rng, -0.5, 1.2), uniform(rng, -0.5, 1.2), heading(rng));
-    for object in &mut scene.objects {
-        object.pose = motion * object.pose;
-    }
-    scene
-}
-
 fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {
     (log_uniform(rng, ranges.speed), uniform(rng, ranges.travel.low, ranges.travel.high))
 }
@@ -168,24 +156,7 @@ fn stand_off(rng: &mut Pcg64) -> f64 {
     if rng.random::<bool>() { uniform(rng, 0.004, 0.006) } else { uniform(rng, 2e-4, 0.02) }
 }
 
-/// A push direction: along a line through two objects, square to an object's face, or any.
-fn direction(rng: &mut Pcg64, objects: &[Object], state: &State) -> f64 {
-    let object = rng.random_range(0..objects.len());
-    match weighted(rng, &[0.35, 0.25, 0.40]) {
-        0 if objects.len() > 1 => {
-            let other = (object + rng.random_range(1..objects.len())) % objects.len();
-            let line = state.poses[other].position - state.poses[object].position;
-            line.y.atan2(line.x) + uniform(rng, -0.4, 0.4)
-        }
-        1 if !objects[object].shape.is_cylinder() => {
-            state.poses[object].heading + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
-        }
-        _ => uniform(rng, 0.0, TAU),
-    }
-}
-
-/// The first push; it also decides how the tool is turned: square to the motion in two thirds
-/// of the cases, as principal directions and grips make it.
+/// The first push; it also decides how the tool is turned.
 fn aimed_first(
     rng: &mut Pcg64,
     ranges: &Ranges,
@@ -194,12 +165,8 @@ fn aimed_first(
 ) -> Option<Stroke> {
     let state = scene.start();
     (0..TRIES).find_map(|_| {
-        let direction = direction(rng, &scene.objects, &state);
-        let heading = if rng.random_bool(0.65) {
-            direction + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
-        } else {
-            heading(rng)
-        };
+        let direction = random_direction(rng, &scene.objects, &state);
+        let heading = random_heading(rng, direction);
         let (speed, travel) = speed_travel(rng, ranges);
         let gap =
             if rng.random_bool(0.85) { stand_off(rng) } else { uniform(rng, 0.02, 0.6 * travel) };
@@ -221,7 +188,7 @@ fn aimed_next(
         let direction = if rng.random_bool(0.65) {
             heading + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
         } else {
-            direction(rng, &scene.objects, state)
+            random_direction(rng, &scene.objects, state)
         };
         let (speed, travel) = speed_travel(rng, ranges);
         let aim = Aim { direction, heading, gap: stand_off(rng), travel, speed };

@@ -21,9 +21,9 @@ mod store;
 mod tabletop;
 mod watch;
 
-pub use aim::{Aim, SET_DOWN, aimed_stroke};
+pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
-pub use chance::generator;
+pub use chance::{generator, log_uniform};
 pub use config::{DatasetConfig, Preset};
 pub use episode::{Episode, sample};
 pub use error::DatasetError;
@@ -31,7 +31,7 @@ pub use generate::generate;
 pub use manifest::{Manifest, ShardEntry};
 pub use novelty::is_shipped;
 pub use store::Dataset;
-pub use tabletop::{Crowd, Solids, random_scene};
+pub use tabletop::{Crowd, Solids, anywhere, random_scene};
 pub use watch::{Unwatched, Watch};
 
 pub use crate::scene::{Ranges, Span};

@@ -67,6 +67,15 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     scene
 }
 
+/// The scene turned by any angle and put anywhere on the table.
+pub fn anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
+    let motion = Pose::new(uniform(rng, -0.5, 1.2), uniform(rng, -0.5, 1.2), heading(rng));
+    for object in &mut scene.objects {
+        object.pose = motion * object.pose;
+    }
+    scene
+}
+
 fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
     let height = uniform(rng, HEIGHT.low, HEIGHT.high);
     let cylinder = match solids {

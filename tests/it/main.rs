@@ -3,5 +3,6 @@
 mod architecture;
 mod assets;
 mod dataset;
+mod evaluation;
 mod planning;
 mod simulation;
