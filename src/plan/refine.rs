@@ -41,6 +41,10 @@ const SHRINK: f64 = 0.25;
 /// effect models and robots miss by anyway.
 const GOOD_ENOUGH: f64 = 0.01;
 
+/// A candidate is given up when even this many times its last gain in every round that is left
+/// would not bring it within the tolerance. Gains grow at first, as the trust radius does.
+const HOPE: f64 = 4.0;
+
 /// Weight of the step's own length against the goal, in units of the mean curvature: decides
 /// only between parameters that do not matter.
 const DAMPING: f64 = 1e-3;
@@ -54,13 +58,15 @@ pub struct RefineSettings {
     pub extra: usize,
     /// Seed of these combinations.
     pub seed: u64,
+    /// Stop when this many candidates have nothing left to gain: more will not be looked at.
+    pub enough: usize,
 }
 
 /// A candidate before and after.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// Score as the search's rounded parameters have it, rolled out exactly.
-    pub before: f64,
+    /// As the search left it, rolled out exactly.
+    pub before: Evaluation,
     /// The best that was found; never worse.
     pub best: Evaluation,
     /// Score after every round.
@@ -93,7 +99,7 @@ pub fn refine(
             let best = result.ok().filter(Evaluation::is_feasible)?;
             Some(Work {
                 parameters: Parameters::new(workspace, &best.candidate),
-                refined: Refined { before: best.score, rounds: vec![], best },
+                refined: Refined { before: best.clone(), rounds: vec![], best },
                 radius: FIRST_RADIUS,
                 random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
             })
@@ -101,7 +107,11 @@ pub fn refine(
         .collect();
     for round in 0..settings.rounds {
         progress(round, settings.rounds);
-        let mut active: Vec<&mut Work> = work.iter_mut().filter(|w| w.is_open()).collect();
+        let left = settings.rounds - round;
+        if work.iter().filter(|w| w.is_good()).count() >= settings.enough {
+            break;
+        }
+        let mut active: Vec<&mut Work> = work.iter_mut().filter(|w| w.is_open(left)).collect();
         if active.is_empty() {
             break;
         }
@@ -113,10 +123,22 @@ pub fn refine(
 }
 
 impl Work {
-    fn is_open(&self) -> bool {
-        self.refined.best.score > GOOD_ENOUGH
-            && self.refined.best.score.is_finite()
-            && self.radius > RADII.0
+    fn is_good(&self) -> bool {
+        self.refined.best.score <= GOOD_ENOUGH
+    }
+
+    /// Whether more rounds, `left` of them, can be worth their rollouts.
+    fn is_open(&self, left: usize) -> bool {
+        let score = self.refined.best.score;
+        if self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
+            return false;
+        }
+        let before = match self.refined.rounds.len() {
+            0 => return true,
+            1 => self.refined.before.score,
+            n => self.refined.rounds[n - 2],
+        };
+        score - HOPE * (before - score) * left as f64 <= 1.0
     }
 
     /// Takes over an evaluation that is better and keeps the rules.

@@ -1,1 +1,20 @@
 //! The planner: search, refine, verify in batches, and the status of the result.
+//!
+//! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
+//! searches, refines the best and has them verified, and it returns the first plan that passes.
+//! Not finding one is a [`PlanStatus`], not an error.
+
+mod check;
+mod error;
+mod planner;
+mod progress;
+mod rank;
+mod settings;
+mod solution;
+mod solving;
+
+pub use error::SolveError;
+pub use planner::{Planner, PlannerBuilder, Prediction};
+pub use progress::{Progress, Stage};
+pub use settings::{Effort, Settings};
+pub use solution::{PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing};

@@ -6,3 +6,4 @@ mod dataset;
 mod evaluation;
 mod planning;
 mod simulation;
+mod solving;

@@ -227,13 +227,13 @@ fn refinement_never_makes_a_candidate_worse() {
         }
         let candidates: Vec<Candidate> =
             found.iter().take(6).map(|f| f.candidate.clone()).collect();
-        let settings = RefineSettings { rounds: 3, extra: 2, seed: 1 };
+        let settings = RefineSettings { rounds: 3, extra: 2, seed: 1, enough: 6 };
         let mut statistics = RefineStatistics::default();
         let refined =
             refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &mut |_, _| {});
         assert!(!refined.is_empty(), "{goal:?}");
         for one in &refined {
-            assert!(one.best.score <= one.before);
+            assert!(one.best.score <= one.before.score);
             assert!(one.rounds.windows(2).all(|pair| pair[1] <= pair[0]));
             assert!(one.best.is_feasible());
         }

@@ -1,0 +1,78 @@
+//! Refuses tasks made in code that no file could hold.
+
+use std::sync::Arc;
+
+use crate::scene::{Offsets, Task, Tool};
+
+use super::SolveError;
+
+/// Checks every number that planning relies on.
+///
+/// # Errors
+/// The first fault.
+pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> {
+    let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
+    let (rules, goal, robot) = (&task.pushes, &task.goal, &task.robot);
+    for (name, value) in [
+        ("the length of a push", rules.length),
+        ("the speed of a push", rules.speed),
+        ("the tolerance of the goal", goal.tolerance),
+        ("the largest reach", robot.reach_max),
+    ] {
+        if !(value.is_finite() && value > 0.0) {
+            return fault(format!("{name} is {value}, but must be a positive number"));
+        }
+    }
+    for (name, value) in [("the lift", rules.lift), ("the smallest reach", robot.reach_min)] {
+        if !(value.is_finite() && value >= 0.0) {
+            return fault(format!("{name} is {value}, but must not be negative"));
+        }
+    }
+    let headings = rules.directions.headings();
+    let lists: [(&str, &[f64]); 2] = [("directions", &headings), ("grip yaws", &rules.grip_yaws)];
+    for (name, list) in lists {
+        if list.is_empty() || list.iter().any(|v| !v.is_finite()) {
+            return fault(format!("the {name} must be finite numbers, at least one"));
+        }
+    }
+    if let Offsets::List(list) = &rules.offsets
+        && (list.is_empty() || list.iter().any(|v| !v.is_finite()))
+    {
+        return fault("the offsets must be finite numbers, at least one".into());
+    }
+    if goal.object >= task.scene.objects.len() {
+        return fault(format!("the goal names object {}, which does not exist", goal.object));
+    }
+    let heading = goal.heading.is_none_or(|(h, t)| h.is_finite() && t.is_finite() && t > 0.0);
+    if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
+        return fault("the goal must be finite, its heading tolerance positive".into());
+    }
+    if !robot.home.iter().all(|v| v.is_finite()) {
+        return fault("the robot's home must be finite".into());
+    }
+    for object in &task.scene.objects {
+        let sound = object.pose.is_finite()
+            && object.mass.is_finite()
+            && object.mass > 0.0
+            && object.friction.is_finite()
+            && object.friction >= 0.0
+            && object.shape.footprint().area() > 0.0
+            && object.shape.height() > 0.0
+            && object.shape.footprint().bounding_radius().is_finite();
+        if !sound {
+            return fault(format!(
+                "object `{}` needs a positive finite size and mass",
+                object.name
+            ));
+        }
+    }
+    for obstacle in &task.scene.obstacles {
+        if !obstacle.pose.is_finite() || obstacle.size.iter().any(|v| !v.is_finite() || *v <= 0.0) {
+            return fault(format!("obstacle `{}` needs a positive finite size", obstacle.name));
+        }
+    }
+    if tools.is_empty() {
+        return fault("it allows no tool".into());
+    }
+    Ok(())
+}

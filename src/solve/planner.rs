@@ -1,0 +1,180 @@
+//! The planner.
+
+use std::sync::Arc;
+
+use crate::asset::ToolLibrary;
+use crate::effect::{EffectModel, Job};
+use crate::geometry::Pose;
+use crate::scene::{Frame, Outcome, Plan, Record, Task, Tool, Trajectory, Warning};
+
+use super::check::check;
+use super::solving::Solving;
+use super::{Effort, Progress, Settings, Solution, SolveError};
+
+/// Finds tools and pushes for tasks, with one effect model and one effort.
+///
+/// ```
+/// use pushplan::asset::ToolLibrary;
+/// use pushplan::effect::Simulated;
+/// use pushplan::scene::Task;
+/// use pushplan::sim::Simulator;
+/// use pushplan::solve::{Effort, PlanStatus, Planner};
+///
+/// let library = ToolLibrary::embedded()?;
+/// let task = Task::parse(include_str!("../../tasks/pull-back.yaml"), "pull-back.yaml")?;
+/// let model = Simulated::new(Simulator::planar());
+/// let planner = Planner::builder(model).effort(Effort::Draft).build();
+/// let solution = planner.solve(&task, &library)?;
+/// assert_eq!(solution.status, PlanStatus::Solved);
+/// println!("use the {}", solution.plans[0].plan.tool);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Planner {
+    model: Box<dyn EffectModel>,
+    settings: Settings,
+    seed: u64,
+}
+
+/// Builds a [`Planner`].
+pub struct PlannerBuilder(Planner);
+
+/// What an effect model says about a plan.
+#[derive(Clone, Debug)]
+pub struct Prediction {
+    /// Frame by frame.
+    pub trajectory: Trajectory,
+    /// Where it ends.
+    pub outcome: Outcome,
+    /// What lowers the trust in it.
+    pub warnings: Vec<Warning>,
+}
+
+impl PlannerBuilder {
+    /// How hard to try; [`Effort::Standard`] unless said otherwise.
+    pub fn effort(self, effort: Effort) -> Self {
+        self.settings(effort.settings())
+    }
+
+    /// Budgets one by one.
+    pub fn settings(mut self, settings: Settings) -> Self {
+        self.0.settings = settings;
+        self
+    }
+
+    /// Seed of the samples of refinement and of the disturbances; 0 unless said otherwise.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.0.seed = seed;
+        self
+    }
+
+    /// The planner.
+    pub fn build(self) -> Planner {
+        self.0
+    }
+}
+
+impl Planner {
+    /// Starts building a planner that predicts with `model`.
+    pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
+        let settings = Effort::default().settings();
+        PlannerBuilder(Planner { model: Box::new(model), settings, seed: 0 })
+    }
+
+    /// The effect model.
+    pub fn model(&self) -> &dyn EffectModel {
+        &*self.model
+    }
+
+    /// The budgets.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Solves a task with the tools that it allows. Runs on the current rayon pool; the result
+    /// is the same for any number of threads.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
+        self.solve_with(task, library, &mut |_| {})
+    }
+
+    /// [`Planner::solve`], telling `progress` what it does.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve_with(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<Solution, SolveError> {
+        let tools = task.tools(library)?;
+        check(task, &tools)?;
+        Ok(Solving::new(self, task, &tools, progress).run())
+    }
+
+    /// What the effect model predicts for a plan made with `tool`.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn predict(
+        &self,
+        task: &Task,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+    ) -> Result<Prediction, SolveError> {
+        check(task, std::slice::from_ref(tool))?;
+        Ok(self.predict_all(task, &[(plan, tool)]).remove(0))
+    }
+
+    /// The seed.
+    pub(super) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Predictions for plans of a task that is known to be sound, in one batch.
+    pub(super) fn predict_all(
+        &self,
+        task: &Task,
+        plans: &[(&Plan, &Arc<Tool>)],
+    ) -> Vec<Prediction> {
+        let start = task.scene.start();
+        let jobs: Vec<Job> = plans
+            .iter()
+            .map(|(plan, tool)| Job {
+                start: start.clone(),
+                motion: plan.motion(tool),
+                hypothesis: None,
+            })
+            .collect();
+        // A plan without pushes moves nothing and needs no model.
+        let moving: Vec<Job> =
+            jobs.iter().filter(|job| !job.motion.strokes.is_empty()).cloned().collect();
+        let mut rolled = self.model.rollout(&task.scene, &moving, Record::Frames).into_iter();
+        jobs.iter()
+            .map(|job| {
+                let still = || still(task, &job.motion.tool);
+                let trajectory = match job.motion.strokes.is_empty() {
+                    true => still(),
+                    false => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
+                };
+                let mut warnings = self.model.warnings(&task.scene, &job.motion);
+                for warning in &trajectory.warnings {
+                    if !warnings.contains(warning) {
+                        warnings.push(warning.clone());
+                    }
+                }
+                let outcome = Outcome::judge(&task.goal, &trajectory);
+                Prediction { trajectory, outcome, warnings }
+            })
+            .collect()
+    }
+}
+
+/// The trajectory of doing nothing.
+fn still(task: &Task, tool: &Tool) -> Trajectory {
+    let home = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
+    let frame = Frame { time: 0.0, stroke: 0, tool: home, state: task.scene.start() };
+    Trajectory { frames: vec![frame], ..Trajectory::default() }
+}

@@ -1,0 +1,47 @@
+//! Which candidates are refined, which are worth verifying, and in what order.
+
+use crate::plan::{Candidate, Evaluation, Found, Refined};
+use crate::scene::{Goal, Scene};
+
+/// The best `count` found candidates of different kinds, then, if there are too few kinds, the
+/// next best ones. `found` is sorted, best first, and so is the answer.
+pub(super) fn distinct(found: &[Found], count: usize) -> Vec<Candidate> {
+    let mut taken = vec![false; found.len()];
+    let mut kinds: Vec<&Candidate> = Vec::new();
+    for (k, one) in found.iter().enumerate() {
+        if kinds.len() < count && !kinds.iter().any(|kind| one.candidate.is_variant_of(kind)) {
+            kinds.push(&one.candidate);
+            taken[k] = true;
+        }
+    }
+    let missing = count.saturating_sub(kinds.len());
+    let spare: Vec<usize> = (0..found.len()).filter(|&k| !taken[k]).take(missing).collect();
+    spare.into_iter().for_each(|k| taken[k] = true);
+    let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken);
+    kept.map(|(one, _)| one.candidate.clone()).collect()
+}
+
+/// Sorts by predicted score; equal scores keep their order.
+pub(super) fn sort(refined: &mut [Refined]) {
+    refined.sort_by(|a, b| a.best.score.total_cmp(&b.best.score));
+}
+
+/// Whether the predicted error is at most the tolerance plus what the effect model misses by,
+/// `error_p95` metres; for a heading this is taken at the object's mean radius.
+pub(super) fn is_worth_verifying(
+    scene: &Scene,
+    goal: &Goal,
+    evaluation: &Evaluation,
+    error_p95: f64,
+) -> bool {
+    if !evaluation.score.is_finite() {
+        return false;
+    }
+    let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
+    let radius = scene.objects[goal.object].shape.footprint().mean_radius();
+    let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {
+        (Some((_, tolerance)), Some(error)) => error <= tolerance + error_p95 / radius,
+        _ => true,
+    };
+    near && turned
+}

@@ -1,0 +1,132 @@
+//! How hard to try: four efforts and what each means in numbers.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::plan::SearchSettings;
+
+/// How hard a planner tries.
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Effort {
+    /// A first look, in hundredths of a second.
+    Draft,
+    /// The default: a one-push task in well under half a second on two cores.
+    #[default]
+    Standard,
+    /// Several times as dear, for tasks that the default does not solve.
+    Thorough,
+    /// Whatever helps, up to minutes.
+    Exhaustive,
+}
+
+impl Effort {
+    /// All of them, cheapest first.
+    pub const ALL: [Effort; 4] =
+        [Effort::Draft, Effort::Standard, Effort::Thorough, Effort::Exhaustive];
+
+    /// What it means in numbers.
+    pub fn settings(self) -> Settings {
+        match self {
+            Effort::Draft => Settings {
+                offsets: 3,
+                beam: 8,
+                search_rollouts: 500,
+                refined: 3,
+                refine_rounds: 2,
+                refine_extra: 0,
+                verified_at_once: 1,
+                verify_batches: 1,
+                disturbed: 0,
+            },
+            Effort::Standard => Settings {
+                offsets: 5,
+                beam: 24,
+                search_rollouts: 2000,
+                refined: 8,
+                refine_rounds: 4,
+                refine_extra: 2,
+                verified_at_once: 4,
+                verify_batches: 2,
+                disturbed: 8,
+            },
+            Effort::Thorough => Settings {
+                offsets: 9,
+                beam: 64,
+                search_rollouts: 8000,
+                refined: 24,
+                refine_rounds: 8,
+                refine_extra: 4,
+                verified_at_once: 8,
+                verify_batches: 3,
+                disturbed: 16,
+            },
+            Effort::Exhaustive => Settings {
+                offsets: 15,
+                beam: 192,
+                search_rollouts: 40_000,
+                refined: 64,
+                refine_rounds: 16,
+                refine_extra: 8,
+                verified_at_once: 16,
+                verify_batches: 4,
+                disturbed: 64,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Effort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Effort::Draft => "draft",
+            Effort::Standard => "standard",
+            Effort::Thorough => "thorough",
+            Effort::Exhaustive => "exhaustive",
+        })
+    }
+}
+
+/// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
+/// machine. A learned push costs about 0.1 ms of one core, a planar one 0.5, a 3-D one 2.5.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,
+    /// neighbours are closer than refinement moves them.
+    pub offsets: usize,
+    /// States from which sequences are continued. Each costs about a hundred rollouts.
+    pub beam: usize,
+    /// Most rollouts of the search for each number of pushes: bounds what a large tool rack or
+    /// a fine list of directions costs.
+    pub search_rollouts: usize,
+    /// Candidates refined, for each number of pushes. They are of different kinds (tool, grip,
+    /// faces, directions), as the linear model cannot change kind.
+    pub refined: usize,
+    /// Rounds of refinement; one push needs eleven to thirteen rollouts a round, and an error of
+    /// centimetres two to four rounds.
+    pub refine_rounds: usize,
+    /// Random samples a round besides two for each parameter: they average out contact noise.
+    pub refine_extra: usize,
+    /// Plans verified together: about as many as there are threads lose no time.
+    pub verified_at_once: usize,
+    /// Batches verified for each number of pushes before giving up on it.
+    pub verify_batches: usize,
+    /// Disturbed replays of the winning plan in each engine.
+    pub disturbed: usize,
+}
+
+impl Settings {
+    /// The part that the search takes.
+    pub fn search(&self) -> SearchSettings {
+        SearchSettings {
+            offsets: self.offsets,
+            beam: self.beam,
+            rollouts: self.search_rollouts,
+            // Variants of one kind stand close together in the ranking; enough to get past them.
+            kept: self.refined.saturating_mul(64),
+        }
+    }
+}

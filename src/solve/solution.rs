@@ -1,0 +1,100 @@
+//! What comes back from solving a task.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::plan::{RefineStatistics, SearchStatistics};
+use crate::scene::{Outcome, Plan, Tool, Trajectory, Verdict, Warning};
+
+/// How solving ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlanStatus {
+    /// The first plan reaches the goal in the nominal 3-D replay.
+    Solved,
+    /// After refinement no candidate's predicted error was at most the tolerance plus the effect
+    /// model's 95th-percentile error. The first plan is the nearest one.
+    NoPlan,
+    /// Some candidates were good enough to be verified, and none of those passed. The first plan
+    /// is the best predicted of them, with the evidence against it.
+    FailedVerification,
+}
+
+/// What refinement did to a plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Refinement {
+    /// Predicted error as the search left it, metres.
+    pub before: f64,
+    /// Predicted error now, metres.
+    pub after: f64,
+    /// Predicted score (error in units of the tolerance) after each round.
+    pub rounds: Vec<f64>,
+}
+
+/// A plan with everything that is known about it.
+#[derive(Clone, Debug)]
+pub struct RankedPlan {
+    /// The plan.
+    pub plan: Plan,
+    /// The tool that it names.
+    pub tool: Arc<Tool>,
+    /// What the effect model predicts, frame by frame.
+    pub predicted: Trajectory,
+    /// Where that ends.
+    pub outcome: Outcome,
+    /// Whether it works in the simulator, if that was tried.
+    pub verdict: Option<Verdict>,
+    /// What refinement did.
+    pub refinement: Refinement,
+}
+
+/// Wall-clock time of each stage, seconds. Reported, never used to decide anything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Timing {
+    /// Search.
+    pub search: f64,
+    /// Refinement.
+    pub refinement: f64,
+    /// Replays in the simulator.
+    pub verification: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+/// What solving cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Of the search.
+    pub search: SearchStatistics,
+    /// Of the refinement.
+    pub refinement: RefineStatistics,
+    /// Rollouts of the effect model altogether.
+    pub rollouts: usize,
+    /// Plans replayed in the simulator.
+    pub verified: usize,
+    /// Pushes of the longest plans that were looked at.
+    pub depth: usize,
+    /// Wall-clock times.
+    pub timing: Timing,
+}
+
+/// The result of [`super::Planner::solve`].
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// How it ended.
+    pub status: PlanStatus,
+    /// Ranked plans, the one to use first. Empty only if no push can be made at all.
+    pub plans: Vec<RankedPlan>,
+    /// What it cost.
+    pub statistics: Statistics,
+    /// What lowers the trust in the predictions of the first plan.
+    pub warnings: Vec<Warning>,
+}
+
+impl Solution {
+    /// The plan to use: the verified one if solved, otherwise the nearest.
+    pub fn best(&self) -> Option<&RankedPlan> {
+        self.plans.first()
+    }
+}

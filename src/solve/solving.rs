@@ -1,0 +1,253 @@
+//! One task being solved: the loop over lengths of plans.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use crate::plan::{Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine};
+use crate::scene::{Plan, Task, Tool, Verdict};
+use crate::verify::{Verifier, VerifySettings};
+
+use super::rank::{distinct, is_worth_verifying, sort};
+use super::{PlanStatus, Planner, Progress, RankedPlan, Refinement, Solution, Stage, Statistics};
+
+/// The stand-off of later pushes grows by the model's error, but by no more than this, metres:
+/// a longer approach costs reach and time.
+const MOST_LATER_STAND_OFF: f64 = 0.02;
+
+/// At most this many plans come back: what a reader looks at.
+const REPORTED: usize = 8;
+
+/// A plan that was refined, and verified where it was worth that.
+struct Tried {
+    plan: Plan,
+    tool: Arc<Tool>,
+    refinement: Refinement,
+    score: f64,
+    verdict: Option<Verdict>,
+}
+
+pub(super) struct Solving<'a> {
+    planner: &'a Planner,
+    task: &'a Task,
+    workspace: Workspace<'a>,
+    rollouts: Rollouts<'a>,
+    verifier: Verifier,
+    progress: &'a mut dyn FnMut(Progress),
+    statistics: Statistics,
+    tried: Vec<Tried>,
+}
+
+impl<'a> Solving<'a> {
+    pub fn new(
+        planner: &'a Planner,
+        task: &'a Task,
+        tools: &'a [Arc<Tool>],
+        progress: &'a mut dyn FnMut(Progress),
+    ) -> Self {
+        let (model, settings) = (planner.model(), planner.settings());
+        let later_stand_off = model.error_p95().clamp(0.0, MOST_LATER_STAND_OFF);
+        let verify = VerifySettings { disturbed: settings.disturbed, seed: planner.seed() };
+        Self {
+            planner,
+            task,
+            workspace: Workspace { task, tools, later_stand_off },
+            rollouts: Rollouts::new(model, &task.scene),
+            verifier: Verifier::new(verify),
+            progress,
+            statistics: Statistics::default(),
+            tried: Vec::new(),
+        }
+    }
+
+    pub fn run(mut self) -> Solution {
+        let began = Instant::now();
+        let nothing = self.without_pushes();
+        let reached = self.task.goal.reached(&self.task.scene.start());
+        self.tried.push(nothing);
+        let mut winner = reached.then_some(0);
+        let mut search = Search::new(self.workspace, self.planner.settings().search());
+        while winner.is_none() && search.can_deepen() {
+            winner = self.attempt(&mut search);
+        }
+        if let Some(index) = winner {
+            let since = Instant::now();
+            let Tried { plan, tool, verdict, .. } = &mut self.tried[index];
+            let verdict =
+                verdict.get_or_insert_with(|| self.verifier.nominal(self.task, tool, plan));
+            self.verifier.disturb(self.task, tool, plan, verdict);
+            self.statistics.timing.verification += since.elapsed().as_secs_f64();
+        }
+        let status = match winner {
+            Some(_) => PlanStatus::Solved,
+            None if self.tried.iter().any(|tried| tried.verdict.is_some()) => {
+                PlanStatus::FailedVerification
+            }
+            None => PlanStatus::NoPlan,
+        };
+        self.statistics.search = search.statistics().clone();
+        self.statistics.depth = search.depth();
+        self.report(status, winner, began)
+    }
+
+    /// Searches, refines and verifies plans of one push more; the index of the first that
+    /// passes.
+    fn attempt(&mut self, search: &mut Search) -> Option<usize> {
+        let settings = *self.planner.settings();
+        let pushes = search.depth() + 1;
+        let tell = |progress: &mut dyn FnMut(Progress), stage, done, total| {
+            progress(Progress { stage, pushes, done, total });
+        };
+        let began = Instant::now();
+        let found = search.deepen(&mut self.rollouts, &mut |done, total| {
+            tell(self.progress, Stage::Search, done, total);
+        });
+        self.statistics.timing.search += began.elapsed().as_secs_f64();
+
+        let began = Instant::now();
+        let refine_settings = RefineSettings {
+            rounds: settings.refine_rounds,
+            extra: settings.refine_extra,
+            // Another stream for every length, so that no two share their samples.
+            seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
+            enough: settings.verified_at_once,
+        };
+        let mut refined = refine(
+            &self.workspace,
+            &mut self.rollouts,
+            &distinct(&found, settings.refined),
+            refine_settings,
+            &mut self.statistics.refinement,
+            &mut |done, total| tell(self.progress, Stage::Refine, done, total),
+        );
+        sort(&mut refined);
+        self.statistics.timing.refinement += began.elapsed().as_secs_f64();
+
+        let began = Instant::now();
+        let first = self.tried.len();
+        let error_p95 = self.planner.model().error_p95();
+        let worth: Vec<bool> = refined
+            .iter()
+            .map(|r| is_worth_verifying(&self.task.scene, &self.task.goal, &r.best, error_p95))
+            .collect();
+        let all = refined.into_iter().map(|refined| self.tried(refined));
+        let all: Vec<Tried> = all.collect();
+        self.tried.extend(all);
+        let queue: Vec<usize> =
+            worth.iter().enumerate().filter(|(_, w)| **w).map(|(k, _)| first + k).collect();
+        let most = settings.verified_at_once.saturating_mul(settings.verify_batches);
+        let queue = &queue[..queue.len().min(most)];
+        let mut passed = None;
+        for (batch, indices) in queue.chunks(settings.verified_at_once.max(1)).enumerate() {
+            let done = batch * settings.verified_at_once;
+            tell(self.progress, Stage::Verify, done, queue.len());
+            passed = self.verify(indices);
+            if passed.is_some() {
+                break;
+            }
+        }
+        self.statistics.timing.verification += began.elapsed().as_secs_f64();
+        passed
+    }
+
+    /// Verifies plans in parallel; the first that passes.
+    fn verify(&mut self, indices: &[usize]) -> Option<usize> {
+        let verdicts: Vec<Verdict> = indices
+            .par_iter()
+            .map(|&k| self.verifier.nominal(self.task, &self.tried[k].tool, &self.tried[k].plan))
+            .collect();
+        self.statistics.verified += indices.len();
+        let passed = verdicts.iter().position(|verdict| verdict.passed).map(|k| indices[k]);
+        for (&k, verdict) in indices.iter().zip(verdicts) {
+            self.tried[k].verdict = Some(verdict);
+        }
+        passed
+    }
+
+    fn tried(&self, refined: Refined) -> Tried {
+        let error = |evaluation: &Evaluation| self.task.goal.error(&evaluation.outcome);
+        let Refined { before, best, rounds } = refined;
+        let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
+        Tried {
+            refinement: Refinement { before: error(&before), after: error(&best), rounds },
+            score: best.score,
+            verdict: None,
+            plan: self.plan(&tool, &best),
+            tool,
+        }
+    }
+
+    fn plan(&self, tool: &Tool, evaluation: &Evaluation) -> Plan {
+        Plan {
+            tool: tool.name.clone(),
+            grip_yaw: evaluation.candidate.grip_yaw,
+            form: self.task.pushes.form,
+            lift: self.task.pushes.lift,
+            pushes: evaluation.pushes.clone(),
+        }
+    }
+
+    /// Doing nothing, which is a plan too.
+    fn without_pushes(&self) -> Tried {
+        let (start, rules) = (self.task.scene.start(), &self.task.pushes);
+        let error = self.task.goal.error(&start);
+        let tool = Arc::clone(&self.workspace.tools[0]);
+        Tried {
+            plan: Plan {
+                tool: tool.name.clone(),
+                grip_yaw: rules.grip_yaws.first().copied().unwrap_or_default(),
+                form: rules.form,
+                lift: rules.lift,
+                pushes: Vec::new(),
+            },
+            tool,
+            refinement: Refinement { before: error, after: error, rounds: Vec::new() },
+            score: self.task.goal.score(&start),
+            verdict: None,
+        }
+    }
+
+    fn report(mut self, status: PlanStatus, winner: Option<usize>, began: Instant) -> Solution {
+        // The winner; then those that passed, are untried, have failed - or, where none passed,
+        // the evidence first.
+        let rank = |index: usize, tried: &Tried| match (&tried.verdict, status) {
+            _ if Some(index) == winner => 0,
+            (Some(verdict), PlanStatus::Solved) => {
+                if verdict.passed {
+                    1
+                } else {
+                    3
+                }
+            }
+            (Some(_), _) => 1,
+            (None, _) => 2,
+        };
+        let mut order: Vec<(usize, Tried)> = std::mem::take(&mut self.tried)
+            .into_iter()
+            .enumerate()
+            .map(|(index, tried)| (rank(index, &tried), tried))
+            .collect();
+        order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
+        order.truncate(REPORTED);
+        let plans: Vec<(&Plan, &Arc<Tool>)> =
+            order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
+        let predictions = self.planner.predict_all(self.task, &plans);
+        self.statistics.rollouts = self.rollouts.used() + plans.len();
+        let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
+        let plans = order
+            .into_iter()
+            .zip(predictions)
+            .map(|((_, tried), prediction)| RankedPlan {
+                plan: tried.plan,
+                tool: tried.tool,
+                predicted: prediction.trajectory,
+                outcome: prediction.outcome,
+                verdict: tried.verdict,
+                refinement: tried.refinement,
+            })
+            .collect();
+        self.statistics.timing.total = began.elapsed().as_secs_f64();
+        Solution { status, plans, statistics: self.statistics, warnings }
+    }
+}
