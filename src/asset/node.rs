@@ -22,6 +22,8 @@ const MAX_YAML_BYTES: usize = 1 << 18;
 /// letters.
 const MAX_YAML_NODES: usize = 100_000;
 
+const TAGS: &str = "tags such as `!name` have no meaning here";
+
 /// A value and its number in reading order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
@@ -63,10 +65,12 @@ impl Node {
             };
             // The place is said once, in front.
             let message = failure.message.split(" at line ").next().unwrap_or_default();
+            let advice =
+                if message.contains(TAGS) { "write the value without a tag" } else { advice };
             Faults(vec![Fault {
                 file: file.into(),
                 place: failure.place,
-                message: format!("not valid {language:?}: {message}"),
+                message: format!("not valid {}: {message}", language.name()),
                 advice: advice.into(),
             }])
         })
@@ -123,8 +127,10 @@ impl fmt::Display for Content {
                 write!(f, "the text \"{}...\"", text.chars().take(40).collect::<String>())
             }
             Content::Text(text) => write!(f, "the text \"{text}\""),
+            Content::List(items) if items.is_empty() => f.write_str("an empty list"),
             Content::List(items) if items.len() == 1 => f.write_str("a list of 1 item"),
             Content::List(items) => write!(f, "a list of {} items", items.len()),
+            Content::Map(pairs) if pairs.is_empty() => f.write_str("an empty map"),
             Content::Map(_) => f.write_str("a map"),
         }
     }
@@ -259,7 +265,7 @@ impl<'de> Visitor<'de> for Reader<'_> {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, _: A) -> Result<Node, A::Error> {
-        Err(de::Error::custom("tags such as `!name` have no meaning here"))
+        Err(de::Error::custom(TAGS))
     }
 }
 

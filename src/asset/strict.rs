@@ -93,7 +93,7 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
                 // A misspelled key is one fault, not two.
                 if !unknown.iter().any(|advice| advice.contains(&format!("`{}`?", key.name))) {
                     let message = format!("missing key `{}`", key.name);
-                    ledger.fault(node, message, format!("{}: {}", key.name, key.meaning));
+                    ledger.fault(node, message, key.meaning);
                 }
             }
         }
@@ -105,6 +105,10 @@ pub(super) fn check(node: &mut Node, value: &Value, ledger: &mut Ledger) {
             }
         }
         Value::Either(values) => match values.iter().find(|value| same_kind(node, value)) {
+            // A wrong word may stand for one of the other ways to write the value.
+            Some(Value::Word(words)) if !words.iter().any(|word| node.text() == Some(word)) => {
+                reject(node, value, ledger);
+            }
             Some(value) => check(node, value, ledger),
             None => reject(node, value, ledger),
         },
@@ -185,11 +189,28 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
         }
         (_, Value::Name) => "use letters, digits, `-` and `_`, at most 64".into(),
         (Content::Number(_), Value::Count(_)) => "write a whole number".into(),
+        (Content::Text(text), Value::Either(values)) => either_advice(text, values),
         (Content::Nothing, _) => "remove the key, or write its value behind it".into(),
         _ => String::new(),
     };
     ledger.fault(node, message, advice);
     node.content = Content::Nothing;
+}
+
+/// What to try instead of the word `text` where one of `values` was expected.
+fn either_advice(text: &str, values: &[Value]) -> String {
+    let words = values.iter().flat_map(|value| match value {
+        Value::Word(words) => *words,
+        _ => &[],
+    });
+    let advice = did_you_mean(text, words.copied());
+    let names = values.iter().any(
+        |value| matches!(value, Value::List { of, .. } if matches!(of, Value::Name | Value::Text)),
+    );
+    match advice.starts_with("did you mean") {
+        false if names => format!("write a list: [{text}]"),
+        _ => advice,
+    }
 }
 
 fn same_kind(node: &Node, value: &Value) -> bool {
@@ -230,7 +251,7 @@ pub(super) fn describe(value: &Value) -> String {
 
 fn in_range(range: &Range) -> String {
     if range.low == range.high {
-        return format!("{}, {}", range.what, range.low);
+        return format!("{} {}", range.what, range.low);
     }
-    format!("{}, {} to {}", range.what, range.low, range.high)
+    format!("{} from {} to {}", range.what, range.low, range.high)
 }

@@ -16,6 +16,15 @@ pub(super) enum Language {
     Json,
 }
 
+impl Language {
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Yaml => "YAML",
+            Language::Json => "JSON",
+        }
+    }
+}
+
 /// A text and its name.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source<'a> {

@@ -1,14 +1,15 @@
 //! Every shipped file loads, and broken files are refused with all their faults.
 
+mod faults;
+mod robustness;
+mod saved;
+
 use std::path::PathBuf;
 
-use pushplan::asset::{Kind, PlanFile, ToolLibrary, TrajectoryFile, check, load_task};
-use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{
-    Body, Contact, Engine, Evidence, Frame, Outcome, Plan, Push, Task, Tool, Trajectory, Verdict,
-    Warning,
-};
+use pushplan::asset::{ToolLibrary, load_task};
+use pushplan::scene::Tool;
 
+/// A folder of the repository.
 fn folder(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
 }
@@ -62,71 +63,4 @@ fn the_reference_tools_have_the_reference_geometry() {
         assert_eq!([part.pose.position.x, part.pose.position.y], last);
         assert_eq!(part.pose.heading, f64::to_radians(turn));
     }
-}
-
-/// A plan file with everything in it, for the task `name`.
-fn plan_file(name: &str) -> PlanFile {
-    let library = ToolLibrary::embedded().unwrap();
-    let task = Task::load(folder("tasks").join(name)).unwrap();
-    let tool = task.tools(&library).unwrap()[0].clone();
-    let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
-    let plan = Plan {
-        tool: tool.name.clone(),
-        grip_yaw: 90f64.to_radians(),
-        form: task.pushes.form,
-        lift: task.pushes.lift,
-        pushes: vec![push; 2],
-    };
-    let outcome =
-        Outcome { state: task.scene.start(), error: 0.1, heading_error: Some(0.2), reached: false };
-    let evidence = Evidence {
-        engine: Engine::Spatial,
-        disturbance: "nominal".into(),
-        outcome: outcome.clone(),
-        warnings: vec![Warning::NotAtRest { waited: 3.0 }],
-    };
-    let verdict = Verdict { passed: false, evidence: vec![evidence], robustness: Some(0.5) };
-    PlanFile {
-        task,
-        tool,
-        plan,
-        model: Some("planar".into()),
-        predicted: Some(outcome),
-        verdict: Some(verdict),
-    }
-}
-
-fn trajectory_file(name: &str) -> TrajectoryFile {
-    let PlanFile { task, tool, plan, model, .. } = plan_file(name);
-    let frame = |time, stroke| Frame {
-        time,
-        stroke,
-        tool: Pose::new(0.1, 0.7, -3.0),
-        state: task.scene.start(),
-    };
-    let contact = Contact { frame: 1, object: 0, with: Body::Part(0) };
-    let trajectory = Trajectory {
-        frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
-        contacts: vec![contact],
-        warnings: vec![Warning::NotFinite],
-    };
-    TrajectoryFile { task, tool, plan, model, trajectory }
-}
-
-#[test]
-fn written_files_read_back_bit_by_bit() {
-    let place = tempfile::tempdir().unwrap();
-    let path = place.path().join("file.json");
-    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        let plan = plan_file(&name);
-        plan.write(&path).unwrap();
-        assert_eq!(PlanFile::load(&path).unwrap(), plan);
-        assert_eq!(check(&path, None).unwrap(), Kind::Plan);
-        let trajectory = trajectory_file(&name);
-        trajectory.write(&path).unwrap();
-        assert_eq!(TrajectoryFile::load(&path).unwrap(), trajectory);
-        assert_eq!(check(&path, None).unwrap(), Kind::Trajectory);
-    }
-    assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left behind");
 }

@@ -56,7 +56,7 @@ const REAL: Value =
     Value::Number(Range { what: "a number", low: -1e6, high: 1e6, advice: "is the file damaged?" });
 
 const POSITIVE: Value = Value::Number(Range {
-    what: "a number above zero",
+    what: "a positive number",
     low: 1e-4,
     high: 100.0,
     advice: "lengths are in metres, speeds in m/s",

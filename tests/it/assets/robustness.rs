@@ -1,0 +1,114 @@
+//! No text, however damaged, makes a reader panic; what it refuses it explains.
+
+use proptest::prelude::*;
+use pushplan::asset::{Faults, PlanFile, TrajectoryFile};
+use pushplan::scene::{Task, Tool};
+
+use super::saved::{plan_file, trajectory_file};
+
+const TOOL: &str = include_str!("../../../tools/l-hook.yaml");
+const TASKS: [&str; 3] = [
+    include_str!("../../../tasks/pull-back-behind-wall.yaml"),
+    include_str!("../../../tasks/keep-heading.yaml"),
+    include_str!("../../../tasks/reference-chain.yaml"),
+];
+
+/// What somebody may have written in place of something else.
+const SNIPPETS: [&str; 24] = [
+    ".nan",
+    "-.inf",
+    "1e999",
+    "-1",
+    "0",
+    "null",
+    "~",
+    "[]",
+    "{}",
+    "[[[[",
+    "}",
+    "\"",
+    "'",
+    ": ",
+    "- ",
+    "&a [*a]",
+    "*a",
+    "!!int x",
+    "\t",
+    "\u{0}",
+    "18446744073709551616",
+    "true",
+    "\n",
+    "<<: {a: b}",
+];
+
+/// Reads `text` in every way and looks at what is said.
+fn read(text: &str) {
+    explained(Tool::parse(text, "t"));
+    explained(Task::parse(text, "t"));
+    explained(PlanFile::parse(text, "t"));
+    explained(TrajectoryFile::parse(text, "t"));
+}
+
+fn explained<T>(read: Result<T, Faults>) {
+    if let Err(faults) = read {
+        assert!(!faults.0.is_empty());
+        assert!(faults.0.iter().all(|fault| !fault.message.is_empty()));
+    }
+}
+
+/// `text` with the characters from the share `start` on, `length` of them, replaced by `new`.
+fn spoiled(text: &str, start: f64, length: usize, new: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let start = (start * letters.len() as f64) as usize;
+    let end = (start + length).min(letters.len());
+    letters[..start]
+        .iter()
+        .copied()
+        .chain(new.chars())
+        .chain(letters[end..].iter().copied())
+        .collect()
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        read(&String::from_utf8_lossy(&bytes));
+    }
+
+    #[test]
+    fn any_soup_of_yaml_is_read_or_refused(parts in prop::collection::vec(0..SNIPPETS.len(), 0..30)) {
+        read(&parts.into_iter().map(|k| SNIPPETS[k]).collect::<String>());
+    }
+
+    #[test]
+    fn spoiled_user_files_are_read_or_refused(
+        file in 0..4usize, start in 0.0..1.0, length in 0..12usize, snippet in 0..SNIPPETS.len(),
+    ) {
+        let text = if file < 3 { TASKS[file] } else { TOOL };
+        let text = spoiled(text, start, length, SNIPPETS[snippet]);
+        if file < 3 { explained(Task::parse(&text, "t")) } else { explained(Tool::parse(&text, "t")) }
+    }
+
+    #[test]
+    fn spoiled_saved_files_are_read_or_refused(
+        start in 0.0..1.0, length in 0..12usize, snippet in 0..SNIPPETS.len(),
+    ) {
+        let plan = serde_json::to_string(&plan_file("pull-back.yaml")).unwrap();
+        explained(PlanFile::parse(&spoiled(&plan, start, length, SNIPPETS[snippet]), "t"));
+        let motion = serde_json::to_string(&trajectory_file("narrow-gap.yaml")).unwrap();
+        explained(TrajectoryFile::parse(&spoiled(&motion, start, length, SNIPPETS[snippet]), "t"));
+    }
+}
+
+#[test]
+fn deep_nesting_and_alias_bombs_are_refused() {
+    read(&"[".repeat(100_000));
+    read(&"{a: ".repeat(100_000));
+    let mut bomb = String::from("a0: &a0 [x, x, x, x, x, x, x, x, x]\n");
+    for k in 1..12 {
+        let aliases = vec![format!("*a{}", k - 1); 9].join(", ");
+        bomb.push_str(&format!("a{k}: &a{k} [{aliases}]\n"));
+    }
+    let faults = Task::parse(&bomb, "t").unwrap_err();
+    assert!(faults.to_string().contains("not valid YAML"), "{faults}");
+}

@@ -1,0 +1,201 @@
+//! Files that the program writes: read back bit by bit, refused when damaged, whole or absent.
+
+use insta::assert_snapshot;
+use pushplan::asset::{
+    Kind, PlanFile, SCHEMA_VERSION, ToolLibrary, TrajectoryFile, check, write_atomic,
+};
+use pushplan::geometry::{Pose, Vector};
+use pushplan::scene::{
+    Body, Contact, Engine, Evidence, Frame, Outcome, Plan, Push, Task, Tool, Trajectory, Verdict,
+    Warning,
+};
+
+use super::folder;
+
+/// A plan file with everything in it, for the task `name`.
+pub fn plan_file(name: &str) -> PlanFile {
+    let library = ToolLibrary::embedded().unwrap();
+    let task = Task::load(folder("tasks").join(name)).unwrap();
+    let tool = task.tools(&library).unwrap()[0].clone();
+    let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
+    let plan = Plan {
+        tool: tool.name.clone(),
+        grip_yaw: 90f64.to_radians(),
+        form: task.pushes.form,
+        lift: task.pushes.lift,
+        pushes: vec![push; 2],
+    };
+    let outcome =
+        Outcome { state: task.scene.start(), error: 0.1, heading_error: Some(0.2), reached: false };
+    let evidence = Evidence {
+        engine: Engine::Spatial,
+        disturbance: "nominal".into(),
+        outcome: outcome.clone(),
+        warnings: vec![Warning::NotAtRest { waited: 3.0 }],
+    };
+    let verdict = Verdict { passed: false, evidence: vec![evidence], robustness: Some(0.5) };
+    PlanFile {
+        task,
+        tool,
+        plan,
+        model: Some("planar".into()),
+        predicted: Some(outcome),
+        verdict: Some(verdict),
+    }
+}
+
+pub fn trajectory_file(name: &str) -> TrajectoryFile {
+    let PlanFile { task, tool, plan, model, .. } = plan_file(name);
+    let frame = |time, stroke| Frame {
+        time,
+        stroke,
+        tool: Pose::new(0.1, 0.7, -3.0),
+        state: task.scene.start(),
+    };
+    let contact = Contact { frame: 1, object: 0, with: Body::Part(0) };
+    let trajectory = Trajectory {
+        frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
+        contacts: vec![contact],
+        warnings: vec![Warning::NotFinite],
+    };
+    TrajectoryFile { task, tool, plan, model, trajectory }
+}
+
+#[test]
+fn written_files_read_back_bit_by_bit() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("file.json");
+    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let plan = plan_file(&name);
+        plan.write(&path).unwrap();
+        assert_eq!(PlanFile::load(&path).unwrap(), plan);
+        assert_eq!(check(&path, None).unwrap(), Kind::Plan);
+        let trajectory = trajectory_file(&name);
+        trajectory.write(&path).unwrap();
+        assert_eq!(TrajectoryFile::load(&path).unwrap(), trajectory);
+        assert_eq!(check(&path, None).unwrap(), Kind::Trajectory);
+    }
+    assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 1, "nothing is left behind");
+}
+
+/// What is said about a plan file with `old` replaced by `new`.
+fn damaged(old: &str, new: &str) -> String {
+    let text = serde_json::to_string(&plan_file("pull-back.yaml")).unwrap();
+    assert!(text.contains(old), "{old} is not in {text}");
+    PlanFile::parse(&text.replacen(old, new, 1), "p.json").unwrap_err().to_string()
+}
+
+#[test]
+fn damaged_plan_files_are_refused() {
+    let version = format!("\"schema_version\":{SCHEMA_VERSION}");
+    assert_snapshot!(damaged(&version, "\"schema_version\":7"), @r#"
+    p.json:1:19: error: expected the schema version 1, found the number 7
+      help: the file is of another version of pushplan; make it again with this one
+    "#);
+    assert_snapshot!(damaged("\"grip_yaw\"", "\"gripyaw\""), @r#"
+    p.json:1:66: error: unknown key `gripyaw`
+      help: did you mean `grip_yaw`?
+    "#);
+    assert_snapshot!(damaged("\"length\":0.2", "\"length\":-0.2"), @r#"
+    p.json:1:190: error: expected a positive number from 0.0001 to 100, found the number -0.2
+      help: lengths are in metres, speeds in m/s
+    "#);
+    assert_snapshot!(damaged("\"length\":0.2", "\"length\":null"), @r#"
+    p.json:1:190: error: expected a positive number from 0.0001 to 100, found nothing
+      help: remove the key, or write its value behind it
+    "#);
+    assert_snapshot!(damaged("\"length\":0.2", "\"length\":1e999"), @r#"
+    p.json:1:191: error: not valid JSON: number out of range
+      help: check indentation, brackets and quotes around this place
+    "#);
+    assert_snapshot!(damaged("\"mass\":0.4", "\"mass\":-1"), @r#"
+    p.json:1:1714: error: expected a mass in kg from 0.001 to 1000, found the number -1
+      help: masses are in kilograms: 250 g is 0.25
+    "#);
+    assert_snapshot!(damaged("\"plan\":{\"tool\":\"stick\"", "\"plan\":{\"tool\":\"rake\""), @r#"
+    p.json:1:55: error: the plan uses `rake`, the file holds `stick`
+      help: the file is mixed from two; make it again
+    "#);
+    assert_snapshot!(damaged("\"velocities\":[", "\"velocities\":[{\"linear\":[0,0],\"angular\":0},"), @r#"
+    p.json:1:321: error: expected 1 velocities, one per object, found 2
+      help: the file is damaged; make it again
+    "#);
+    assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
+    p.json:1:744: error: unknown variant `not_at_all`, expected one of `outside_training`, `not_at_rest`, `not_finite`, `toppled`, `set_down_on`
+      help: the file is damaged or of another version; make it again
+    "#);
+    assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"
+    p.json:1:39: error: expected `plan`, found `trajectory`
+      help: use `plan`
+    "#);
+    assert_snapshot!(damaged("{", ""), @r#"
+    p.json:1:17: error: not valid JSON: trailing characters
+      help: check indentation, brackets and quotes around this place
+    "#);
+}
+
+#[test]
+fn what_could_not_be_read_again_is_not_written() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("plan.json");
+    std::fs::write(&path, "old").unwrap();
+    let mut file = plan_file("pull-back.yaml");
+    file.plan.pushes[1].length = f64::NAN;
+    let faults = file.write(&path).unwrap_err().to_string();
+    assert!(faults.contains("expected a positive number"), "{faults}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_leaves_nothing_behind() {
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("file");
+    std::fs::write(&file, "").unwrap();
+    let missing = place.path().join("missing/plan.json");
+    let below_a_file = file.join("plan.json");
+    let folder = place.path().join("folder");
+    std::fs::create_dir_all(folder.join("inner")).unwrap();
+    for path in [&missing, &below_a_file, &folder] {
+        let faults = write_atomic(path, b"new").unwrap_err().to_string();
+        let start = format!("{}: error: cannot write the file: ", path.display());
+        assert!(faults.starts_with(&start), "{faults}");
+    }
+    assert_eq!(std::fs::read_dir(place.path()).unwrap().count(), 2);
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_read_only_folder_is_told() {
+    // Not made by permissions: those do not stop the administrator, as whom tests may run.
+    let faults = write_atomic("/proc/plan.json", b"new").unwrap_err().to_string();
+    assert!(faults.starts_with("/proc/plan.json: error: cannot write the file: "), "{faults}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_written_file_replaces_the_old_one_and_can_be_read_by_others() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("plan.json");
+    std::fs::write(&path, "old and longer").unwrap();
+    write_atomic(&path, b"new").unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
+    let by_hand = place.path().join("by-hand");
+    std::fs::write(&by_hand, "").unwrap();
+    let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&path), mode(&by_hand));
+}
+
+#[test]
+fn a_tool_built_in_code_reads_back_with_the_same_joints() {
+    let mut file = plan_file("pull-back.yaml");
+    let mut tool = Tool::clone(&file.tool);
+    tool.parts[0].pose.position.y += 1.0;
+    let parts = tool.parts.clone();
+    tool = Tool::assemble(tool.name, String::new(), tool.grip, 0.3, parts, &[[0, 1]]).unwrap();
+    file.tool = tool.into();
+    let text = serde_json::to_string(&file).unwrap();
+    assert_eq!(PlanFile::parse(&text, "p.json").unwrap().tool, file.tool);
+}
