@@ -3,6 +3,10 @@
 //!
 //! [`Simulator::run`] plays a tool motion on a scene and records what happens. Nothing is
 //! planned or judged here, and no type of rapier leaves this room.
+//!
+//! The engines differ by their support: even pressure in the planar one, corner points in 3-D.
+//! Over 100 random 20 cm pushes of one object at 0.1 m/s they end 0.8 mm apart for cylinders
+//! (mean; median 0.5) and 4.3 mm for cuboids (median 1.6).
 
 mod drive;
 mod joints;
