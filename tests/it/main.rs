@@ -7,3 +7,4 @@ mod evaluation;
 mod planning;
 mod simulation;
 mod solving;
+mod verification;

@@ -3,16 +3,143 @@
 use std::path::PathBuf;
 
 use pushplan::asset::{ToolLibrary, load_task};
-use pushplan::effect::Simulated;
+use pushplan::effect::{EffectModel, Job, Simulated};
+use pushplan::geometry::Vector;
+use pushplan::scene::{Frame, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory, Warning};
 use pushplan::sim::Simulator;
-use pushplan::solve::{PlanStatus, Planner, Solution};
+use pushplan::solve::{Effort, PlanStatus, Planner, Solution, Stage};
 
 fn planner() -> Planner {
     Planner::builder(Simulated::new(Simulator::planar())).build()
 }
 
+/// Predicts that any push brings every object onto the goal.
+struct Wishful(Vector);
+
+impl EffectModel for Wishful {
+    fn name(&self) -> &str {
+        "wishful"
+    }
+
+    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    fn error_p95(&self) -> f64 {
+        0.0
+    }
+
+    fn rollout(&self, _: &Scene, jobs: &[Job], _: Record) -> Vec<Trajectory> {
+        let landed = |job: &Job| {
+            let mut state = job.start.clone();
+            state.poses.iter_mut().for_each(|pose| pose.position = self.0);
+            let tool = job.motion.strokes[0].to;
+            Trajectory {
+                frames: vec![Frame { time: 1.0, stroke: 0, tool, state }],
+                ..Trajectory::default()
+            }
+        };
+        jobs.iter().map(landed).collect()
+    }
+}
+
+fn shipped(name: &str) -> (Task, ToolLibrary) {
+    let library = ToolLibrary::embedded().unwrap();
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    (load_task(&folder.join(name), &library).unwrap(), library)
+}
+
 #[test]
-fn every_shipped_task() {
+fn plans_that_only_work_in_the_model_fail_verification() {
+    let (task, library) = shipped("pull-back.yaml");
+    let planner = Planner::builder(Wishful(task.goal.position)).effort(Effort::Draft).build();
+    let solution = planner.solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::FailedVerification);
+    let best = solution.best().unwrap();
+    let verdict = best.verdict.as_ref().unwrap();
+    assert!(!verdict.passed && best.outcome.reached && best.outcome.error == 0.0);
+    assert!(verdict.evidence.iter().all(|evidence| !evidence.outcome.reached));
+    assert!(verdict.evidence.len() == 2 && verdict.robustness.is_none());
+}
+
+#[test]
+fn without_a_way_to_the_goal_there_is_no_plan_but_a_nearest_one() {
+    let (mut task, library) = shipped("pull-back.yaml");
+    task.goal.position = Vector::new(task.goal.position.x, 2.0);
+    let solution = planner().solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::NoPlan);
+    let before = task.goal.error(&task.scene.start());
+    assert!(solution.best().unwrap().outcome.error < before - 0.05);
+    assert!(solution.plans.iter().all(|plan| plan.verdict.is_none()));
+    let errors = solution.plans.windows(2);
+    assert!(errors.into_iter().all(|p| p[0].outcome.error <= p[1].outcome.error + 1e-3));
+}
+
+#[test]
+fn a_goal_that_is_met_already_needs_no_push() {
+    let (mut task, library) = shipped("pull-back.yaml");
+    task.goal.position = task.scene.objects[task.goal.object].pose.position;
+    let solution = planner().solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().unwrap();
+    assert!(best.plan.pushes.is_empty() && best.verdict.as_ref().unwrap().passed);
+    assert_eq!(best.verdict.as_ref().unwrap().robustness, Some(1.0));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_plans() {
+    for name in ["cluster-neighbour.yaml", "pull-back-twice.yaml", "reference-chain.yaml"] {
+        let (task, library) = shipped(name);
+        let solve = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let planner =
+                Planner::builder(Simulated::new(Simulator::planar())).effort(Effort::Draft).build();
+            let mut solution = pool.install(|| planner.solve(&task, &library).unwrap());
+            solution.statistics.timing = Default::default();
+            solution
+        };
+        let (one, three) = (solve(1), solve(3));
+        assert_eq!(one.status, three.status);
+        assert_eq!(one.statistics, three.statistics);
+        for (a, b) in one.plans.iter().zip(&three.plans) {
+            assert_eq!(a.plan, b.plan, "{name}");
+            assert_eq!(a.verdict, b.verdict, "{name}");
+            assert_eq!(a.predicted, b.predicted, "{name}");
+        }
+    }
+}
+
+#[test]
+fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
+    let (task, library) = shipped("pull-back.yaml");
+    let spoil: [fn(&mut Task); 9] = [
+        |task| task.goal.tolerance = f64::NAN,
+        |task| task.goal.position.x = f64::INFINITY,
+        |task| task.goal.object = 99,
+        |task| task.pushes.length = 0.0,
+        |task| task.pushes.speed = -1.0,
+        |task| task.pushes.grip_yaws.clear(),
+        |task| task.robot.reach_max = f64::NAN,
+        |task| task.scene.objects[0].mass = 0.0,
+        |task| task.tools = ToolChoice::Named(vec!["nonesuch".into()]),
+    ];
+    for (k, spoil) in spoil.into_iter().enumerate() {
+        let mut task = task.clone();
+        spoil(&mut task);
+        assert!(planner().solve(&task, &library).is_err(), "fault {k}");
+    }
+    assert!(planner().solve(&task, &ToolLibrary::default()).is_err());
+    let progress = std::cell::RefCell::new(Vec::new());
+    let told = planner().solve_with(&task, &library, &mut |p| progress.borrow_mut().push(p));
+    assert!(told.is_ok());
+    for stage in [Stage::Search, Stage::Refine, Stage::Verify] {
+        assert!(progress.borrow().iter().any(|p| p.stage == stage));
+    }
+    assert!(progress.borrow().iter().all(|p| p.done <= p.total));
+}
+
+#[test]
+fn every_shipped_task_ends_as_its_description_says() {
     let library = ToolLibrary::embedded().unwrap();
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
     let mut paths: Vec<_> =

@@ -1,0 +1,101 @@
+//! Verdicts on plans made by hand.
+
+use std::sync::Arc;
+
+use pushplan::geometry::Vector;
+use pushplan::scene::{Engine, Plan, Push, PushForm, Task, Tool, Warning};
+use pushplan::verify::{Verifier, VerifySettings};
+
+const TASK: &str = "
+description: Push a can ahead.
+scene:
+  table: {friction: 0.5}
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.04, height: 0.10}}, mass: 0.4, friction: 0.4, position: [0.5, 0.0]}
+robot: {home: [0.3, 0.0], reach: {max: 0.9}}
+tools: all
+pushes: {max_count: 2}
+goal: {object: can, position: [0.65, 0.0], tolerance: 0.02}
+";
+
+fn paddle() -> Arc<Tool> {
+    let text = "name: paddle
+description: A handle with a wide face.
+friction: 0.4
+parts:
+  - {name: handle, size: [0.20, 0.04, 0.06], position: [0.10, 0, 0]}
+  - {name: face, size: [0.02, 0.16, 0.06], position: [0.21, 0, 0]}
+";
+    Arc::new(Tool::parse(text, "paddle.yaml").unwrap())
+}
+
+fn push(start: [f64; 2], direction: f64, length: f64) -> Push {
+    Push { start: Vector::new(start[0], start[1]), direction, length, speed: 0.1 }
+}
+
+fn plan(pushes: Vec<Push>) -> Plan {
+    let form = PushForm::Placed;
+    Plan { tool: "paddle".into(), grip_yaw: 0.0, form, lift: 0.002, pushes }
+}
+
+fn task() -> Task {
+    Task::parse(TASK, "ahead.yaml").unwrap()
+}
+
+#[test]
+fn a_plan_that_works_passes_with_evidence_from_both_engines() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 3, seed: 1 });
+    // The face's front is 0.22 ahead of the grip: from 0.235 it travels 5 mm to the can.
+    let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    let verdict = verifier.verify(&task(), &paddle(), &good);
+    assert!(verdict.passed);
+    assert_eq!(verdict.evidence.len(), 2 + 2 * 3);
+    assert_eq!(verdict.evidence[0].engine, Engine::Planar);
+    assert_eq!(verdict.evidence[1].engine, Engine::Spatial);
+    assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == "nominal"));
+    assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error < 5e-3));
+    assert_eq!(verdict.robustness, Some(1.0));
+    // Draws differ, and the same seed draws the same.
+    let outcome = |k: usize| &verdict.evidence[k].outcome;
+    assert!(outcome(2).error != outcome(3).error);
+    assert_eq!(verdict, verifier.verify(&task(), &paddle(), &good));
+    let other = Verifier::new(VerifySettings { disturbed: 3, seed: 2 });
+    assert_ne!(verdict, other.verify(&task(), &paddle(), &good));
+}
+
+#[test]
+fn a_plan_that_stops_short_fails() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let short = plan(vec![push([0.235, 0.0], 0.0, 0.05)]);
+    let verdict = verifier.verify(&task(), &paddle(), &short);
+    assert!(!verdict.passed && verdict.robustness.is_none());
+    assert!((verdict.evidence[1].outcome.error - 0.105).abs() < 5e-3);
+}
+
+#[test]
+fn a_tool_set_down_on_an_object_is_no_pass() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    // The second push forgets that the first has moved the can to 0.65.
+    let blind = plan(vec![push([0.235, 0.0], 0.0, 0.155), push([0.42, 0.0], 0.0, 0.01)]);
+    let verdict = verifier.verify(&task(), &paddle(), &blind);
+    assert!(!verdict.passed);
+    for evidence in &verdict.evidence {
+        let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
+        assert!(evidence.warnings.contains(&landed), "{evidence:?}");
+    }
+}
+
+#[test]
+fn a_toppled_object_is_no_pass() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let mut task = task();
+    // A tall thin bottle, pushed fast and high up.
+    let text = TASK.replace("radius: 0.04, height: 0.10", "radius: 0.015, height: 0.30");
+    task.scene = Task::parse(&text, "bottle.yaml").unwrap().scene;
+    let mut high = plan(vec![push([0.26, 0.0], 0.0, 0.155)]);
+    high.lift = 0.2;
+    let verdict = verifier.verify(&task, &paddle(), &high);
+    assert!(!verdict.passed);
+    let spatial = &verdict.evidence[1];
+    assert!(spatial.warnings.iter().any(|w| matches!(w, Warning::Toppled { .. })));
+}
