@@ -3,10 +3,17 @@
 //! Everything is seeded, takes any [`crate::effect::EffectModel`] and gives plain data that can
 //! be written as JSON; nothing is drawn here.
 
+mod cpu_clock;
 mod heldout;
+mod random_task;
+mod refinement;
 mod statistics;
 mod suite;
+mod timing;
 
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
+pub use random_task::random_task;
+pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use statistics::{Summary, mean, percentile};
 pub use suite::{Case, Suite, SuiteKind};
+pub use timing::{PushCost, SearchCost, push_costs, search_costs};

@@ -2,9 +2,13 @@
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::{HeldOut, HeldOutReport, MOVED, Suite, SuiteKind},
+    bench::{
+        HeldOut, HeldOutReport, MOVED, PlanErrors, Suite, SuiteKind, push_costs, random_task,
+        refinement_report, search_costs,
+    },
     effect::{EffectModel, Projection, Simulated, Still},
     sim::Simulator,
+    solve::Effort,
 };
 
 fn library() -> ToolLibrary {
@@ -66,4 +70,36 @@ fn one_and_two_threads_give_the_same_report_and_it_survives_json() {
     let text = serde_json::to_string(&one).unwrap();
     let back: HeldOutReport = serde_json::from_str(&text).unwrap();
     assert_eq!(back.models[1].rows.len(), one.models[1].rows.len());
+}
+
+#[test]
+fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
+    let model = Simulated::new(Simulator::planar());
+    let settings = Effort::Draft.settings();
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| refinement_report(&model, &library(), &settings, 1, 6))
+    };
+    let report = with(2);
+    assert_eq!(report.planned, 6);
+    assert_eq!(report.worse_predicted, 0);
+    // The model is the truth, so what it predicts is what happens.
+    assert_eq!(report.after.predicted, report.after.planar);
+    let mean = |errors: &PlanErrors| errors.planar.as_ref().map_or(f64::NAN, |s| s.mean);
+    assert!(mean(&report.after) < 0.5 * mean(&report.before), "{report:?}");
+    assert_eq!(report, with(1));
+}
+
+#[test]
+fn costs_are_measured_for_every_model_and_engine() {
+    let library = library();
+    let suite = Suite::draw(SuiteKind::Single, &library, 5, 2);
+    let costs = push_costs(&Projection, &suite, 4).unwrap();
+    let names: Vec<&str> = costs.iter().map(|cost| cost.model.as_str()).collect();
+    assert_eq!(names, ["projection", "projection", "planar", "3d"]);
+    let tools: Vec<_> = library.iter().cloned().collect();
+    let task = random_task(&library, 1, 0);
+    let searched = search_costs(&[&Projection], &task, &tools, 3, 100);
+    assert!(searched[0].rollouts > 0 && searched[0].rollouts <= 100);
+    assert!(searched[0].seconds > 0.0);
 }

@@ -1,0 +1,148 @@
+//! What a push costs: predicted, simulated in the plane and in 3-D, and a whole search of
+//! one-push candidates, all in one run so that the ratios mean something.
+
+use std::{sync::Arc, time::Instant};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    effect::{EffectModel, Job, Simulated},
+    plan::{Rollouts, Search, SearchSettings, Workspace},
+    scene::{Record, Scene, Task, Tool},
+    sim::Simulator,
+};
+
+use super::{cpu_clock::processor_time, suite::Suite};
+
+/// A search is timed this often and the shortest counts: other work on the machine can only
+/// lengthen it.
+const REPEATS: usize = 5;
+
+/// Pushes are repeated until they took this much processor time, seconds: the kernel may count
+/// in ticks of 4 ms.
+const ENOUGH: f64 = 0.25;
+
+/// Processor time of one push.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PushCost {
+    /// Name of the model.
+    pub model: String,
+    /// Jobs handed over together.
+    pub batch: usize,
+    /// Processor time per push, seconds.
+    pub seconds: f64,
+    /// The same for one frame of a push, seconds.
+    pub seconds_per_frame: f64,
+}
+
+/// Cost of a search of one-push candidates on the current rayon pool.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchCost {
+    /// Name of the model.
+    pub model: String,
+    /// Name of the task.
+    pub task: String,
+    /// Threads of the pool.
+    pub threads: usize,
+    /// Rollouts made.
+    pub rollouts: usize,
+    /// Wall-clock time, seconds.
+    pub seconds: f64,
+}
+
+/// Times pushes of `suite` on one thread: `model` with `batch` jobs at a time on the same scene
+/// and one at a time, then both engines.
+///
+/// The jobs of a batch are the same push, which no model can know; it measures what a search
+/// pays for a candidate.
+///
+/// # Errors
+/// If the thread cannot be started.
+pub fn push_costs(
+    model: &dyn EffectModel,
+    suite: &Suite,
+    batch: usize,
+) -> Result<Vec<PushCost>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let (planar, spatial) =
+        (Simulated::new(Simulator::planar()), Simulated::new(Simulator::spatial()));
+    let runs: [(&dyn EffectModel, usize); 4] =
+        [(model, batch.max(1)), (model, 1), (&planar, 1), (&spatial, 1)];
+    Ok(pool.install(|| runs.into_iter().map(|(m, batch)| push_cost(m, suite, batch)).collect()))
+}
+
+fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
+    let work: Vec<(&Scene, Vec<Job>)> = suite
+        .cases
+        .iter()
+        .map(|case| {
+            let motion = case.motion.clone();
+            let job = Job { start: case.scene.start(), motion, hypothesis: None };
+            (&case.scene, vec![job; batch])
+        })
+        .collect();
+    let (mut seconds, mut runs) = (0.0, 0u32);
+    // Bounded, should the clock stand still.
+    while seconds < ENOUGH && runs < 10_000 && !work.is_empty() {
+        runs += 1;
+        seconds += processor_time(|| {
+            for (scene, jobs) in &work {
+                std::hint::black_box(model.rollout(scene, jobs, Record::Outcome));
+            }
+        })
+        .as_secs_f64();
+    }
+    let seconds = seconds / f64::from(runs.max(1));
+    let pushes = (work.len() * batch).max(1) as f64;
+    let strokes = suite.cases.iter().flat_map(|case| &case.motion.strokes);
+    let frames = strokes.map(|stroke| stroke.frames()).sum::<usize>() * batch;
+    PushCost {
+        model: model.name().to_owned(),
+        batch,
+        seconds: seconds / pushes,
+        seconds_per_frame: seconds / frames.max(1) as f64,
+    }
+}
+
+/// Times the search of at most `candidates` one-push candidates for `task` with each model, one
+/// after another on the current rayon pool.
+pub fn search_costs(
+    models: &[&dyn EffectModel],
+    task: &Task,
+    tools: &[Arc<Tool>],
+    offsets: usize,
+    candidates: usize,
+) -> Vec<SearchCost> {
+    let settings = SearchSettings { offsets, beam: 1, rollouts: candidates, kept: 32 };
+    let mut task = task.clone();
+    task.pushes.max_count = 1;
+    models
+        .iter()
+        .map(|model| {
+            let mut used = 0;
+            let seconds = shortest(|| {
+                let workspace = Workspace { task: &task, tools, later_stand_off: 0.0 };
+                let mut rollouts = Rollouts::new(*model, &task.scene);
+                let mut search = Search::new(workspace, settings);
+                std::hint::black_box(search.deepen(&mut rollouts, &mut |_, _| {}));
+                used = rollouts.used();
+            });
+            SearchCost {
+                model: model.name().to_owned(),
+                task: task.name.clone(),
+                threads: rayon::current_num_threads(),
+                rollouts: used,
+                seconds,
+            }
+        })
+        .collect()
+}
+
+fn shortest(mut run: impl FnMut()) -> f64 {
+    let times = (0..REPEATS).map(|_| {
+        let began = Instant::now();
+        run();
+        began.elapsed().as_secs_f64()
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
