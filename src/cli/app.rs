@@ -11,7 +11,7 @@ use super::{
     error::CliError,
     exit_code, interrupt, predict, schema,
     session::{GlobalArgs, Session},
-    simulate,
+    simulate, solve, verify,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -27,6 +27,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Solve(solve::SolveArgs),
+    Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
     Check(check::CheckArgs),
@@ -58,6 +60,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
     interrupt::install()?;
     let session = Session::start(&cli.global)?;
     match &cli.command {
+        Command::Solve(args) => solve::run(args, &session),
+        Command::Verify(args) => verify::run(args, &session),
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Check(args) => check::run(args, &session),

@@ -18,5 +18,7 @@ mod push_argument;
 mod schema;
 mod session;
 mod simulate;
+mod solve;
+mod verify;
 
 pub use app::run;

@@ -16,7 +16,8 @@ use crate::scene::{Record, State, Task, Trajectory};
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
-    exit_code, model,
+    exit_code,
+    model::ModelName,
     push_argument::FORMS,
     session::Session,
 };
@@ -51,7 +52,8 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let motion = plan.motion(&tool);
     let mut effects = Vec::new();
-    for model in model::ladder()? {
+    for name in ModelName::LADDER {
+        let model = name.load()?;
         for warning in model.warnings(&task.scene, &motion) {
             session.warn(&format!("{}: {warning}", model.name()));
         }

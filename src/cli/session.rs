@@ -1,7 +1,7 @@
 //! What every subcommand shares: where to write, how to show progress, how many threads.
 
 use std::io::{IsTerminal, Write};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -20,6 +20,9 @@ pub struct GlobalArgs {
     #[arg(long, short, global = true)]
     pub quiet: bool,
 }
+
+/// Work that ends sooner shows no progress.
+const SHOW_AFTER: Duration = Duration::from_millis(500);
 
 /// One run of the command.
 #[derive(Debug)]
@@ -65,21 +68,39 @@ impl Session {
         }
     }
 
-    /// A bar over `total` units, or a spinner if the total is unknown. Invisible unless stderr is
-    /// a terminal.
-    pub fn progress(&self, what: &str, total: Option<u64>) -> ProgressBar {
-        if self.quiet || !std::io::stderr().is_terminal() {
-            return ProgressBar::hidden();
-        }
-        let bar = match total {
-            Some(total) => ProgressBar::new(total)
-                .with_style(style("{prefix} [{bar:30}] {pos}/{len} {per_sec} {msg} eta {eta}")),
-            None => ProgressBar::new_spinner().with_style(style("{spinner} {prefix} {elapsed}")),
-        };
-        bar.set_draw_target(ProgressDrawTarget::stderr());
+    /// A spinner that says what is being done, once it has taken a while.
+    pub fn spinner(&self, what: &str) -> Spinner {
+        let bar = ProgressBar::hidden();
         bar.set_prefix(what.to_owned());
-        bar.enable_steady_tick(Duration::from_millis(200));
-        bar
+        bar.set_style(style("{spinner} {prefix} {elapsed}: {msg}"));
+        let visible = !self.quiet && std::io::stderr().is_terminal();
+        Spinner { bar, since: visible.then(Instant::now) }
+    }
+}
+
+/// Progress of work whose length is not known.
+pub struct Spinner {
+    bar: ProgressBar,
+    /// When the wait began; none once the spinner is shown, or if it never will be.
+    since: Option<Instant>,
+}
+
+impl Spinner {
+    /// Tells what is being done now.
+    pub fn say(&mut self, message: impl FnOnce() -> String) {
+        if self.since.is_some_and(|since| since.elapsed() > SHOW_AFTER) {
+            self.since = None;
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.bar.enable_steady_tick(Duration::from_millis(200));
+        }
+        if !self.bar.is_hidden() {
+            self.bar.set_message(message());
+        }
+    }
+
+    /// Takes it off the screen.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
     }
 }
 

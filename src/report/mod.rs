@@ -6,6 +6,7 @@ mod chart;
 mod number;
 mod picture;
 mod plan_text;
+mod solution;
 mod svg;
 mod table;
 
@@ -13,4 +14,5 @@ pub use chart::{Axis, Chart, Mark, Series};
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
+pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
 pub use table::{Align, Table};

@@ -11,11 +11,14 @@ use super::{
 /// Stands for a number that is not asked for.
 const NONE: &str = "\u{2013}";
 
-/// One line: tool, grip yaw, number of pushes.
+/// One line: tool, grip yaw, number of pushes; of a plan to leave things as they are, just that.
 pub fn plan_line(plan: &Plan) -> String {
-    let count = plan.pushes.len();
-    let pushes = if count == 1 { "push" } else { "pushes" };
-    format!("{}, grip yaw {}, {count} {pushes}", plan.tool, whole_degrees(plan.grip_yaw))
+    let pushes = match plan.pushes.len() {
+        0 => return "no push".to_owned(),
+        1 => "1 push".to_owned(),
+        count => format!("{count} pushes"),
+    };
+    format!("{}, grip yaw {}, {pushes}", plan.tool, whole_degrees(plan.grip_yaw))
 }
 
 /// One row per push.
@@ -31,7 +34,7 @@ pub fn push_table(plan: &Plan) -> Table {
         table.row([
             (k + 1).to_string(),
             point(push.start),
-            degrees(wrap_angle(push.direction)),
+            direction(push.direction),
             millimetres(push.length),
             format!("{:.2} m/s", push.speed),
         ]);
@@ -75,6 +78,14 @@ pub fn goal_line(task: &Task) -> String {
 /// A position on the table.
 pub fn point(position: Vector) -> String {
     format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
+}
+
+/// A direction, degrees in (-180, 180] as shown.
+fn direction(radians: f64) -> String {
+    // Half of the last digit shown, so that nothing is shown as -180.0.
+    let wrapped = wrap_angle(radians);
+    let half_turn = wrapped <= -(179.95f64.to_radians());
+    degrees(if half_turn { std::f64::consts::PI } else { wrapped })
 }
 
 fn whole_degrees(radians: f64) -> String {

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod assets;
+mod cli;
 mod dataset;
 mod evaluation;
 mod planning;

@@ -84,8 +84,8 @@ const PLAN: Value = Value::Map(&[
     Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
     Key::required(
         "pushes",
-        Value::List { of: &PUSH, items: "pushes", min: 1, max: 64 },
-        "The pushes, in order.",
+        Value::List { of: &PUSH, items: "pushes", min: 0, max: 64 },
+        "The pushes, in order; none if nothing is to be done.",
     ),
 ]);
 

@@ -83,7 +83,8 @@ fn check_frames(opened: &mut Opened, nodes: &[Node], own: &Own) {
             let message = format!("frame {k} is at {} s, before the one before it", frame.time);
             opened.ledger.fault(node, message, "frames are in order of time");
         }
-        if frame.stroke >= own.plan.pushes.len() {
+        // The start belongs to push 0, also where there is none.
+        if frame.stroke >= own.plan.pushes.len().max(1) {
             let pushes = own.plan.pushes.len();
             let message = format!("push {} of a plan with {pushes}", frame.stroke + 1);
             opened.ledger.fault(node, message, "the file is damaged; make it again");

@@ -104,11 +104,12 @@ impl ScenePicture<'_> {
         for obstacle in &self.scene.obstacles {
             bodies::obstacle(svg, view, obstacle);
         }
-        for (k, object) in self.scene.objects.iter().enumerate() {
-            bodies::object(svg, view, object, self.is_goal(k));
-        }
         if let Some(motion) = self.motion {
             strokes::tool(svg, view, motion);
+        }
+        // Over the tool, which often ends where the object was.
+        for (k, object) in self.scene.objects.iter().enumerate() {
+            bodies::object(svg, view, object, self.is_goal(k));
         }
         if let Some(goal) = self.goal {
             bodies::goal(svg, view, goal);

@@ -1,0 +1,165 @@
+//! `pushplan solve`: from a task file to a verified plan with a picture.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use crate::asset::{PlanFile, load_task};
+use crate::report::{plan_picture, solution_json, solution_text};
+use crate::scene::{Engine, Record, Task, Trajectory};
+use crate::sim::Simulator;
+use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
+
+use super::{
+    action::LibraryArgs, error::CliError, exit_code, model::ModelName, output, session::Session,
+};
+
+/// Choose a tool and pushes for a task, verify them, write the plan and its picture
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  pushplan solve tasks/pull-back.yaml
+  pushplan solve tasks/narrow-gap.yaml --effort thorough --json
+  pushplan solve my-task.yaml --tools my-tools --out results
+
+Writes <out>/<task>.plan.json and <out>/<task>.svg. Without a plan that works, the nearest one is
+written as <task>.nearest.* (exit code 4) or <task>.failed.* (exit code 5).")]
+pub struct SolveArgs {
+    /// The task file
+    task: PathBuf,
+    /// How hard to try
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortName,
+    /// What predicts the effect of pushes during the search
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelName,
+    /// Seed of refinement's samples and of the disturbed replays
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
+    out: PathBuf,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Print JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.library.load()?;
+    let task = load_task(&args.task, &library)?;
+    output::prepare(&args.out)?;
+    let planner =
+        Planner::builder(args.model.load()?).effort(args.effort.into()).seed(args.seed).build();
+    let model = planner.model().name();
+    let mut bar = session.spinner("solving");
+    let solved = session.compute(|| {
+        planner.solve_with(&task, &library, &mut |progress| {
+            let pushes = progress.pushes;
+            let (stage, done, total) = (progress.stage, progress.done, progress.total);
+            bar.say(|| format!("{stage}, plans of {pushes} push(es), {done}/{total}"));
+        })
+    });
+    bar.finish();
+    let solution = solved.map_err(|error| match error {
+        SolveError::Tools(faults) => CliError::Files(faults),
+        SolveError::BadTask { .. } => CliError::unexpected("cannot plan", &error),
+    })?;
+    for warning in &solution.warnings {
+        session.warn(&warning.to_string());
+    }
+    let (code, suffix) = match solution.status {
+        PlanStatus::Solved => (exit_code::DONE, ""),
+        PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
+        PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
+    };
+    let written = match solution.best() {
+        Some(best) => write(args, session, &task, best, model, suffix)?,
+        None => Vec::new(),
+    };
+    print(args, session, &task, &solution, model, &written)?;
+    Ok(code)
+}
+
+/// The plan file and the picture.
+fn write(
+    args: &SolveArgs,
+    session: &Session,
+    task: &Task,
+    best: &RankedPlan,
+    model: &str,
+    suffix: &str,
+) -> Result<Vec<PathBuf>, CliError> {
+    let motion = best.plan.motion(&best.tool);
+    let start = task.scene.start();
+    let simulated: Vec<(Engine, Trajectory)> = session.compute(|| {
+        [Simulator::planar(), Simulator::spatial()]
+            .iter()
+            .filter(|_| !motion.strokes.is_empty())
+            .map(|engine| {
+                let run = engine.run(&task.scene, &start, None, &motion, Record::Frames);
+                (engine.engine(), run)
+            })
+            .collect()
+    });
+    let picture = plan_picture(task, best, &motion, &simulated).to_svg();
+    let stem = format!("{}{suffix}", task.name);
+    let path = args.out.join(format!("{stem}.plan.json"));
+    let file = PlanFile {
+        task: task.clone(),
+        tool: Arc::clone(&best.tool),
+        plan: best.plan.clone(),
+        model: Some(model.to_owned()),
+        predicted: Some(best.outcome.clone()),
+        verdict: best.verdict.clone(),
+    };
+    file.write(&path).map_err(CliError::Output)?;
+    let picture = output::write(&args.out, &format!("{stem}.svg"), picture.as_bytes())?;
+    Ok(vec![path, picture])
+}
+
+fn print(
+    args: &SolveArgs,
+    session: &Session,
+    task: &Task,
+    solution: &Solution,
+    model: &str,
+    written: &[PathBuf],
+) -> Result<(), CliError> {
+    if args.json {
+        let mut report = solution_json(task, solution, model);
+        report["files"] = serde_json::json!(written);
+        return session.print(&format!("{report:#}\n"));
+    }
+    let mut text = solution_text(task, solution, model);
+    for path in written {
+        text += &format!("wrote {}\n", path.display());
+    }
+    session.print(&text)
+}
+
+/// [`Effort`] with words for `--help`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum EffortName {
+    /// A first look
+    Draft,
+    /// Enough for most tasks
+    #[default]
+    Standard,
+    /// Several times as long
+    Thorough,
+    /// Whatever helps, up to minutes
+    Exhaustive,
+}
+
+impl From<EffortName> for Effort {
+    fn from(name: EffortName) -> Self {
+        match name {
+            EffortName::Draft => Effort::Draft,
+            EffortName::Standard => Effort::Standard,
+            EffortName::Thorough => Effort::Thorough,
+            EffortName::Exhaustive => Effort::Exhaustive,
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The result of solving a task, in words, as JSON and as a picture.
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::SCHEMA_VERSION;
+use crate::scene::{Engine, Evidence, Outcome, Task, ToolMotion, Trajectory, Verdict};
+use crate::solve::{PlanStatus, RankedPlan, Solution};
+
+use super::{
+    number::{millimetres, seconds},
+    picture::{ScenePicture, Source, Track},
+    plan_text::{goal_line, outcome_table, plan_line, push_table},
+};
+
+/// The result for people.
+pub fn solution_text(task: &Task, solution: &Solution, model: &str) -> String {
+    let mut text = format!("{}: {}\n", task.name, headline(solution));
+    text += &format!("goal: {}\n", goal_line(task));
+    if let Some(best) = solution.best() {
+        if !best.plan.pushes.is_empty() {
+            text += &format!("\n{}", push_table(&best.plan).to_text());
+        }
+        text += "\n";
+        text += &outcomes_text(task, Some((model, &best.outcome)), best.verdict.as_ref());
+    }
+    let statistics = &solution.statistics;
+    let timing = &statistics.timing;
+    text += &format!(
+        "\nrollouts: {}; verified: {}; time: {}, of which search {}, refinement {}, verification {}\n",
+        statistics.rollouts,
+        statistics.verified,
+        seconds(timing.total),
+        seconds(timing.search),
+        seconds(timing.refinement),
+        seconds(timing.verification)
+    );
+    text
+}
+
+/// The result for programs.
+pub fn solution_json(task: &Task, solution: &Solution, model: &str) -> Json {
+    let plans: Vec<Json> = solution
+        .plans
+        .iter()
+        .map(|ranked| {
+            json!({
+                "plan": ranked.plan,
+                "predicted": ranked.outcome,
+                "verdict": ranked.verdict,
+                "refinement": ranked.refinement,
+            })
+        })
+        .collect();
+    json!({
+        "schema_version": SCHEMA_VERSION,
+        "task": task.name,
+        "model": model,
+        "status": solution.status,
+        "plans": plans,
+        "statistics": solution.statistics,
+        "warnings": solution.warnings,
+    })
+}
+
+/// Where a plan ends by prediction and in both engines, and what the verdict is.
+pub fn outcomes_text(
+    task: &Task,
+    predicted: Option<(&str, &Outcome)>,
+    verdict: Option<&Verdict>,
+) -> String {
+    let source = predicted.map(|(model, _)| format!("predicted ({model})")).unwrap_or_default();
+    let mut outcomes: Vec<(&str, &Outcome)> = Vec::new();
+    outcomes.extend(predicted.map(|(_, outcome)| (source.as_str(), outcome)));
+    for evidence in verdict.iter().flat_map(|verdict| nominal(verdict)) {
+        outcomes.push((engine_name(evidence.engine), &evidence.outcome));
+    }
+    let mut text = outcome_table(task, &outcomes).to_text();
+    text += &format!("\nverdict: {}\n", verdict_line(verdict));
+    text
+}
+
+/// A picture of a plan, with the ways by prediction and in the given simulations.
+pub fn plan_picture<'a>(
+    task: &'a Task,
+    plan: &'a RankedPlan,
+    motion: &'a ToolMotion,
+    simulated: &'a [(Engine, Trajectory)],
+) -> ScenePicture<'a> {
+    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
+    errors.extend(simulated.iter().map(|(engine, trajectory)| {
+        let error = task.goal.error(trajectory.outcome());
+        format!("{} {}", engine_name(*engine), millimetres(error))
+    }));
+    let allowed = millimetres(task.goal.tolerance);
+    let mut tracks: Vec<Track> = simulated
+        .iter()
+        .map(|(engine, trajectory)| Track { source: Source::Simulated(*engine), trajectory })
+        .collect();
+    tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
+    ScenePicture {
+        title: format!("{}: {}", task.name, plan_line(&plan.plan)),
+        notes: vec![
+            format!("error: {}; allowed {allowed}", errors.join(", ")),
+            format!("verdict: {}", verdict_line(plan.verdict.as_ref())),
+        ],
+        scene: &task.scene,
+        goal: Some(&task.goal),
+        robot: Some(&task.robot),
+        motion: Some(motion),
+        tracks,
+    }
+}
+
+fn headline(solution: &Solution) -> String {
+    let Some(best) = solution.best() else {
+        return "no plan; no push can be made at all".to_owned();
+    };
+    let plan = plan_line(&best.plan);
+    match solution.status {
+        PlanStatus::Solved if best.plan.pushes.is_empty() => {
+            "solved; the object is at the goal already".to_owned()
+        }
+        PlanStatus::Solved => format!("solved with {plan}"),
+        PlanStatus::NoPlan if best.plan.pushes.is_empty() => {
+            "no plan; no push brings the object nearer".to_owned()
+        }
+        PlanStatus::NoPlan => format!("no plan; the nearest is {plan}"),
+        PlanStatus::FailedVerification => {
+            format!("failed verification; the best by prediction is {plan}")
+        }
+    }
+}
+
+fn verdict_line(verdict: Option<&Verdict>) -> String {
+    let Some(verdict) = verdict else {
+        return "not verified, as the prediction misses the goal".to_owned();
+    };
+    let word = if verdict.passed { "passed" } else { "failed" };
+    let does = if verdict.passed { "reaches" } else { "misses" };
+    let disturbed = |evidence: &&Evidence| {
+        evidence.engine == Engine::Spatial && evidence.disturbance != "nominal"
+    };
+    let draws: Vec<&Evidence> = verdict.evidence.iter().filter(disturbed).collect();
+    let reached = draws.iter().filter(|evidence| evidence.outcome.reached).count();
+    let robust = match draws.len() {
+        0 => String::new(),
+        count => format!("; {reached} of {count} disturbed replays reach it"),
+    };
+    format!("{word}: {does} the goal in the 3-D simulation{robust}")
+}
+
+fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
+    verdict.evidence.iter().filter(|evidence| evidence.disturbance == "nominal")
+}
+
+fn engine_name(engine: Engine) -> &'static str {
+    match engine {
+        Engine::Planar => "planar",
+        Engine::Spatial => "3-D",
+    }
+}
