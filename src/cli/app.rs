@@ -17,7 +17,7 @@ use super::{
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
 #[derive(Debug, Parser)]
-#[command(name = "pushplan", version, after_help = exit_code::HELP)]
+#[command(name = "pushplan", version, max_term_width = 100, after_help = exit_code::HELP)]
 pub struct Cli {
     #[command(flatten)]
     global: GlobalArgs,
