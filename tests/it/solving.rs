@@ -46,7 +46,7 @@ impl EffectModel for Wishful {
 fn shipped(name: &str) -> (Task, ToolLibrary) {
     let library = ToolLibrary::embedded().unwrap();
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
-    (load_task(&folder.join(name), &library).unwrap(), library)
+    (load_task(folder.join(name), &library).unwrap(), library)
 }
 
 #[test]
