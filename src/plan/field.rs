@@ -195,3 +195,45 @@ impl Grid {
         self.origin + Vector::new(column as f64, row as f64) * self.spacing
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A can behind a wall across the straight way.
+    const TASK: &str = "
+description: Around a wall.
+scene:
+  table: {friction: 0.5}
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.03, height: 0.1}}, mass: 0.4, friction: 0.4, position: [0.4, 0.0]}
+  obstacles:
+    - {name: wall, size: [0.02, 0.40, 0.10], position: [0.5, 0.0]}
+robot: {home: [0.3, 0.0], reach: {max: 0.9}}
+tools: all
+goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
+";
+
+    #[test]
+    fn the_way_leads_around_the_wall() {
+        let mut task = Task::parse(TASK, "around.yaml").unwrap();
+        let field = Field::new(&task);
+        // Around the wall's end, grown by the can's radius on all sides.
+        let half_wall = Vector::new(0.01 + 0.03, 0.20 + 0.03);
+        let around = 2.0 * (0.1 - half_wall.x).hypot(half_wall.y) + 2.0 * half_wall.x;
+        let found = field.distance(Vector::new(0.4, 0.0));
+        assert!((found - around).abs() < 0.05, "{found} against {around}");
+        // In sight of the goal the distance is exact.
+        let seen = Vector::new(0.613, 0.1);
+        assert!((field.distance(seen) - 0.013f64.hypot(0.1)).abs() < 1e-12);
+        // Outside the grid it still grows.
+        assert!(field.distance(Vector::new(-9.0, 0.0)) > 9.0);
+
+        task.scene.obstacles.clear();
+        let free = Field::new(&task);
+        assert!((free.distance(Vector::new(0.4, 0.0)) - 0.2).abs() < 1e-12);
+        let mut state = task.scene.start();
+        state.poses[0].position.x = f64::NAN;
+        assert_eq!(free.cost(&state), f64::INFINITY);
+    }
+}

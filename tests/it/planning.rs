@@ -8,7 +8,7 @@ use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
     Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
-    Search, SearchSettings, Start, Workspace, refine,
+    Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::scene::{
     Directions, Goal, Object, Obstacle, Offsets, Part, PushForm, PushRules, Robot, Scene, Task,
@@ -204,6 +204,92 @@ fn reach_obstacles_and_height_limit_a_push() {
     assert_eq!(place(&task).unwrap_err(), Infeasible::Obstacle);
     task.pushes.lift = 0.2;
     assert_eq!(place(&task).unwrap_err(), Infeasible::NoContact);
+}
+
+#[test]
+fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds() {
+    let tools = [hook()];
+    let mut task = task(can(0.30, 0.12), [0.2, 0.25]);
+    task.pushes.form = PushForm::Chained;
+    task.pushes.max_count = 2;
+    task.pushes.grip_yaws = vec![0.0, FRAC_PI_2];
+    task.robot.reach_min = 0.0;
+    let space = workspace(&task, &tools);
+    let model = planar();
+    let mut rollouts = Rollouts::new(&model, &task.scene);
+    let mut search = Search::new(space, SETTINGS);
+    search.deepen(&mut rollouts, &mut |_, _| {});
+    let found = search.deepen(&mut rollouts, &mut |_, _| {});
+    assert!(rollouts.used() <= 2 * (4 + 16));
+
+    let headings = task.pushes.directions.headings();
+    let mut all = Vec::new();
+    for &grip_yaw in &task.pushes.grip_yaws {
+        for &first in &headings {
+            for &second in &headings {
+                for stop in 1..=20 {
+                    let push = |direction, length| CandidatePush {
+                        start: Start::Chained,
+                        direction,
+                        length,
+                    };
+                    let pushes = vec![push(first, 0.2), push(second, 0.01 * stop as f64)];
+                    all.push(Candidate { tool: 0, grip_yaw, pushes });
+                }
+            }
+        }
+    }
+    let results = evaluate(&space, &mut rollouts, &all);
+    let feasible = results.into_iter().flatten().filter(|e| e.is_feasible());
+    let best = feasible.map(|e| e.score).fold(f64::INFINITY, f64::min);
+    // In units of the tolerance of 30 mm: half a millimetre.
+    assert!((found[0].score - best).abs() < 0.02, "{} {best}", found[0].score);
+    assert!(best < 2.0);
+}
+
+#[test]
+fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
+    let tools = [stick(), hook()];
+    let mut task = task(can(0.5, 0.05), [0.45, 0.2]);
+    task.pushes.max_count = 2;
+    task.scene.obstacles = vec![wall(0.52, 0.16, [0.08, 0.02, 0.1])];
+    let settings = SearchSettings { offsets: 3, beam: 6, rollouts: 40, kept: 10 };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let model = planar();
+            let mut rollouts = Rollouts::new(&model, &task.scene);
+            let mut search = Search::new(workspace(&task, &tools), settings);
+            let first = search.deepen(&mut rollouts, &mut |_, _| {});
+            let second = search.deepen(&mut rollouts, &mut |_, _| {});
+            assert!(!search.can_deepen());
+            let all = first.into_iter().chain(second);
+            let list: Vec<(Candidate, f64)> = all.map(|f| (f.candidate, f.score)).collect();
+            (list, search.statistics().clone())
+        })
+    };
+    let (one, three) = (run(1), run(3));
+    assert_eq!(one, three);
+    let (list, statistics) = one;
+    assert!(list.len() <= 20 && statistics.beyond_budget > 0);
+    // Two levels of 40, and the states that the second began from.
+    assert!(statistics.rollouts <= 40 + 6 + 40, "{statistics:?}");
+    assert!(statistics.best.windows(2).all(|pair| pair[1].1 < pair[0].1));
+    let refused: usize = statistics.infeasible.values().sum();
+    assert_eq!(
+        statistics.considered,
+        refused + statistics.repeated + statistics.beyond_budget + 80
+    );
+}
+
+#[test]
+fn a_later_push_stands_off_further_by_what_the_model_misses() {
+    let tools = [stick()];
+    let task = task(can(0.6, 0.0), [0.8, 0.0]);
+    let space = Workspace { task: &task, tools: &tools, later_stand_off: 0.004 };
+    let push = placed(0, 0.0, 0.0);
+    let start = |index| space.place((0, 0.0), &task.scene.start(), &push, index, None).unwrap().x;
+    assert!((start(0) - start(1) - 0.004).abs() < 1e-12);
 }
 
 #[test]
