@@ -122,7 +122,7 @@ impl fmt::Display for Content {
             Content::Nothing => f.write_str("nothing"),
             Content::Switch(value) => write!(f, "the truth value {value}"),
             Content::Whole(value) => write!(f, "the number {value}"),
-            Content::Number(value) => write!(f, "the number {value}"),
+            Content::Number(value) => write!(f, "the number {value:?}"),
             Content::Text(text) if text.chars().count() > 40 => {
                 write!(f, "the text \"{}...\"", text.chars().take(40).collect::<String>())
             }
