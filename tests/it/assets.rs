@@ -7,7 +7,9 @@ mod saved;
 use std::path::PathBuf;
 
 use pushplan::asset::{ToolLibrary, load_task};
-use pushplan::scene::Tool;
+use pushplan::dataset::Preset;
+use pushplan::geometry::Pose;
+use pushplan::scene::{Push, Tool, ToolMotion};
 
 /// A folder of the repository.
 fn folder(name: &str) -> PathBuf {
@@ -62,5 +64,21 @@ fn the_reference_tools_have_the_reference_geometry() {
         let part = &tool.parts[3];
         assert_eq!([part.pose.position.x, part.pose.position.y], last);
         assert_eq!(part.pose.heading, f64::to_radians(turn));
+    }
+}
+
+#[test]
+fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
+    let library = ToolLibrary::embedded().unwrap();
+    let ranges = Preset::Tools.ranges();
+    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
+        let task = load_task(entry.unwrap().path(), &library).unwrap();
+        let start = Pose::default().position;
+        let (length, speed) = (task.pushes.length, task.pushes.speed);
+        let push = Push { start, direction: 0.0, length, speed };
+        for tool in task.tools(&library).unwrap() {
+            let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
+            assert_eq!(ranges.warnings(&task.scene, &motion), [], "{}", task.name);
+        }
     }
 }
