@@ -7,9 +7,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use super::{
-    check, completions,
+    bench, check, completions,
     error::CliError,
-    exit_code, interrupt, predict, schema,
+    evaluate, exit_code, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session},
     simulate, solve, verify,
 };
@@ -32,6 +32,9 @@ enum Command {
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
     Check(check::CheckArgs),
+    Generate(generate::GenerateArgs),
+    Evaluate(evaluate::EvaluateArgs),
+    Bench(bench::BenchArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -65,6 +68,9 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Check(args) => check::run(args, &session),
+        Command::Generate(args) => generate::run(args, &session),
+        Command::Evaluate(args) => evaluate::run(args, &session),
+        Command::Bench(args) => bench::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),
         Command::Completions(args) => completions::run(args, &session),
     }
@@ -75,6 +81,7 @@ fn report(error: &CliError) {
         CliError::Closed => return,
         // Every fault says so itself, behind its place.
         CliError::Files(faults) | CliError::Output(faults) => faults.to_string(),
+        CliError::Interrupted(message) => message.clone(),
         _ => format!("error: {error}"),
     };
     let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();

@@ -23,6 +23,12 @@ pub enum CliError {
     /// Faults of given files; each says `error:` itself.
     #[error("{0}")]
     Files(#[from] Faults),
+    /// A given file or folder that is missing, damaged or of another kind.
+    #[error("{0}")]
+    File(String),
+    /// Stopped by a signal.
+    #[error("{0}")]
+    Interrupted(String),
     /// Results that cannot be written; each fault says `error:` itself.
     #[error("{0}")]
     Output(Faults),
@@ -57,7 +63,8 @@ impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Usage { .. } => exit_code::USAGE,
-            Self::Files(_) => exit_code::INVALID_FILE,
+            Self::Files(_) | Self::File(_) => exit_code::INVALID_FILE,
+            Self::Interrupted(_) => exit_code::INTERRUPTED,
             // `pushplan ... | head` is no failure.
             Self::Closed => exit_code::DONE,
             Self::Output(_) | Self::Unexpected(_) => exit_code::UNEXPECTED,

@@ -2,14 +2,15 @@
 //!
 //! Results go to stdout; progress, warnings and errors to stderr. No logic lives here.
 
-#![allow(dead_code)] // Until the commands that plan and train are here.
-
 mod action;
 mod app;
+mod bench;
 mod check;
 mod completions;
 mod error;
+mod evaluate;
 pub mod exit_code;
+mod generate;
 mod interrupt;
 mod model;
 mod output;

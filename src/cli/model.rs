@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use clap::ValueEnum;
 
-use crate::effect::{EffectModel, Simulated};
+use crate::effect::{EffectModel, Follow, Projection, Simulated, Still};
 use crate::sim::Simulator;
 
 use super::error::CliError;
@@ -18,11 +18,21 @@ pub enum ModelName {
     /// The 3-D simulation: slow
     #[value(name = "3d")]
     Spatial,
+    /// Nothing moves
+    Still,
+    /// What the tool touches moves along with it
+    Follow,
+    /// Overlaps with the tool are removed, without physics
+    Projection,
 }
 
 impl ModelName {
     /// Those that `predict` compares.
     pub const LADDER: [ModelName; 2] = [ModelName::Planar, ModelName::Spatial];
+
+    /// Those whose errors `evaluate` measures.
+    pub const MEASURED: [ModelName; 4] =
+        [ModelName::Spatial, ModelName::Still, ModelName::Follow, ModelName::Projection];
 
     /// The model.
     ///
@@ -32,6 +42,9 @@ impl ModelName {
         Ok(match self {
             Self::Planar => Arc::new(Simulated::new(Simulator::planar())),
             Self::Spatial => Arc::new(Simulated::new(Simulator::spatial())),
+            Self::Still => Arc::new(Still),
+            Self::Follow => Arc::new(Follow),
+            Self::Projection => Arc::new(Projection),
         })
     }
 }

@@ -68,6 +68,17 @@ impl Session {
         }
     }
 
+    /// A bar for long work in many equal units. Invisible unless stderr is a terminal.
+    pub fn bar(&self, what: &str) -> ProgressBar {
+        if self.quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(0);
+        bar.set_style(style("{prefix} [{bar:30}] {pos}/{len}, {per_sec}, {eta} left {msg}"));
+        bar.set_prefix(what.to_owned());
+        bar
+    }
+
     /// A spinner that says what is being done, once it has taken a while.
     pub fn spinner(&self, what: &str) -> Spinner {
         let bar = ProgressBar::hidden();

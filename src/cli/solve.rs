@@ -62,10 +62,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         })
     });
     bar.finish();
-    let solution = solved.map_err(|error| match error {
-        SolveError::Tools(faults) => CliError::Files(faults),
-        SolveError::BadTask { .. } => CliError::unexpected("cannot plan", &error),
-    })?;
+    let solution = solved.map_err(solve_error)?;
     for warning in &solution.warnings {
         session.warn(&warning.to_string());
     }
@@ -80,6 +77,14 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     };
     print(args, session, &task, &solution, model, &written)?;
     Ok(code)
+}
+
+/// What a task that cannot be tried means for the exit code.
+pub fn solve_error(error: SolveError) -> CliError {
+    match error {
+        SolveError::Tools(faults) => CliError::Files(faults),
+        SolveError::BadTask { .. } => CliError::File(error.to_string()),
+    }
 }
 
 /// The plan file and the picture.
@@ -141,7 +146,7 @@ fn print(
 
 /// [`Effort`] with words for `--help`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum EffortName {
+pub enum EffortName {
     /// A first look
     Draft,
     /// Enough for most tasks

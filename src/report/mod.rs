@@ -3,6 +3,7 @@
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 
 mod chart;
+mod measured;
 mod number;
 mod picture;
 mod plan_text;
@@ -11,8 +12,11 @@ mod svg;
 mod table;
 
 pub use chart::{Axis, Chart, Mark, Series};
+pub use measured::{
+    group_table, heldout_line, heldout_table, push_cost_table, refinement_table, search_cost_table,
+};
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
-pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
+pub use solution::{outcomes_text, plan_picture, solution_json, solution_text, task_table};
 pub use table::{Align, Table};

@@ -22,7 +22,9 @@ pub fn degrees(radians: f64) -> String {
 pub fn seconds(seconds: f64) -> String {
     match seconds {
         s if !s.is_finite() => "not finite".to_owned(),
+        s if s < 1e-5 => format!("{:.2} \u{00b5}s", s * 1e6),
         s if s < 1e-3 => format!("{:.0} \u{00b5}s", s * 1e6),
+        s if s < 0.1 => format!("{:.1} ms", s * 1e3),
         s if s < 1.0 => format!("{:.0} ms", s * 1e3),
         s if s < 120.0 => format!("{s:.2} s"),
         s if s < 7200.0 => format!("{:.1} min", s / 60.0),
@@ -40,7 +42,7 @@ mod tests {
         assert_eq!(millimetres(0.4127), "413 mm");
         assert_eq!(millimetres(f64::NAN), "not finite");
         assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90.0\u{00b0}");
-        assert_eq!(seconds(0.0123), "12 ms");
+        assert_eq!(seconds(0.0123), "12.3 ms");
         assert_eq!(seconds(5400.0), "90.0 min");
     }
 }

@@ -1,0 +1,196 @@
+//! `pushplan bench`: what solving brings and costs.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+use serde_json::json;
+
+use crate::asset::{SCHEMA_VERSION, load_task};
+use crate::bench::{Suite, SuiteKind, push_costs, refinement_report, search_costs};
+use crate::effect::EffectModel;
+use crate::report::{
+    Table, push_cost_table, refinement_table, search_cost_table, solution_json, task_table,
+};
+use crate::scene::Task;
+use crate::solve::{Effort, Planner, Settings, Solution};
+
+use super::{
+    action::LibraryArgs,
+    error::CliError,
+    exit_code,
+    model::ModelName,
+    session::Session,
+    solve::{EffortName, solve_error},
+};
+
+/// Measure what refinement brings and what pushes and searches cost
+#[derive(Args, Debug)]
+pub struct BenchArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    Tasks(TasksArgs),
+    Refinement(RefinementArgs),
+    Cost(CostArgs),
+}
+
+/// What every benchmark takes.
+#[derive(Args, Debug)]
+struct Common {
+    /// What predicts the effect of pushes
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelName,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Print JSON instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Print Markdown tables
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+}
+
+/// Solve task files one after another: success, errors and time of each
+#[derive(Args, Debug)]
+struct TasksArgs {
+    #[command(flatten)]
+    common: Common,
+    /// The task files
+    #[arg(required = true, value_name = "TASK")]
+    tasks: Vec<PathBuf>,
+    /// How hard to try
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortName,
+    /// Seed of refinement's samples and of the disturbed replays
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+}
+
+/// Final errors of plans before and after refinement, over random solvable tasks
+#[derive(Args, Debug)]
+struct RefinementArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Number of tasks
+    #[arg(long, value_name = "N", default_value_t = 200,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tasks: u32,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+}
+
+/// Time of one push by every model, and of a search of one-push candidates
+#[derive(Args, Debug)]
+struct CostArgs {
+    #[command(flatten)]
+    common: Common,
+    /// The task that is searched
+    #[arg(value_name = "TASK")]
+    task: PathBuf,
+    /// Candidates of the search
+    #[arg(long, value_name = "N", default_value_t = 500,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    candidates: u32,
+    /// Pushes predicted together
+    #[arg(long, value_name = "N", default_value_t = 64,
+          value_parser = clap::value_parser!(u16).range(1..=4096))]
+    batch: u16,
+    /// Pushes that are timed
+    #[arg(long, value_name = "N", default_value_t = 32,
+          value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pushes: u16,
+    /// Seed of the pushes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+}
+
+pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
+    match &args.what {
+        What::Tasks(args) => tasks(args, session)?,
+        What::Refinement(args) => refinement(args, session)?,
+        What::Cost(args) => cost(args, session)?,
+    }
+    Ok(exit_code::DONE)
+}
+
+fn tasks(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let tasks = args
+        .tasks
+        .iter()
+        .map(|file| Ok(load_task(file, &library)?))
+        .collect::<Result<Vec<Task>, CliError>>()?;
+    let model = args.common.model.load()?;
+    let planner = Planner::builder(model).effort(args.effort.into()).seed(args.seed).build();
+    let bar = session.bar("tasks");
+    bar.set_length(tasks.len() as u64);
+    let mut solutions = Vec::new();
+    for task in &tasks {
+        let solution = session.compute(|| planner.solve(task, &library));
+        solutions.push(solution.map_err(solve_error)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let rows: Vec<(&Task, &Solution)> = tasks.iter().zip(&solutions).collect();
+    let model = planner.model().name();
+    let reports: Vec<_> =
+        rows.iter().map(|(task, solution)| solution_json(task, solution, model)).collect();
+    args.common.print(session, "tasks", &reports, "", &[task_table(&rows)])
+}
+
+fn refinement(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let model = args.common.model.load()?;
+    let settings = Effort::Standard.settings();
+    let report = session
+        .compute(|| refinement_report(&model, &library, &settings, args.seed, args.tasks as usize));
+    let head = format!(
+        "{} random tasks of seed {}, {} at standard effort; {} with a push to refine\n\n",
+        report.tasks, report.seed, report.model, report.planned
+    );
+    args.common.print(session, "refinement", &report, &head, &[refinement_table(&report)])
+}
+
+fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let task = load_task(&args.task, &library)?;
+    let tools = task.tools(&library)?;
+    let model = args.common.model.load()?;
+    let planar = ModelName::Planar.load()?;
+    let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
+    let pushes = push_costs(&model, &suite, usize::from(args.batch))
+        .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
+    let models: [&dyn EffectModel; 2] = [&*model, &*planar];
+    let Settings { offsets, .. } = Effort::Standard.settings();
+    let searches =
+        session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
+    let tables = [push_cost_table(&pushes), search_cost_table(&searches)];
+    let report = json!({"pushes": pushes, "searches": searches});
+    args.common.print(session, "cost", &report, "", &tables)
+}
+
+impl Common {
+    fn print(
+        &self,
+        session: &Session,
+        name: &str,
+        report: &impl Serialize,
+        head: &str,
+        tables: &[Table],
+    ) -> Result<(), CliError> {
+        if self.json {
+            let report = json!({"schema_version": SCHEMA_VERSION, name: report});
+            return session.print(&format!("{report:#}\n"));
+        }
+        let show = |table: &Table| {
+            if self.markdown { table.to_markdown() } else { table.to_text() }
+        };
+        let tables: Vec<String> = tables.iter().map(show).collect();
+        session.print(&format!("{head}{}", tables.join("\n")))
+    }
+}

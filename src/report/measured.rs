@@ -1,0 +1,151 @@
+//! Measured numbers as tables: errors on held-out pushes, refinement, costs.
+
+use crate::bench::{
+    ErrorRow, HeldOutErrors, HeldOutReport, PlanErrors, PushCost, RefinementReport,
+};
+use crate::bench::{SearchCost, Summary};
+
+use super::number::{millimetres, seconds};
+use super::table::{Align, Table};
+
+const NONE: &str = "\u{2013}";
+
+/// What was measured: pushes, seed, how far the objects really moved.
+pub fn heldout_line(report: &HeldOutReport) -> String {
+    let motion = report.motion.as_ref();
+    format!(
+        "{}: {} pushes of seed {}; {} objects moved more than 1 cm, {} on average",
+        report.suite.title(),
+        report.pushes,
+        report.seed,
+        motion.map_or(0, |motion| motion.count),
+        motion.map_or(NONE.to_owned(), |motion| millimetres(motion.mean))
+    )
+}
+
+/// Final errors of all models over all objects, one row each.
+pub fn heldout_table(report: &HeldOutReport) -> Table {
+    let mut table = error_table("model");
+    for model in &report.models {
+        if let Some(row) = model.rows.iter().find(|row| row.group == "all") {
+            table.row(error_cells(&model.model, row));
+        }
+    }
+    table
+}
+
+/// Final errors of one model by shape and by number of objects.
+pub fn group_table(errors: &HeldOutErrors) -> Table {
+    let mut table = error_table("objects");
+    for row in &errors.rows {
+        table.row(error_cells(&row.group, row));
+    }
+    table
+}
+
+/// Final errors of plans before and after refinement.
+pub fn refinement_table(report: &RefinementReport) -> Table {
+    let mut table = Table::new([
+        ("final error", Align::Left),
+        ("mean", Align::Right),
+        ("median", Align::Right),
+        ("p95", Align::Right),
+        ("within tolerance", Align::Right),
+    ]);
+    let mut rows = |when: &str, errors: &PlanErrors| {
+        let mut row = |how: &str, summary: &Option<Summary>, reached: Option<usize>| {
+            table.row([
+                format!("{when}, {how}"),
+                pick(summary, |summary| summary.mean),
+                pick(summary, |summary| summary.median),
+                pick(summary, |summary| summary.p95),
+                reached.map_or(String::new(), |count| format!("{count} of {}", report.planned)),
+            ]);
+        };
+        row("predicted", &errors.predicted, None);
+        row("planar", &errors.planar, Some(errors.reached_planar));
+        row("3-D", &errors.spatial, Some(errors.reached_spatial));
+    };
+    rows("before", &report.before);
+    rows("after", &report.after);
+    table
+}
+
+/// Processor time of one push by every model.
+pub fn push_cost_table(costs: &[PushCost]) -> Table {
+    let mut table = Table::new([
+        ("model", Align::Left),
+        ("batch", Align::Right),
+        ("processor time a push", Align::Right),
+        ("a frame", Align::Right),
+    ]);
+    for cost in costs {
+        table.row([
+            cost.model.clone(),
+            cost.batch.to_string(),
+            seconds(cost.seconds),
+            seconds(cost.seconds_per_frame),
+        ]);
+    }
+    table
+}
+
+/// Wall time of a search of one-push candidates by every model.
+pub fn search_cost_table(costs: &[SearchCost]) -> Table {
+    let mut table = Table::new([
+        ("model", Align::Left),
+        ("task", Align::Left),
+        ("threads", Align::Right),
+        ("rollouts", Align::Right),
+        ("wall time", Align::Right),
+    ]);
+    for cost in costs {
+        table.row([
+            cost.model.clone(),
+            cost.task.clone(),
+            cost.threads.to_string(),
+            cost.rollouts.to_string(),
+            seconds(cost.seconds),
+        ]);
+    }
+    table
+}
+
+fn error_table(first: &str) -> Table {
+    Table::new([
+        (first, Align::Left),
+        ("moved", Align::Right),
+        ("mean", Align::Right),
+        ("median", Align::Right),
+        ("p95", Align::Right),
+        ("heading median", Align::Right),
+        ("mean against 3-D", Align::Right),
+        ("not moved", Align::Right),
+        ("mean there", Align::Right),
+    ])
+}
+
+fn error_cells(name: &str, row: &ErrorRow) -> [String; 9] {
+    let heading = row.heading_deg.as_ref();
+    let count =
+        |summary: &Option<Summary>| summary.as_ref().map_or(0, |summary| summary.count).to_string();
+    [
+        name.to_owned(),
+        count(&row.position),
+        pick(&row.position, |summary| summary.mean),
+        pick(&row.position, |summary| summary.median),
+        pick(&row.position, |summary| summary.p95),
+        heading.map_or(NONE.to_owned(), |heading| format!("{:.2}\u{00b0}", heading.median)),
+        pick(&row.position_3d, |summary| summary.mean),
+        count(&row.unmoved),
+        pick(&row.unmoved, |summary| summary.mean),
+    ]
+}
+
+fn pick(summary: &Option<Summary>, value: impl Fn(&Summary) -> f64) -> String {
+    summary.as_ref().map_or(NONE.to_owned(), |summary| {
+        let metres = value(summary);
+        // Below ten millimetres a tenth is a few per cent: one digit more.
+        if metres < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
+    })
+}
