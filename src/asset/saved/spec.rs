@@ -14,15 +14,15 @@ pub(in crate::asset) static PLAN_FILE: Value = Value::Map(&[
     Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
     Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
     Key::required("plan", PLAN, "The pushes."),
-    Key::optional("model", or_null(&[Value::Text, Value::Nothing]), MODEL),
+    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
     Key::optional(
         "predicted",
-        or_null(&[OUTCOME, Value::Nothing]),
+        Value::Either(&[OUTCOME, Value::Nothing]),
         "Where the model says the plan ends; by default unknown.",
     ),
     Key::optional(
         "verdict",
-        or_null(&[VERDICT, Value::Nothing]),
+        Value::Either(&[VERDICT, Value::Nothing]),
         "Whether simulation confirms it; by default unknown.",
     ),
 ]);
@@ -34,15 +34,11 @@ pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
     Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
     Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
     Key::required("plan", PLAN, "The pushes."),
-    Key::optional("model", or_null(&[Value::Text, Value::Nothing]), MODEL),
+    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
     Key::required("trajectory", TRAJECTORY, "What happened."),
 ]);
 
 const MODEL: &str = "Name of the model or engine that computed the motion; by default unknown.";
-
-const fn or_null(values: &'static [Value]) -> Value {
-    Value::Either(values)
-}
 
 const VERSION: Value = Value::Count(Range {
     what: "the schema version",
@@ -124,7 +120,7 @@ const OUTCOME: Value = Value::Map(&[
     Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
     Key::optional(
         "heading_error",
-        or_null(&[UNSIGNED, Value::Nothing]),
+        Value::Either(&[UNSIGNED, Value::Nothing]),
         "Heading error, radians; by default none is asked for.",
     ),
     Key::required("reached", Value::Switch, "Whether the goal is reached at rest."),
@@ -145,7 +141,7 @@ const VERDICT: Value = Value::Map(&[
     ),
     Key::optional(
         "robustness",
-        or_null(&[SHARE, Value::Nothing]),
+        Value::Either(&[SHARE, Value::Nothing]),
         "Share of the disturbed replays that reach the goal; by default none was made.",
     ),
 ]);
