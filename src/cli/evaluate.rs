@@ -10,8 +10,7 @@ use crate::report::{group_table, heldout_line, heldout_table};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, model::ModelName, session::Session};
 
-/// Measure prediction errors on held-out pushes, beside trivial predictors and the simulator's
-/// own spread
+/// Measure prediction errors on held-out pushes, beside trivial predictors
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan evaluate --on single --pushes 2000")]

@@ -116,6 +116,98 @@ fn schemas_fit_the_shipped_files() {
     }
 }
 
+#[test]
+fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_of_threads() {
+    let solve = |threads: &str| {
+        let folder = TempDir::new().expect("a folder");
+        let out = folder.path().to_str().expect("UTF-8").to_owned();
+        let task = "tasks/pull-back.yaml";
+        let output = pushplan(&["solve", task, "--out", &out, "--threads", threads]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(files(folder.path()), ["pull-back.plan.json", "pull-back.svg"]);
+        let bytes = |name: &str| std::fs::read(folder.path().join(name)).expect("a file");
+        let written = (bytes("pull-back.plan.json"), bytes("pull-back.svg"));
+        (folder, written)
+    };
+    let (folder, one) = solve("1");
+    assert_eq!(one, solve("3").1, "files differ with the number of threads");
+
+    let plan = folder.path().join("pull-back.plan.json");
+    let output = pushplan(&["verify", plan.to_str().expect("UTF-8"), "--disturbed", "2"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+
+    // The same plan without its last centimetres misses the goal.
+    let text = String::from_utf8(one.0).expect("UTF-8");
+    let mut json: Json = serde_json::from_str(&text).expect("JSON");
+    let length = json["plan"]["pushes"][0]["length"].as_f64().expect("a length");
+    json["plan"]["pushes"][0]["length"] = (0.5 * length).into();
+    let short = folder.path().join("short.plan.json");
+    std::fs::write(&short, json.to_string()).expect("a file");
+    let output = pushplan(&["verify", short.to_str().expect("UTF-8"), "--json"]);
+    assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
+    let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
+    assert_eq!(report["verdict"]["passed"], false);
+}
+
+#[test]
+fn a_task_without_a_solution_ends_with_code_4_and_shows_the_nearest_plan() {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let output = pushplan(&["solve", "tasks/too-far.yaml", "--out", out, "--json"]);
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
+    assert_eq!(report["status"], "no_plan");
+    assert_eq!(files(folder.path()), ["too-far.nearest.plan.json", "too-far.nearest.svg"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
+    let folder = TempDir::new().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (whole, broken) = (path("whole"), path("broken"));
+    let arguments = |dir: &str| {
+        ["generate", dir, "--episodes", "64", "--episodes-per-shard", "4"].map(str::to_owned)
+    };
+    let run = |dir: &str| {
+        let arguments = arguments(dir);
+        pushplan(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    assert_eq!(run(&whole).status.code(), Some(0));
+
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+        .args(arguments(&broken))
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the command starts");
+    // After the first shard, so that there is something to keep.
+    let begun = std::time::Instant::now();
+    while !Path::new(&broken).join("manifest.json").exists()
+        && child.try_wait().expect("a child").is_none()
+    {
+        assert!(begun.elapsed().as_secs() < 60, "no shard after a minute");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .expect("a signal is sent");
+    let code = child.wait().expect("the command ends").code();
+    // On a fast machine it may be done before the signal comes.
+    assert!(code == Some(130) || code == Some(0), "exit code {code:?}");
+    assert!(files(Path::new(&broken)).len() <= files(Path::new(&whole)).len());
+
+    assert_eq!(run(&broken).status.code(), Some(0));
+    let read = |dir: &str| -> Vec<(String, Vec<u8>)> {
+        let names = files(Path::new(dir)).into_iter();
+        names
+            .map(|name| (name.clone(), std::fs::read(Path::new(dir).join(name)).unwrap()))
+            .collect()
+    };
+    assert!(read(&broken) == read(&whole), "resumed data differ");
+}
+
 fn pushplan(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pushplan"))
         .args(arguments)

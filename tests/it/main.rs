@@ -6,6 +6,7 @@ mod cli;
 mod dataset;
 mod evaluation;
 mod planning;
+mod readme;
 mod simulation;
 mod solving;
 mod verification;
