@@ -36,8 +36,7 @@ fn every_shipped_tool_is_embedded() {
 fn every_shipped_task_loads_and_names_tools_that_exist() {
     let library = ToolLibrary::embedded().unwrap();
     let mut count = 0;
-    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
-        let path = entry.unwrap().path();
+    for path in shipped_tasks() {
         let task = load_task(&path, &library).unwrap_or_else(|faults| panic!("{faults}"));
         assert_eq!(task.name, path.file_stem().unwrap().to_string_lossy());
         assert!(!task.description.is_empty(), "{}", task.name);
@@ -71,8 +70,8 @@ fn the_reference_tools_have_the_reference_geometry() {
 fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
     let library = ToolLibrary::embedded().unwrap();
     let ranges = Preset::Tools.ranges();
-    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
-        let task = load_task(entry.unwrap().path(), &library).unwrap();
+    for path in shipped_tasks() {
+        let task = load_task(path, &library).unwrap();
         let start = Pose::default().position;
         let (length, speed) = (task.pushes.length, task.pushes.speed);
         let push = Push { start, direction: 0.0, length, speed };
@@ -81,4 +80,13 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
             assert_eq!(ranges.warnings(&task.scene, &motion), [], "{}", task.name);
         }
     }
+}
+
+/// Every task file; pictures stand beside some of them.
+pub fn shipped_tasks() -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder("tasks")).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|end| end == "yaml"));
+    paths.sort();
+    paths
 }

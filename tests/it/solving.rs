@@ -141,12 +141,8 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
 #[test]
 fn every_shipped_task_ends_as_its_description_says() {
     let library = ToolLibrary::embedded().unwrap();
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
-    let mut paths: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
     let planner = planner();
-    for path in paths {
+    for path in crate::assets::shipped_tasks() {
         let task = load_task(&path, &library).unwrap();
         let solution = planner.solve(&task, &library).unwrap();
         println!("{}", row(&task.name, &solution));

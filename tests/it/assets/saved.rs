@@ -10,7 +10,7 @@ use pushplan::scene::{
     Warning,
 };
 
-use super::folder;
+use super::{folder, shipped_tasks};
 
 /// A plan file with everything in it, for the task `name`.
 pub fn plan_file(name: &str) -> PlanFile {
@@ -65,8 +65,8 @@ pub fn trajectory_file(name: &str) -> TrajectoryFile {
 fn written_files_read_back_bit_by_bit() {
     let place = tempfile::tempdir().unwrap();
     let path = place.path().join("file.json");
-    for entry in std::fs::read_dir(folder("tasks")).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
+    for task in shipped_tasks() {
+        let name = task.file_name().unwrap().to_string_lossy().into_owned();
         let plan = plan_file(&name);
         plan.write(&path).unwrap();
         assert_eq!(PlanFile::load(&path).unwrap(), plan);
