@@ -1,1 +1,21 @@
-//! The networks: configuration, layers, physics predictor, weights; candle path and fused engine. Does not loop over time.
+//! The networks: configuration, parameters, physics predictor and weights file.
+//!
+//! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
+//! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
+//! training differentiates and that is the reference, and as a fused engine on preallocated
+//! buffers that planning runs. Loops over time are not here but in `rollout`.
+
+mod config;
+mod engine;
+mod normaliser;
+mod parameters;
+mod parity;
+mod predictor;
+mod weights;
+
+pub use config::Config;
+pub use engine::{Engine, Workspace};
+pub use normaliser::{Normaliser, Statistics};
+pub use parameters::{Parameters, layout};
+pub use predictor::{Inputs, Predictor};
+pub use weights::{Card, ErrorCard, Range, Weights, WeightsError};

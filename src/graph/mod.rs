@@ -1,1 +1,18 @@
-//! Scene and state to nodes and relations, with the feature layout. Learns nothing.
+//! Scene and state to a graph: nodes, relations, their features, and the quasi-static prior
+//! that the network corrects.
+//!
+//! Only what moves is in the graph: objects that nothing can push in a frame coast in closed
+//! form or stay, exactly. Nothing is learned here.
+
+mod batch;
+mod bodies;
+mod build;
+mod coast;
+mod features;
+mod push;
+
+pub use batch::{Batch, KINEMATIC, Node};
+pub use bodies::{Bodies, Motion};
+pub use build::add_graph;
+pub use coast::coast;
+pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};

@@ -1,0 +1,254 @@
+//! Fused inference: the predictor on preallocated buffers, `gemm` called directly.
+//!
+//! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
+//! tensors or allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
+//! parity first, so every half is one dense matrix.
+
+use crate::graph::{
+    Batch, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD,
+};
+
+use super::{
+    Statistics, Weights,
+    parity::{rectify, sum_messages},
+};
+
+/// Immutable weights in the layout that the engine reads; shared between threads.
+#[derive(Clone, Debug)]
+pub struct Engine {
+    half: usize,
+    steps: usize,
+    relation: Encoder,
+    object: Encoder,
+    message_relation: Vec<f32>,
+    message_receiver: Vec<f32>,
+    message_sender: Vec<f32>,
+    update_effect: Vec<f32>,
+    update_object: Vec<f32>,
+    update_own: Vec<f32>,
+    update_bias: Vec<f32>,
+    motion_hidden: Vec<f32>,
+    motion_hidden_bias: Vec<f32>,
+    motion_even: Vec<f32>,
+    motion_odd: Vec<f32>,
+}
+
+#[derive(Clone, Debug)]
+struct Encoder {
+    even: Vec<f32>,
+    odd: Vec<f32>,
+    bias: Vec<f32>,
+    second: Vec<f32>,
+    second_bias: Vec<f32>,
+}
+
+/// One thread's buffers; they grow to the largest batch seen and are then reused.
+#[derive(Clone, Debug, Default)]
+pub struct Workspace {
+    relations: Vec<f32>,
+    messages: Vec<f32>,
+    objects: Vec<f32>,
+    keep: Vec<f32>,
+    state: Vec<f32>,
+    next: Vec<f32>,
+    to_receiver: Vec<f32>,
+    to_sender: Vec<f32>,
+    sum: Vec<f32>,
+    even: Vec<f32>,
+    odd: Vec<f32>,
+}
+
+impl Engine {
+    /// Takes the weights apart into the engine's layout.
+    pub fn new(weights: &Weights) -> Self {
+        let get = |name: &str| weights.parameters.values[name].clone();
+        let normaliser = &weights.card.normaliser;
+        let encoder = |layer: &str, even: &Statistics, odd: &Statistics| {
+            let mut bias = get(&format!("{layer}.bias"));
+            Encoder {
+                even: fold(get(&format!("{layer}.even")), even, &mut bias),
+                odd: fold(get(&format!("{layer}.odd")), odd, &mut []),
+                bias,
+                second: get(&format!("{layer}.second")),
+                second_bias: get(&format!("{layer}.second_bias")),
+            }
+        };
+        Self {
+            half: weights.card.config.half(),
+            steps: weights.card.config.steps,
+            relation: encoder("relation", &normaliser.relation_even, &normaliser.relation_odd),
+            object: encoder("object", &normaliser.node_even, &normaliser.node_odd),
+            message_relation: get("message.relation"),
+            message_receiver: get("message.receiver"),
+            message_sender: get("message.sender"),
+            update_effect: get("update.effect"),
+            update_object: get("update.object"),
+            update_own: get("update.own"),
+            update_bias: get("update.bias"),
+            motion_hidden: get("motion.hidden"),
+            motion_hidden_bias: get("motion.hidden_bias"),
+            motion_even: get("motion.even"),
+            motion_odd: get("motion.odd"),
+        }
+    }
+
+    /// The correction of every node's prior in output units, [N, 6], appended to an emptied
+    /// `corrections`.
+    pub fn forward(&self, batch: &Batch, w: &mut Workspace, corrections: &mut Vec<[f64; 6]>) {
+        corrections.clear();
+        let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
+        if n == 0 {
+            return;
+        }
+        self.relation.run(
+            (&batch.relation_even, RELATION_EVEN),
+            (&batch.relation_odd, RELATION_ODD),
+            h,
+            &mut w.messages,
+            &mut w.relations,
+        );
+        product(&w.relations, &self.message_relation, r, h, &mut w.messages, false);
+        self.object.run(
+            (&batch.node_even, NODE_EVEN),
+            (&batch.node_odd, NODE_ODD),
+            h,
+            &mut w.next,
+            &mut w.objects,
+        );
+        product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
+        w.state.clone_from(&w.objects);
+        for _ in 0..self.steps {
+            product(&w.state, &self.message_receiver, n, h, &mut w.to_receiver, false);
+            product(&w.state, &self.message_sender, n, h, &mut w.to_sender, false);
+            w.sum.clear();
+            w.sum.resize(2 * n * h, 0.0);
+            sum_messages(
+                &w.messages,
+                &w.to_receiver,
+                &w.to_sender,
+                &batch.receivers,
+                &batch.senders,
+                h,
+                &mut w.sum,
+            );
+            w.next.clone_from(&w.keep);
+            product(&w.sum, &self.update_effect, n, h, &mut w.next, true);
+            product(&w.state, &self.update_own, n, h, &mut w.next, true);
+            rectify_rows(&mut w.next, &self.update_bias);
+            std::mem::swap(&mut w.state, &mut w.next);
+        }
+        product(&w.state, &self.motion_hidden, n, h, &mut w.next, false);
+        rectify_rows(&mut w.next, &self.motion_hidden_bias);
+        let (even, odd) = w.next.split_at(n * h);
+        dense(even, &self.motion_even, n, h, OUTPUT_EVEN, &mut w.even, false);
+        dense(odd, &self.motion_odd, n, h, OUTPUT_ODD, &mut w.odd, false);
+        corrections.extend(
+            w.even
+                .chunks_exact(OUTPUT_EVEN)
+                .zip(w.odd.chunks_exact(OUTPUT_ODD))
+                .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
+        );
+    }
+}
+
+impl Encoder {
+    /// Two layers: features [M, even] and [M, odd] to `out` [2, M, h]; `scratch` is overwritten.
+    fn run(
+        &self,
+        even: (&[f32], usize),
+        odd: (&[f32], usize),
+        h: usize,
+        scratch: &mut Vec<f32>,
+        out: &mut Vec<f32>,
+    ) {
+        let rows = even.0.len() / even.1;
+        scratch.resize(2 * rows * h, 0.0);
+        let (to_even, to_odd) = scratch.split_at_mut(rows * h);
+        multiply(even.0, &self.even, rows, even.1, h, to_even, false);
+        multiply(odd.0, &self.odd, rows, odd.1, h, to_odd, false);
+        rectify_rows(scratch, &self.bias);
+        product(scratch, &self.second, rows, h, out, false);
+        rectify_rows(out, &self.second_bias);
+    }
+}
+
+/// Folds (x - mean) / deviation into a first layer's matrix [in, out] and its bias.
+fn fold(mut matrix: Vec<f32>, statistics: &Statistics, bias: &mut [f32]) -> Vec<f32> {
+    let columns = matrix.len() / statistics.mean.len();
+    for (row, (mean, deviation)) in
+        matrix.chunks_exact_mut(columns).zip(statistics.mean.iter().zip(&statistics.deviation))
+    {
+        for (k, value) in row.iter_mut().enumerate() {
+            *value /= deviation;
+            if let Some(bias) = bias.get_mut(k) {
+                *bias -= mean * *value;
+            }
+        }
+    }
+    matrix
+}
+
+fn rectify_rows(x: &mut [f32], bias: &[f32]) {
+    let h = bias.len();
+    let (even, odd) = x.split_at_mut(x.len() / 2);
+    for (e, o) in even.chunks_exact_mut(h).zip(odd.chunks_exact_mut(h)) {
+        for k in 0..h {
+            (e[k], o[k]) = rectify(e[k] + bias[k], o[k]);
+        }
+    }
+}
+
+/// [2, M, h] times [2, h, h], half by half; added to `out` if `add`.
+fn product(x: &[f32], matrix: &[f32], rows: usize, h: usize, out: &mut Vec<f32>, add: bool) {
+    out.resize(2 * rows * h, 0.0);
+    let (x_even, x_odd) = x.split_at(rows * h);
+    let (m_even, m_odd) = matrix.split_at(h * h);
+    let (out_even, out_odd) = out.split_at_mut(rows * h);
+    multiply(x_even, m_even, rows, h, h, out_even, add);
+    multiply(x_odd, m_odd, rows, h, h, out_odd, add);
+}
+
+fn dense(
+    x: &[f32],
+    matrix: &[f32],
+    rows: usize,
+    inner: usize,
+    columns: usize,
+    out: &mut Vec<f32>,
+    add: bool,
+) {
+    out.resize(rows * columns, 0.0);
+    multiply(x, matrix, rows, inner, columns, out, add);
+}
+
+/// Row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread.
+#[allow(unsafe_code)] // gemm's interface takes pointers
+fn multiply(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [f32], add: bool) {
+    assert!(x.len() == m * k && matrix.len() == k * n && out.len() == m * n);
+    // SAFETY: the three lengths are checked above and the strides are those of dense row-major
+    // matrices, so every access lies inside its slice; `out` is borrowed mutably and so does
+    // not overlap the others.
+    unsafe {
+        gemm::gemm(
+            m,
+            n,
+            k,
+            out.as_mut_ptr(),
+            1,
+            n as isize,
+            add,
+            x.as_ptr(),
+            1,
+            k as isize,
+            matrix.as_ptr(),
+            1,
+            n as isize,
+            1.0,
+            1.0,
+            false,
+            false,
+            false,
+            gemm::Parallelism::None,
+        );
+    }
+}

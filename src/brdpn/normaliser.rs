@@ -1,0 +1,77 @@
+//! Feature scales, measured on training data and stored with the weights.
+
+use serde::{Deserialize, Serialize};
+
+use crate::graph::Batch;
+
+use crate::graph::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
+
+/// Mean and standard deviation of one feature table's columns.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Zero for odd features, whose sign must survive.
+    pub mean: Vec<f32>,
+    /// At least [`MIN_DEVIATION`].
+    pub deviation: Vec<f32>,
+}
+
+/// A column that hardly varies is left at this scale, in feature units.
+const MIN_DEVIATION: f32 = 0.02;
+
+impl Statistics {
+    fn measure(table: &[f32], columns: usize, centred: bool) -> Self {
+        let rows = (table.len() / columns).max(1) as f64;
+        let mut mean = vec![0.0f64; columns];
+        let mut square = vec![0.0f64; columns];
+        for row in table.chunks_exact(columns) {
+            for (k, &x) in row.iter().enumerate() {
+                mean[k] += f64::from(x) / rows;
+                square[k] += f64::from(x) * f64::from(x) / rows;
+            }
+        }
+        if !centred {
+            mean.fill(0.0);
+        }
+        let deviation = mean
+            .iter()
+            .zip(&square)
+            .map(|(m, s)| ((s - m * m).max(0.0).sqrt() as f32).max(MIN_DEVIATION))
+            .collect();
+        Self { mean: mean.iter().map(|&m| m as f32).collect(), deviation }
+    }
+
+    /// `table` with every column shifted and scaled.
+    pub fn apply(&self, table: &[f32]) -> Vec<f32> {
+        let columns = self.mean.len();
+        table
+            .iter()
+            .enumerate()
+            .map(|(k, x)| (x - self.mean[k % columns]) / self.deviation[k % columns])
+            .collect()
+    }
+}
+
+/// The scales of all four feature tables.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Normaliser {
+    /// Of even node features.
+    pub node_even: Statistics,
+    /// Of odd node features.
+    pub node_odd: Statistics,
+    /// Of even relation features.
+    pub relation_even: Statistics,
+    /// Of odd relation features.
+    pub relation_odd: Statistics,
+}
+
+impl Normaliser {
+    /// Measures the scales on a large batch.
+    pub fn measure(batch: &Batch) -> Self {
+        Self {
+            node_even: Statistics::measure(&batch.node_even, NODE_EVEN, true),
+            node_odd: Statistics::measure(&batch.node_odd, NODE_ODD, false),
+            relation_even: Statistics::measure(&batch.relation_even, RELATION_EVEN, true),
+            relation_odd: Statistics::measure(&batch.relation_odd, RELATION_ODD, false),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The parameters of the physics predictor by name and shape, and their first values.
+//!
+//! All matrices are stored [in, out]: a transposed view costs up to four times at small batch.
+
+use std::collections::BTreeMap;
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::graph::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
+
+use super::Config;
+
+/// Parameter values by name, each row-major in the shape that [`layout`] gives.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parameters {
+    /// Name to values.
+    pub values: BTreeMap<String, Vec<f32>>,
+}
+
+/// Names and shapes of all parameters, in the order of their names' use. h is half the width.
+///
+/// A matrix [2, h, h] acts on the even half and on the odd half separately; biases [h] exist
+/// for the even half alone, since a constant cannot change sign under mirroring.
+pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+    let h = config.half();
+    let square = || vec![2, h, h];
+    vec![
+        ("relation.even", vec![RELATION_EVEN, h]),
+        ("relation.odd", vec![RELATION_ODD, h]),
+        ("relation.bias", vec![h]),
+        ("relation.second", square()),
+        ("relation.second_bias", vec![h]),
+        ("object.even", vec![NODE_EVEN, h]),
+        ("object.odd", vec![NODE_ODD, h]),
+        ("object.bias", vec![h]),
+        ("object.second", square()),
+        ("object.second_bias", vec![h]),
+        ("message.relation", square()),
+        ("message.receiver", square()),
+        ("message.sender", square()),
+        ("update.effect", square()),
+        ("update.object", square()),
+        ("update.own", square()),
+        ("update.bias", vec![h]),
+        ("motion.hidden", square()),
+        ("motion.hidden_bias", vec![h]),
+        ("motion.even", vec![h, OUTPUT_EVEN]),
+        ("motion.odd", vec![h, OUTPUT_ODD]),
+    ]
+}
+
+impl Parameters {
+    /// Random first values from `seed`: uniform with the variance 1 / fan-in, divided among
+    /// the matrices that add up in one layer; biases and the last layer are zero, so that an
+    /// untrained network predicts the quasi-static prior exactly.
+    pub fn fresh(config: &Config, seed: u64) -> Self {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let values = layout(config)
+            .into_iter()
+            .map(|(name, shape)| {
+                let count: usize = shape.iter().product();
+                let fan_in = shape[shape.len().saturating_sub(2)] as f32;
+                let summed = match name {
+                    n if n.starts_with("message") => 3.0,
+                    n if n.starts_with("update") => 3.0,
+                    _ => 1.0,
+                };
+                // The parity rectifier keeps half of the variance, as relu does.
+                let bound = (2.0 * 3.0 / (fan_in * summed)).sqrt();
+                let zero = shape.len() == 1 || name == "motion.even" || name == "motion.odd";
+                let value = (0..count)
+                    .map(|_| if zero { 0.0 } else { random.random_range(-bound..bound) })
+                    .collect();
+                (name.to_owned(), value)
+            })
+            .collect();
+        Self { values }
+    }
+
+    /// Number of parameters.
+    pub fn count(&self) -> usize {
+        self.values.values().map(Vec::len).sum()
+    }
+}

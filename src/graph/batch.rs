@@ -1,0 +1,131 @@
+//! Many graphs side by side, as flat feature tables: what the network reads.
+
+use crate::geometry::Vector;
+
+use super::{
+    bodies::Motion,
+    features::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD, UNIT},
+};
+
+/// Sender index of a relation whose sender's motion is given (tool part or obstacle).
+pub const KINEMATIC: u32 = u32::MAX;
+
+/// One object whose motion the network decides.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Which graph of the batch, as the caller numbered it.
+    pub graph: u32,
+    /// Index of the object in its scene.
+    pub object: u32,
+    /// Unit vector of the tool's motion: the x axis of every feature and output of this graph.
+    pub axis: Vector,
+    /// Duration of the frame, seconds.
+    pub duration: f64,
+    /// Length c of the object's limit surface, metres.
+    pub support: f64,
+    /// What quasi-statics predict, in output units: even shift x, velocity x; odd shift y,
+    /// turn, velocity y, spin.
+    pub prior: [f64; 6],
+}
+
+impl Node {
+    /// A motion in output units and this node's axes: lengths over [`UNIT`], velocities times
+    /// the frame's duration over [`UNIT`], turns times c over [`UNIT`].
+    pub fn encode(&self, motion: &Motion) -> [f64; 6] {
+        let (ax, ay) = (self.axis.x, self.axis.y);
+        let along = |v: Vector| (ax * v.x + ay * v.y) / UNIT;
+        let across = |v: Vector| (ax * v.y - ay * v.x) / UNIT;
+        [
+            along(motion.shift),
+            along(motion.velocity) * self.duration,
+            across(motion.shift),
+            motion.turn * self.support / UNIT,
+            across(motion.velocity) * self.duration,
+            motion.spin * self.duration * self.support / UNIT,
+        ]
+    }
+
+    /// The motion that six output numbers mean.
+    pub fn decode(&self, output: &[f64; 6]) -> Motion {
+        let world = |x: f64, y: f64| {
+            Vector::new(self.axis.x * x - self.axis.y * y, self.axis.y * x + self.axis.x * y) * UNIT
+        };
+        Motion {
+            shift: world(output[0], output[2]),
+            turn: output[3] * UNIT / self.support,
+            velocity: world(output[1], output[4]) / self.duration,
+            spin: output[5] * UNIT / (self.support * self.duration),
+        }
+    }
+}
+
+/// Feature tables of a batch of graphs. N nodes, R relations.
+///
+/// *Even* features keep their sign when the scene is mirrored about the tool's line of motion,
+/// *odd* ones change it; the network treats the two so that its output mirrors exactly.
+#[derive(Clone, Debug, Default)]
+pub struct Batch {
+    /// N nodes.
+    pub nodes: Vec<Node>,
+    /// [N, NODE_EVEN].
+    pub node_even: Vec<f32>,
+    /// [N, NODE_ODD].
+    pub node_odd: Vec<f32>,
+    /// [R, RELATION_EVEN].
+    pub relation_even: Vec<f32>,
+    /// [R, RELATION_ODD].
+    pub relation_odd: Vec<f32>,
+    /// [R], node index of every relation's receiver.
+    pub receivers: Vec<u32>,
+    /// [R], node index of every relation's sender, or [`KINEMATIC`].
+    pub senders: Vec<u32>,
+}
+
+impl Batch {
+    /// Empties the tables but keeps their memory.
+    pub fn clear(&mut self) {
+        self.nodes.clear();
+        self.node_even.clear();
+        self.node_odd.clear();
+        self.relation_even.clear();
+        self.relation_odd.clear();
+        self.receivers.clear();
+        self.senders.clear();
+    }
+
+    /// Number of nodes, N.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Number of relations, R.
+    pub fn relation_count(&self) -> usize {
+        self.receivers.len()
+    }
+
+    pub(super) fn push_node(&mut self, node: Node, even: [f64; NODE_EVEN], odd: [f64; NODE_ODD]) {
+        self.nodes.push(node);
+        self.node_even.extend(even.map(bounded));
+        self.node_odd.extend(odd.map(bounded));
+    }
+
+    pub(super) fn push_relation(
+        &mut self,
+        receiver: u32,
+        sender: u32,
+        even: [f64; RELATION_EVEN],
+        odd: [f64; RELATION_ODD],
+    ) {
+        self.receivers.push(receiver);
+        self.senders.push(sender);
+        self.relation_even.extend(even.map(bounded));
+        self.relation_odd.extend(odd.map(bounded));
+    }
+}
+
+/// Features stay within what the network can have seen, so that an extreme scene cannot drive
+/// it to infinity; an odd bound keeps the mirror symmetry.
+fn bounded(value: f64) -> f32 {
+    const BOUND: f64 = 20.0;
+    value.clamp(-BOUND, BOUND) as f32
+}
