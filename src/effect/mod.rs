@@ -3,10 +3,13 @@
 //! Planner, benchmarks and trade-off see only [`EffectModel`]; learned, simulated and trivial
 //! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
 
-mod job;
+mod learned;
+mod model;
 mod simulated;
 mod trivial;
 
-pub use job::{EffectModel, Job};
+pub use crate::scene::Job;
+pub use learned::{Learned, QuasiStatic};
+pub use model::EffectModel;
 pub use simulated::Simulated;
 pub use trivial::{Follow, Projection, Still};

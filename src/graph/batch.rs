@@ -1,6 +1,6 @@
 //! Many graphs side by side, as flat feature tables: what the network reads.
 
-use crate::geometry::Vector;
+use crate::{geometry::Vector, scene::Body};
 
 use super::{
     bodies::Motion,
@@ -59,6 +59,17 @@ impl Node {
     }
 }
 
+/// Two bodies that touch, or come to touch, in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Which graph of the batch, as the caller numbered it.
+    pub graph: u32,
+    /// The object that is touched.
+    pub object: usize,
+    /// What it touches.
+    pub with: Body,
+}
+
 /// Feature tables of a batch of graphs. N nodes, R relations.
 ///
 /// *Even* features keep their sign when the scene is mirrored about the tool's line of motion,
@@ -79,6 +90,8 @@ pub struct Batch {
     pub receivers: Vec<u32>,
     /// [R], node index of every relation's sender, or [`KINEMATIC`].
     pub senders: Vec<u32>,
+    /// Contacts with an overlap, in the order of the relations.
+    pub touches: Vec<Touch>,
 }
 
 impl Batch {
@@ -91,6 +104,7 @@ impl Batch {
         self.relation_odd.clear();
         self.receivers.clear();
         self.senders.clear();
+        self.touches.clear();
     }
 
     /// Number of nodes, N.

@@ -2,11 +2,11 @@
 
 use crate::{
     geometry::{ContactPoint, Vector, contact_points, perpendicular},
-    scene::{FrameStep, Scene, State},
+    scene::{Body, FrameStep, Scene, State},
 };
 
 use super::{
-    batch::{Batch, KINEMATIC, Node},
+    batch::{Batch, KINEMATIC, Node, Touch},
     bodies::{Bodies, Motion},
     coast::coast,
     features::{UNIT, node_features, relation_features},
@@ -29,9 +29,7 @@ const SOFT_OVERLAP: f64 = 0.01;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
     pub receiver: usize,
-    pub sender: Option<usize>,
-    /// One of tool part, obstacle, object.
-    pub kind: [f64; 3],
+    pub sender: Body,
     /// From the receiver's centre to the point on it.
     pub arm: Vector,
     /// From the sender's centre to the point on it; zero where its motion is given.
@@ -118,9 +116,15 @@ pub fn add_graph(
     }
     for link in &links {
         let receiver = index[link.receiver];
-        let sender = link.sender.map_or(KINEMATIC, |sender| index[sender]);
+        let sender = match link.sender {
+            Body::Object(sender) => index[sender],
+            _ => KINEMATIC,
+        };
         let (even, odd) = relation_features(&batch.nodes[receiver as usize], link);
         batch.push_relation(receiver, sender, even, odd);
+        if link.overlap > 0.0 {
+            batch.touches.push(Touch { graph, object: link.receiver, with: link.sender });
+        }
     }
 }
 
@@ -134,7 +138,7 @@ fn find_links(bodies: &Bodies, state: &State, step: &FrameStep, coasts: &[Motion
     };
     for (object, body) in bodies.objects.iter().enumerate() {
         let pose = &state.poses[object];
-        for part in &bodies.parts {
+        for (index, part) in bodies.parts.iter().enumerate() {
             if part.span.0 >= body.height {
                 continue;
             }
@@ -154,12 +158,12 @@ fn find_links(bodies: &Bodies, state: &State, step: &FrameStep, coasts: &[Motion
                     pose.position,
                     &point,
                     part.friction,
-                    [1.0, 0.0, 0.0],
+                    Body::Part(index),
                     given,
                 ));
             }
         }
-        for obstacle in &bodies.obstacles {
+        for (index, obstacle) in bodies.obstacles.iter().enumerate() {
             let reach = MARGIN + travel + own(object);
             let (points, _) = contact_points(
                 (&body.footprint, pose),
@@ -173,7 +177,7 @@ fn find_links(bodies: &Bodies, state: &State, step: &FrameStep, coasts: &[Motion
                     pose.position,
                     &point,
                     obstacle.friction,
-                    [0.0, 1.0, 0.0],
+                    Body::Obstacle(index),
                     Vector::zeros(),
                 ));
             }
@@ -200,13 +204,12 @@ fn link_to_given(
     centre: Vector,
     point: &ContactPoint,
     friction: f64,
-    kind: [f64; 3],
+    sender: Body,
     given: Vector,
 ) -> Link {
     Link {
         receiver,
-        sender: None,
-        kind,
+        sender,
         arm: point.on_first - centre,
         sender_arm: Vector::zeros(),
         normal: point.normal,
@@ -234,7 +237,6 @@ fn link_between(
     let (to, from) = (&bodies.objects[receiver], &bodies.objects[sender]);
     let centre = state.poses[receiver].position;
     Link {
-        sender: Some(sender),
         sender_arm: point.on_second - state.poses[sender].position,
         mass_ratio: (from.mass / to.mass).ln(),
         sender_support: from.support,
@@ -244,7 +246,7 @@ fn link_between(
             centre,
             point,
             from.friction,
-            [0.0, 0.0, 1.0],
+            Body::Object(sender),
             Vector::zeros(),
         )
     }
@@ -257,7 +259,7 @@ fn awake(links: &[Link], coasts: &[Motion], step: &FrameStep) -> Vec<bool> {
     let moving = |object: usize| coasts[object] != Motion::default();
     let mut awake = vec![false; coasts.len()];
     for link in links {
-        let pushed = link.kind[0] == 1.0 && tool_moves;
+        let pushed = matches!(link.sender, Body::Part(_)) && tool_moves;
         if pushed || moving(link.receiver) {
             awake[link.receiver] = true;
         }
@@ -265,7 +267,7 @@ fn awake(links: &[Link], coasts: &[Motion], step: &FrameStep) -> Vec<bool> {
     loop {
         let mut changed = false;
         for link in links {
-            if let Some(sender) = link.sender
+            if let Body::Object(sender) = link.sender
                 && awake[sender]
                 && !awake[link.receiver]
             {
@@ -288,7 +290,8 @@ fn quasi_statics(
     duration: f64,
 ) -> Vec<Motion> {
     let mut priors = coasts.to_vec();
-    let rounds = if links.iter().any(|link| link.sender.is_some()) { ROUNDS } else { 1 };
+    let rounds =
+        if links.iter().any(|link| matches!(link.sender, Body::Object(_))) { ROUNDS } else { 1 };
     let mut pressed = vec![0.0; coasts.len()];
     let mut rates = vec![Twist::default(); links.len()];
     for _ in 0..rounds {
@@ -315,8 +318,8 @@ fn quasi_statics(
 /// displacement over a whole frame.
 fn answer(bodies: &Bodies, link: &mut Link, coasts: &[Motion], priors: &[Motion]) -> Twist {
     let sent = match link.sender {
-        Some(sender) => priors[sender].at(link.sender_arm),
-        None => link.given,
+        Body::Object(sender) => priors[sender].at(link.sender_arm),
+        _ => link.given,
     };
     let c = bodies.objects[link.receiver].support;
     link.relative = sent - coasts[link.receiver].at(link.arm);

@@ -3,7 +3,10 @@
 //! Axes: x along the tool's motion, y to its left, origin at the receiver's centre. All
 //! numbers are invariant to shifting and turning the scene; even ones also to mirroring it.
 
-use crate::{geometry::Vector, scene::FRAME_TRAVEL};
+use crate::{
+    geometry::Vector,
+    scene::{Body, FRAME_TRAVEL},
+};
 
 use super::{
     batch::Node,
@@ -68,7 +71,11 @@ pub(super) fn relation_features(
     let along = |v: Vector| axis.x * v.x + axis.y * v.y;
     let across = |v: Vector| axis.x * v.y - axis.y * v.x;
     let cross = |a: Vector, b: Vector| a.x * b.y - a.y * b.x;
-    let [of_part, of_obstacle, of_object] = link.kind;
+    let [of_part, of_obstacle, of_object] = match link.sender {
+        Body::Part(_) => [1.0, 0.0, 0.0],
+        Body::Obstacle(_) => [0.0, 1.0, 0.0],
+        Body::Object(_) => [0.0, 0.0, 1.0],
+    };
     let answer = &link.answer;
     (
         [

@@ -11,7 +11,7 @@ mod coast;
 mod features;
 mod push;
 
-pub use batch::{Batch, KINEMATIC, Node};
+pub use batch::{Batch, KINEMATIC, Node, Touch};
 pub use bodies::{Bodies, Motion};
 pub use build::add_graph;
 pub use coast::coast;

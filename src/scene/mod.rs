@@ -4,6 +4,7 @@
 //! and gives these types. SI units and radians throughout.
 
 mod hypothesis;
+mod job;
 mod motion;
 mod plan;
 mod ranges;
@@ -15,6 +16,7 @@ mod warning;
 mod world;
 
 pub use hypothesis::Hypothesis;
+pub use job::Job;
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };

@@ -2,18 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Hypothesis, Record, Scene, State, ToolMotion, Trajectory, Warning};
-
-/// One rollout to compute.
-#[derive(Clone, Debug)]
-pub struct Job {
-    /// Poses and velocities at the start.
-    pub start: State,
-    /// What the tool does.
-    pub motion: ToolMotion,
-    /// Other physical parameters than the scene's, where wanted.
-    pub hypothesis: Option<Arc<Hypothesis>>,
-}
+use crate::scene::{Job, Record, Scene, ToolMotion, Trajectory, Warning};
 
 /// Predicts the effect of tool motions.
 ///
