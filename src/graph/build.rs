@@ -17,9 +17,11 @@ use super::{
 /// frame, metres: room for the turning of long bodies.
 const MARGIN: f64 = 0.008;
 
-/// Rounds of passing the prior's motion on from object to object: enough for the three
-/// objects in a row that a push usually moves, and the network does the rest.
-const ROUNDS: usize = 3;
+/// Sweeps of the prior over the contacts; what they leave is for the network to correct.
+const SWEEPS: usize = 6;
+
+/// A contact made at the very end of a frame says little about the speed it gives.
+const MIN_REMAINING: f64 = 0.05;
 
 /// Overlap at which a contact counts fully in the prior, in [`UNIT`]s: well below what noise
 /// in a rollout produces.
@@ -281,8 +283,12 @@ fn awake(links: &[Link], coasts: &[Motion], step: &FrameStep) -> Vec<bool> {
     }
 }
 
-/// Fills the links' quasi-static answers and returns every object's prior motion: coasting
-/// plus its contacts' answers, weighted by the square of their overlaps.
+/// Fills the links' quasi-static answers and returns every object's prior motion: coasting,
+/// plus in every sweep what its contacts still ask for, weighted by the squares of the
+/// overlaps that are left.
+///
+/// This is projected Jacobi iteration without the memory of earlier impulses; weights that sum
+/// to at most one keep it from overshooting, and make it independent of the contacts' order.
 fn quasi_statics(
     bodies: &Bodies,
     links: &mut [Link],
@@ -290,58 +296,67 @@ fn quasi_statics(
     duration: f64,
 ) -> Vec<Motion> {
     let mut priors = coasts.to_vec();
-    let rounds =
-        if links.iter().any(|link| matches!(link.sender, Body::Object(_))) { ROUNDS } else { 1 };
     let mut pressed = vec![0.0; coasts.len()];
-    let mut rates = vec![Twist::default(); links.len()];
-    for _ in 0..rounds {
+    let mut asked = vec![(Twist::default(), 0.0); links.len()];
+    let soft = (SOFT_OVERLAP * UNIT).powi(2);
+    for sweep in 0..SWEEPS {
         pressed.fill(0.0);
-        for (link, rate) in links.iter_mut().zip(&mut rates) {
-            *rate = answer(bodies, link, coasts, &priors);
-            pressed[link.receiver] += link.overlap * link.overlap;
+        for (link, asked) in links.iter_mut().zip(&mut asked) {
+            *asked = ask(bodies, link, coasts, &priors, sweep == 0);
+            pressed[link.receiver] += asked.1 * asked.1;
         }
-        priors.copy_from_slice(coasts);
-        let soft = (SOFT_OVERLAP * UNIT).powi(2);
-        for (link, rate) in links.iter_mut().zip(&rates) {
-            link.weight = link.overlap * link.overlap / (pressed[link.receiver] + soft);
+        if pressed.iter().all(|&p| p <= soft) && sweep > 0 {
+            break;
+        }
+        for (link, (twist, overlap)) in links.iter_mut().zip(&asked) {
+            let weight = overlap * overlap / (pressed[link.receiver] + soft);
+            if sweep == 0 {
+                link.weight = weight;
+            }
             let prior = &mut priors[link.receiver];
-            prior.shift += link.answer.shift * link.weight;
-            prior.turn += link.answer.turn * link.weight;
-            prior.velocity += rate.shift * (link.weight / duration);
-            prior.spin += rate.turn * (link.weight / duration);
+            prior.shift += twist.shift * weight;
+            prior.turn += twist.turn * weight;
+            let rate = weight / (duration * link.remaining.max(MIN_REMAINING));
+            prior.velocity += twist.shift * rate;
+            prior.spin += twist.turn * rate;
         }
     }
     priors
 }
 
-/// Fills one link's answer, and returns the motion it gives once its gap is closed, as a
-/// displacement over a whole frame.
-fn answer(bodies: &Bodies, link: &mut Link, coasts: &[Motion], priors: &[Motion]) -> Twist {
+/// The twist that one contact alone still asks its receiver for beyond `priors`, and the
+/// overlap left there, metres. In the first sweep this also fills the link's own description.
+fn ask(
+    bodies: &Bodies,
+    link: &mut Link,
+    coasts: &[Motion],
+    priors: &[Motion],
+    first: bool,
+) -> (Twist, f64) {
     let sent = match link.sender {
         Body::Object(sender) => priors[sender].at(link.sender_arm),
         _ => link.given,
     };
+    let free = sent - coasts[link.receiver].at(link.arm);
+    let closing = free.dot(&link.normal);
+    // An object that is itself pushed against another pushes it, not the other way round; how
+    // far the other slows it is left to the network.
+    let passive = matches!(link.sender, Body::Object(_)) && closing <= link.gap.max(0.0);
+    let relative = sent - priors[link.receiver].at(link.arm);
+    let left = relative.dot(&link.normal) - link.gap;
+    let overlap = if passive { 0.0 } else { left.max(0.0) };
+    link.relative = free;
+    link.remaining =
+        if closing > link.gap.max(0.0) { 1.0 - link.gap.max(0.0) / closing } else { 0.0 };
+    let across = relative.dot(&perpendicular(link.normal)) * link.remaining;
+    let displacement = link.normal * overlap + perpendicular(link.normal) * across;
     let c = bodies.objects[link.receiver].support;
-    link.relative = sent - coasts[link.receiver].at(link.arm);
-    let closing = link.relative.dot(&link.normal);
-    link.overlap = (closing - link.gap).max(0.0);
-    link.remaining = if link.gap <= 0.0 {
-        1.0
-    } else if closing > link.gap {
-        1.0 - link.gap / closing
-    } else {
-        0.0
-    };
-    let rate = contact_twist(c, link.arm, link.normal, link.relative, link.friction);
-    let out = link.normal * (-link.gap).max(0.0);
-    link.answer = rate.scaled(link.remaining).plus(contact_twist(
-        c,
-        link.arm,
-        link.normal,
-        out,
-        link.friction,
-    ));
-    let moved = rate.shift + rate.turn * perpendicular(link.arm);
-    link.slip = (link.relative - moved).dot(&perpendicular(link.normal)).abs() * link.remaining;
-    if link.remaining > 0.0 { rate } else { Twist::default() }
+    let twist = contact_twist(c, link.arm, link.normal, displacement, link.friction);
+    if first || overlap > link.overlap {
+        link.overlap = overlap;
+        link.answer = twist;
+        let moved = twist.shift + twist.turn * perpendicular(link.arm);
+        link.slip = (displacement - moved).dot(&perpendicular(link.normal)).abs();
+    }
+    (twist, overlap)
 }

@@ -26,11 +26,6 @@ impl Twist {
     pub fn scaled(self, factor: f64) -> Self {
         Self { shift: self.shift * factor, turn: self.turn * factor }
     }
-
-    /// The sum of two twists.
-    pub fn plus(self, other: Self) -> Self {
-        Self { shift: self.shift + other.shift, turn: self.turn + other.turn }
-    }
 }
 
 /// The motion of a body with limit-surface length `c` (metres) whose point `arm` (metres from
