@@ -1,1 +1,24 @@
-//! Losses, optimiser, schedule, checkpoints and resumption. Generates no data.
+//! Training: examples with noise, loss, optimiser, schedule, checkpoints and resumption.
+//!
+//! A run is a folder: `checkpoint.safetensors` (everything needed to go on to the bit),
+//! `metrics.jsonl`, and `best.safetensors`, the weights with the lowest held-out rollout error.
+//! Data come from `dataset`; nothing is generated or drawn here.
+
+mod checkpoint;
+mod example;
+mod loss;
+mod metrics;
+mod optimiser;
+mod rollout_error;
+mod schedule;
+mod settings;
+mod trainer;
+
+pub use checkpoint::{Checkpoint, CheckpointError};
+pub use example::{Examples, Noise};
+pub use metrics::{HeldOutError, MetricLine};
+pub use optimiser::AdamW;
+pub use rollout_error::rollout_error;
+pub use schedule::learning_rate;
+pub use settings::Settings;
+pub use trainer::{Report, TrainError, train};
