@@ -18,4 +18,4 @@ pub use engine::{Engine, Workspace};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 pub use predictor::{Inputs, Predictor};
-pub use weights::{Card, ErrorCard, Range, Weights, WeightsError};
+pub use weights::{Card, ErrorCard, Weights, WeightsError};

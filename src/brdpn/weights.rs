@@ -9,6 +9,8 @@ use safetensors::{Dtype, SafeTensors, tensor::TensorView};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::scene::Ranges;
+
 use super::{Config, Normaliser, Parameters, layout};
 
 /// Version of the feature layout and file format; a file of another version is refused.
@@ -53,17 +55,6 @@ pub enum WeightsError {
     },
 }
 
-/// The smallest and largest trained value of an input.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Range {
-    /// Name with its unit, such as `mass, kg`.
-    pub quantity: String,
-    /// Smallest.
-    pub low: f64,
-    /// Largest.
-    pub high: f64,
-}
-
 /// Held-out errors that planning needs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ErrorCard {
@@ -87,7 +78,7 @@ pub struct Card {
     /// Feature scales.
     pub normaliser: Normaliser,
     /// Ranges of the training data.
-    pub ranges: Vec<Range>,
+    pub ranges: Ranges,
     /// Seed of the training data.
     pub data_seed: u64,
     /// Training episodes.

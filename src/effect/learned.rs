@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use crate::{
     brdpn::{Engine, Weights, Workspace},
-    geometry::Footprint,
     rollout::roll,
     scene::{Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
@@ -34,12 +33,6 @@ impl Learned {
     pub fn weights(&self) -> &Weights {
         &self.weights
     }
-
-    /// The trained range of a quantity.
-    fn range(&self, quantity: &str) -> Option<(f64, f64)> {
-        let range = self.weights.card.ranges.iter().find(|r| r.quantity == quantity)?;
-        Some((range.low, range.high))
-    }
 }
 
 impl EffectModel for Learned {
@@ -48,21 +41,7 @@ impl EffectModel for Learned {
     }
 
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        inputs(scene, motion)
-            .into_iter()
-            .filter_map(|(of, quantity, value)| {
-                let (low, high) = self.range(quantity)?;
-                // A thousandth of slack forgives rounding of values written at the bound.
-                let slack = 1e-3 * (high - low);
-                (value < low - slack || value > high + slack).then(|| Warning::OutsideTraining {
-                    of,
-                    quantity: quantity.to_owned(),
-                    value,
-                    low,
-                    high,
-                })
-            })
-            .collect()
+        self.weights.card.ranges.warnings(scene, motion)
     }
 
     fn error_p95(&self) -> f64 {
@@ -109,31 +88,4 @@ impl EffectModel for QuasiStatic {
             .flatten_iter()
             .collect()
     }
-}
-
-/// Every input whose trained range is stored: (of what, quantity, value).
-fn inputs(scene: &Scene, motion: &ToolMotion) -> Vec<(String, &'static str, f64)> {
-    let mut found = vec![
-        ("table".to_owned(), "friction", scene.table_friction),
-        (motion.tool.name.clone(), "friction", motion.tool.friction),
-        ("scene".to_owned(), "number of objects", scene.objects.len() as f64),
-    ];
-    for object in &scene.objects {
-        let name = || object.name.clone();
-        found.push((name(), "mass, kg", object.mass));
-        found.push((name(), "friction", object.friction));
-        match object.shape.footprint() {
-            Footprint::Disc { radius } => found.push((name(), "radius, m", radius)),
-            Footprint::Rectangle { half } => {
-                found.push((name(), "side, m", 2.0 * half.x));
-                found.push((name(), "side, m", 2.0 * half.y));
-            }
-        }
-    }
-    for stroke in &motion.strokes {
-        if stroke.duration > 0.0 && stroke.travel() > 0.0 {
-            found.push(("push".to_owned(), "speed, m/s", stroke.travel() / stroke.duration));
-        }
-    }
-    found
 }

@@ -44,7 +44,8 @@ mod tests {
     #[test]
     fn small_errors_count_by_half_their_square_and_large_ones_linearly() -> Result<()> {
         let at = |e: f32| -> Result<f32> {
-            let predicted = Tensor::from_vec(vec![e, 0.0, 0.0, 0.0, 0.0, 0.0], (1, 6), &Device::Cpu)?;
+            let predicted =
+                Tensor::from_vec(vec![e, 0.0, 0.0, 0.0, 0.0, 0.0], (1, 6), &Device::Cpu)?;
             loss(&predicted, vec![0.0; 6], vec![1.0; 6], 1)?.to_scalar()
         };
         assert!((at(0.001)? - 0.5e-6).abs() < 1e-8);

@@ -40,12 +40,8 @@ impl AdamW {
     /// One step along `gradients`, which must have the weights' names and lengths. Returns the
     /// gradient's norm before clipping; a norm that is not finite changes nothing.
     pub fn update(&mut self, settings: &Settings, gradients: &Parameters) -> f64 {
-        let square: f64 = gradients
-            .values
-            .values()
-            .flatten()
-            .map(|&g| f64::from(g) * f64::from(g))
-            .sum();
+        let square: f64 =
+            gradients.values.values().flatten().map(|&g| f64::from(g) * f64::from(g)).sum();
         let norm = square.sqrt();
         if !norm.is_finite() {
             return norm;

@@ -1,0 +1,45 @@
+//! What a run reports, one JSON line at a time.
+
+use serde::{Deserialize, Serialize};
+
+/// Final position errors of rollouts over held-out episodes; objects whose true motion exceeds
+/// 1 cm are counted.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeldOutError {
+    /// Step of the weights.
+    pub step: u64,
+    /// Objects counted.
+    pub objects: usize,
+    /// Mean, metres.
+    pub mean: f64,
+    /// Median, metres.
+    pub median: f64,
+    /// 95th percentile, metres.
+    pub p95: f64,
+    /// Mean with every error capped at 30 mm, metres: what decides which weights are best,
+    /// because a handful of pushes that end differently by chance otherwise would.
+    pub capped: f64,
+    /// Mean heading error of cuboids, radians.
+    pub heading: f64,
+    /// The same over episodes with a single object.
+    pub single: Option<Box<HeldOutError>>,
+}
+
+/// One line of `metrics.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MetricLine {
+    /// Steps taken.
+    pub step: u64,
+    /// Mean one-frame loss since the last line.
+    pub loss: f64,
+    /// Mean gradient norm before clipping since the last line.
+    pub gradient: f64,
+    /// Learning rate.
+    pub learning_rate: f64,
+    /// Graphs trained on per second since the last line.
+    pub graphs_per_second: f64,
+    /// Wall time of this process so far, seconds.
+    pub seconds: f64,
+    /// Held-out rollout error of the averaged weights.
+    pub held_out: HeldOutError,
+}

@@ -1,0 +1,81 @@
+//! The held-out criterion: whole rollouts against the truth.
+
+use rayon::prelude::*;
+
+use crate::{
+    brdpn::{Engine, Workspace},
+    dataset::Episode,
+    geometry::wrap_angle,
+    rollout::roll,
+    scene::{Job, Record},
+};
+
+use super::HeldOutError;
+
+/// True motion from which an object counts, metres.
+const MOVED: f64 = 0.01;
+
+/// Cap of a single error in the criterion, metres.
+const CAP: f64 = 0.03;
+
+/// One counted object: error in metres, heading error in radians (cuboids), whether it is the
+/// only object of its scene.
+type Sample = (f64, Option<f64>, bool);
+
+/// Rolls every episode out from its first frame and compares the last.
+pub fn rollout_error(engine: &Engine, episodes: &[Episode], step: u64) -> HeldOutError {
+    let samples: Vec<Sample> = episodes
+        .par_iter()
+        .map_init(Workspace::default, |workspace, episode| samples(engine, episode, workspace))
+        .flatten_iter()
+        .collect();
+    let single: Vec<Sample> = samples.iter().copied().filter(|s| s.2).collect();
+    HeldOutError { single: Some(Box::new(summary(&single, step))), ..summary(&samples, step) }
+}
+
+fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec<Sample> {
+    let (Some(first), Some(last)) = (episode.frames.first(), episode.frames.last()) else {
+        return Vec::new();
+    };
+    let job = Job { start: first.state.clone(), motion: episode.motion.clone(), hypothesis: None };
+    let predicted = roll(&episode.scene, &[job], Record::Outcome, &mut |batch, corrections| {
+        engine.forward(batch, workspace, corrections);
+    });
+    let predicted = predicted[0].outcome();
+    let single = episode.scene.objects.len() == 1;
+    let mut found = Vec::new();
+    for (k, object) in episode.scene.objects.iter().enumerate() {
+        let (start, end) = (first.state.poses[k], last.state.poses[k]);
+        if (end.position - start.position).norm() <= MOVED {
+            continue;
+        }
+        let guess = predicted.poses[k];
+        let heading =
+            (!object.shape.is_cylinder()).then(|| wrap_angle(guess.heading - end.heading).abs());
+        found.push(((guess.position - end.position).norm(), heading, single));
+    }
+    found
+}
+
+fn summary(samples: &[Sample], step: u64) -> HeldOutError {
+    let mut errors: Vec<f64> = samples.iter().map(|s| s.0).collect();
+    errors.sort_by(f64::total_cmp);
+    let count = errors.len();
+    let at = |share: f64| {
+        errors.get(((count as f64 * share) as usize).min(count.saturating_sub(1))).copied()
+    };
+    let mean = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
+        sum / count.max(1) as f64
+    };
+    HeldOutError {
+        step,
+        objects: count,
+        mean: mean(&mut errors.iter().copied()),
+        median: at(0.5).unwrap_or(0.0),
+        p95: at(0.95).unwrap_or(0.0),
+        capped: mean(&mut errors.iter().map(|e| e.min(CAP))),
+        heading: mean(&mut samples.iter().filter_map(|s| s.1)),
+        single: None,
+    }
+}
