@@ -9,9 +9,12 @@ use crate::scene::Velocity;
 
 use super::bodies::{Motion, Movable};
 
-/// Pieces that a frame is cut into while an object slides and spins. Eight keep the distance
-/// within 0.1 % of a thousand pieces.
-const PIECES: usize = 8;
+/// Most pieces that a frame is cut into while an object slides and spins.
+const PIECES: usize = 12;
+
+/// Share of its speed that an object loses in one piece. Together with [`PIECES`] this keeps
+/// the distance within 0.1 % of a thousand pieces.
+const SHARE: f64 = 0.3;
 
 /// The motion of a free object during `duration` seconds.
 pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
@@ -34,22 +37,24 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     let (mut travel, mut turn) = (0.0, 0.0);
     let mut left = duration;
     for piece in 0..PIECES {
-        let step = left / (PIECES - piece) as f64;
         let s = v.hypot(w);
-        if s < 1e-9 {
+        if s < 1e-9 || left <= 0.0 {
             break;
         }
+        // The last piece runs to the end, at the shares of slide and spin it finds.
+        let most = if piece + 1 < PIECES { SHARE * s / body.deceleration } else { left };
+        let step = left.min(most);
+        let half = 0.5 * step.min(SHARE * s / body.deceleration) * body.deceleration;
         // Midpoint rule: the share of each speed in the friction is taken half a piece on.
-        let braking = step * body.deceleration;
-        let v_half = v - 0.5 * braking * v / s;
-        let w_half = w - 0.5 * braking * body.spin * w / s;
-        let s_half = v_half.hypot(w_half).max(1e-9);
-        let (slow_v, slow_w) = (v_half / s_half, body.spin * w_half.abs() / s_half);
-        let v_next = (v - braking * slow_v.max(0.0)).max(0.0);
-        let w_next = (w.abs() - braking * slow_w).max(0.0) * w.signum();
-        travel += slid(v, v_next, step, body.deceleration * slow_v.max(0.0));
-        turn += w.signum() * slid(w.abs(), w_next.abs(), step, body.deceleration * slow_w);
-        (v, w) = (v_next, w_next);
+        let (v_half, w_half) = (v - half * v / s, w - half * body.spin * w / s);
+        let s_half = v_half.hypot(w_half);
+        let slow_v = body.deceleration * v_half / s_half;
+        let slow_w = body.deceleration * body.spin * w_half.abs() / s_half;
+        let (moved, v_next) = slide(v, slow_v, step);
+        let (turned, w_next) = slide(w.abs(), slow_w, step);
+        travel += moved;
+        turn += turned * w.signum();
+        (v, w) = (v_next, w_next * w.signum());
         left -= step;
     }
     Motion {
@@ -105,22 +110,31 @@ mod tests {
 
     #[test]
     fn with_spin_it_agrees_with_a_fine_integration() {
+        for duration in [0.02, 0.05, 0.4] {
+            agrees_with_a_fine_integration(duration);
+        }
+    }
+
+    fn agrees_with_a_fine_integration(duration: f64) {
         let body = body();
         let start = Velocity { linear: Vector::new(0.25, 0.0), angular: 6.0 };
-        let duration = 0.05;
         let (mut v, mut w, mut x, mut a) = (0.25, 6.0 * body.support, 0.0, 0.0);
         let n = 200_000;
         for _ in 0..n {
             let h = duration / n as f64;
-            let s = f64::hypot(v, w);
+            let s = f64::hypot(v, w).max(1e-9);
             x += v * h;
             a += w * h;
-            v -= h * body.deceleration * v / s;
-            w -= h * body.deceleration * body.spin * w / s;
+            v = (v - h * body.deceleration * v / s).max(0.0);
+            w = (w - h * body.deceleration * body.spin * w / s).max(0.0);
         }
         let motion = coast(&body, &start, duration);
         assert!((motion.shift.x - x).abs() < 1e-3 * x, "{} {x}", motion.shift.x);
-        assert!((motion.turn * body.support - a).abs() < 1e-3 * a);
-        assert!((motion.velocity.x - v).abs() < 2e-3 * 0.25, "{} {v}", motion.velocity.x);
+        assert!(
+            (motion.turn * body.support - a).abs() < 1e-3 * a,
+            "{} {a}",
+            motion.turn * body.support
+        );
+        assert!((motion.velocity.x - v).abs() < 1e-3 * 0.25, "{} {v}", motion.velocity.x);
     }
 }

@@ -2,25 +2,37 @@
 
 use crate::{
     graph::{Bodies, Motion},
-    scene::{State, Velocity},
+    scene::{FrameStep, State, Velocity},
 };
 
 /// A body whose remaining free slide is shorter than this is at rest, metres: far below what
 /// anyone can measure, and above the noise of a network around zero.
 const REMAINING_SLIDE: f64 = 1e-5;
 
-/// Moves every object of `state` by its entry in `motions`. While the tool stands still
-/// (`coasting`) the total kinetic energy cannot grow, whatever a network says.
-pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], coasting: bool) {
+/// How much faster than the tool an object may come out of a frame (or as fast as the fastest
+/// object was before it), and how far it may be moved out of an overlap, metres. Physics
+/// without restoring impacts needs a factor of about one; the rest is room for error. It keeps
+/// a network that is wrong from being wildly wrong, and does nothing to one that is not.
+const FASTER: f64 = 1.5;
+const OUT_OF_OVERLAP: f64 = 0.005;
+
+/// Moves every object of `state` by its entry in `motions`, which belong to the tool's `step`.
+///
+/// Whatever a network says, nothing outruns everything around it, and while the tool stands
+/// still the total kinetic energy cannot grow.
+pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &FrameStep) {
+    let coasting = step.from == step.to;
     let before = if coasting { kinetic_energy(bodies, state) } else { f64::INFINITY };
+    let limit = fastest(bodies, state, step);
     for (k, motion) in motions.iter().enumerate() {
         let body = &bodies.objects[k];
         let pose = &mut state.poses[k];
-        pose.position += motion.shift;
-        pose.heading += motion.turn;
-        state.velocities[k] = Velocity { linear: motion.velocity, angular: motion.spin };
-        let rim = motion.spin * body.support;
-        let square = motion.velocity.norm_squared() + rim * rim;
+        let held = held(motion, body.support, limit, limit * step.duration + OUT_OF_OVERLAP);
+        pose.position += held.shift;
+        pose.heading += held.turn;
+        state.velocities[k] = Velocity { linear: held.velocity, angular: held.spin };
+        let rim = held.spin * body.support;
+        let square = held.velocity.norm_squared() + rim * rim;
         if square < 2.0 * body.deceleration * REMAINING_SLIDE {
             state.velocities[k] = Velocity::default();
         }
@@ -33,6 +45,33 @@ pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], coastin
             velocity.angular *= share;
         }
     }
+}
+
+/// The larger of [`FASTER`] times the speed of the tool's fastest part and the speed of the
+/// fastest object, m/s.
+fn fastest(bodies: &Bodies, state: &State, step: &FrameStep) -> f64 {
+    let turn = (step.to.heading - step.from.heading).abs();
+    let reach = bodies.parts.iter().map(|p| p.pose.position.norm() + p.footprint.bounding_radius());
+    let travel = (step.to.position - step.from.position).norm()
+        + if turn > 0.0 { turn * reach.fold(0.0, f64::max) } else { 0.0 };
+    bodies
+        .objects
+        .iter()
+        .zip(&state.velocities)
+        .map(|(body, v)| v.linear.norm().max(v.angular.abs() * body.support))
+        .fold(FASTER * travel / step.duration, f64::max)
+}
+
+/// `motion` shortened to the given speed (m/s) and travel (m), at the centre and, by the
+/// support's length, in turning.
+fn held(motion: &Motion, support: f64, speed: f64, travel: f64) -> Motion {
+    let share = |value: f64, most: f64| if value > most { most / value } else { 1.0 };
+    let mut held = *motion;
+    held.shift *= share(motion.shift.norm(), travel);
+    held.turn *= share((motion.turn * support).abs(), travel);
+    held.velocity *= share(motion.velocity.norm(), speed);
+    held.spin *= share((motion.spin * support).abs(), speed);
+    held
 }
 
 /// Of all objects, joules.

@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
     fn advance(&mut self, motions: &[Motion], record: Record) {
         let Some(step) = self.step else { return };
         let before = self.state.clone();
-        integrate(&self.bodies, &mut self.state, motions, step.from == step.to);
+        integrate(&self.bodies, &mut self.state, motions, &step);
         if !self.state.is_finite() {
             self.state = before;
             self.trajectory.warnings.push(Warning::NotFinite);

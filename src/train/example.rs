@@ -180,7 +180,7 @@ impl Lead {
             output.iter_mut().zip(correction).for_each(|(value, change)| *value += change);
             self.motions[node.object as usize] = node.decode(&output);
         }
-        integrate(bodies, state, &self.motions, step.from == step.to);
+        integrate(bodies, state, &self.motions, &step);
     }
 }
 
