@@ -68,6 +68,11 @@ impl Motion {
     pub fn at(&self, arm: Vector) -> Vector {
         self.shift + self.turn * Vector::new(-arm.y, arm.x)
     }
+
+    /// Velocity of the body's point `arm` metres from its centre at the end, m/s.
+    pub fn velocity_at(&self, arm: Vector) -> Vector {
+        self.velocity + self.spin * Vector::new(-arm.y, arm.x)
+    }
 }
 
 impl Bodies {

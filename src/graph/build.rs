@@ -20,9 +20,6 @@ const MARGIN: f64 = 0.008;
 /// Sweeps of the prior over the contacts; what they leave is for the network to correct.
 const SWEEPS: usize = 6;
 
-/// A contact made at the very end of a frame says little about the speed it gives.
-const MIN_REMAINING: f64 = 0.05;
-
 /// Overlap at which a contact counts fully in the prior, in [`UNIT`]s: well below what noise
 /// in a rollout produces.
 const SOFT_OVERLAP: f64 = 0.01;
@@ -316,12 +313,45 @@ fn quasi_statics(
             let prior = &mut priors[link.receiver];
             prior.shift += twist.shift * weight;
             prior.turn += twist.turn * weight;
-            let rate = weight / (duration * link.remaining.max(MIN_REMAINING));
-            prior.velocity += twist.shift * rate;
-            prior.spin += twist.turn * rate;
         }
     }
+    end_velocities(bodies, links, &mut priors, duration);
     priors
+}
+
+/// Brings the velocities at the frame's end to what the contacts made in it allow, by the same
+/// sweeps: in contact, a point moves with what pushes it.
+fn end_velocities(bodies: &Bodies, links: &[Link], priors: &mut [Motion], duration: f64) {
+    let soft = (SOFT_OVERLAP * UNIT).powi(2);
+    let mut pressed = vec![0.0; priors.len()];
+    let mut asked = vec![(Twist::default(), 0.0); links.len()];
+    for _ in 0..SWEEPS {
+        pressed.fill(0.0);
+        for (link, asked) in links.iter().zip(&mut asked) {
+            *asked = (Twist::default(), 0.0);
+            if link.overlap <= 0.0 {
+                continue;
+            }
+            let sent = match link.sender {
+                Body::Object(sender) => priors[sender].velocity_at(link.sender_arm) * duration,
+                _ => link.given,
+            };
+            let relative = sent - priors[link.receiver].velocity_at(link.arm) * duration;
+            let closing = relative.dot(&link.normal).max(0.0);
+            let c = bodies.objects[link.receiver].support;
+            let twist = contact_twist(c, link.arm, link.normal, relative, link.friction);
+            *asked = (twist, closing);
+            pressed[link.receiver] += closing * closing;
+        }
+        if pressed.iter().all(|&p| p <= soft) {
+            return;
+        }
+        for (link, (twist, closing)) in links.iter().zip(&asked) {
+            let weight = closing * closing / (pressed[link.receiver] + soft) / duration;
+            priors[link.receiver].velocity += twist.shift * weight;
+            priors[link.receiver].spin += twist.turn * weight;
+        }
+    }
 }
 
 /// The twist that one contact alone still asks its receiver for beyond `priors`, and the
