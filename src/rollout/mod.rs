@@ -7,4 +7,4 @@ mod integrate;
 mod roll;
 
 pub use integrate::integrate;
-pub use roll::{Corrector, roll};
+pub use roll::{Corrector, apply, roll};

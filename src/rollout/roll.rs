@@ -49,13 +49,7 @@ pub fn roll(
             return runs.into_iter().map(Run::finish).collect();
         }
         correct(&batch, &mut corrections);
-        for (node, correction) in batch.nodes.iter().zip(&corrections) {
-            let mut output = node.prior;
-            for (value, change) in output.iter_mut().zip(correction) {
-                *value += change;
-            }
-            motions[node.graph as usize][node.object as usize] = node.decode(&output);
-        }
+        apply(&batch, &corrections, &mut motions);
         if record == Record::Frames {
             for touch in &batch.touches {
                 runs[touch.graph as usize].touch(touch.object, touch.with);
@@ -64,6 +58,17 @@ pub fn roll(
         for (run, motions) in runs.iter_mut().zip(&motions) {
             run.advance(motions, record);
         }
+    }
+}
+
+/// Puts the corrected motion of every node in its graph's list.
+pub fn apply(batch: &Batch, corrections: &[[f64; 6]], motions: &mut [Vec<Motion>]) {
+    for (node, correction) in batch.nodes.iter().zip(corrections) {
+        let mut output = node.prior;
+        for (value, change) in output.iter_mut().zip(correction) {
+            *value += change;
+        }
+        motions[node.graph as usize][node.object as usize] = node.decode(&output);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
     dataset::Episode,
     geometry::{Pose, Vector},
     graph::{Batch, Bodies, Motion, add_graph},
-    rollout::integrate,
+    rollout::{apply, integrate},
     scene::{COAST_FRAME, FrameStep, State},
 };
 
@@ -36,7 +36,7 @@ impl Noise {
 
 impl Default for Noise {
     fn default() -> Self {
-        Self { shift: 2e-3, turn_per_metre: 20.0, clean: 0.2, lead: 0 }
+        Self { shift: 1e-3, turn_per_metre: 20.0, clean: 0.2, lead: 4 }
     }
 }
 
@@ -97,44 +97,77 @@ impl<'a> Examples<'a> {
             (u128::from(seed) << 64) | u128::from(step),
             0xa02b_dbf7_bb3c_00a7_u128 ^ (u128::from(part) << 8),
         );
-        let mut drawn = Supervised::default();
-        let mut led = Lead::default();
-        for _ in 0..count {
-            let (e, frame) = self.places[random.random_range(0..self.places.len())];
-            let episode = &self.episodes[e as usize];
-            let frame = frame as usize;
-            let lead = if noise.lead > 0 && engine.is_some() {
-                random.random_range(0..=noise.lead).min(frame)
-            } else {
-                0
-            };
-            let bodies = bodies(episode);
-            let mut state = episode.frames[frame - lead].state.clone();
-            if !random.random_bool(noise.clean) {
-                disturb(&mut state, noise, &mut random);
-            }
-            if let Some(engine) = engine {
-                for k in frame - lead..frame {
-                    led.advance(episode, &bodies, &mut state, k, engine);
+        let mut starts: Vec<Start<'_>> = (0..count)
+            .map(|_| {
+                let (e, frame) = self.places[random.random_range(0..self.places.len())];
+                let (episode, frame) = (&self.episodes[e as usize], frame as usize);
+                let lead = match engine {
+                    Some(_) => random.random_range(0..=noise.lead).min(frame),
+                    None => 0,
+                };
+                let mut state = episode.frames[frame - lead].state.clone();
+                if !random.random_bool(noise.clean) {
+                    disturb(&mut state, noise, &mut random);
                 }
-            }
-            drawn.add(episode, &bodies, &state, frame, &mut led.motions);
+                Start { episode, bodies: bodies(episode), frame, at: frame - lead, state }
+            })
+            .collect();
+        let mut drawn = Supervised::default();
+        let mut motions = Vec::new();
+        if let Some(engine) = engine {
+            lead_up(&mut starts, engine, &mut drawn.batch);
+            drawn.batch.clear();
+        }
+        for start in &starts {
+            drawn.add(start, &mut motions);
         }
         drawn
     }
 }
 
+/// An example on its way from the state it was drawn at to the frame it is taken at.
+struct Start<'a> {
+    episode: &'a Episode,
+    bodies: Bodies,
+    /// The frame before the transition to learn.
+    frame: usize,
+    /// The frame that `state` belongs to.
+    at: usize,
+    state: State,
+}
+
+/// Rolls every start on to its frame with the network, one frame of all at a time.
+fn lead_up(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
+    let mut workspace = Workspace::default();
+    let mut corrections = Vec::new();
+    let mut motions = vec![Vec::new(); starts.len()];
+    loop {
+        batch.clear();
+        let mut left = false;
+        for (k, start) in starts.iter().enumerate().filter(|(_, start)| start.at < start.frame) {
+            left = true;
+            let (step, axis) = transition(start.episode, start.at);
+            let graph = k as u32;
+            add_graph(&start.bodies, &start.state, &step, axis, graph, batch, &mut motions[k]);
+        }
+        if !left {
+            return;
+        }
+        engine.forward(batch, &mut workspace, &mut corrections);
+        apply(batch, &corrections, &mut motions);
+        for (start, motions) in starts.iter_mut().zip(&motions).filter(|(s, _)| s.at < s.frame) {
+            let (step, _) = transition(start.episode, start.at);
+            integrate(&start.bodies, &mut start.state, motions, &step);
+            start.at += 1;
+        }
+    }
+}
+
 impl Supervised {
-    fn add(
-        &mut self,
-        episode: &Episode,
-        bodies: &Bodies,
-        state: &State,
-        frame: usize,
-        motions: &mut Vec<Motion>,
-    ) {
+    fn add(&mut self, start: &Start<'_>, motions: &mut Vec<Motion>) {
+        let Start { episode, bodies, frame, state, .. } = start;
         let first = self.batch.node_count();
-        let (step, axis) = transition(episode, frame);
+        let (step, axis) = transition(episode, *frame);
         add_graph(bodies, state, &step, axis, 0, &mut self.batch, motions);
         let next = &episode.frames[frame + 1].state;
         for node in &self.batch.nodes[first..] {
@@ -150,37 +183,6 @@ impl Supervised {
             let cylinder = episode.scene.objects[k].shape.is_cylinder();
             self.weight.extend(super::loss::weights(cylinder));
         }
-    }
-}
-
-/// Buffers for leading up to an example by the network's own rollout.
-#[derive(Default)]
-struct Lead {
-    batch: Batch,
-    motions: Vec<Motion>,
-    corrections: Vec<[f64; 6]>,
-    workspace: Workspace,
-}
-
-impl Lead {
-    fn advance(
-        &mut self,
-        episode: &Episode,
-        bodies: &Bodies,
-        state: &mut State,
-        frame: usize,
-        engine: &Engine,
-    ) {
-        self.batch.clear();
-        let (step, axis) = transition(episode, frame);
-        add_graph(bodies, state, &step, axis, 0, &mut self.batch, &mut self.motions);
-        engine.forward(&self.batch, &mut self.workspace, &mut self.corrections);
-        for (node, correction) in self.batch.nodes.iter().zip(&self.corrections) {
-            let mut output = node.prior;
-            output.iter_mut().zip(correction).for_each(|(value, change)| *value += change);
-            self.motions[node.object as usize] = node.decode(&output);
-        }
-        integrate(bodies, state, &self.motions, &step);
     }
 }
 

@@ -31,8 +31,9 @@ const REPLICAS: usize = 2;
 /// Graphs on which the feature scales are measured.
 const NORMALISER_GRAPHS: usize = 4096;
 
-/// Steps between refreshes of the network that leads up to examples (see `Noise::lead`).
-const REFRESH: u64 = 200;
+/// Steps between refreshes of the network that leads up to examples (see `Noise::lead`), and
+/// the steps at which a run can stop: there, going on needs nothing but the checkpoint.
+const REFRESH: u64 = 50;
 
 /// Why training stopped short.
 #[derive(Debug, Error)]
@@ -101,15 +102,12 @@ pub fn train(
     let mut since = (Instant::now(), 0u64, 0.0f64, 0.0f64);
     let mut lead: Option<Engine> = None;
     while run.optimiser.step < settings.steps {
-        if report.cancelled() {
-            break;
-        }
         let step = run.optimiser.step;
-        if settings.noise.lead > 0 && (lead.is_none() || step.is_multiple_of(REFRESH)) {
-            // From the averaged weights at a step that resuming visits too.
-            if step.is_multiple_of(REFRESH) {
-                lead = Some(Engine::new(&weights(&run, data, None)));
+        if step.is_multiple_of(REFRESH) {
+            if report.cancelled() {
+                break;
             }
+            lead = (settings.noise.lead > 0).then(|| Engine::new(&weights(&run, data, None)));
         }
         let (loss, gradients) = gradients(&run, &examples, lead.as_ref())?;
         let norm = run.optimiser.update(settings, &gradients);

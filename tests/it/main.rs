@@ -5,6 +5,7 @@ mod assets;
 mod cli;
 mod dataset;
 mod evaluation;
+mod network;
 mod planning;
 mod readme;
 mod simulation;

@@ -1,0 +1,285 @@
+//! The network as a whole: its symmetries, its two implementations, its weights file.
+
+use std::sync::Arc;
+
+use pushplan::{
+    brdpn::{
+        Card, Config, Engine, ErrorCard, Inputs, Normaliser, Parameters, Predictor, Weights,
+        WeightsError, Workspace,
+    },
+    dataset::{Dataset, DatasetConfig, Unwatched},
+    effect::{EffectModel, Learned},
+    geometry::{Pose, Shape, Vector},
+    graph::{Batch, Bodies, Motion, add_graph},
+    scene::{
+        Job, Object, Obstacle, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity,
+    },
+};
+
+/// Random weights whose last layer is not zero, so that the network matters.
+fn weights(width: usize) -> Weights {
+    let config = Config { width, steps: 2 };
+    let mut parameters = Parameters::fresh(&config, 3);
+    let like = parameters.values["motion.hidden"].clone();
+    for name in ["motion.even", "motion.odd"] {
+        if let Some(values) = parameters.values.get_mut(name) {
+            let count = values.len();
+            values.copy_from_slice(&like[..count]);
+        }
+    }
+    let batch = batch(&scene(), &scene().start(), &stroke());
+    Weights {
+        card: Card {
+            format: Card::FORMAT,
+            config,
+            normaliser: Normaliser::measure(&batch),
+            ranges: DatasetConfig::default().ranges(),
+            data_seed: 0,
+            episodes: 0,
+            steps: 0,
+            errors: ErrorCard::default(),
+        },
+        parameters,
+    }
+}
+
+fn object(shape: Shape, x: f64, y: f64, heading: f64) -> Object {
+    Object {
+        name: format!("{x} {y}"),
+        shape,
+        mass: 0.4,
+        friction: 0.5,
+        pose: Pose::new(x, y, heading),
+    }
+}
+
+/// A box against the tool, a cylinder against the box, a heavier box beside both, an obstacle.
+fn scene() -> Scene {
+    Scene {
+        table_friction: 0.4,
+        objects: vec![
+            object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
+            object(Shape::Cylinder { radius: 0.04, height: 0.1 }, 0.165, 0.02, 0.0),
+            Object {
+                mass: 1.1,
+                ..object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7)
+            },
+        ],
+        joints: Vec::new(),
+        obstacles: vec![Obstacle {
+            name: "wall".into(),
+            size: [0.02, 0.2, 0.1],
+            pose: Pose::new(0.22, -0.05, 0.1),
+            friction: 0.3,
+        }],
+    }
+}
+
+fn tool() -> Arc<Tool> {
+    let part = |name: &str, size, pose| Part { name: name.into(), size, pose };
+    let parts = vec![
+        part("bar", [0.04, 0.16, 0.05], Pose::default()),
+        part("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
+    ];
+    let joints = [[0, 1]];
+    let tool = Tool::assemble("t".into(), String::new(), Pose::default(), 0.6, parts, &joints);
+    Arc::new(tool.expect("one piece"))
+}
+
+fn stroke() -> Stroke {
+    let to = Pose::new(0.1, 0.02, 0.0);
+    Stroke { from: Pose::default(), to, duration: 1.0, settle: true }
+}
+
+fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
+    let mut batch = Batch::default();
+    let bodies = Bodies::new(scene, &tool(), 0.002, None);
+    let axis = (stroke.to.position - stroke.from.position).normalize();
+    let mut motions: Vec<Motion> = Vec::new();
+    add_graph(&bodies, state, &stroke.frame(0), axis, 0, &mut batch, &mut motions);
+    batch
+}
+
+fn rollout(model: &Learned, scene: &Scene, stroke: Stroke) -> State {
+    let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke] };
+    let job = Job { start: scene.start(), motion, hypothesis: None };
+    model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
+}
+
+/// One hundredth of a millimetre over ten frames is 1e-4 of a frame's motion per frame.
+const SAME: f64 = 1e-5;
+
+fn assert_same(a: &State, b: &State) {
+    for (p, q) in a.poses.iter().zip(&b.poses) {
+        assert!((p.position - q.position).norm() < SAME, "{p:?} {q:?}");
+    }
+}
+
+fn moved(scene: &Scene, by: Pose) -> Scene {
+    let mut scene = scene.clone();
+    scene.objects.iter_mut().for_each(|o| o.pose = by * o.pose);
+    scene.obstacles.iter_mut().for_each(|o| o.pose = by * o.pose);
+    scene
+}
+
+#[test]
+fn fused_inference_equals_the_candle_graph() {
+    let data = DatasetConfig { seed: 11, episodes: 20, ..DatasetConfig::default() };
+    let data = Dataset::in_memory(&data, &Unwatched).expect("data");
+    let mut batch = Batch::default();
+    for (k, episode) in data.episodes().iter().enumerate() {
+        let bodies = Bodies::new(&episode.scene, &episode.motion.tool, 0.002, None);
+        let stroke = &episode.motion.strokes[0];
+        let axis = (stroke.to.position - stroke.from.position).normalize();
+        for index in 0..stroke.frames().min(episode.frames.len()) {
+            let state = &episode.frames[index].state;
+            add_graph(
+                &bodies,
+                state,
+                &stroke.frame(index),
+                axis,
+                k as u32,
+                &mut batch,
+                &mut Vec::new(),
+            );
+        }
+    }
+    assert!(batch.node_count() > 100);
+    for width in [32, 128] {
+        let weights = weights(width);
+        let reference = Predictor::new(weights.card.config, &weights.parameters)
+            .and_then(|net| net.forward(&Inputs::new(&batch, &weights.card.normaliser)?))
+            .and_then(|out| out.to_vec2::<f32>())
+            .expect("candle");
+        let mut fused = Vec::new();
+        Engine::new(&weights).forward(&batch, &mut Workspace::default(), &mut fused);
+        assert_eq!(reference.len(), fused.len());
+        let scale = reference.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
+        for (a, b) in reference.iter().flatten().zip(fused.iter().flatten()) {
+            assert!((f64::from(*a) - b).abs() < 2e-5 * f64::from(scale), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn turning_and_shifting_the_scene_turns_and_shifts_the_prediction() {
+    let model = Learned::new(weights(64));
+    let (scene, stroke) = (scene(), stroke());
+    let plain = rollout(&model, &scene, stroke);
+    for by in [Pose::new(0.7, -1.3, 2.2), Pose::new(-4.0, 2.0, -0.4)] {
+        let turned = Stroke { from: by * stroke.from, to: by * stroke.to, ..stroke };
+        let there = rollout(&model, &moved(&scene, by), turned);
+        let back = State::at_rest(there.poses.iter().map(|p| by.inverse() * *p).collect());
+        assert_same(&plain, &back);
+    }
+}
+
+#[test]
+fn mirroring_the_scene_mirrors_the_prediction() {
+    let model = Learned::new(weights(64));
+    let mirror = |p: Pose| Pose::new(p.position.x, -p.position.y, -p.heading);
+    let (scene, stroke) = (scene(), stroke());
+    let plain = rollout(&model, &scene, stroke);
+    let mut other = scene.clone();
+    other.objects.iter_mut().for_each(|o| o.pose = mirror(o.pose));
+    other.obstacles.iter_mut().for_each(|o| o.pose = mirror(o.pose));
+    let mut mirrored = (*tool()).clone();
+    mirrored.parts.iter_mut().for_each(|p| p.pose = mirror(p.pose));
+    let stroke = Stroke { from: mirror(stroke.from), to: mirror(stroke.to), ..stroke };
+    let motion = ToolMotion { tool: Arc::new(mirrored), lift: 0.002, strokes: vec![stroke] };
+    let job = Job { start: other.start(), motion, hypothesis: None };
+    let there = model.rollout(&other, &[job], Record::Outcome)[0].outcome().clone();
+    let back = State::at_rest(there.poses.iter().map(|p| mirror(*p)).collect());
+    assert_same(&plain, &back);
+}
+
+#[test]
+fn the_order_of_objects_and_parts_does_not_matter() {
+    let model = Learned::new(weights(64));
+    let (scene, stroke) = (scene(), stroke());
+    let plain = rollout(&model, &scene, stroke);
+    let mut other = scene.clone();
+    other.objects.reverse();
+    let mut tool = (*tool()).clone();
+    tool.parts.reverse();
+    let motion = ToolMotion { tool: Arc::new(tool), lift: 0.002, strokes: vec![stroke] };
+    let job = Job { start: other.start(), motion, hypothesis: None };
+    let mut there = model.rollout(&other, &[job], Record::Outcome)[0].outcome().clone();
+    there.poses.reverse();
+    assert_same(&plain, &there);
+}
+
+#[test]
+fn another_description_of_the_same_cuboid_changes_nothing() {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    let model = Learned::new(weights(64));
+    let (scene, stroke) = (scene(), stroke());
+    let plain = rollout(&model, &scene, stroke);
+    let mut half_turned = scene.clone();
+    half_turned.objects[0].pose.heading += PI;
+    assert_same(&plain, &rollout(&model, &half_turned, stroke));
+    let mut square_turned = scene.clone();
+    square_turned.objects[2].pose.heading -= FRAC_PI_2;
+    assert_same(&plain, &rollout(&model, &square_turned, stroke));
+    let mut swapped = scene.clone();
+    swapped.objects[0].shape = Shape::Cuboid { size: [0.05, 0.08, 0.1] };
+    swapped.objects[0].pose.heading += FRAC_PI_2;
+    assert_same(&plain, &rollout(&model, &swapped, stroke));
+    let mut turned_cylinder = scene.clone();
+    turned_cylinder.objects[1].pose.heading += 1.0;
+    assert_same(&plain, &rollout(&model, &turned_cylinder, stroke));
+}
+
+#[test]
+fn a_golden_forward_pass() {
+    let weights = weights(32);
+    let mut state = scene().start();
+    state.velocities[1] = Velocity { linear: Vector::new(0.05, 0.02), angular: 0.4 };
+    let mut corrections = Vec::new();
+    let batch = batch(&scene(), &state, &stroke());
+    Engine::new(&weights).forward(&batch, &mut Workspace::default(), &mut corrections);
+    let rounded: Vec<[f64; 6]> =
+        corrections.iter().map(|c| c.map(|x| (x * 1e3).round() / 1e3)).collect();
+    insta::assert_debug_snapshot!(rounded);
+}
+
+#[test]
+fn weights_survive_their_file_and_damage_is_refused() {
+    let weights = weights(32);
+    let bytes = weights.to_bytes().expect("encode");
+    assert_eq!(bytes, weights.to_bytes().expect("encode"), "same weights, same bytes");
+    assert_eq!(Weights::from_bytes(&bytes).expect("decode"), weights);
+    assert!(matches!(Weights::from_bytes(&bytes[..50]), Err(WeightsError::Format(_))));
+    assert!(Weights::from_bytes(b"name: stick").is_err());
+    let mut poisoned = bytes.clone();
+    let end = poisoned.len();
+    poisoned[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
+    assert!(matches!(Weights::from_bytes(&poisoned), Err(WeightsError::Parameter { .. })));
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    assert!(text.contains("pushplan"));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let model = Learned::new(weights(64));
+    let scene = scene();
+    let jobs: Vec<Job> = (0..70)
+        .map(|k| {
+            let to = Pose::new(0.1, 0.001 * f64::from(k), 0.0);
+            let strokes = vec![Stroke { to, ..stroke() }];
+            let motion = ToolMotion { tool: tool(), lift: 0.002, strokes };
+            Job { start: scene.start(), motion, hypothesis: None }
+        })
+        .collect();
+    let run = |threads| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .expect("pool")
+            .install(|| model.rollout(&scene, &jobs, Record::Frames))
+    };
+    let one = run(1);
+    for threads in [2, 3] {
+        assert!(one == run(threads), "{threads} threads differ from one");
+    }
+}
