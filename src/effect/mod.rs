@@ -5,11 +5,13 @@
 
 mod learned;
 mod model;
+mod shipped;
 mod simulated;
 mod trivial;
 
 pub use crate::scene::Job;
 pub use learned::{Learned, QuasiStatic};
 pub use model::EffectModel;
+pub use shipped::EffectModels;
 pub use simulated::Simulated;
 pub use trivial::{Follow, Projection, Still};
