@@ -11,7 +11,7 @@ use super::{
     error::CliError,
     evaluate, exit_code, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session},
-    simulate, solve, verify,
+    simulate, solve, train, verify,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -33,6 +33,7 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
+    Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Bench(bench::BenchArgs),
     Schema(schema::SchemaArgs),
@@ -69,6 +70,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
+        Command::Train(args) => train::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Bench(args) => bench::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),

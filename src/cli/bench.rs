@@ -19,7 +19,7 @@ use super::{
     action::LibraryArgs,
     error::CliError,
     exit_code,
-    model::ModelName,
+    model::{self, ModelName},
     session::Session,
     solve::{EffortName, solve_error},
 };
@@ -41,8 +41,7 @@ enum What {
 /// What every benchmark takes.
 #[derive(Args, Debug)]
 struct Common {
-    /// What predicts the effect of pushes
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
     #[command(flatten)]
     library: LibraryArgs,
@@ -147,8 +146,10 @@ fn refinement(args: &RefinementArgs, session: &Session) -> Result<(), CliError> 
     let library = args.common.library.load()?;
     let model = args.common.model.load()?;
     let settings = Effort::Standard.settings();
+    let spinner = session.spinner("refining");
     let report = session
         .compute(|| refinement_report(&model, &library, &settings, args.seed, args.tasks as usize));
+    spinner.finish_and_clear();
     let head = format!(
         "{} random tasks of seed {}, {} at standard effort; {} with a push to refine\n\n",
         report.tasks, report.seed, report.model, report.planned
@@ -163,12 +164,14 @@ fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let model = args.common.model.load()?;
     let planar = ModelName::Planar.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
+    let spinner = session.spinner("timing");
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
     let models: [&dyn EffectModel; 2] = [&*model, &*planar];
     let Settings { offsets, .. } = Effort::Standard.settings();
     let searches =
         session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
+    spinner.finish_and_clear();
     let tables = [push_cost_table(&pushes), search_cost_table(&searches)];
     let report = json!({"pushes": pushes, "searches": searches});
     args.common.print(session, "cost", &report, "", &tables)

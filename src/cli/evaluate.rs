@@ -8,13 +8,21 @@ use crate::bench::{HeldOut, HeldOutReport, SuiteKind};
 use crate::effect::EffectModel;
 use crate::report::{group_table, heldout_line, heldout_table};
 
-use super::{action::LibraryArgs, error::CliError, exit_code, model::ModelName, session::Session};
+use super::{
+    action::LibraryArgs,
+    error::CliError,
+    exit_code,
+    model::{self, ModelName},
+    session::Session,
+};
 
 /// Measure prediction errors on held-out pushes, beside trivial predictors
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan evaluate --on single --pushes 2000")]
 pub struct EvaluateArgs {
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    model: ModelName,
     /// Which pushes; by default all kinds
     #[arg(long, value_enum, value_name = "KIND")]
     on: Vec<SuiteName>,
@@ -61,21 +69,22 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
         [] => SuiteKind::ALL.to_vec(),
         named => named.iter().map(|name| SuiteKind::from(*name)).collect(),
     };
-    let models = ModelName::MEASURED
-        .into_iter()
-        .map(ModelName::load)
+    let baselines = ModelName::BASELINES.into_iter().filter(|name| *name != args.model);
+    let models = std::iter::once(args.model.clone())
+        .chain(baselines)
+        .map(|name| name.load())
         .collect::<Result<Vec<_>, CliError>>()?;
     let mut reports = Vec::new();
     for kind in kinds {
-        let mut spinner = session.spinner(kind.title());
+        let spinner = session.spinner(kind.title());
         let report = session.compute(|| {
-            spinner.say(|| "simulating".to_owned());
+            spinner.set_message("simulating");
             let truth = HeldOut::prepare(kind, &library, args.seed, args.pushes as usize);
-            spinner.say(|| "predicting".to_owned());
+            spinner.set_message("predicting");
             let models: Vec<&dyn EffectModel> = models.iter().map(|model| &**model).collect();
             truth.report(&models)
         });
-        spinner.finish();
+        spinner.finish_and_clear();
         if !args.json {
             // Each as soon as it is there: the next one may take minutes.
             session.print(&text(&report, args.markdown))?;

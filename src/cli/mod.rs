@@ -20,6 +20,7 @@ mod schema;
 mod session;
 mod simulate;
 mod solve;
+mod train;
 mod verify;
 
 pub use app::run;

@@ -1,50 +1,107 @@
 //! Effect models by name.
 
+use std::path::PathBuf;
+use std::str::FromStr;
 use std::sync::Arc;
 
-use clap::ValueEnum;
-
-use crate::effect::{EffectModel, Follow, Projection, Simulated, Still};
+use crate::brdpn::Weights;
+use crate::effect::{
+    EffectModel, EffectModels, Follow, Learned, Projection, QuasiStatic, Simulated, Still,
+};
 use crate::sim::Simulator;
 
 use super::error::CliError;
 
-/// The effect models that can be asked for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+/// The line for `--help`.
+pub const HELP: &str = "What predicts the effect of pushes: brdpn is the network; planar and 3d simulate; \
+    quasi-static is the network's prior alone; projection, follow and still are trivial; or a \
+    file of weights";
+
+/// The name of the model that is used unless another is asked for.
+pub const DEFAULT: &str = "brdpn";
+
+/// An effect model as asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ModelName {
-    /// The planar simulation
-    #[default]
+    /// The shipped network.
+    Brdpn,
+    /// The network's quasi-static prior, without the network.
+    QuasiStatic,
+    /// The planar simulation.
     Planar,
-    /// The 3-D simulation: slow
-    #[value(name = "3d")]
+    /// The 3-D simulation: slow.
     Spatial,
-    /// Nothing moves
+    /// Nothing moves.
     Still,
-    /// What the tool touches moves along with it
+    /// What the tool touches moves along with it.
     Follow,
-    /// Overlaps with the tool are removed, without physics
+    /// Overlaps with the tool are removed, without physics.
     Projection,
+    /// A network with these weights.
+    Weights(PathBuf),
 }
 
 impl ModelName {
-    /// Those that `predict` compares.
-    pub const LADDER: [ModelName; 2] = [ModelName::Planar, ModelName::Spatial];
+    /// Names of all but weights files.
+    const NAMES: [(&'static str, ModelName); 7] = [
+        ("brdpn", ModelName::Brdpn),
+        ("planar", ModelName::Planar),
+        ("3d", ModelName::Spatial),
+        ("quasi-static", ModelName::QuasiStatic),
+        ("projection", ModelName::Projection),
+        ("follow", ModelName::Follow),
+        ("still", ModelName::Still),
+    ];
 
-    /// Those whose errors `evaluate` measures.
-    pub const MEASURED: [ModelName; 4] =
-        [ModelName::Spatial, ModelName::Still, ModelName::Follow, ModelName::Projection];
+    /// Those that stand beside any other in `predict`.
+    pub const SIMULATED: [ModelName; 2] = [ModelName::Planar, ModelName::Spatial];
+
+    /// Those that stand beside any other in `evaluate`: what it must beat, and the other engine.
+    pub const BASELINES: [ModelName; 5] = [
+        ModelName::Spatial,
+        ModelName::QuasiStatic,
+        ModelName::Projection,
+        ModelName::Follow,
+        ModelName::Still,
+    ];
 
     /// The model.
     ///
     /// # Errors
-    /// [`CliError::Unexpected`] if the shipped weights are broken.
-    pub fn load(self) -> Result<Arc<dyn EffectModel>, CliError> {
+    /// A weights file that is missing, damaged or of someone else.
+    pub fn load(&self) -> Result<Arc<dyn EffectModel>, CliError> {
         Ok(match self {
+            Self::Brdpn => EffectModels::shipped()
+                .map_err(|error| CliError::unexpected("the shipped weights are broken", &error))?,
+            Self::QuasiStatic => Arc::new(QuasiStatic),
             Self::Planar => Arc::new(Simulated::new(Simulator::planar())),
             Self::Spatial => Arc::new(Simulated::new(Simulator::spatial())),
             Self::Still => Arc::new(Still),
             Self::Follow => Arc::new(Follow),
             Self::Projection => Arc::new(Projection),
+            Self::Weights(path) => {
+                let wrong = |why: String| CliError::File(format!("{}: {why}", path.display()));
+                let bytes = std::fs::read(path)
+                    .map_err(|error| wrong(format!("cannot read the file: {error}")))?;
+                let weights =
+                    Weights::from_bytes(&bytes).map_err(|error| wrong(error.to_string()))?;
+                Arc::new(Learned::new(weights))
+            }
         })
+    }
+}
+
+impl FromStr for ModelName {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some((_, model)) = Self::NAMES.into_iter().find(|(name, _)| *name == text) {
+            return Ok(model);
+        }
+        if text.ends_with(".safetensors") {
+            return Ok(Self::Weights(PathBuf::from(text)));
+        }
+        let names: Vec<&str> = Self::NAMES.iter().map(|(name, _)| *name).collect();
+        Err(format!("use {}, or a file that ends in .safetensors", names.join(", ")))
     }
 }

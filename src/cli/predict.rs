@@ -17,7 +17,7 @@ use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
     exit_code,
-    model::ModelName,
+    model::{self, ModelName},
     push_argument::FORMS,
     session::Session,
 };
@@ -35,6 +35,8 @@ pub struct PredictArgs {
     action: ActionArgs,
     #[command(flatten)]
     library: LibraryArgs,
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    model: ModelName,
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -52,7 +54,8 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let motion = plan.motion(&tool);
     let mut effects = Vec::new();
-    for name in ModelName::LADDER {
+    let simulated = ModelName::SIMULATED.into_iter().filter(|name| *name != args.model);
+    for name in std::iter::once(args.model.clone()).chain(simulated) {
         let model = name.load()?;
         for warning in model.warnings(&task.scene, &motion) {
             session.warn(&format!("{}: {warning}", model.name()));

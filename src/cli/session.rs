@@ -1,7 +1,7 @@
 //! What every subcommand shares: where to write, how to show progress, how many threads.
 
 use std::io::{IsTerminal, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -79,39 +79,23 @@ impl Session {
         bar
     }
 
-    /// A spinner that says what is being done, once it has taken a while.
-    pub fn spinner(&self, what: &str) -> Spinner {
+    /// A spinner for work whose length is not known, shown once it has taken a while. Invisible
+    /// unless stderr is a terminal.
+    pub fn spinner(&self, what: &str) -> ProgressBar {
         let bar = ProgressBar::hidden();
-        bar.set_prefix(what.to_owned());
-        bar.set_style(style("{spinner} {prefix} {elapsed}: {msg}"));
-        let visible = !self.quiet && std::io::stderr().is_terminal();
-        Spinner { bar, since: visible.then(Instant::now) }
-    }
-}
-
-/// Progress of work whose length is not known.
-pub struct Spinner {
-    bar: ProgressBar,
-    /// When the wait began; none once the spinner is shown, or if it never will be.
-    since: Option<Instant>,
-}
-
-impl Spinner {
-    /// Tells what is being done now.
-    pub fn say(&mut self, message: impl FnOnce() -> String) {
-        if self.since.is_some_and(|since| since.elapsed() > SHOW_AFTER) {
-            self.since = None;
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.bar.enable_steady_tick(Duration::from_millis(200));
+        if !self.quiet && std::io::stderr().is_terminal() {
+            bar.set_prefix(what.to_owned());
+            bar.set_style(style("{spinner} {prefix}, {elapsed} {msg}"));
+            let later = bar.clone();
+            std::thread::spawn(move || {
+                std::thread::sleep(SHOW_AFTER);
+                if !later.is_finished() {
+                    later.set_draw_target(ProgressDrawTarget::stderr());
+                    later.enable_steady_tick(Duration::from_millis(200));
+                }
+            });
         }
-        if !self.bar.is_hidden() {
-            self.bar.set_message(message());
-        }
-    }
-
-    /// Takes it off the screen.
-    pub fn finish(&self) {
-        self.bar.finish_and_clear();
+        bar
     }
 }
 

@@ -12,7 +12,12 @@ use crate::sim::Simulator;
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
-    action::LibraryArgs, error::CliError, exit_code, model::ModelName, output, session::Session,
+    action::LibraryArgs,
+    error::CliError,
+    exit_code,
+    model::{self, ModelName},
+    output,
+    session::Session,
 };
 
 /// Choose a tool and pushes for a task, verify them, write the plan and its picture
@@ -30,8 +35,7 @@ pub struct SolveArgs {
     /// How hard to try
     #[arg(long, value_enum, default_value_t)]
     effort: EffortName,
-    /// What predicts the effect of pushes during the search
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -53,15 +57,15 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let planner =
         Planner::builder(args.model.load()?).effort(args.effort.into()).seed(args.seed).build();
     let model = planner.model().name();
-    let mut bar = session.spinner("solving");
+    let bar = session.spinner("solving");
     let solved = session.compute(|| {
         planner.solve_with(&task, &library, &mut |progress| {
             let pushes = progress.pushes;
             let (stage, done, total) = (progress.stage, progress.done, progress.total);
-            bar.say(|| format!("{stage}, plans of {pushes} push(es), {done}/{total}"));
+            bar.set_message(format!("{stage}, plans of {pushes} push(es), {done}/{total}"));
         })
     });
-    bar.finish();
+    bar.finish_and_clear();
     let solution = solved.map_err(solve_error)?;
     for warning in &solution.warnings {
         session.warn(&warning.to_string());

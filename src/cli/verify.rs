@@ -36,7 +36,9 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let file = PlanFile::load(&args.plan)?;
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let verifier = Verifier::new(settings);
+    let spinner = session.spinner("replaying");
     let verdict = session.compute(|| verifier.verify(&file.task, &file.tool, &file.plan));
+    spinner.finish_and_clear();
     for evidence in verdict.evidence.iter().filter(|e| e.disturbance == "nominal") {
         for warning in &evidence.warnings {
             session.warn(&warning.to_string());

@@ -10,6 +10,7 @@ mod plan_text;
 mod solution;
 mod svg;
 mod table;
+mod training;
 
 pub use chart::{Axis, Chart, Mark, Series};
 pub use measured::{
@@ -20,3 +21,4 @@ pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text, task_table};
 pub use table::{Align, Table};
+pub use training::training_chart;

@@ -1,0 +1,229 @@
+//! `pushplan train`: weights from data, in a folder that holds the whole run.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use indicatif::ProgressBar;
+
+use crate::asset::write_atomic;
+use crate::brdpn::Config;
+use crate::dataset::{Dataset, DatasetConfig};
+use crate::report::{millimetres, training_chart};
+use crate::train::{CheckpointError, MetricLine, Report, Settings, TrainError, train};
+
+use super::{
+    error::CliError,
+    exit_code,
+    generate::{Following, data_error},
+    interrupt,
+    session::Session,
+};
+
+/// Train the network; the same command goes on with an interrupted run
+#[derive(Args, Debug)]
+#[command(
+    after_help = "The folder holds the run: checkpoint.safetensors to go on from, metrics.jsonl, curves.svg, and
+best.safetensors, the weights with the lowest held-out error. Ctrl-C saves and stops; the same
+command then goes on, to the same bits as a run that never stopped.
+
+Examples:
+  pushplan train runs/small --episodes 2000 --steps 2000 --width 64
+  pushplan train runs/full --data data/train
+  pushplan evaluate --model runs/full/best.safetensors"
+)]
+pub struct TrainArgs {
+    /// Folder of the run
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Folder with data made by `generate`; by default they are made in memory
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["episodes", "data_seed"])]
+    data: Option<PathBuf>,
+    /// Number of episodes made in memory
+    #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
+    episodes: u64,
+    /// Seed of the episodes made in memory
+    #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
+    data_seed: u64,
+    /// Number of held-out episodes
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    held_out: u64,
+    /// Seed of the held-out episodes; must differ from that of the data
+    #[arg(long, value_name = "N", default_value_t = 1_000_003)]
+    held_out_seed: u64,
+    /// Steps of the whole schedule
+    #[arg(long, value_name = "N", default_value_t = Settings::default().steps,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Steps between held-out evaluations and checkpoints
+    #[arg(long, value_name = "N", default_value_t = Settings::default().evaluate_every,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    evaluate_every: u64,
+    /// Graphs per step, an even number
+    #[arg(long, value_name = "N", default_value_t = Settings::default().batch as u32,
+          value_parser = clap::value_parser!(u32).range(2..=65_536))]
+    batch: u32,
+    /// Hidden width, an even number
+    #[arg(long, value_name = "N", default_value_t = Config::default().width as u32,
+          value_parser = clap::value_parser!(u32).range(2..=4096))]
+    width: u32,
+    /// Propagation steps
+    #[arg(long, value_name = "N", default_value_t = Config::default().steps as u32,
+          value_parser = clap::value_parser!(u32).range(1..=16))]
+    propagation: u32,
+    /// Highest learning rate
+    #[arg(long, value_name = "X", default_value_t = Settings::default().learning_rate)]
+    learning_rate: f64,
+    /// Largest shift of noisy inputs, metres
+    #[arg(long, value_name = "X", default_value_t = Settings::default().noise.shift)]
+    noise: f64,
+    /// Largest number of frames that the network's own rollout leads up to an example
+    #[arg(long, value_name = "N", default_value_t = Settings::default().noise.lead)]
+    lead: usize,
+    /// Seed of first weights, batches and noise
+    #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
+    seed: u64,
+}
+
+/// Shows how far training is, and stops it on Ctrl-C.
+struct Followed<'a> {
+    folder: &'a Path,
+    session: &'a Session,
+    bar: ProgressBar,
+    lines: Vec<MetricLine>,
+    /// What went wrong while showing; training itself goes on.
+    trouble: Option<CliError>,
+}
+
+pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
+    let settings = args.settings()?;
+    interrupt::watch();
+    let following = Following::new(session, "data");
+    let made = session.compute(|| {
+        let data = match &args.data {
+            Some(folder) => Dataset::open(folder)?,
+            None => {
+                let default = DatasetConfig::default();
+                Dataset::in_memory(&default.split(args.data_seed, args.episodes), &following)?
+            }
+        };
+        let held_out = data.config().split(args.held_out_seed, args.held_out);
+        Ok((Dataset::in_memory(&held_out, &following)?, data))
+    });
+    following.finish();
+    let (held_out, data) = made.map_err(data_error)?;
+    if data.config().seed == args.held_out_seed {
+        let message = "the held-out episodes have the seed of the data";
+        return Err(CliError::usage(message, "choose another --held-out-seed"));
+    }
+    let mut followed = Followed {
+        folder: &args.folder,
+        session,
+        bar: session.bar("steps"),
+        lines: Vec::new(),
+        trouble: None,
+    };
+    let best = session.compute(|| train(&settings, &data, &held_out, &args.folder, &mut followed));
+    followed.bar.finish_and_clear();
+    let best = best.map_err(train_error)?;
+    if let Some(trouble) = followed.trouble {
+        return Err(trouble);
+    }
+    if interrupt::requested() {
+        let message = "stopped; the run is saved, the same command goes on with it";
+        return Err(CliError::Interrupted(message.to_owned()));
+    }
+    if let Some(best) = best {
+        session.print(&format!("wrote {}\n", best.display()))?;
+    }
+    Ok(exit_code::DONE)
+}
+
+impl TrainArgs {
+    fn settings(&self) -> Result<Settings, CliError> {
+        let default = Settings::default();
+        let mut settings = Settings {
+            config: Config { width: self.width as usize, steps: self.propagation as usize },
+            seed: self.seed,
+            steps: self.steps,
+            batch: self.batch as usize,
+            learning_rate: self.learning_rate,
+            // A short run must get past its warm-up as well.
+            warm_up: default.warm_up.min(self.steps / 10),
+            evaluate_every: self.evaluate_every,
+            ..default
+        };
+        settings.noise.shift = self.noise;
+        settings.noise.lead = self.lead;
+        for (name, even) in [("--width", self.width), ("--batch", self.batch)] {
+            if even % 2 == 1 {
+                let message = format!("{name} must be even, not {even}");
+                return Err(CliError::usage(message, format!("try {}", even + 1)));
+            }
+        }
+        let sound = |value: f64, largest: f64| (0.0..=largest).contains(&value);
+        if !sound(self.learning_rate, 1.0) || self.learning_rate == 0.0 {
+            return Err(CliError::usage(
+                "--learning-rate must be above 0 and at most 1",
+                "try 0.002",
+            ));
+        }
+        if !sound(self.noise, 0.1) {
+            return Err(CliError::usage("--noise must be 0 to 0.1 m", "try 0.001"));
+        }
+        Ok(settings)
+    }
+}
+
+impl Report for Followed<'_> {
+    fn line(&mut self, line: &MetricLine) {
+        self.lines.push(line.clone());
+        let error = &line.held_out;
+        let text = format!(
+            "step {:>7}  loss {:.4}  held out: mean {}, median {}, p95 {}  {:.0} graphs/s\n",
+            line.step,
+            line.loss,
+            millimetres(error.mean),
+            millimetres(error.median),
+            millimetres(error.p95),
+            line.graphs_per_second
+        );
+        let shown = self.bar.suspend(|| self.session.print(&text));
+        let drawn = self.draw();
+        self.trouble = self.trouble.take().or(shown.and(drawn).err());
+    }
+
+    fn step(&mut self, step: u64, of: u64) {
+        self.bar.set_length(of);
+        self.bar.set_position(step);
+    }
+
+    fn cancelled(&self) -> bool {
+        interrupt::requested() || self.trouble.is_some()
+    }
+}
+
+impl Followed<'_> {
+    /// The curves of the whole run, also of the part before it was interrupted.
+    fn draw(&self) -> Result<(), CliError> {
+        let path = self.folder.join("metrics.jsonl");
+        let text = std::fs::read_to_string(&path)
+            .map_err(|error| CliError::unexpected("cannot read the metrics", &error))?;
+        let lines: Vec<MetricLine> =
+            text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        let svg = training_chart(&lines).to_svg();
+        write_atomic(self.folder.join("curves.svg"), svg.as_bytes()).map_err(CliError::Output)
+    }
+}
+
+fn train_error(error: TrainError) -> CliError {
+    match error {
+        TrainError::Data(error) => data_error(error),
+        TrainError::Write(faults) => CliError::Output(faults),
+        TrainError::Checkpoint(_, CheckpointError::Other(_)) => CliError::usage(
+            error.to_string(),
+            "the same settings go on with a run; every setting counts",
+        ),
+        TrainError::Checkpoint(..) => CliError::File(error.to_string()),
+        _ => CliError::Unexpected(error.to_string()),
+    }
+}

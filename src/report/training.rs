@@ -1,0 +1,28 @@
+//! Curves of a training run.
+
+use crate::train::MetricLine;
+
+use super::chart::{Axis, Chart, Mark, Series};
+
+/// Held-out errors over the steps.
+pub fn training_chart(lines: &[MetricLine]) -> Chart {
+    let series = |name: &str, value: &dyn Fn(&MetricLine) -> f64| Series {
+        name: name.to_owned(),
+        points: lines.iter().map(|line| [line.step as f64, 1e3 * value(line)]).collect(),
+        mark: Mark::Line,
+        labels: Vec::new(),
+    };
+    Chart {
+        title: "Held-out final position error during training".to_owned(),
+        x: Axis::linear("steps"),
+        y: Axis::log("error, mm"),
+        series: vec![
+            series("95th percentile", &|line| line.held_out.p95),
+            series("mean", &|line| line.held_out.mean),
+            series("median", &|line| line.held_out.median),
+            series("mean, one object", &|line| {
+                line.held_out.single.as_ref().map_or(f64::NAN, |single| single.mean)
+            }),
+        ],
+    }
+}
