@@ -14,16 +14,14 @@
 //!
 //! ```
 //! use pushplan::asset::ToolLibrary;
-//! use pushplan::effect::Simulated;
+//! use pushplan::effect::EffectModels;
 //! use pushplan::scene::Task;
-//! use pushplan::sim::Simulator;
 //! use pushplan::solve::{Effort, PlanStatus, Planner};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let library = ToolLibrary::embedded()?;
 //! let task = Task::load("tasks/pull-back.yaml")?;
-//! let model = Simulated::new(Simulator::planar());
-//! let planner = Planner::builder(model).effort(Effort::Standard).build();
+//! let planner = Planner::builder(EffectModels::shipped()?).effort(Effort::Standard).build();
 //! let solution = planner.solve(&task, &library)?;
 //! assert_eq!(solution.status, PlanStatus::Solved);
 //! println!("use the {}", solution.plans[0].plan.tool);

@@ -13,7 +13,7 @@ use crate::report::{
     Table, push_cost_table, refinement_table, search_cost_table, solution_json, task_table,
 };
 use crate::scene::Task;
-use crate::solve::{Effort, Planner, Settings, Solution};
+use crate::solve::{Effort, Planner, Solution};
 
 use super::{
     action::LibraryArgs,
@@ -91,10 +91,13 @@ struct CostArgs {
     /// The task that is searched
     #[arg(value_name = "TASK")]
     task: PathBuf,
-    /// Candidates of the search
+    /// Most candidates of the search
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     candidates: u32,
+    /// Lateral offsets per face; by default those of the standard effort
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
+    offsets: Option<u16>,
     /// Pushes predicted together
     #[arg(long, value_name = "N", default_value_t = 64,
           value_parser = clap::value_parser!(u16).range(1..=4096))]
@@ -168,7 +171,8 @@ fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
     let models: [&dyn EffectModel; 2] = [&*model, &*planar];
-    let Settings { offsets, .. } = Effort::Standard.settings();
+    let standard = Effort::Standard.settings().offsets;
+    let offsets = args.offsets.map_or(standard, usize::from);
     let searches =
         session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
     spinner.finish_and_clear();
