@@ -11,7 +11,7 @@ use crate::graph::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
 pub struct Statistics {
     /// Zero for odd features, whose sign must survive.
     pub mean: Vec<f32>,
-    /// At least [`MIN_DEVIATION`].
+    /// At least `MIN_DEVIATION`.
     pub deviation: Vec<f32>,
 }
 

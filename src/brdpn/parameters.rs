@@ -20,7 +20,7 @@ pub struct Parameters {
 
 /// Names and shapes of all parameters, in the order of their names' use. h is half the width.
 ///
-/// A matrix [2, h, h] acts on the even half and on the odd half separately; biases [h] exist
+/// A matrix `[2, h, h]` acts on the even half and on the odd half separately; biases `[h]` exist
 /// for the even half alone, since a constant cannot change sign under mirroring.
 pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
     let h = config.half();

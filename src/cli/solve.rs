@@ -54,8 +54,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
     output::prepare(&args.out)?;
-    let planner =
-        Planner::builder(args.model.load()?).effort(args.effort.into()).seed(args.seed).build();
+    let planner = Planner::builder(model).effort(args.effort.into()).seed(args.seed).build();
     let model = planner.model().name();
     let bar = session.spinner("solving");
     let solved = session.compute(|| {

@@ -29,8 +29,8 @@ pub struct Node {
 }
 
 impl Node {
-    /// A motion in output units and this node's axes: lengths over [`UNIT`], velocities times
-    /// the frame's duration over [`UNIT`], turns times c over [`UNIT`].
+    /// A motion in output units and this node's axes: lengths over `UNIT`, velocities times
+    /// the frame's duration over `UNIT`, turns times c over `UNIT`.
     pub fn encode(&self, motion: &Motion) -> [f64; 6] {
         let (ax, ay) = (self.axis.x, self.axis.y);
         let along = |v: Vector| (ax * v.x + ay * v.y) / UNIT;
@@ -86,9 +86,9 @@ pub struct Batch {
     pub relation_even: Vec<f32>,
     /// [R, RELATION_ODD].
     pub relation_odd: Vec<f32>,
-    /// [R], node index of every relation's receiver.
+    /// `[R]`, node index of every relation's receiver.
     pub receivers: Vec<u32>,
-    /// [R], node index of every relation's sender, or [`KINEMATIC`].
+    /// `[R]`, node index of every relation's sender, or [`KINEMATIC`].
     pub senders: Vec<u32>,
     /// Contacts with an overlap, in the order of the relations.
     pub touches: Vec<Touch>,

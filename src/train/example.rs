@@ -18,7 +18,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
     /// Largest shift drawn, metres. The size of a scene's disturbance is drawn log-uniformly
-    /// from [`Noise::SMALLEST`] of this to all of it, so that precision near the truth and
+    /// from `Noise::SMALLEST` of this to all of it, so that precision near the truth and
     /// recovery from afar are both trained.
     pub shift: f64,
     /// Radians of turn per metre of shift.

@@ -7,7 +7,7 @@ use super::Settings;
 /// Share of the highest rate at which the schedule ends.
 const FLOOR: f64 = 0.005;
 
-/// Linear warm-up, then half a cosine down to [`FLOOR`] (Loshchilov and Hutter 2017).
+/// Linear warm-up, then half a cosine down to `FLOOR` (Loshchilov and Hutter 2017).
 pub fn learning_rate(settings: &Settings, step: u64) -> f64 {
     let peak = settings.learning_rate;
     if step < settings.warm_up {
