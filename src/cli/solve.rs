@@ -53,8 +53,9 @@ pub struct SolveArgs {
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
+    let effects = args.model.load()?;
     output::prepare(&args.out)?;
-    let planner = Planner::builder(model).effort(args.effort.into()).seed(args.seed).build();
+    let planner = Planner::builder(effects).effort(args.effort.into()).seed(args.seed).build();
     let model = planner.model().name();
     let bar = session.spinner("solving");
     let solved = session.compute(|| {
