@@ -10,4 +10,5 @@ mod planning;
 mod readme;
 mod simulation;
 mod solving;
+mod training;
 mod verification;

@@ -1,0 +1,108 @@
+//! Training: resumable to the bit, the same on any number of threads, and it learns.
+
+use std::{fs, path::Path};
+
+use pushplan::{
+    brdpn::{Config, Weights},
+    dataset::{Dataset, DatasetConfig, Unwatched},
+    train::{Checkpoint, CheckpointError, MetricLine, Report, Settings, TrainError, train},
+};
+
+fn settings() -> Settings {
+    Settings {
+        config: Config { width: 16, steps: 2 },
+        steps: 200,
+        batch: 32,
+        warm_up: 20,
+        evaluate_every: 50,
+        ..Settings::default()
+    }
+}
+
+fn data(seed: u64, episodes: u64) -> Dataset {
+    let config = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
+    Dataset::in_memory(&config, &Unwatched).expect("data")
+}
+
+/// Keeps the lines, and stops at a step.
+#[derive(Default)]
+struct Listener {
+    stop_at: Option<u64>,
+    step: u64,
+    lines: Vec<MetricLine>,
+}
+
+impl Report for Listener {
+    fn line(&mut self, line: &MetricLine) {
+        self.lines.push(line.clone());
+    }
+
+    fn step(&mut self, step: u64, _: u64) {
+        self.step = step;
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop_at.is_some_and(|stop| self.step >= stop)
+    }
+}
+
+fn run(folder: &Path, data: &Dataset, held_out: &Dataset, stop_at: Option<u64>) -> Listener {
+    let mut listener = Listener { stop_at, ..Listener::default() };
+    train(&settings(), data, held_out, folder, &mut listener).expect("training");
+    listener
+}
+
+fn files(folder: &Path) -> (Vec<u8>, Vec<u8>) {
+    let read = |name| fs::read(folder.join(name)).expect(name);
+    (read("checkpoint.safetensors"), read("best.safetensors"))
+}
+
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
+    let (data, held_out) = (data(1, 40), data(2, 10));
+    let folder = tempfile::tempdir().expect("folder");
+    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+    let pool =
+        |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+    let lines = pool(2).install(|| run(&whole, &data, &held_out, None)).lines;
+    pool(1).install(|| run(&parts, &data, &held_out, Some(70)));
+    let stopped = fs::read(parts.join("checkpoint.safetensors")).expect("checkpoint");
+    // A run stops only where going on needs nothing but the checkpoint.
+    assert_eq!(Checkpoint::from_bytes(&stopped).expect("readable").optimiser.step, 100);
+    pool(1).install(|| run(&parts, &data, &held_out, None));
+    assert!(files(&whole) == files(&parts), "the resumed run ended with other bits");
+
+    assert_eq!(lines.iter().map(|l| l.step).collect::<Vec<_>>(), [50, 100, 150, 200]);
+    assert!(lines[3].loss < 0.9 * lines[0].loss, "{} {}", lines[0].loss, lines[3].loss);
+    let written = fs::read_to_string(parts.join("metrics.jsonl")).expect("metrics");
+    let steps: Vec<u64> = written
+        .lines()
+        .map(|line| serde_json::from_str::<MetricLine>(line).expect("a metric line").step)
+        .collect();
+    assert_eq!(steps, [50, 100, 150, 200]);
+
+    let best = Weights::from_bytes(&files(&whole).1).expect("weights");
+    assert_eq!(best.card.data_seed, 1);
+    assert!(best.card.errors.pushes > 0 && best.card.errors.p95 > 0.0);
+}
+
+#[test]
+fn a_checkpoint_of_another_run_or_a_damaged_one_is_refused_and_kept() {
+    let (data, held_out) = (data(1, 5), data(2, 2));
+    let folder = tempfile::tempdir().expect("folder");
+    let short = Settings { steps: 1, evaluate_every: 1, ..settings() };
+    let mut listener = Listener::default();
+    train(&short, &data, &held_out, folder.path(), &mut listener).expect("training");
+    let path = folder.path().join("checkpoint.safetensors");
+    let before = fs::read(&path).expect("checkpoint");
+
+    let other = Settings { seed: 9, ..short.clone() };
+    let error = train(&other, &data, &held_out, folder.path(), &mut listener);
+    assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Other("settings")))));
+    assert_eq!(fs::read(&path).expect("checkpoint"), before);
+
+    fs::write(&path, &before[..100]).expect("damage");
+    let error = train(&short, &data, &held_out, folder.path(), &mut listener);
+    assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Format(_)))));
+    assert_eq!(fs::read(&path).expect("checkpoint").len(), 100, "nothing was overwritten");
+}
