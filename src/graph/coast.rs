@@ -37,7 +37,7 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     let (mut travel, mut turn) = (0.0, 0.0);
     let mut left = duration;
     for piece in 0..PIECES {
-        let s = v.hypot(w);
+        let s = (v * v + w * w).sqrt();
         if s < 1e-9 || left <= 0.0 {
             break;
         }
@@ -47,7 +47,7 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
         let half = 0.5 * step.min(SHARE * s / body.deceleration) * body.deceleration;
         // Midpoint rule: the share of each speed in the friction is taken half a piece on.
         let (v_half, w_half) = (v - half * v / s, w - half * body.spin * w / s);
-        let s_half = v_half.hypot(w_half);
+        let s_half = (v_half * v_half + w_half * w_half).sqrt();
         let slow_v = body.deceleration * v_half / s_half;
         let slow_w = body.deceleration * body.spin * w_half.abs() / s_half;
         let (moved, v_next) = slide(v, slow_v, step);
