@@ -5,6 +5,7 @@
 
 mod cpu_clock;
 mod heldout;
+mod inference;
 mod random_task;
 mod refinement;
 mod statistics;
@@ -12,6 +13,7 @@ mod suite;
 mod timing;
 
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
+pub use inference::{InferenceCost, inference_costs};
 pub use random_task::random_task;
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use statistics::{Summary, mean, percentile};

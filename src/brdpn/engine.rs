@@ -5,7 +5,7 @@
 //! parity first, so every half is one dense matrix.
 
 use crate::graph::{
-    Batch, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD,
+    Batch, KINEMATIC, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD,
 };
 
 use super::{
@@ -92,6 +92,19 @@ impl Engine {
         }
     }
 
+    /// Floating-point operations of the matrix products in one [`Engine::forward`], counting a
+    /// multiplication and an addition each.
+    pub fn operations(&self, batch: &Batch) -> u64 {
+        let (nodes, relations, h) = (batch.node_count(), batch.relation_count(), self.half);
+        let square = 2 * h * h;
+        let per_relation = (RELATION_EVEN + RELATION_ODD) * h + 2 * square;
+        let per_step = if objects_send(batch) { 4 } else { 3 } * square;
+        let per_node = (NODE_EVEN + NODE_ODD + OUTPUT_EVEN + OUTPUT_ODD) * h
+            + 3 * square
+            + self.steps * per_step;
+        2 * (per_relation * relations + per_node * nodes) as u64
+    }
+
     /// The correction of every node's prior in output units, [N, 6], appended to an emptied
     /// `corrections`.
     pub fn forward(&self, batch: &Batch, w: &mut Workspace, corrections: &mut Vec<[f64; 6]>) {
@@ -118,7 +131,7 @@ impl Engine {
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
         // With a single object per graph nobody but kinematic bodies sends anything.
-        let objects_send = batch.senders.iter().any(|&sender| (sender as usize) < n);
+        let objects_send = objects_send(batch);
         w.to_sender.resize(2 * n * h, 0.0);
         for _ in 0..self.steps {
             product(&w.state, &self.message_receiver, n, h, &mut w.to_receiver, false);
@@ -154,6 +167,11 @@ impl Engine {
                 .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
         );
     }
+}
+
+/// Whether any relation comes from an object rather than from a body whose motion is given.
+fn objects_send(batch: &Batch) -> bool {
+    batch.senders.iter().any(|&sender| sender != KINEMATIC)
 }
 
 impl Encoder {
@@ -224,6 +242,15 @@ fn dense(
 ) {
     out.resize(rows * columns, 0.0);
     multiply(x, matrix, rows, inner, columns, out, add);
+}
+
+/// `out [m, n] = x [m, k] matrix [k, n]`, all row-major, on one thread: the product that the
+/// engine is made of, for measuring what this machine reaches.
+///
+/// # Panics
+/// If a length does not fit the sizes.
+pub fn matrix_product(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [f32]) {
+    multiply(x, matrix, m, k, n, out, false);
 }
 
 /// Row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread.

@@ -14,7 +14,7 @@ mod predictor;
 mod weights;
 
 pub use config::Config;
-pub use engine::{Engine, Workspace};
+pub use engine::{Engine, Workspace, matrix_product};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 pub use predictor::{Inputs, Predictor};

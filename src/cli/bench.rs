@@ -7,10 +7,13 @@ use serde::Serialize;
 use serde_json::json;
 
 use crate::asset::{SCHEMA_VERSION, load_task};
-use crate::bench::{Suite, SuiteKind, push_costs, refinement_report, search_costs};
+use crate::bench::{
+    Suite, SuiteKind, inference_costs, push_costs, refinement_report, search_costs,
+};
 use crate::effect::EffectModel;
 use crate::report::{
-    Table, push_cost_table, refinement_table, search_cost_table, solution_json, task_table,
+    Table, inference_table, push_cost_table, refinement_table, search_cost_table, solution_json,
+    task_table,
 };
 use crate::scene::Task;
 use crate::solve::{Effort, Planner, Solution};
@@ -111,6 +114,9 @@ struct CostArgs {
     seed: u64,
 }
 
+/// Candidate-steps that the network is timed on together: one, a search's batch, many.
+const NETWORK_BATCHES: [usize; 3] = [1, 64, 512];
+
 pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
     match &args.what {
         What::Tasks(args) => tasks(args, session)?,
@@ -170,14 +176,22 @@ fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let spinner = session.spinner("timing");
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
+    let networks = match args.common.model.weights()? {
+        Some(weights) => inference_costs(&weights, &suite, &NETWORK_BATCHES)
+            .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
+        None => Vec::new(),
+    };
     let models: [&dyn EffectModel; 2] = [&*model, &*planar];
     let standard = Effort::Standard.settings().offsets;
     let offsets = args.offsets.map_or(standard, usize::from);
     let searches =
         session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
     spinner.finish_and_clear();
-    let tables = [push_cost_table(&pushes), search_cost_table(&searches)];
-    let report = json!({"pushes": pushes, "searches": searches});
+    let mut tables = vec![push_cost_table(&pushes), search_cost_table(&searches)];
+    if !networks.is_empty() {
+        tables.insert(0, inference_table(&networks));
+    }
+    let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
     args.common.print(session, "cost", &report, "", &tables)
 }
 

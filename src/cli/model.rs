@@ -70,24 +70,39 @@ impl ModelName {
     /// # Errors
     /// A weights file that is missing, damaged or of someone else.
     pub fn load(&self) -> Result<Arc<dyn EffectModel>, CliError> {
+        if let Some(weights) = self.weights()? {
+            return Ok(Arc::new(Learned::new(weights)));
+        }
         Ok(match self {
-            Self::Brdpn => EffectModels::shipped()
-                .map_err(|error| CliError::unexpected("the shipped weights are broken", &error))?,
-            Self::QuasiStatic => Arc::new(QuasiStatic),
             Self::Planar => Arc::new(Simulated::new(Simulator::planar())),
             Self::Spatial => Arc::new(Simulated::new(Simulator::spatial())),
             Self::Still => Arc::new(Still),
             Self::Follow => Arc::new(Follow),
             Self::Projection => Arc::new(Projection),
+            // Networks have returned above.
+            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) => Arc::new(QuasiStatic),
+        })
+    }
+
+    /// The weights, for a network.
+    ///
+    /// # Errors
+    /// A weights file that is missing, damaged or of someone else.
+    pub fn weights(&self) -> Result<Option<Weights>, CliError> {
+        match self {
+            Self::Brdpn => EffectModels::weights()
+                .map(Some)
+                .map_err(|error| CliError::unexpected("the shipped weights are broken", &error)),
             Self::Weights(path) => {
                 let wrong = |why: String| CliError::File(format!("{}: {why}", path.display()));
                 let bytes = std::fs::read(path)
                     .map_err(|error| wrong(format!("cannot read the file: {error}")))?;
                 let weights =
                     Weights::from_bytes(&bytes).map_err(|error| wrong(error.to_string()))?;
-                Arc::new(Learned::new(weights))
+                Ok(Some(weights))
             }
-        })
+            _ => Ok(None),
+        }
     }
 }
 

@@ -16,12 +16,20 @@ const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn-tools.safetensors");
 pub struct EffectModels;
 
 impl EffectModels {
+    /// The shipped weights with their card.
+    ///
+    /// # Errors
+    /// [`WeightsError`] if the library was built around a damaged weights file.
+    pub fn weights() -> Result<Weights, WeightsError> {
+        Weights::from_bytes(WEIGHTS)
+    }
+
     /// The learned model that planning uses by default.
     ///
     /// # Errors
     /// [`WeightsError`] if the library was built around a damaged weights file.
     pub fn shipped() -> Result<Arc<dyn EffectModel>, WeightsError> {
-        Ok(Arc::new(Learned::new(Weights::from_bytes(WEIGHTS)?)))
+        Ok(Arc::new(Learned::new(Self::weights()?)))
     }
 
     /// The planar engine: the learned model's truth, several times slower.

@@ -1,7 +1,7 @@
 //! Measured numbers as tables: errors on held-out pushes, refinement, costs.
 
 use crate::bench::{
-    ErrorRow, HeldOutErrors, HeldOutReport, PlanErrors, PushCost, RefinementReport,
+    ErrorRow, HeldOutErrors, HeldOutReport, InferenceCost, PlanErrors, PushCost, RefinementReport,
 };
 use crate::bench::{SearchCost, Summary};
 
@@ -85,6 +85,31 @@ pub fn push_cost_table(costs: &[PushCost]) -> Table {
             cost.batch.to_string(),
             seconds(cost.seconds),
             seconds(cost.seconds_per_frame),
+        ]);
+    }
+    table
+}
+
+/// Processor time of the network alone, fused and on candle, and of building its graphs.
+pub fn inference_table(costs: &[InferenceCost]) -> Table {
+    let mut table = Table::new([
+        ("candidate-steps", Align::Right),
+        ("relations", Align::Right),
+        ("graph a step", Align::Right),
+        ("fused network", Align::Right),
+        ("candle network", Align::Right),
+        ("fused of GEMM peak", Align::Right),
+        ("GEMM peak", Align::Right),
+    ]);
+    for cost in costs {
+        table.row([
+            cost.graphs.to_string(),
+            cost.relations.to_string(),
+            seconds(cost.graph),
+            seconds(cost.fused),
+            seconds(cost.candle),
+            format!("{:.0} %", 100.0 * cost.of_peak),
+            format!("{:.0} GFLOP/s", cost.peak / 1e9),
         ]);
     }
     table

@@ -14,7 +14,8 @@ mod training;
 
 pub use chart::{Axis, Chart, Mark, Series};
 pub use measured::{
-    group_table, heldout_line, heldout_table, push_cost_table, refinement_table, search_cost_table,
+    group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
+    search_cost_table,
 };
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};

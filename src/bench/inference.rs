@@ -1,0 +1,142 @@
+//! What the network alone costs: fused engine and candle graph on the same batches, against
+//! what the machine's matrix products reach in the same run.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    brdpn::{Engine, Inputs, Predictor, Weights, Workspace, matrix_product},
+    graph::{Batch, Bodies, add_graph},
+    scene::Record,
+    sim::Simulator,
+};
+
+use super::{cpu_clock::processor_time, suite::Suite};
+
+/// Each figure is the best of this many rounds: other work on the machine can only lengthen it.
+const ROUNDS: usize = 7;
+
+/// Processor time of a round, at least; the kernel may count in ticks of 4 ms.
+const ROUND: Duration = Duration::from_millis(100);
+
+/// Side of the square product that stands for the machine's peak: large enough to hide its
+/// packing, small enough for the second-level cache.
+const PEAK_SIDE: usize = 512;
+
+/// Processor time of the network on a batch of graphs, one thread.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InferenceCost {
+    /// Graphs in the batch: candidate-steps.
+    pub graphs: usize,
+    /// Movable nodes in the batch.
+    pub nodes: usize,
+    /// Relations in the batch.
+    pub relations: usize,
+    /// Fused engine, seconds per graph.
+    pub fused: f64,
+    /// candle graph, seconds per graph.
+    pub candle: f64,
+    /// Graph building (contacts, prior, features), seconds per graph.
+    pub graph: f64,
+    /// Share of the peak that the fused engine's matrix products would have if they took all
+    /// of its time, 0 to 1.
+    pub of_peak: f64,
+    /// Matrix-product rate of one thread in the same run, floating-point operations per second.
+    pub peak: f64,
+}
+
+/// Times batches of `sizes` graphs, taken from frames of the suite's pushes in which the tool
+/// is near an object.
+///
+/// # Errors
+/// Those of candle.
+pub fn inference_costs(
+    weights: &Weights,
+    suite: &Suite,
+    sizes: &[usize],
+) -> candle_core::Result<Vec<InferenceCost>> {
+    let engine = Engine::new(weights);
+    let network = Predictor::new(weights.card.config, &weights.parameters)?;
+    let peak = peak();
+    sizes
+        .iter()
+        .map(|&size| {
+            let mut batch = Batch::default();
+            let building = fill(&mut batch, suite, size);
+            let mut workspace = Workspace::default();
+            let mut corrections = Vec::new();
+            let fused = best(|| engine.forward(&batch, &mut workspace, &mut corrections));
+            let inputs = Inputs::new(&batch, &weights.card.normaliser)?;
+            network.forward(&inputs)?;
+            let candle = best(|| {
+                // The first call above has shown that this one succeeds.
+                let _ = std::hint::black_box(network.forward(&inputs));
+            });
+            let work = engine.operations(&batch);
+            Ok(InferenceCost {
+                graphs: size,
+                nodes: batch.node_count(),
+                relations: batch.relation_count(),
+                fused: fused / size as f64,
+                candle: candle / size as f64,
+                graph: building / size as f64,
+                of_peak: work as f64 / fused / peak,
+                peak,
+            })
+        })
+        .collect()
+}
+
+/// Fills `batch` with `size` graphs and returns the processor time that building them took.
+fn fill(batch: &mut Batch, suite: &Suite, size: usize) -> f64 {
+    let simulator = Simulator::planar();
+    let mut found = Vec::new();
+    let mut motions = Vec::new();
+    let mut trial = Batch::default();
+    for case in &suite.cases {
+        let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, None);
+        let start = case.scene.start();
+        let truth = simulator.run(&case.scene, &start, None, &case.motion, Record::Frames);
+        let Some(stroke) = case.motion.strokes.first() else { continue };
+        let axis = (stroke.to.position - stroke.from.position).normalize();
+        for index in 0..stroke.frames().min(truth.frames.len()) {
+            let (state, step) = (truth.frames[index].state.clone(), stroke.frame(index));
+            trial.clear();
+            add_graph(&bodies, &state, &step, axis, 0, &mut trial, &mut motions);
+            if trial.node_count() > 0 {
+                found.push((bodies.clone(), state, step, axis));
+            }
+        }
+    }
+    if found.is_empty() {
+        return 0.0;
+    }
+    best(|| {
+        batch.clear();
+        for (k, (bodies, state, step, axis)) in found.iter().cycle().take(size).enumerate() {
+            add_graph(bodies, state, step, *axis, k as u32, batch, &mut motions);
+        }
+    })
+}
+
+/// Matrix-product rate of one thread, floating-point operations per second.
+fn peak() -> f64 {
+    let n = PEAK_SIDE;
+    let (a, b) = (vec![0.5; n * n], vec![0.25; n * n]);
+    let mut c = vec![0.0; n * n];
+    let seconds = best(|| matrix_product(&a, &b, n, n, n, &mut c));
+    2.0 * (n as f64).powi(3) / seconds
+}
+
+/// Shortest processor time of one call, seconds.
+fn best(mut work: impl FnMut()) -> f64 {
+    // Bounded, should the clock stand still.
+    let mut calls = 1u32;
+    let mut time = |calls: u32| processor_time(|| (0..calls).for_each(|_| work()));
+    while time(calls) < ROUND && calls < 1 << 20 {
+        calls *= 2;
+    }
+    let rounds = (0..ROUNDS).map(|_| time(calls).as_secs_f64() / f64::from(calls));
+    rounds.fold(f64::INFINITY, f64::min).max(f64::MIN_POSITIVE)
+}
