@@ -11,6 +11,7 @@ mod normaliser;
 mod parameters;
 mod parity;
 mod predictor;
+mod tensors;
 mod weights;
 
 pub use config::Config;
@@ -18,4 +19,5 @@ pub use engine::{Engine, Workspace, matrix_product};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 pub use predictor::{Inputs, Predictor};
+pub use tensors::{ParameterError, decode, encode, metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

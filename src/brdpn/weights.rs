@@ -3,15 +3,16 @@
 //! A safetensors file whose metadata hold one JSON text, the [`Card`]. Reading checks every
 //! name, shape and number: loading into an empty map must never look like success.
 
-use std::collections::HashMap;
-
-use safetensors::{Dtype, SafeTensors, tensor::TensorView};
+use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::scene::Ranges;
 
-use super::{Config, Normaliser, Parameters, layout};
+use super::{
+    Config, Normaliser, Parameters,
+    tensors::{ParameterError, decode, encode, metadata},
+};
 
 /// Version of the feature layout and file format; a file of another version is refused.
 const FORMAT: u32 = 1;
@@ -45,14 +46,9 @@ pub enum WeightsError {
         /// Propagation steps found.
         steps: usize,
     },
-    /// A parameter is missing, unexpected or has a wrong shape.
-    #[error("the weights file's parameter `{name}` {fault}")]
-    Parameter {
-        /// Which.
-        name: String,
-        /// What is wrong.
-        fault: String,
-    },
+    /// A parameter is missing, of a wrong shape or not finite.
+    #[error("the weights file is damaged: {0}")]
+    Parameter(#[from] ParameterError),
 }
 
 /// Held-out errors that planning needs.
@@ -109,21 +105,8 @@ impl Weights {
     /// # Errors
     /// If a parameter's length does not fit its shape.
     pub fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
-        let raw: Vec<(&str, Vec<usize>, Vec<u8>)> = layout(&self.card.config)
-            .into_iter()
-            .map(|(name, shape)| {
-                let values = self.parameters.values.get(name).map_or(&[][..], Vec::as_slice);
-                (name, shape, values.iter().flat_map(|x| x.to_le_bytes()).collect())
-            })
-            .collect();
-        let views = raw
-            .iter()
-            .map(|(name, shape, bytes)| {
-                Ok((*name, TensorView::new(Dtype::F32, shape.clone(), bytes)?))
-            })
-            .collect::<Result<Vec<_>, WeightsError>>()?;
-        let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&self.card)?)]);
-        Ok(safetensors::serialize(views, Some(metadata))?)
+        let card = serde_json::to_string(&self.card)?;
+        Ok(encode(&self.card.config, &[("", &self.parameters)], (KEY, card))?)
     }
 
     /// Reads a file's bytes.
@@ -131,40 +114,19 @@ impl Weights {
     /// # Errors
     /// [`WeightsError`] if they are not a complete, finite weights file of this version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, WeightsError> {
-        let (_, metadata) = SafeTensors::read_metadata(bytes)?;
-        let text = metadata.metadata().as_ref().and_then(|m| m.get(KEY));
-        let text = text.ok_or(WeightsError::Foreign)?;
-        let found: FormatOnly = serde_json::from_str(text)?;
+        let text = metadata(bytes, KEY)?.ok_or(WeightsError::Foreign)?;
+        let found: FormatOnly = serde_json::from_str(&text)?;
         if found.format != FORMAT {
             return Err(WeightsError::Version { found: found.format });
         }
-        let card: Card = serde_json::from_str(text)?;
+        let card: Card = serde_json::from_str(&text)?;
         let Config { width, steps } = card.config;
         if !(2..=4096).contains(&width) || width % 2 != 0 || !(1..=16).contains(&steps) {
             return Err(WeightsError::Size { width, steps });
         }
         check_normaliser(&card.normaliser)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let mut parameters = Parameters::default();
-        for (name, shape) in layout(&card.config) {
-            let fault = |fault: &str| WeightsError::Parameter {
-                name: name.to_owned(),
-                fault: fault.to_owned(),
-            };
-            let view = file.tensor(name).map_err(|_| fault("is missing"))?;
-            if view.dtype() != Dtype::F32 || view.shape() != shape {
-                return Err(fault("has a wrong type or shape"));
-            }
-            let values: Vec<f32> = view
-                .data()
-                .chunks_exact(4)
-                .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-                .collect();
-            if values.iter().any(|x| !x.is_finite()) {
-                return Err(fault("holds a number that is not finite"));
-            }
-            parameters.values.insert(name.to_owned(), values);
-        }
+        let parameters = decode(&file, &card.config, "")?;
         Ok(Self { card, parameters })
     }
 }
@@ -187,10 +149,8 @@ fn check_normaliser(normaliser: &Normaliser) -> Result<(), WeightsError> {
             && table.mean.iter().all(|x| x.is_finite())
             && table.deviation.iter().all(|x| x.is_finite() && *x > 0.0);
         if !good {
-            return Err(WeightsError::Parameter {
-                name: format!("normaliser.{name}"),
-                fault: "is damaged".to_owned(),
-            });
+            let name = format!("normaliser.{name}");
+            return Err(ParameterError { name, fault: "is damaged" }.into());
         }
     }
     Ok(())

@@ -1,13 +1,11 @@
 //! Everything that a run needs to go on to the bit, in one safetensors file.
 
-use std::collections::HashMap;
-
-use safetensors::{Dtype, SafeTensors, tensor::TensorView};
+use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    brdpn::{Normaliser, Parameters, layout},
+    brdpn::{Normaliser, ParameterError, decode, encode, metadata},
     dataset::DatasetConfig,
 };
 
@@ -28,9 +26,9 @@ pub enum CheckpointError {
     /// No header.
     #[error("a safetensors file, but not a checkpoint of pushplan")]
     Foreign,
-    /// A tensor is missing or wrong.
-    #[error("the checkpoint's `{0}` is missing, has a wrong shape or is not finite")]
-    Tensor(String),
+    /// A tensor is missing, of a wrong shape or not finite.
+    #[error("the checkpoint is damaged: {0}")]
+    Tensor(#[from] ParameterError),
     /// Resuming would mix two runs.
     #[error("the checkpoint belongs to a run with other {0}; choose another folder")]
     Other(&'static str),
@@ -67,21 +65,6 @@ impl Checkpoint {
     /// # Errors
     /// If a tensor does not fit its shape.
     pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
-        let shapes = layout(&self.settings.config);
-        let mut raw: Vec<(String, Vec<usize>, Vec<u8>)> = Vec::new();
-        for (group, parameters) in self.groups() {
-            for (name, shape) in &shapes {
-                let values = parameters.values.get(*name).map_or(&[][..], Vec::as_slice);
-                let bytes = values.iter().flat_map(|x| x.to_le_bytes()).collect();
-                raw.push((format!("{group}/{name}"), shape.clone(), bytes));
-            }
-        }
-        let views = raw
-            .iter()
-            .map(|(name, shape, bytes)| {
-                Ok((name.as_str(), TensorView::new(Dtype::F32, shape.clone(), bytes)?))
-            })
-            .collect::<Result<Vec<_>, CheckpointError>>()?;
         let header = Header {
             settings: self.settings.clone(),
             data: self.data.clone(),
@@ -89,8 +72,14 @@ impl Checkpoint {
             step: self.optimiser.step,
             best: self.best.clone(),
         };
-        let metadata = HashMap::from([(KEY.to_owned(), serde_json::to_string(&header)?)]);
-        Ok(safetensors::serialize(views, Some(metadata))?)
+        let header = serde_json::to_string(&header)?;
+        let groups = [
+            ("weights/", &self.optimiser.weights),
+            ("first/", &self.optimiser.first),
+            ("second/", &self.optimiser.second),
+            ("average/", &self.optimiser.average),
+        ];
+        Ok(encode(&self.settings.config, &groups, (KEY, header))?)
     }
 
     /// Reads a file's bytes.
@@ -98,37 +87,15 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError`] if they are not a complete checkpoint.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        let (_, metadata) = SafeTensors::read_metadata(bytes)?;
-        let text = metadata.metadata().as_ref().and_then(|m| m.get(KEY));
-        let header: Header = serde_json::from_str(text.ok_or(CheckpointError::Foreign)?)?;
+        let text = metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
+        let header: Header = serde_json::from_str(&text)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let shapes = layout(&header.settings.config);
-        let group = |group: &str| -> Result<Parameters, CheckpointError> {
-            let mut parameters = Parameters::default();
-            for (name, shape) in &shapes {
-                let key = format!("{group}/{name}");
-                let wrong = || CheckpointError::Tensor(key.clone());
-                let view = file.tensor(&key).map_err(|_| wrong())?;
-                if view.dtype() != Dtype::F32 || view.shape() != shape.as_slice() {
-                    return Err(wrong());
-                }
-                let values: Vec<f32> = view
-                    .data()
-                    .chunks_exact(4)
-                    .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-                    .collect();
-                if values.iter().any(|x| !x.is_finite()) {
-                    return Err(wrong());
-                }
-                parameters.values.insert((*name).to_owned(), values);
-            }
-            Ok(parameters)
-        };
+        let group = |prefix: &str| decode(&file, &header.settings.config, prefix);
         let optimiser = AdamW {
-            weights: group("weights")?,
-            first: group("first")?,
-            second: group("second")?,
-            average: group("average")?,
+            weights: group("weights/")?,
+            first: group("first/")?,
+            second: group("second/")?,
+            average: group("average/")?,
             step: header.step,
         };
         Ok(Self {
@@ -156,14 +123,5 @@ impl Checkpoint {
             return Err(CheckpointError::Other("data"));
         }
         Ok(())
-    }
-
-    fn groups(&self) -> [(&'static str, &Parameters); 4] {
-        [
-            ("weights", &self.optimiser.weights),
-            ("first", &self.optimiser.first),
-            ("second", &self.optimiser.second),
-            ("average", &self.optimiser.average),
-        ]
     }
 }

@@ -263,7 +263,7 @@ fn weights_survive_their_file_and_damage_is_refused() {
     let mut poisoned = bytes.clone();
     let end = poisoned.len();
     poisoned[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(matches!(Weights::from_bytes(&poisoned), Err(WeightsError::Parameter { .. })));
+    assert!(matches!(Weights::from_bytes(&poisoned), Err(WeightsError::Parameter(_))));
     let text = String::from_utf8_lossy(&bytes).into_owned();
     assert!(text.contains("pushplan"));
 }

@@ -1,0 +1,85 @@
+//! Parameters as named tensors of a safetensors file: shared by weights and checkpoints.
+
+use std::collections::HashMap;
+
+use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
+use thiserror::Error;
+
+use super::{Config, Parameters, layout};
+
+/// A parameter that is missing or unusable.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("the parameter `{name}` {fault}")]
+pub struct ParameterError {
+    /// Which.
+    pub name: String,
+    /// What is wrong.
+    pub fault: &'static str,
+}
+
+/// A file's bytes: every group of parameters under its prefix, and one text of metadata under
+/// `key` (a single entry, since the order of several would differ from run to run).
+///
+/// # Errors
+/// If a parameter's length does not fit its shape.
+pub fn encode(
+    config: &Config,
+    groups: &[(&str, &Parameters)],
+    (key, text): (&str, String),
+) -> Result<Vec<u8>, SafeTensorError> {
+    let mut raw: Vec<(String, Vec<usize>, Vec<u8>)> = Vec::new();
+    for (prefix, parameters) in groups {
+        for (name, shape) in layout(config) {
+            let values = parameters.values.get(name).map_or(&[][..], Vec::as_slice);
+            let bytes = values.iter().flat_map(|x| x.to_le_bytes()).collect();
+            raw.push((format!("{prefix}{name}"), shape, bytes));
+        }
+    }
+    let views = raw
+        .iter()
+        .map(|(name, shape, bytes)| {
+            Ok((name.as_str(), TensorView::new(Dtype::F32, shape.clone(), bytes)?))
+        })
+        .collect::<Result<Vec<_>, SafeTensorError>>()?;
+    safetensors::serialize(views, Some(HashMap::from([(key.to_owned(), text)])))
+}
+
+/// Reads the group of parameters under `prefix`, every one of them present, of the right shape
+/// and finite.
+///
+/// # Errors
+/// [`ParameterError`] for the first that is not.
+pub fn decode(
+    file: &SafeTensors<'_>,
+    config: &Config,
+    prefix: &str,
+) -> Result<Parameters, ParameterError> {
+    let mut parameters = Parameters::default();
+    for (name, shape) in layout(config) {
+        let key = format!("{prefix}{name}");
+        let wrong = |fault| ParameterError { name: key.clone(), fault };
+        let view = file.tensor(&key).map_err(|_| wrong("is missing"))?;
+        if view.dtype() != Dtype::F32 || view.shape() != shape {
+            return Err(wrong("has a wrong type or shape"));
+        }
+        let values: Vec<f32> = view
+            .data()
+            .chunks_exact(4)
+            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+            .collect();
+        if values.iter().any(|x| !x.is_finite()) {
+            return Err(wrong("holds a number that is not finite"));
+        }
+        parameters.values.insert(name.to_owned(), values);
+    }
+    Ok(parameters)
+}
+
+/// The text under `key` of a file's metadata.
+///
+/// # Errors
+/// If the bytes are no safetensors file.
+pub fn metadata(bytes: &[u8], key: &str) -> Result<Option<String>, SafeTensorError> {
+    let (_, metadata) = SafeTensors::read_metadata(bytes)?;
+    Ok(metadata.metadata().as_ref().and_then(|entries| entries.get(key)).cloned())
+}
