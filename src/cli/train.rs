@@ -89,7 +89,6 @@ struct Followed<'a> {
     folder: &'a Path,
     session: &'a Session,
     bar: ProgressBar,
-    lines: Vec<MetricLine>,
     /// What went wrong while showing; training itself goes on.
     trouble: Option<CliError>,
 }
@@ -119,12 +118,12 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
         folder: &args.folder,
         session,
         bar: session.bar("steps"),
-        lines: Vec::new(),
         trouble: None,
     };
     let best = session.compute(|| train(&settings, &data, &held_out, &args.folder, &mut followed));
     followed.bar.finish_and_clear();
     let best = best.map_err(train_error)?;
+    followed.draw()?;
     if let Some(trouble) = followed.trouble {
         return Err(trouble);
     }
@@ -176,7 +175,6 @@ impl TrainArgs {
 
 impl Report for Followed<'_> {
     fn line(&mut self, line: &MetricLine) {
-        self.lines.push(line.clone());
         let error = &line.held_out;
         let text = format!(
             "step {:>7}  loss {:.4}  held out: mean {}, median {}, p95 {}  {:.0} graphs/s\n",
