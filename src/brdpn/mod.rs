@@ -19,5 +19,5 @@ pub use engine::{Engine, Workspace, matrix_product};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 pub use predictor::{Inputs, Predictor};
-pub use tensors::{ParameterError, decode, encode, metadata};
+pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

@@ -22,7 +22,7 @@ pub struct ParameterError {
 ///
 /// # Errors
 /// If a parameter's length does not fit its shape.
-pub fn encode(
+pub fn encode_parameters(
     config: &Config,
     groups: &[(&str, &Parameters)],
     (key, text): (&str, String),
@@ -49,7 +49,7 @@ pub fn encode(
 ///
 /// # Errors
 /// [`ParameterError`] for the first that is not.
-pub fn decode(
+pub fn decode_parameters(
     file: &SafeTensors<'_>,
     config: &Config,
     prefix: &str,
@@ -79,7 +79,7 @@ pub fn decode(
 ///
 /// # Errors
 /// If the bytes are no safetensors file.
-pub fn metadata(bytes: &[u8], key: &str) -> Result<Option<String>, SafeTensorError> {
+pub fn file_metadata(bytes: &[u8], key: &str) -> Result<Option<String>, SafeTensorError> {
     let (_, metadata) = SafeTensors::read_metadata(bytes)?;
     Ok(metadata.metadata().as_ref().and_then(|entries| entries.get(key)).cloned())
 }

@@ -11,7 +11,7 @@ use crate::scene::Ranges;
 
 use super::{
     Config, Normaliser, Parameters,
-    tensors::{ParameterError, decode, encode, metadata},
+    tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
 
 /// Version of the feature layout and file format; a file of another version is refused.
@@ -106,7 +106,7 @@ impl Weights {
     /// If a parameter's length does not fit its shape.
     pub fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let card = serde_json::to_string(&self.card)?;
-        Ok(encode(&self.card.config, &[("", &self.parameters)], (KEY, card))?)
+        Ok(encode_parameters(&self.card.config, &[("", &self.parameters)], (KEY, card))?)
     }
 
     /// Reads a file's bytes.
@@ -114,7 +114,7 @@ impl Weights {
     /// # Errors
     /// [`WeightsError`] if they are not a complete, finite weights file of this version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, WeightsError> {
-        let text = metadata(bytes, KEY)?.ok_or(WeightsError::Foreign)?;
+        let text = file_metadata(bytes, KEY)?.ok_or(WeightsError::Foreign)?;
         let found: FormatOnly = serde_json::from_str(&text)?;
         if found.format != FORMAT {
             return Err(WeightsError::Version { found: found.format });
@@ -126,7 +126,7 @@ impl Weights {
         }
         check_normaliser(&card.normaliser)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let parameters = decode(&file, &card.config, "")?;
+        let parameters = decode_parameters(&file, &card.config, "")?;
         Ok(Self { card, parameters })
     }
 }

@@ -114,12 +114,8 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
         let message = "the held-out episodes have the seed of the data";
         return Err(CliError::usage(message, "choose another --held-out-seed"));
     }
-    let mut followed = Followed {
-        folder: &args.folder,
-        session,
-        bar: session.bar("steps"),
-        trouble: None,
-    };
+    let mut followed =
+        Followed { folder: &args.folder, session, bar: session.bar("steps"), trouble: None };
     let best = session.compute(|| train(&settings, &data, &held_out, &args.folder, &mut followed));
     followed.bar.finish_and_clear();
     let best = best.map_err(train_error)?;

@@ -56,7 +56,7 @@ pub struct DatasetConfig {
 
 impl Default for DatasetConfig {
     fn default() -> Self {
-        Self { seed: 1, episodes: 20_000, episodes_per_shard: 512, preset: Preset::Tools }
+        Self { seed: 1, episodes: 40_000, episodes_per_shard: 512, preset: Preset::Tools }
     }
 }
 

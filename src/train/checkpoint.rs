@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    brdpn::{Normaliser, ParameterError, decode, encode, metadata},
+    brdpn::{Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata},
     dataset::DatasetConfig,
 };
 
@@ -79,7 +79,7 @@ impl Checkpoint {
             ("second/", &self.optimiser.second),
             ("average/", &self.optimiser.average),
         ];
-        Ok(encode(&self.settings.config, &groups, (KEY, header))?)
+        Ok(encode_parameters(&self.settings.config, &groups, (KEY, header))?)
     }
 
     /// Reads a file's bytes.
@@ -87,10 +87,10 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError`] if they are not a complete checkpoint.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        let text = metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
+        let text = file_metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
         let header: Header = serde_json::from_str(&text)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let group = |prefix: &str| decode(&file, &header.settings.config, prefix);
+        let group = |prefix: &str| decode_parameters(&file, &header.settings.config, prefix);
         let optimiser = AdamW {
             weights: group("weights/")?,
             first: group("first/")?,

@@ -39,7 +39,7 @@ impl Default for Settings {
         Self {
             config: Config::default(),
             seed: 1,
-            steps: 60_000,
+            steps: 120_000,
             batch: 256,
             learning_rate: 2e-3,
             warm_up: 500,
@@ -47,7 +47,7 @@ impl Default for Settings {
             clip: 1.0,
             average: 0.999,
             noise: Noise::default(),
-            evaluate_every: 1000,
+            evaluate_every: 2000,
         }
     }
 }
