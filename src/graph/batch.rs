@@ -1,63 +1,14 @@
 //! Many graphs side by side, as flat feature tables: what the network reads.
 
-use crate::{geometry::Vector, scene::Body};
+use crate::scene::Body;
 
 use super::{
-    bodies::Motion,
-    features::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD, UNIT},
+    features::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD},
+    node::Node,
 };
 
 /// Sender index of a relation whose sender's motion is given (tool part or obstacle).
 pub const KINEMATIC: u32 = u32::MAX;
-
-/// One object whose motion the network decides.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// Which graph of the batch, as the caller numbered it.
-    pub graph: u32,
-    /// Index of the object in its scene.
-    pub object: u32,
-    /// Unit vector of the tool's motion: the x axis of every feature and output of this graph.
-    pub axis: Vector,
-    /// Duration of the frame, seconds.
-    pub duration: f64,
-    /// Length c of the object's limit surface, metres.
-    pub support: f64,
-    /// What quasi-statics predict, in output units: even shift x, velocity x; odd shift y,
-    /// turn, velocity y, spin.
-    pub prior: [f64; 6],
-}
-
-impl Node {
-    /// A motion in output units and this node's axes: lengths over `UNIT`, velocities times
-    /// the frame's duration over `UNIT`, turns times c over `UNIT`.
-    pub fn encode(&self, motion: &Motion) -> [f64; 6] {
-        let (ax, ay) = (self.axis.x, self.axis.y);
-        let along = |v: Vector| (ax * v.x + ay * v.y) / UNIT;
-        let across = |v: Vector| (ax * v.y - ay * v.x) / UNIT;
-        [
-            along(motion.shift),
-            along(motion.velocity) * self.duration,
-            across(motion.shift),
-            motion.turn * self.support / UNIT,
-            across(motion.velocity) * self.duration,
-            motion.spin * self.duration * self.support / UNIT,
-        ]
-    }
-
-    /// The motion that six output numbers mean.
-    pub fn decode(&self, output: &[f64; 6]) -> Motion {
-        let world = |x: f64, y: f64| {
-            Vector::new(self.axis.x * x - self.axis.y * y, self.axis.y * x + self.axis.x * y) * UNIT
-        };
-        Motion {
-            shift: world(output[0], output[2]),
-            turn: output[3] * UNIT / self.support,
-            velocity: world(output[1], output[4]) / self.duration,
-            spin: output[5] * UNIT / (self.support * self.duration),
-        }
-    }
-}
 
 /// Two bodies that touch, or come to touch, in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

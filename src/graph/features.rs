@@ -3,19 +3,13 @@
 //! Axes: x along the tool's motion, y to its left, origin at the receiver's centre. All
 //! numbers are invariant to shifting and turning the scene; even ones also to mirroring it.
 
-use crate::{
-    geometry::Vector,
-    scene::{Body, FRAME_TRAVEL},
-};
+use crate::{geometry::Vector, scene::Body};
 
 use super::{
-    batch::Node,
     bodies::{Motion, Movable},
-    build::Link,
+    link::Link,
+    node::{Node, UNIT},
 };
-
-/// Unit of displacements and gaps, metres: one frame of tool travel.
-pub const UNIT: f64 = FRAME_TRAVEL;
 
 /// Unit of body-sized lengths, metres.
 const BODY: f64 = 0.05;

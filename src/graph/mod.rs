@@ -9,10 +9,14 @@ mod bodies;
 mod build;
 mod coast;
 mod features;
+mod link;
+mod node;
+mod prior;
 mod push;
 
-pub use batch::{Batch, KINEMATIC, Node, Touch};
+pub use batch::{Batch, KINEMATIC, Touch};
 pub use bodies::{Bodies, Motion};
 pub use build::add_graph;
 pub use coast::coast;
 pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
+pub use node::Node;
