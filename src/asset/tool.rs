@@ -138,7 +138,7 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
 
 fn part(node: &Node) -> Option<Part> {
     let name = name_of(node)?.to_owned();
-    Some(Part { name, size: triple(node, "size")?, pose: pose(node)? })
+    Some(Part::cuboid(name, triple(node, "size")?, pose(node)?))
 }
 
 /// The pairs joined by hand, by index.

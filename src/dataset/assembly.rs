@@ -6,7 +6,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::{
-    geometry::{Footprint, Pose, Vector, clearance},
+    geometry::{Footprint, Pose, Shape, Vector, clearance},
     scene::{Part, Ranges, Tool},
 };
 
@@ -35,18 +35,16 @@ const TRIES: usize = 20;
 pub fn random_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     let count = 1 + weighted(rng, &PART_COUNTS);
     let thickness = uniform(rng, THICKNESS.0, THICKNESS.1);
-    let mut parts = vec![Part {
-        name: "part-1".to_owned(),
-        size: random_size(rng, ranges, thickness),
-        pose: Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0),
-    }];
+    let size = random_size(rng, ranges, thickness);
+    let mut parts =
+        vec![Part::cuboid("part-1", size, Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0))];
     let mut joints = Vec::new();
     for _ in 1..count {
         if let Some((parent, size, pose)) =
             (0..TRIES).find_map(|_| glue(rng, ranges, thickness, &parts))
         {
             joints.push([parent, parts.len()]);
-            parts.push(Part { name: format!("part-{}", parts.len() + 1), size, pose });
+            parts.push(Part::cuboid(format!("part-{}", parts.len() + 1), size, pose));
         }
     }
     let friction = uniform(rng, ranges.friction.low, ranges.friction.high);
@@ -76,8 +74,10 @@ fn glue(
     let newest = parts.len() - 1;
     let parent = if rng.random_bool(0.6) { newest } else { rng.random_range(0..parts.len()) };
     let base = &parts[parent];
-    let size =
-        if rng.random_bool(SAME_SIZE) { base.size } else { random_size(rng, ranges, thickness) };
+    let size = match base.shape {
+        Shape::Cuboid { size } if rng.random_bool(SAME_SIZE) => size,
+        _ => random_size(rng, ranges, thickness),
+    };
     // Everything below is in the parent's frame; `outward` is the chosen face's normal.
     let face = Pose::new(0.0, 0.0, FRAC_PI_2 * f64::from(rng.random_range(0..4u8)));
     let outward = face.vector(Vector::x());

@@ -5,11 +5,12 @@
 //! episode  = index u64, scene, motion, n u32, n x frame
 //! scene    = table friction f64,
 //!            n u32, n x (name, shape, mass f64, friction f64, pose),
-//!            n u32, n x (a u32, b u32, kind u8, x f64, y f64)        joints
+//!            n u32, n x (a u32, b u32, kind u8, x f64, y f64,
+//!            limited u8, low f64, high f64)                          joints
 //!            n u32, n x (name, size 3 x f64, pose, friction f64)     obstacles
 //! shape    = 0 u8, radius f64, height f64  |  1 u8, size 3 x f64
 //! motion   = name, description, grip pose, friction f64,
-//!            n u32, n x (name, size 3 x f64, pose),                  parts
+//!            n u32, n x (name, shape, pose),                         parts
 //!            n u32, n x (a u32, b u32),                              joints
 //!            lift f64, n u32, n x (from pose, to pose, duration f64, settle u8)
 //! frame    = time f64, stroke u32, tool pose, objects x (pose, velocity)
@@ -22,8 +23,8 @@ use std::sync::Arc;
 use crate::{
     geometry::{Pose, Shape, Vector},
     scene::{
-        Frame, Joint, JointKind, Object, Obstacle, Part, Scene, State, Stroke, Tool, ToolMotion,
-        Velocity,
+        Frame, Joint, JointKind, Object, Obstacle, Part, Scene, Span, State, Stroke, Tool,
+        ToolMotion, Velocity,
     },
 };
 
@@ -72,29 +73,23 @@ fn write_scene(out: &mut Vec<u8>, scene: &Scene) {
     put_count(out, scene.objects.len());
     for object in &scene.objects {
         put_name(out, &object.name);
-        match object.shape {
-            Shape::Cylinder { radius, height } => {
-                out.push(0);
-                put(out, &[radius, height]);
-            }
-            Shape::Cuboid { size } => {
-                out.push(1);
-                put(out, &size);
-            }
-        }
+        write_shape(out, &object.shape);
         put(out, &[object.mass, object.friction]);
         put_pose(out, &object.pose);
     }
     put_count(out, scene.joints.len());
     for joint in &scene.joints {
         joint.between.iter().for_each(|&end| put_count(out, end));
-        let (kind, vector) = match joint.kind {
-            JointKind::Fixed => (0, Vector::zeros()),
-            JointKind::Revolute { at } => (1, at),
-            JointKind::Prismatic { axis } => (2, axis),
+        let (kind, vector, limits) = match joint.kind {
+            JointKind::Fixed => (0, Vector::zeros(), None),
+            JointKind::Revolute { at, limits } => (1, at, limits),
+            JointKind::Prismatic { axis, limits } => (2, axis, limits),
         };
         out.push(kind);
         put(out, &[vector.x, vector.y]);
+        let Span { low, high } = limits.unwrap_or(Span::new(0.0, 0.0));
+        out.push(u8::from(limits.is_some()));
+        put(out, &[low, high]);
     }
     put_count(out, scene.obstacles.len());
     for obstacle in &scene.obstacles {
@@ -109,11 +104,7 @@ fn read_scene(bytes: &mut Bytes) -> Option<Scene> {
     let table_friction = bytes.f64()?;
     let objects = bytes.list(|bytes| {
         let name = bytes.name()?;
-        let shape = match bytes.u8()? {
-            0 => Shape::Cylinder { radius: bytes.f64()?, height: bytes.f64()? },
-            1 => Shape::Cuboid { size: bytes.triple()? },
-            _ => return None,
-        };
+        let shape = read_shape(bytes)?;
         let (mass, friction) = (bytes.f64()?, bytes.f64()?);
         Some(Object { name, shape, mass, friction, pose: bytes.pose()? })
     })?;
@@ -121,19 +112,42 @@ fn read_scene(bytes: &mut Bytes) -> Option<Scene> {
         let between = [bytes.count()?, bytes.count()?];
         let kind = bytes.u8()?;
         let vector = Vector::new(bytes.f64()?, bytes.f64()?);
+        let (limited, low, high) = (bytes.u8()?, bytes.f64()?, bytes.f64()?);
+        let limits = (limited == 1).then_some(Span::new(low, high));
         let kind = match kind {
             0 => JointKind::Fixed,
-            1 => JointKind::Revolute { at: vector },
-            2 => JointKind::Prismatic { axis: vector },
+            1 => JointKind::Revolute { at: vector, limits },
+            2 => JointKind::Prismatic { axis: vector, limits },
             _ => return None,
         };
-        Some(Joint { between, kind })
+        Some(Joint { between, kind, guessed: false })
     })?;
     let obstacles = bytes.list(|bytes| {
         let (name, size, pose) = (bytes.name()?, bytes.triple()?, bytes.pose()?);
         Some(Obstacle { name, size, pose, friction: bytes.f64()? })
     })?;
     Some(Scene { table_friction, objects, joints, obstacles })
+}
+
+fn write_shape(out: &mut Vec<u8>, shape: &Shape) {
+    match *shape {
+        Shape::Cylinder { radius, height } => {
+            out.push(0);
+            put(out, &[radius, height]);
+        }
+        Shape::Cuboid { size } => {
+            out.push(1);
+            put(out, &size);
+        }
+    }
+}
+
+fn read_shape(bytes: &mut Bytes) -> Option<Shape> {
+    match bytes.u8()? {
+        0 => Some(Shape::Cylinder { radius: bytes.f64()?, height: bytes.f64()? }),
+        1 => Some(Shape::Cuboid { size: bytes.triple()? }),
+        _ => None,
+    }
 }
 
 fn write_motion(out: &mut Vec<u8>, motion: &ToolMotion) {
@@ -145,7 +159,7 @@ fn write_motion(out: &mut Vec<u8>, motion: &ToolMotion) {
     put_count(out, tool.parts.len());
     for part in &tool.parts {
         put_name(out, &part.name);
-        put(out, &part.size);
+        write_shape(out, &part.shape);
         put_pose(out, &part.pose);
     }
     put_count(out, tool.joints.len());
@@ -164,7 +178,7 @@ fn read_motion(bytes: &mut Bytes) -> Option<ToolMotion> {
     let (name, description) = (bytes.name()?, bytes.name()?);
     let (grip, friction) = (bytes.pose()?, bytes.f64()?);
     let parts = bytes.list(|bytes| {
-        Some(Part { name: bytes.name()?, size: bytes.triple()?, pose: bytes.pose()? })
+        Some(Part { name: bytes.name()?, shape: read_shape(bytes)?, pose: bytes.pose()? })
     })?;
     let joints = bytes.list(|bytes| Some([bytes.count()?, bytes.count()?]))?;
     let tool = Arc::new(Tool { name, description, grip, friction, parts, joints });

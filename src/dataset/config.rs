@@ -31,6 +31,7 @@ impl Preset {
                 parts: Span::new(1.0, 5.0),
                 part_length: Span::new(0.02, 0.50),
                 part_width: Span::new(0.015, 0.15),
+                part_radius: Span::new(0.01, 0.06),
                 speed: Span::new(0.03, 0.3),
                 travel: Span::new(0.05, 0.30),
                 pushes: Span::new(1.0, 3.0),

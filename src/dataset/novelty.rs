@@ -4,7 +4,7 @@ use std::{f64::consts::FRAC_PI_2, sync::LazyLock};
 
 use crate::{
     asset::ToolLibrary,
-    geometry::{Pose, Vector},
+    geometry::{Pose, Shape, Vector},
     scene::{Part, Tool},
 };
 
@@ -58,15 +58,23 @@ fn matches_all(a: &Tool, motion: &Pose, target: &[Part]) -> bool {
     })
 }
 
-/// Whether `part` put at `pose` covers the same rectangle as `other`.
+/// Whether `part` put at `pose` covers the same ground as `other`.
 fn same_place(part: &Part, pose: &Pose, other: &Part) -> bool {
+    let together = (pose.position - other.pose.position).norm() < SAME;
+    let (size, other_size) = match (part.shape, other.shape) {
+        (Shape::Cuboid { size }, Shape::Cuboid { size: other }) => (size, other),
+        (Shape::Cylinder { radius: a, .. }, Shape::Cylinder { radius: b, .. }) => {
+            return together && (a - b).abs() < SAME;
+        }
+        _ => return false,
+    };
     let axes = |size: &[f64; 3], pose: &Pose| {
         [Vector::new(size[0] / 2.0, 0.0), Vector::new(0.0, size[1] / 2.0)].map(|v| pose.vector(v))
     };
-    let ours = axes(&part.size, pose);
-    let theirs = axes(&other.size, &other.pose);
+    let ours = axes(&size, pose);
+    let theirs = axes(&other_size, &other.pose);
     let same = |u: Vector, v: Vector| (u - v).norm() < SAME || (u + v).norm() < SAME;
-    (pose.position - other.pose.position).norm() < SAME
+    together
         && (same(ours[0], theirs[0]) && same(ours[1], theirs[1])
             || same(ours[0], theirs[1]) && same(ours[1], theirs[0]))
 }
@@ -77,7 +85,7 @@ mod tests {
 
     fn hook(mirrored: bool) -> Tool {
         let side = if mirrored { -1.0 } else { 1.0 };
-        let part = |size, pose| Part { name: String::new(), size, pose };
+        let part = |size, pose| Part::cuboid("", size, pose);
         Tool {
             name: String::new(),
             description: String::new(),
@@ -97,7 +105,9 @@ mod tests {
         moved.parts.reverse();
         for part in &mut moved.parts {
             part.pose = Pose::new(0.3, -1.0, 0.7) * part.pose;
-            part.size.swap(0, 1);
+            if let Shape::Cuboid { size } = &mut part.shape {
+                size.swap(0, 1);
+            }
             part.pose.heading += FRAC_PI_2;
         }
         assert!(same_parts(&hook(false), &moved) && same_parts(&moved, &hook(false)));
@@ -106,7 +116,7 @@ mod tests {
     #[test]
     fn another_size_or_place_is_another_tool() {
         let mut longer = hook(false);
-        longer.parts[1].size[0] += 0.01;
+        longer.parts[1].shape = Shape::Cuboid { size: [0.17, 0.08, 0.05] };
         assert!(!same_parts(&hook(false), &longer));
         let mut shifted = hook(false);
         shifted.parts[1].pose.position.x += 0.01;

@@ -1,7 +1,7 @@
 //! One file of a data set.
 //!
 //! ```text
-//! shard = "PUSHPLN1", digest of the configuration u64, number of episodes u64,
+//! shard = "PUSHPLN2", digest of the configuration u64, number of episodes u64,
 //!         episodes, checksum u64 (FNV-1a of everything before it)
 //! ```
 //! A shard is written under another name and renamed when complete, so a file under the final
@@ -21,7 +21,7 @@ use super::{
 };
 
 /// First bytes of every shard; the last one counts versions of the format and of the sampler.
-const MAGIC: &[u8; 8] = b"PUSHPLN1";
+const MAGIC: &[u8; 8] = b"PUSHPLN2";
 
 /// Bytes before the episodes.
 const HEADER: usize = 24;

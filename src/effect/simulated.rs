@@ -65,7 +65,7 @@ mod tests {
             pose: Pose::new(0.05, 0.0, 0.0),
         };
         let scene = Scene { table_friction: 0.3, objects: vec![puck], ..Scene::default() };
-        let bar = Part { name: "bar".into(), size: [0.02, 0.1, 0.05], pose: Pose::default() };
+        let bar = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
         let tool =
             Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![bar], &[]);
         let tool = Arc::new(tool.expect("one part is one piece"));

@@ -114,7 +114,7 @@ impl Bodies {
                 footprint: part.footprint(),
                 pose: part.pose,
                 friction: physics.tool_friction,
-                span: (lift, lift + part.size[2]),
+                span: (lift, lift + part.shape.height()),
             })
             .collect();
         let obstacles = scene

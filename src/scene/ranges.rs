@@ -55,6 +55,9 @@ pub struct Ranges {
     pub part_length: Span,
     /// Shorter horizontal side of a tool part, metres.
     pub part_width: Span,
+    /// Radius of a round tool part, metres; files without it know of none.
+    #[serde(default = "none")]
+    pub part_radius: Span,
     /// Speed of a push, m/s.
     pub speed: Span,
     /// Travel of a push, metres.
@@ -109,9 +112,15 @@ impl Ranges {
         check(&tool.name, "number of parts", tool.parts.len() as f64, self.parts);
         for part in &tool.parts {
             let of = format!("{}/{}", tool.name, part.name);
-            let [x, y, _] = part.size;
-            check(&of, "length (m)", x.max(y), self.part_length);
-            check(&of, "width (m)", x.min(y), self.part_width);
+            match part.shape {
+                Shape::Cuboid { size: [x, y, _] } => {
+                    check(&of, "length (m)", x.max(y), self.part_length);
+                    check(&of, "width (m)", x.min(y), self.part_width);
+                }
+                Shape::Cylinder { radius, .. } => {
+                    check(&of, "radius (m)", radius, self.part_radius);
+                }
+            }
         }
         let speeds = || {
             let moving = motion.strokes.iter().filter(|s| s.duration > 0.0);
@@ -122,6 +131,11 @@ impl Ranges {
         }
         found
     }
+}
+
+/// An interval that holds nothing.
+fn none() -> Span {
+    Span::new(f64::MAX, f64::MIN)
 }
 
 #[cfg(test)]

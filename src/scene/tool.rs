@@ -10,30 +10,30 @@ use crate::geometry::{Footprint, Pose, Shape, clearance};
 /// Wide enough for the rounding of sizes written in whole millimetres and turned by degrees.
 pub const JOIN_GAP: f64 = 1e-4;
 
-/// One cuboid of a tool.
+/// One solid of a tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// Unique within the tool.
     pub name: String,
-    /// Full extents, metres.
-    pub size: [f64; 3],
+    /// Its solid, upright: a cuboid, or a cylinder for a round finger or hand.
+    pub shape: Shape,
     /// Pose of the centre in the tool frame.
     pub pose: Pose,
 }
 
 impl Part {
-    /// Its solid.
-    pub fn shape(&self) -> Shape {
-        Shape::Cuboid { size: self.size }
+    /// A cuboid of these full extents (metres).
+    pub fn cuboid(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
+        Self { name: name.into(), shape: Shape::Cuboid { size }, pose }
     }
 
     /// What it covers on the table.
     pub fn footprint(&self) -> Footprint {
-        self.shape().footprint()
+        self.shape.footprint()
     }
 }
 
-/// A rigid assembly of cuboids, moved by the end effector.
+/// A rigid assembly of solids, moved by the end effector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tool {
     /// Unique within a library.
@@ -44,7 +44,7 @@ pub struct Tool {
     pub grip: Pose,
     /// Friction value.
     pub friction: f64,
-    /// At least one cuboid.
+    /// At least one.
     pub parts: Vec<Part>,
     /// Pairs of parts joined by a fixed joint; together they make one rigid piece.
     pub joints: Vec<[usize; 2]>,

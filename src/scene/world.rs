@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Shape, Vector};
 
-use super::{REST_SPEED, State};
+use super::{REST_SPEED, Span, State};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,11 +51,16 @@ pub enum JointKind {
     Revolute {
         /// Where the axis stands.
         at: Vector,
+        /// Turns of the second object against the first, radians from the start, where limited.
+        limits: Option<Span>,
     },
     /// Slide along `axis` (unit vector, world frame at the start).
     Prismatic {
         /// Direction of sliding.
         axis: Vector,
+        /// Shifts of the second object against the first, metres along the axis from the
+        /// start, where limited.
+        limits: Option<Span>,
     },
 }
 
@@ -66,6 +71,9 @@ pub struct Joint {
     pub between: [usize; 2],
     /// What it allows.
     pub kind: JointKind,
+    /// Whether only the type is known and the anchor or axis is a guess from the start poses.
+    #[serde(default)]
+    pub guessed: bool,
 }
 
 /// A table with movable objects, joints between them and fixed obstacles.

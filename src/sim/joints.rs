@@ -20,8 +20,8 @@ impl JointFrames {
         let [first, second] = joint.between.map(|index| scene.objects[index].pose);
         let world = match joint.kind {
             JointKind::Fixed => first,
-            JointKind::Revolute { at } => Pose { position: at, heading: 0.0 },
-            JointKind::Prismatic { axis } => {
+            JointKind::Revolute { at, .. } => Pose { position: at, heading: 0.0 },
+            JointKind::Prismatic { axis, .. } => {
                 Pose { position: first.position, heading: axis.y.atan2(axis.x) }
             }
         };

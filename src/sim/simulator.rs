@@ -29,7 +29,7 @@ pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 ///     pose: Pose::new(0.2, 0.0, 0.0),
 /// };
 /// let scene = Scene { table_friction: 0.5, objects: vec![can], ..Scene::default() };
-/// let bar = Part { name: "bar".into(), size: [0.02, 0.2, 0.05], pose: Pose::default() };
+/// let bar = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
 /// let tool =
 ///     Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![bar], &[]).unwrap();
 /// let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };

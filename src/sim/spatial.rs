@@ -159,9 +159,9 @@ impl SpatialWorld {
         for (index, part) in motion.tool.parts.iter().enumerate() {
             // The tool frame lies at the parts' underside. Without mass the centre of mass,
             // which rapier's velocity is of, is the tool frame.
-            let collider = rubbing(solid(&part.shape()), parameters.tool_friction)
+            let collider = rubbing(solid(&part.shape), parameters.tool_friction)
                 .density(0.0)
-                .position(to_rapier(&part.pose, Vector::zeros(), part.size[2] / 2.0));
+                .position(to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0));
             self.insert(collider, Body::Part(index), self.tool);
         }
     }

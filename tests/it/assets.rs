@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::dataset::Preset;
-use pushplan::geometry::Pose;
+use pushplan::geometry::{Pose, Shape};
 use pushplan::scene::{Push, Tool, ToolMotion};
 
 /// A folder of the repository.
@@ -57,7 +57,7 @@ fn the_reference_tools_have_the_reference_geometry() {
         let tool = library.get(name).unwrap();
         assert_eq!(tool.parts.len(), 4);
         for (part, x) in tool.parts.iter().zip([0.12, 0.26, 0.40]) {
-            assert_eq!(part.size, [0.14, 0.08, 0.05]);
+            assert_eq!(part.shape, Shape::Cuboid { size: [0.14, 0.08, 0.05] });
             assert_eq!([part.pose.position.x, part.pose.position.y], [x, 0.0]);
         }
         let part = &tool.parts[3];

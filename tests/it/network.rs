@@ -77,7 +77,7 @@ fn scene() -> Scene {
 }
 
 fn tool() -> Arc<Tool> {
-    let part = |name: &str, size, pose| Part { name: name.into(), size, pose };
+    let part = |name: &str, size, pose| Part::cuboid(name, size, pose);
     let parts = vec![
         part("bar", [0.04, 0.16, 0.05], Pose::default()),
         part("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),

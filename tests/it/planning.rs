@@ -19,7 +19,7 @@ use pushplan::sim::Simulator;
 const SETTINGS: SearchSettings = SearchSettings { offsets: 5, beam: 16, rollouts: 600, kept: 32 };
 
 fn part(name: &str, size: [f64; 3], x: f64, y: f64, heading: f64) -> Part {
-    Part { name: name.into(), size, pose: Pose::new(x, y, heading) }
+    Part::cuboid(name, size, Pose::new(x, y, heading))
 }
 
 fn tool(name: &str, parts: Vec<Part>) -> Arc<Tool> {

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
-    Task, Tool, ToolChoice,
+    Span, Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
@@ -32,7 +32,13 @@ pub(super) fn tool(tool: &Tool) -> Json {
     let parts: Vec<Json> = tool
         .parts
         .iter()
-        .map(|part| posed(json!({"name": part.name, "size": part.size}), &part.pose))
+        .map(|part| {
+            let fields = match part.shape {
+                Shape::Cuboid { size } => json!({"name": part.name, "size": size}),
+                round => json!({"name": part.name, "shape": shape(&round)}),
+            };
+            posed(fields, &part.pose)
+        })
         .collect();
     // Every joint is written, those of touching parts too: to name one by hand does no harm.
     let joints: Vec<Json> =
@@ -47,16 +53,19 @@ pub(super) fn tool(tool: &Tool) -> Json {
     })
 }
 
+fn shape(shape: &Shape) -> Json {
+    match *shape {
+        Shape::Cylinder { radius, height } => {
+            json!({"cylinder": {"radius": radius, "height": height}})
+        }
+        Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
+    }
+}
+
 fn scene(scene: &Scene) -> Json {
     let object = |object: &Object| {
-        let shape = match object.shape {
-            Shape::Cylinder { radius, height } => {
-                json!({"cylinder": {"radius": radius, "height": height}})
-            }
-            Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
-        };
         let fields = json!({
-            "name": object.name, "shape": shape, "mass": object.mass, "friction": object.friction,
+            "name": object.name, "shape": shape(&object.shape), "mass": object.mass, "friction": object.friction,
         });
         posed(fields, &object.pose)
     };
@@ -68,15 +77,25 @@ fn scene(scene: &Scene) -> Json {
     };
     let joint = |joint: &Joint| {
         let between = joint.between.map(|k| &scene.objects[k].name);
-        match joint.kind {
+        let mut fields = match joint.kind {
             JointKind::Fixed => json!({"between": between, "kind": "fixed"}),
-            JointKind::Revolute { at } => {
+            JointKind::Revolute { at, .. } => {
                 json!({"between": between, "kind": "revolute", "at": vector(at)})
             }
-            JointKind::Prismatic { axis } => {
+            JointKind::Prismatic { axis, .. } => {
                 json!({"between": between, "kind": "prismatic", "axis": vector(axis)})
             }
+        };
+        match joint.kind {
+            JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
+                fields["limits_deg"] = json!([degrees(low), degrees(high)]);
+            }
+            JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
+                fields["limits"] = json!([low, high]);
+            }
+            _ => {}
         }
+        fields
     };
     json!({
         "table": {"friction": scene.table_friction},

@@ -94,7 +94,7 @@ mod tests {
         };
         let objects = vec![can("near", 0.065), can("far", 0.185)];
         let scene = Scene { table_friction: 0.5, objects, ..Scene::default() };
-        let bar = Part { name: "bar".into(), size: [0.02, 0.2, 0.05], pose: Pose::default() };
+        let bar = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
         let tool = Tool {
             name: "bar".into(),
             description: String::new(),

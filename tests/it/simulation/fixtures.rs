@@ -35,8 +35,7 @@ pub fn table(objects: Vec<Object>) -> Scene {
 
 /// A bar of 2 x 20 x 5 cm across x, its front face at the end effector.
 pub fn bar() -> Arc<Tool> {
-    let part =
-        Part { name: "bar".into(), size: [0.02, 0.2, 0.05], pose: Pose::new(-0.01, 0.0, 0.0) };
+    let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::new(-0.01, 0.0, 0.0));
     let tool = Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
     Arc::new(tool.expect("one part is one piece"))
 }

@@ -13,7 +13,7 @@ fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     let mut first = brick();
     first.pose.heading = std::f64::consts::FRAC_PI_2;
     let mut scene = table(vec![first, second]);
-    scene.joints.push(Joint { between: [0, 1], kind });
+    scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
     let motion = push(Vector::new(-0.04, 0.17), 0.0, 0.12, 0.1);
     let ends = engines().map(|simulator| {
         let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
@@ -44,7 +44,7 @@ fn a_fixed_joint_makes_one_body() {
 #[test]
 fn a_revolute_joint_keeps_its_axis_and_turns() {
     let at = Vector::new(0.0, 0.051);
-    let (scene, ends) = pushed(JointKind::Revolute { at });
+    let (scene, ends) = pushed(JointKind::Revolute { at, limits: None });
     for end in ends {
         let drift = carried(&scene, &end, 0, at) - carried(&scene, &end, 1, at);
         assert!(drift.norm() < 0.5e-3, "{drift}");
@@ -55,7 +55,7 @@ fn a_revolute_joint_keeps_its_axis_and_turns() {
 
 #[test]
 fn a_prismatic_joint_slides_along_its_axis_and_keeps_the_angle() {
-    let (scene, ends) = pushed(JointKind::Prismatic { axis: Vector::x() });
+    let (scene, ends) = pushed(JointKind::Prismatic { axis: Vector::x(), limits: None });
     for end in ends {
         let turn = |object: usize| end.poses[object].heading - scene.objects[object].pose.heading;
         assert!(wrap_angle(turn(0) - turn(1)).abs() < 5e-3, "{} {}", turn(0), turn(1));
@@ -76,7 +76,11 @@ fn an_untouched_joint_does_not_move() {
     other.pose = Pose::new(0.0, 0.12, 0.4);
     let mut scene = table(vec![can(), other]);
     let at = Vector::new(0.01, 0.06);
-    scene.joints.push(Joint { between: [0, 1], kind: JointKind::Revolute { at } });
+    scene.joints.push(Joint {
+        between: [0, 1],
+        kind: JointKind::Revolute { at, limits: None },
+        guessed: false,
+    });
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
         let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
