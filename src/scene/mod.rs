@@ -5,6 +5,7 @@
 
 mod hypothesis;
 mod job;
+mod joint;
 mod motion;
 mod plan;
 mod ranges;
@@ -17,6 +18,7 @@ mod world;
 
 pub use hypothesis::Hypothesis;
 pub use job::Job;
+pub use joint::{Joint, JointKind};
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
@@ -27,4 +29,4 @@ pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, Tool
 pub use tool::{Part, Tool, ToolError};
 pub use trajectory::{Body, Contact, Frame, Record, Trajectory};
 pub use warning::Warning;
-pub use world::{GRAVITY, Joint, JointKind, Object, Obstacle, Scene};
+pub use world::{GRAVITY, Object, Obstacle, Scene};

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::{Pose, Shape};
 
-use super::{REST_SPEED, Span, State};
+use super::{Joint, REST_SPEED, State};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,41 +39,6 @@ impl Obstacle {
     pub fn shape(&self) -> Shape {
         Shape::Cuboid { size: self.size }
     }
-}
-
-/// What two jointed objects may do against each other.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum JointKind {
-    /// Nothing: they move as one body.
-    Fixed,
-    /// Turn about a vertical axis through `at` (world frame at the start, metres).
-    Revolute {
-        /// Where the axis stands.
-        at: Vector,
-        /// Turns of the second object against the first, radians from the start, where limited.
-        limits: Option<Span>,
-    },
-    /// Slide along `axis` (unit vector, world frame at the start).
-    Prismatic {
-        /// Direction of sliding.
-        axis: Vector,
-        /// Shifts of the second object against the first, metres along the axis from the
-        /// start, where limited.
-        limits: Option<Span>,
-    },
-}
-
-/// A joint between two objects.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Joint {
-    /// Indices of the two objects in [`Scene::objects`].
-    pub between: [usize; 2],
-    /// What it allows.
-    pub kind: JointKind,
-    /// Whether only the type is known and the anchor or axis is a guess from the start poses.
-    #[serde(default)]
-    pub guessed: bool,
 }
 
 /// A table with movable objects, joints between them and fixed obstacles.

@@ -1,0 +1,67 @@
+//! Joints between objects: what two of them may do against each other.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Vector};
+
+use super::{Object, Span};
+
+/// What two jointed objects may do against each other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointKind {
+    /// Nothing: they move as one body.
+    Fixed,
+    /// Turn about a vertical axis through `at` (world frame at the start, metres).
+    Revolute {
+        /// Where the axis stands.
+        at: Vector,
+        /// Turns of the second object against the first, radians from the start, where limited.
+        limits: Option<Span>,
+    },
+    /// Slide along `axis` (unit vector, world frame at the start).
+    Prismatic {
+        /// Direction of sliding.
+        axis: Vector,
+        /// Shifts of the second object against the first, metres along the axis from the
+        /// start, where limited.
+        limits: Option<Span>,
+    },
+}
+
+/// A joint between two objects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// Indices of the two objects in [`super::Scene::objects`].
+    pub between: [usize; 2],
+    /// What it allows.
+    pub kind: JointKind,
+    /// Whether only the type is known and the anchor or axis is a guess from the start poses.
+    #[serde(default)]
+    pub guessed: bool,
+}
+
+impl Joint {
+    /// The joint's own frame as seen from each of its two objects. At the poses that the scene
+    /// states (not where the objects may have come since) the two coincide. A revolute joint
+    /// turns about the frames' origin; a prismatic one slides along their x axis.
+    pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
+        let [first, second] = self.between.map(|index| objects[index].pose);
+        let world = match self.kind {
+            JointKind::Fixed => first,
+            JointKind::Revolute { at, .. } => Pose { position: at, heading: 0.0 },
+            JointKind::Prismatic { axis, .. } => {
+                Pose { position: first.position, heading: axis.y.atan2(axis.x) }
+            }
+        };
+        [first.inverse() * world, second.inverse() * world]
+    }
+
+    /// The range of turns (radians) or shifts (metres) against the start, where limited.
+    pub fn limits(&self) -> Option<Span> {
+        match self.kind {
+            JointKind::Fixed => None,
+            JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => limits,
+        }
+    }
+}
