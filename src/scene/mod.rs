@@ -3,6 +3,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
+mod guess;
 mod hypothesis;
 mod job;
 mod joint;
@@ -16,6 +17,7 @@ mod trajectory;
 mod warning;
 mod world;
 
+pub use guess::NEARLY_TOUCHING;
 pub use hypothesis::Hypothesis;
 pub use job::Job;
 pub use joint::{Joint, JointKind};

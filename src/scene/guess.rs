@@ -1,0 +1,132 @@
+//! Other joints for the same scene: none, every contact fixed, or geometry guessed from the
+//! types.
+
+use crate::geometry::{ContactPoint, Vector, contact_points};
+
+use super::{Joint, JointKind, Object, Scene};
+
+/// Objects whose gap at the start is smaller than this count as touching when every contact is
+/// taken for a joint, metres: the reach in which the thesis looks for joints.
+pub const NEARLY_TOUCHING: f64 = 0.005;
+
+impl Scene {
+    /// The scene as it looks to someone who knows which objects are joined and by which type of
+    /// joint, but not where the axes are.
+    ///
+    /// Geometry is guessed from the start poses: the axis of a revolute joint stands midway
+    /// between the closest points of the two objects, a prismatic joint slides along the line
+    /// of their centres, and nothing is limited. Such joints are marked [`Joint::guessed`]. A
+    /// fixed joint has no geometry to guess and stays as it is.
+    pub fn guess_joints(&self) -> Self {
+        let guess = |joint: &Joint| {
+            let [first, second] = joint.between.map(|index| &self.objects[index]);
+            let kind = match joint.kind {
+                JointKind::Fixed => return joint.clone(),
+                JointKind::Revolute { .. } => {
+                    JointKind::Revolute { at: between(first, second), limits: None }
+                }
+                JointKind::Prismatic { .. } => {
+                    JointKind::Prismatic { axis: line_of_centres(first, second), limits: None }
+                }
+            };
+            Joint { kind, guessed: true, ..joint.clone() }
+        };
+        Self { joints: self.joints.iter().map(guess).collect(), ..self.clone() }
+    }
+
+    /// The scene without its joints.
+    pub fn without_joints(&self) -> Self {
+        Self { joints: Vec::new(), ..self.clone() }
+    }
+
+    /// The scene with a fixed joint between every two objects that touch or nearly touch at the
+    /// start (gap below [`NEARLY_TOUCHING`]), whatever its own joints say.
+    pub fn with_contacts_fixed(&self) -> Self {
+        let mut joints = Vec::new();
+        for (a, first) in self.objects.iter().enumerate() {
+            for (b, second) in self.objects.iter().enumerate().skip(a + 1) {
+                if gap(first, second) < NEARLY_TOUCHING {
+                    let kind = JointKind::Fixed;
+                    joints.push(Joint { between: [a, b], kind, guessed: false });
+                }
+            }
+        }
+        Self { joints, ..self.clone() }
+    }
+}
+
+/// Smallest distance of two objects at the start, metres; negative where they overlap.
+fn gap(first: &Object, second: &Object) -> f64 {
+    closest(first, second).map_or(f64::INFINITY, |point| point.gap)
+}
+
+/// The point midway between the closest points of two objects.
+fn between(first: &Object, second: &Object) -> Vector {
+    match closest(first, second) {
+        Some(point) => 0.5 * (point.on_first + point.on_second),
+        None => 0.5 * (first.pose.position + second.pose.position),
+    }
+}
+
+/// Unit vector from the first centre to the second; the first object's own x axis where the
+/// centres coincide.
+fn line_of_centres(first: &Object, second: &Object) -> Vector {
+    let line = second.pose.position - first.pose.position;
+    line.try_normalize(1e-9).unwrap_or_else(|| first.pose.vector(Vector::x()))
+}
+
+fn closest(first: &Object, second: &Object) -> Option<ContactPoint> {
+    let (a, b) = (first.shape.footprint(), second.shape.footprint());
+    contact_points((&a, &first.pose), (&b, &second.pose), f64::INFINITY).0[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose, Shape};
+    use crate::scene::Span;
+
+    fn scene() -> Scene {
+        let object = |name: &str, x, y| Object {
+            name: name.into(),
+            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
+            mass: 0.4,
+            friction: 0.4,
+            pose: Pose::new(x, y, 0.3),
+        };
+        let objects = vec![object("a", 0.0, 0.0), object("b", 0.102, 0.0), object("c", 0.1, 0.2)];
+        let limits = Some(Span::new(-0.1, 0.1));
+        let joint = |between, kind| Joint { between, kind, guessed: false };
+        let joints = vec![
+            joint([0, 1], JointKind::Revolute { at: Vector::new(0.01, 0.02), limits }),
+            joint([1, 2], JointKind::Prismatic { axis: Vector::x(), limits }),
+            joint([0, 2], JointKind::Fixed),
+        ];
+        Scene { table_friction: 0.5, objects, joints, ..Scene::default() }
+    }
+
+    #[test]
+    fn geometry_is_guessed_from_the_poses_alone() {
+        let scene = scene();
+        let guessed = scene.guess_joints();
+        let [revolute, prismatic, fixed] = &guessed.joints[..] else { panic!("three joints") };
+        let JointKind::Revolute { at, limits: None } = revolute.kind else { panic!("revolute") };
+        assert!((at - Vector::new(0.051, 0.0)).norm() < 1e-12 && revolute.guessed);
+        let JointKind::Prismatic { axis, limits: None } = prismatic.kind else {
+            panic!("prismatic")
+        };
+        let line = Vector::new(-0.002, 0.2).normalize();
+        assert!((axis - line).norm() < 1e-12 && prismatic.guessed);
+        assert_eq!(*fixed, scene.joints[2]);
+        assert_eq!(guessed.guess_joints(), guessed, "guessing again changes nothing");
+    }
+
+    #[test]
+    fn contacts_become_joints_and_joints_vanish() {
+        let scene = scene();
+        assert!(scene.without_joints().joints.is_empty());
+        let fixed = scene.with_contacts_fixed();
+        let kind = JointKind::Fixed;
+        assert_eq!(fixed.joints, [Joint { between: [0, 1], kind, guessed: false }]);
+    }
+}
