@@ -105,6 +105,14 @@ impl Node {
         }
     }
 
+    /// True or false, if it is one of them.
+    pub fn switch(&self) -> Option<bool> {
+        match self.content {
+            Content::Switch(value) => Some(value),
+            _ => None,
+        }
+    }
+
     /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self.content {

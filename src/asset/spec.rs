@@ -83,9 +83,39 @@ pub(super) const POSITION: Value = numbers(&COORDINATE, 2);
 /// Full extents.
 pub(super) const EXTENTS: Value = numbers(&SIZE, 3);
 
+/// A solid standing upright.
+pub(super) const SHAPE: Value = Value::Variant(&[
+    Key::optional(
+        "cylinder",
+        Value::Map(&[
+            Key::required("radius", SIZE, "Radius in metres."),
+            Key::required("height", SIZE, "Height in metres."),
+        ]),
+        "An upright cylinder; no default.",
+    ),
+    Key::optional(
+        "cuboid",
+        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
+        "A cuboid with its faces along its own axes; no default.",
+    ),
+]);
+
 /// A turn or direction.
 pub(super) const ANGLE: Value =
     Value::Number(Range { what: "an angle in degrees", low: -360.0, high: 360.0, advice: DEGREES });
+
+/// The end of a joint's turns. Near half a turn left and right meet, and a simulator no longer
+/// knows which limit is near.
+pub(super) const ANGLE_LIMIT: Value = Value::Number(Range {
+    what: "a limit in degrees",
+    low: -170.0,
+    high: 170.0,
+    advice: "limits are in degrees from the start; leave them out where a joint turns freely",
+});
+
+/// The end of a joint's shifts.
+pub(super) const SHIFT_LIMIT: Value =
+    Value::Number(Range { what: "a limit in metres", low: -10.0, high: 10.0, advice: METRES });
 
 /// A friction value. Below 0.05 a body would slide on for seconds after a push, and without
 /// friction it never stops; above 2 no dry pair of materials lies.

@@ -1,7 +1,7 @@
 //! Taking values out of checked nodes. What the check emptied gives `None`, silently: its
 //! fault is already noted.
 
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Shape, Vector};
 
 use super::node::Node;
 use super::strict::Ledger;
@@ -19,6 +19,11 @@ pub(super) fn number_or(node: &Node, key: &str, default: f64) -> Option<f64> {
 /// The angle under `key` in radians, `default` degrees if there is no such key.
 pub(super) fn angle(node: &Node, key: &str, default: f64) -> Option<f64> {
     number_or(node, key, default).map(f64::to_radians)
+}
+
+/// The angle written in degrees, in radians.
+pub(super) fn angle_of(node: &Node) -> Option<f64> {
+    node.number().map(f64::to_radians)
 }
 
 /// The first two numbers of a list.
@@ -43,6 +48,15 @@ pub(super) fn triple(node: &Node, key: &str) -> Option<[f64; 3]> {
         [x, y, z] => Some([x.number()?, y.number()?, z.number()?]),
         _ => None,
     }
+}
+
+/// The solid under `shape`.
+pub(super) fn shape(node: &Node) -> Option<Shape> {
+    if let Some(cylinder) = node.get("cylinder") {
+        let radius = cylinder.get("radius")?.number()?;
+        return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
+    }
+    Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
 }
 
 /// Notes every name that an earlier node already has.

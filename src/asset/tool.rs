@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
 use super::fault::{Faults, did_you_mean};
 use super::node::Node;
-use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, Value};
+use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};
 use super::strict::{Ledger, check};
-use super::take::{angle, name_of, pose, position, triple, unique_names};
+use super::take::{angle, name_of, pose, position, shape, triple, unique_names};
 use super::text::Source;
 
 /// What a tool file may hold.
@@ -43,7 +43,7 @@ pub(super) const TOOL_KEYS: &[Key] = &[
     Key::required(
         "parts",
         Value::List { of: &PART, items: "parts", min: 1, max: 32 },
-        "The cuboids that make the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
+        "The solids that make the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
     ),
     Key::optional(
         "joints",
@@ -57,16 +57,27 @@ pub(super) const TOOL_KEYS: &[Key] = &[
     ),
 ];
 
-const PART: Value = Value::Map(&[
+const PART: Value = Value::Map(PART_KEYS);
+
+const PART_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The part's name, unique in the tool."),
-    Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
+    Key::optional(
+        "size",
+        EXTENTS,
+        "Full extents [x, y, z] of a cuboid in metres; no default, a part has this or `shape`.",
+    ),
+    Key::optional(
+        "shape",
+        SHAPE,
+        "The part's solid, standing upright; no default, a part has this or `size`.",
+    ),
     Key::required(
         "position",
         Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 },
         "The part's centre in the tool frame, [x, y] or [x, y, 0] in metres.",
     ),
     Key::optional("yaw_deg", ANGLE, "Turn of the part in the tool frame, degrees; default 0."),
-]);
+];
 
 impl Tool {
     /// Reads a tool file.
@@ -97,6 +108,7 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     let list = root.get("parts")?;
     unique_names(list.items(), "parts", ledger);
     for part in list.items() {
+        one_solid(part, ledger);
         let height = part.get("position").and_then(|position| position.items().get(2));
         if let Some(node) = height.filter(|node| node.number().is_some_and(|z| z != 0.0)) {
             ledger.fault(
@@ -138,7 +150,32 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
 
 fn part(node: &Node) -> Option<Part> {
     let name = name_of(node)?.to_owned();
-    Some(Part::cuboid(name, triple(node, "size")?, pose(node)?))
+    let shape = match node.get("shape") {
+        Some(node) => shape(node)?,
+        None => Shape::Cuboid { size: triple(node, "size")? },
+    };
+    Some(Part { name, shape, pose: pose(node)? })
+}
+
+/// A part's solid is given once.
+fn one_solid(part: &Node, ledger: &mut Ledger) {
+    match (part.get("size"), part.get("shape")) {
+        (Some(_), Some(shape)) => {
+            let advice = "keep one of the two; `size` is short for a cuboid";
+            ledger.fault(shape, "this part has both `size` and `shape`", advice);
+        }
+        // A misspelled key is one fault, not two.
+        (None, None) if part.pairs().iter().all(|(key, _)| is_key(key)) => {
+            let advice = "add `size: [x, y, z]` in metres, or `shape: {cylinder: {radius: r, \
+                          height: h}}`";
+            ledger.fault(part, "this part has neither `size` nor `shape`", advice);
+        }
+        _ => {}
+    }
+}
+
+fn is_key(key: &Node) -> bool {
+    PART_KEYS.iter().any(|known| key.text() == Some(known.name))
 }
 
 /// The pairs joined by hand, by index.

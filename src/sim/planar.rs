@@ -7,12 +7,15 @@
 
 use rapier2d::prelude::{
     CoefficientCombineRule, ColliderBuilder, ColliderHandle, GenericJointBuilder, Group,
-    InteractionGroups, InteractionTestMode, JointAxesMask, PhysicsWorld, Pose2 as RapierPose, Real,
-    RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, Vector as RapierVector,
+    InteractionGroups, InteractionTestMode, JointAxesMask, JointAxis, PhysicsWorld,
+    Pose2 as RapierPose, Real, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
+    Vector as RapierVector,
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
-use crate::scene::{Body, FrameStep, Hypothesis, JointKind, Scene, State, ToolMotion, Velocity};
+use crate::scene::{
+    Body, FrameStep, Hypothesis, JointKind, Scene, Span, State, ToolMotion, Velocity,
+};
 
 use super::drive::World;
 use super::joints::{JointFrames, neighbours_touch};
@@ -218,10 +221,20 @@ impl PlanarWorld {
                 JointKind::Prismatic { .. } => JointAxesMask::LOCKED_PRISMATIC_AXES,
             };
             let frames = JointFrames::new(scene, joint);
-            let built = GenericJointBuilder::new(axes)
+            let mut built = GenericJointBuilder::new(axes)
                 .local_frame1(to_rapier(&frames.first, Vector::zeros()))
                 .local_frame2(to_rapier(&frames.second, Vector::zeros()))
                 .contacts_enabled(neighbours_touch(&joint.kind));
+            // Both frames lie on each other where the scene states its objects, so zero is there.
+            match joint.kind {
+                JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
+                    built = built.limits(JointAxis::AngX, [low as Real, high as Real]);
+                }
+                JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
+                    built = built.limits(JointAxis::LinX, [low as Real, high as Real]);
+                }
+                _ => {}
+            }
             let [first, second] = joint.between.map(|index| self.objects[index].body);
             self.world.insert_impulse_joint(first, second, built);
         }

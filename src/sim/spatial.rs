@@ -9,13 +9,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
     CoefficientCombineRule, ColliderBuilder, ColliderHandle, FrictionModel, GenericJointBuilder,
-    JointAxesMask, PhysicsWorld, Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape,
-    SpringCoefficients, Vector as RapierVector,
+    JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation,
+    SharedShape, SpringCoefficients, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::scene::{
-    Body, FrameStep, GRAVITY, Hypothesis, JointKind, Scene, State, ToolMotion, Velocity,
+    Body, FrameStep, GRAVITY, Hypothesis, JointKind, Scene, Span, State, ToolMotion, Velocity,
 };
 
 use super::drive::World;
@@ -215,10 +215,20 @@ impl SpatialWorld {
                 let frame = to_rapier(pose, Vector::zeros(), below);
                 Pose3::from_parts(frame.translation, frame.rotation * axis)
             };
-            let built = GenericJointBuilder::new(axes)
+            let mut built = GenericJointBuilder::new(axes)
                 .local_frame1(frame(&frames.first, first))
                 .local_frame2(frame(&frames.second, second))
                 .contacts_enabled(neighbours_touch(&joint.kind));
+            // Both frames lie on each other where the scene states its objects, so zero is there.
+            match joint.kind {
+                JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
+                    built = built.limits(JointAxis::AngX, [low, high]);
+                }
+                JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
+                    built = built.limits(JointAxis::LinX, [low, high]);
+                }
+                _ => {}
+            }
             let (first, second) = (self.objects[first].body, self.objects[second].body);
             self.world.insert_impulse_joint(first, second, built);
         }

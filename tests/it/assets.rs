@@ -1,6 +1,7 @@
 //! Every shipped file loads, and broken files are refused with all their faults.
 
 mod faults;
+mod joints;
 mod robustness;
 mod saved;
 

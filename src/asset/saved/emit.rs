@@ -95,6 +95,9 @@ fn scene(scene: &Scene) -> Json {
             }
             _ => {}
         }
+        if joint.guessed {
+            fields["guessed"] = json!(true);
+        }
         fields
     };
     json!({

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use crate::asset::node::{Content, Node};
-use crate::asset::take::{angle, name_of, number_or, pose, position, triple, vector};
-use crate::geometry::{Shape, Vector};
+use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
+use crate::geometry::Vector;
 use crate::scene::{
     Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Task,
     ToolChoice,
 };
 
+use super::joints;
 use super::spec::default;
 
 /// The task, or `None` if anything needed is missing or was faulty.
@@ -33,15 +34,15 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
 
 fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
+    let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
     Some(Scene {
         table_friction: match node.get("table") {
             Some(table) => table.get("friction")?.number()?,
             None => default::FRICTION,
         },
-        objects: items("objects").map(object).collect::<Option<_>>()?,
-        // A task with joints is refused by the rules.
-        joints: Vec::new(),
+        joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
         obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
+        objects,
     })
 }
 
@@ -53,15 +54,6 @@ fn object(node: &Node) -> Option<Object> {
         friction: node.get("friction")?.number()?,
         pose: pose(node)?,
     })
-}
-
-/// The solid under `shape`.
-pub(super) fn shape(node: &Node) -> Option<Shape> {
-    if let Some(cylinder) = node.get("cylinder") {
-        let radius = cylinder.get("radius")?.number()?;
-        return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
-    }
-    Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
 }
 
 fn obstacle(node: &Node) -> Option<Obstacle> {

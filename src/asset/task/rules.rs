@@ -3,12 +3,12 @@
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, pose, triple, unique_names};
+use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::PushForm;
 
-use super::build;
 use super::spec::default;
+use super::{build, joints};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -32,7 +32,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     unique_names(objects.iter().chain(obstacles), "bodies", ledger);
     overlaps(objects, obstacles, ledger);
     masses(objects, ledger);
-    joints(scene, objects, ledger);
+    let joints = scene.get("joints").map(Node::items).unwrap_or_default();
+    joints::check(joints, objects, obstacles, ledger);
     robot(section("robot"), pushes, ledger);
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
@@ -40,13 +41,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
 }
 
 fn overlaps(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    let solid = |node: &Node| -> Option<(Footprint, Pose)> {
-        let shape = match node.get("shape") {
-            Some(shape) => build::shape(shape)?,
-            None => Shape::Cuboid { size: triple(node, "size")? },
-        };
-        Some((shape.footprint().grown(-SLACK / 2.0), pose(node)?))
-    };
+    let solid = |node| body(node).map(|(footprint, pose)| (footprint.grown(-SLACK / 2.0), pose));
     let solids: Vec<_> = objects.iter().chain(obstacles).map(|n| (n, solid(n))).collect();
     for (k, (node, solid)) in solids.iter().enumerate() {
         for (other, other_solid) in &solids[..k.min(objects.len())] {
@@ -61,6 +56,15 @@ fn overlaps(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
             }
         }
     }
+}
+
+/// What a body covers, and where.
+pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
+    let shape = match node.get("shape") {
+        Some(node) => shape(node)?,
+        None => Shape::Cuboid { size: triple(node, "size")? },
+    };
+    Some((shape.footprint(), pose(node)?))
 }
 
 fn masses(objects: &[Node], ledger: &mut Ledger) {
@@ -85,18 +89,6 @@ fn masses(objects: &[Node], ledger: &mut Ledger) {
             "bring the masses closer together, or make the heaviest an obstacle",
         );
     }
-}
-
-fn joints(scene: &Node, objects: &[Node], ledger: &mut Ledger) {
-    let Some(list) = scene.get("joints").filter(|list| !list.items().is_empty()) else { return };
-    for name in list.items().iter().filter_map(|joint| joint.get("between")).flat_map(Node::items) {
-        known_object(name, objects, &[], ledger);
-    }
-    ledger.fault(
-        list,
-        "joints between objects are not supported in this version",
-        "remove `joints`, or write the jointed objects as one cuboid",
-    );
 }
 
 fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
@@ -168,7 +160,7 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     }
     let heights: Option<Vec<f64>> = objects
         .iter()
-        .map(|object| build::shape(object.get("shape")?).map(|shape| shape.height()))
+        .map(|object| shape(object.get("shape")?).map(|shape| shape.height()))
         .collect();
     let highest = heights.and_then(|heights| heights.into_iter().reduce(f64::max));
     let lift = number_or(pushes, "lift", default::LIFT);
@@ -193,8 +185,8 @@ fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
     }
     let Some(name) = goal.get("object") else { return };
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
-    let shape = object.get("shape").and_then(build::shape);
-    if let (Some(heading), Some(true)) = (goal.get("heading_deg"), shape.map(|s| s.is_cylinder())) {
+    let solid = object.get("shape").and_then(shape);
+    if let (Some(heading), Some(true)) = (goal.get("heading_deg"), solid.map(|s| s.is_cylinder())) {
         ledger.fault(
             heading,
             "a cylinder looks the same at every heading, so it cannot have a heading goal",
@@ -204,7 +196,7 @@ fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
 }
 
 /// The object that `name` names; notes a fault if there is none.
-fn known_object<'a>(
+pub(super) fn known_object<'a>(
     name: &Node,
     objects: &'a [Node],
     obstacles: &[Node],

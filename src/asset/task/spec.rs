@@ -1,6 +1,8 @@
 //! What a task file may hold.
 
-use crate::asset::spec::{ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SIZE, Value};
+use crate::asset::spec::{ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, Value};
+
+use super::joints::JOINT;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
 pub(super) mod default {
@@ -75,47 +77,12 @@ const OBJECT: Value = Value::Map(&[
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);
 
-const SHAPE: Value = Value::Variant(&[
-    Key::optional(
-        "cylinder",
-        Value::Map(&[
-            Key::required("radius", SIZE, "Radius in metres."),
-            Key::required("height", SIZE, "Height in metres."),
-        ]),
-        "An upright cylinder; no default.",
-    ),
-    Key::optional(
-        "cuboid",
-        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
-        "A cuboid with its faces along its own axes; no default.",
-    ),
-]);
-
 const OBSTACLE: Value = Value::Map(&[
     Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
     Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
     Key::required("position", POSITION, "Centre, [x, y] in metres."),
     Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
     Key::optional("friction", FRICTION, "Friction value; default 0.5."),
-]);
-
-const JOINT: Value = Value::Map(&[
-    Key::required(
-        "between",
-        Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
-        "The names of the two objects.",
-    ),
-    Key::required("kind", Value::Word(&["fixed", "revolute", "prismatic"]), "What it allows."),
-    Key::optional(
-        "at",
-        POSITION,
-        "Where the axis of a revolute joint stands, [x, y] in metres; no default.",
-    ),
-    Key::optional(
-        "axis",
-        POSITION,
-        "Direction of a prismatic joint, [x, y] of any length; no default.",
-    ),
 ]);
 
 const ROBOT: Value = Value::Map(&[

@@ -55,6 +55,8 @@ fn tool(changes: &[(&str, &str)]) -> String {
 fn the_unspoiled_files_are_sound() {
     Task::parse(TASK, "t.yaml").unwrap();
     Tool::parse(TOOL, "t.yaml").unwrap();
+    let round = ("size: [0.04, 0.2, 0.05]", "shape: {cylinder: {radius: 0.02, height: 0.05}}");
+    Tool::parse(&spoiled(TOOL, &[round]), "t.yaml").unwrap();
 }
 
 #[test]
@@ -204,16 +206,6 @@ fn masses_too_far_apart() {
 }
 
 #[test]
-fn joints_are_for_a_later_version() {
-    assert_snapshot!(task(&[("  obstacles:", "  joints: [{between: [can, bx], kind: fixed}]\n  obstacles:")]), @r#"
-    t.yaml:10:11: error: joints between objects are not supported in this version
-      help: remove `joints`, or write the jointed objects as one cuboid
-    t.yaml:10:28: error: no object is called `bx`
-      help: did you mean `box`?
-    "#);
-}
-
-#[test]
 fn text_that_is_not_yaml() {
     assert_snapshot!(task(&[("robot: {home", "robot: {home: [")]), @r#"
     t.yaml:12:16: error: not valid YAML: did not find expected node content
@@ -248,6 +240,18 @@ fn a_tool_full_of_faults() {
       help: rename one; plans and messages refer to names
     t.yaml:5:65: error: parts at different heights are not supported
       help: write 0; all parts stand side by side with their undersides at the push's `lift`
+    "#);
+}
+
+#[test]
+fn parts_with_two_solids_or_none() {
+    assert_snapshot!(tool(&[("size: [0.2, 0.04, 0.05], ", ""), ("0.05], position: [0.22", "0.05], shape: {cylinder: {radius: 0.05, hight: 0.1}}, position: [0.22")]), @r#"
+    t.yaml:4:5: error: this part has neither `size` nor `shape`
+      help: add `size: [x, y, z]` in metres, or `shape: {cylinder: {radius: r, height: h}}`
+    t.yaml:5:50: error: this part has both `size` and `shape`
+      help: keep one of the two; `size` is short for a cuboid
+    t.yaml:5:76: error: unknown key `hight`
+      help: did you mean `height`?
     "#);
 }
 

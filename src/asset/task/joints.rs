@@ -1,0 +1,331 @@
+//! Joints of a task file: their reading, and the rules that they must keep.
+//!
+//! The simulators hold a forest of joints: every jointed group is a tree, of at most [`GROUP`]
+//! objects of similar mass. A closed loop would be pulled at from two sides by constraints that
+//! never quite agree.
+
+use crate::asset::node::Node;
+use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, numbers};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{angle_of, name_of, vector};
+use crate::geometry::{Footprint, Pose, Vector, clearance};
+use crate::scene::{Joint, JointKind, Object, Span};
+
+use super::rules::{body, known_object};
+
+/// The most objects that one group of joints may hold.
+const GROUP: usize = 12;
+
+/// The largest ratio of masses within one group of joints, where the simulators hold the joints
+/// of a chain of light and heavy objects in turn.
+const GROUP_MASS_RATIO: f64 = 10.0;
+
+/// No joint of things on a table reaches over a larger gap, metres.
+const FAR: f64 = 0.5;
+
+/// A vector whose squared length differs from one by no more is kept as it is, so that what is
+/// read, written and read again stays the same to the bit.
+const UNIT: f64 = 1e-12;
+
+/// What a joint may hold.
+pub(super) const JOINT: Value = Value::Map(KEYS);
+
+const KEYS: &[Key] = &[
+    Key::required(
+        "between",
+        Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
+        "The names of the two objects.",
+    ),
+    Key::required(
+        "kind",
+        Value::Word(&["fixed", "revolute", "prismatic"]),
+        "What it allows: nothing, turning about a vertical axis, or sliding along a line.",
+    ),
+    Key::optional(
+        "at",
+        POSITION,
+        "Where the axis of a revolute joint stands, [x, y] in metres; no default.",
+    ),
+    Key::optional(
+        "limits_deg",
+        numbers(&ANGLE_LIMIT, 2),
+        "Smallest and largest turn of the second object against the first, [low, high] in degrees \
+         counter-clockwise from the start (revolute joints only); by default unlimited.",
+    ),
+    Key::optional(
+        "axis",
+        numbers(&ALONG, 2),
+        "Direction in which a prismatic joint slides, [x, y] of any length; no default.",
+    ),
+    Key::optional(
+        "limits",
+        numbers(&SHIFT_LIMIT, 2),
+        "Smallest and largest shift of the second object against the first, [low, high] in metres \
+         along the axis from the start (prismatic joints only); by default unlimited.",
+    ),
+    Key::optional(
+        "guessed",
+        Value::Switch,
+        "Whether only the kind is known, and `at` or `axis` is a guess; default false.",
+    ),
+];
+
+const ALONG: Value = Value::Number(Range {
+    what: "a part of a direction",
+    low: -1000.0,
+    high: 1000.0,
+    advice: "only the direction counts: [1, 0] is +x",
+});
+
+/// The joint, or `None` if anything needed is missing or was faulty.
+pub(super) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> {
+    let index = |node: &Node| {
+        let name = node.text()?;
+        objects.iter().position(|object| object.name == name)
+    };
+    let between = match node.get("between")?.items() {
+        [first, second] => [index(first)?, index(second)?],
+        _ => return None,
+    };
+    let kind = match node.get("kind")?.text()? {
+        "fixed" => JointKind::Fixed,
+        "revolute" => JointKind::Revolute {
+            at: vector(node.get("at")?)?,
+            limits: limits(node, "limits_deg", angle_of)?,
+        },
+        _ => JointKind::Prismatic {
+            axis: unit(vector(node.get("axis")?)?)?,
+            limits: limits(node, "limits", Node::number)?,
+        },
+    };
+    let guessed = node.get("guessed").is_some_and(|node| node.switch() == Some(true));
+    Some(Joint { between, kind, guessed })
+}
+
+/// `Some(None)` where there are no limits, `None` where they are faulty.
+fn limits(node: &Node, key: &str, read: fn(&Node) -> Option<f64>) -> Option<Option<Span>> {
+    match node.get(key).map(Node::items) {
+        None => Some(None),
+        Some([low, high]) => Some(Some(Span::new(read(low)?, read(high)?))),
+        Some(_) => None,
+    }
+}
+
+/// `axis` at length one; `None` if it has no direction.
+fn unit(axis: Vector) -> Option<Vector> {
+    if (axis.norm_squared() - 1.0).abs() <= UNIT {
+        return Some(axis);
+    }
+    axis.try_normalize(0.0)
+}
+
+/// Notes every fault of the joints.
+pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
+    let mut groups = Groups::of(objects.len());
+    let mut known: Vec<[usize; 2]> = Vec::new();
+    for node in joints {
+        check_keys(node, ledger);
+        check_limits(node, ledger);
+        let Some(pair) = pair(node, objects, obstacles, ledger) else { continue };
+        let [first, second] = pair.map(|index| &objects[index]);
+        check_distances(node, first, second, ledger);
+        let names = pair.map(|index| name_of(&objects[index]).unwrap_or_default());
+        if known.contains(&pair) || known.contains(&[pair[1], pair[0]]) {
+            ledger.fault(
+                node,
+                format!("`{}` and `{}` have a joint already", names[0], names[1]),
+                "keep one of the two; two objects can have one joint",
+            );
+            continue;
+        }
+        known.push(pair);
+        groups.join(pair, node, names, ledger);
+    }
+    groups.check_masses(objects, ledger);
+}
+
+/// The two different objects that a joint names, by index.
+fn pair(
+    joint: &Node,
+    objects: &[Node],
+    obstacles: &[Node],
+    ledger: &mut Ledger,
+) -> Option<[usize; 2]> {
+    let between = joint.get("between")?;
+    let found: Vec<&Node> = between
+        .items()
+        .iter()
+        .filter_map(|name| known_object(name, objects, obstacles, ledger))
+        .collect();
+    let index = |node: &Node| objects.iter().position(|object| object.id == node.id);
+    match found[..] {
+        [first, second] if first.id == second.id => {
+            ledger.fault(between, "a joint of an object with itself", "name two different objects");
+            None
+        }
+        [first, second] => Some([index(first)?, index(second)?]),
+        _ => None,
+    }
+}
+
+/// Every key must belong to the joint's kind, and what the kind needs must be there.
+fn check_keys(joint: &Node, ledger: &mut Ledger) {
+    let Some(kind) = joint.get("kind").and_then(Node::text) else { return };
+    let keys = [("at", "revolute"), ("limits_deg", "revolute")]
+        .into_iter()
+        .chain([("axis", "prismatic"), ("limits", "prismatic")]);
+    for (key, owner) in keys.filter(|(_, owner)| *owner != kind) {
+        let Some(node) = joint.get(key) else { continue };
+        let advice = match (key, kind) {
+            ("limits", "revolute") => "turns are limited by `limits_deg`, in degrees".into(),
+            ("limits_deg", "prismatic") => "shifts are limited by `limits`, in metres".into(),
+            _ => format!("remove it; only a {owner} joint has one"),
+        };
+        ledger.fault(node, format!("a {kind} joint has no `{key}`"), advice);
+    }
+    let needed = match kind {
+        "revolute" => ("at", "add `at: [x, y]`, where the axis stands"),
+        "prismatic" => ("axis", "add `axis: [x, y]`, the direction of sliding"),
+        _ => return,
+    };
+    // A misspelled key is one fault, not two.
+    let strange = |key: &Node| !KEYS.iter().any(|known| key.text() == Some(known.name));
+    let misspelled = joint.pairs().iter().any(|(key, _)| strange(key));
+    match joint.get(needed.0) {
+        None if !misspelled => {
+            ledger.fault(joint, format!("a {kind} joint needs `{}`", needed.0), needed.1);
+        }
+        Some(axis) if needed.0 == "axis" && vector(axis).is_some_and(|v| unit(v).is_none()) => {
+            let advice = "write a direction, such as [1, 0] for +x";
+            ledger.fault(axis, "an axis of length zero has no direction", advice);
+        }
+        _ => {}
+    }
+}
+
+/// Limits are in order and hold the start.
+fn check_limits(joint: &Node, ledger: &mut Ledger) {
+    for (key, what) in [("limits_deg", "turn"), ("limits", "shift")] {
+        let Some(node) = joint.get(key) else { continue };
+        let [Some(low), Some(high)] = [0, 1].map(|k| node.items().get(k).and_then(Node::number))
+        else {
+            continue;
+        };
+        if low >= high {
+            ledger.fault(
+                node,
+                format!("the lower limit, {low}, is not below the upper, {high}"),
+                "write [low, high]; a joint that cannot move is `kind: fixed`",
+            );
+        } else if low > 0.0 || high < 0.0 {
+            ledger.fault(
+                node,
+                format!("the start, a {what} of 0, violates the limits {low} to {high}"),
+                "limits count from where the objects stand at the start: widen them to hold 0, or \
+                 move the objects",
+            );
+        }
+    }
+}
+
+/// Nothing on a table is joined over half a metre of air.
+fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledger) {
+    let (Some(a), Some(b)) = (body(first), body(second)) else { return };
+    let gap = |a: &(Footprint, Pose), b: &(Footprint, Pose)| {
+        clearance((&a.0, &a.1), (&b.0, &b.1), f64::MAX)
+    };
+    let names = || [first, second].map(|node| name_of(node).unwrap_or_default());
+    let apart = gap(&a, &b);
+    if apart > FAR {
+        let [a, b] = names();
+        ledger.fault(
+            joint.get("between").unwrap_or(joint),
+            format!("`{a}` and `{b}` are {apart:.2} m apart; a joint reaches over at most {FAR} m"),
+            "move them closer together; lengths are in metres",
+        );
+    }
+    let Some(node) = joint.get("at") else { return };
+    let Some(at) = vector(node) else { return };
+    let point = (Footprint::Disc { radius: 0.0 }, Pose { position: at, heading: 0.0 });
+    let beyond = gap(&point, &a).min(gap(&point, &b));
+    if beyond > FAR {
+        let [a, b] = names();
+        ledger.fault(
+            node,
+            format!("the axis stands {beyond:.2} m beyond `{a}` and `{b}`; at most {FAR} m can be"),
+            "`at` is in the world frame, in metres",
+        );
+    }
+}
+
+/// Which objects hang together.
+struct Groups {
+    /// For every object the first of its group.
+    first: Vec<usize>,
+}
+
+impl Groups {
+    fn of(objects: usize) -> Self {
+        Self { first: (0..objects).collect() }
+    }
+
+    fn size(&self, group: usize) -> usize {
+        self.first.iter().filter(|&&first| first == group).count()
+    }
+
+    /// Joins the groups of a pair; notes a fault if it closes a loop or makes too large a group.
+    fn join(&mut self, pair: [usize; 2], node: &Node, names: [&str; 2], ledger: &mut Ledger) {
+        let [a, b] = pair.map(|index| self.first[index]);
+        if a == b {
+            ledger.fault(
+                node,
+                format!(
+                    "this joint of `{}` and `{}` closes a loop that the simulator cannot hold",
+                    names[0], names[1]
+                ),
+                "remove one joint of the loop; joined objects form trees",
+            );
+            return;
+        }
+        let (a_size, b_size) = (self.size(a), self.size(b));
+        if a_size <= GROUP && b_size <= GROUP && a_size + b_size > GROUP {
+            ledger.fault(
+                node,
+                format!(
+                    "with this joint {} objects hang together; at most {GROUP} can be simulated",
+                    a_size + b_size
+                ),
+                "remove a joint, or write objects with fixed joints as one cuboid",
+            );
+        }
+        self.first.iter_mut().filter(|first| **first == b).for_each(|first| *first = a);
+    }
+
+    fn check_masses(&self, objects: &[Node], ledger: &mut Ledger) {
+        for group in 0..objects.len() {
+            let mut masses: Vec<(f64, &Node)> = objects
+                .iter()
+                .zip(&self.first)
+                .filter(|(_, first)| **first == group)
+                .filter_map(|(object, _)| object.get("mass"))
+                .filter_map(|node| Some((node.number()?, node)))
+                .collect();
+            masses.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (Some(lightest), Some(heaviest)) = (masses.first(), masses.last()) else {
+                continue;
+            };
+            let ratio = heaviest.0 / lightest.0;
+            if ratio > GROUP_MASS_RATIO {
+                ledger.fault(
+                    heaviest.1,
+                    format!(
+                        "this object has {ratio:.1} times the mass of the lightest that it is \
+                         joined with ({} kg); at most {GROUP_MASS_RATIO} times can be simulated",
+                        lightest.0
+                    ),
+                    "bring the masses of joined objects closer together",
+                );
+            }
+        }
+    }
+}
