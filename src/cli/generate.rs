@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
-use crate::dataset::{DatasetConfig, DatasetError, Preset, Watch, generate};
+use crate::dataset::{
+    Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, Watch, generate,
+};
 
 use super::{error::CliError, exit_code, interrupt, session::Session};
 
@@ -15,8 +17,13 @@ use super::{error::CliError, exit_code, interrupt, session::Session};
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
 files; the same command goes on from there.
 
-Example:
-  pushplan generate data/train --episodes 20000 --seed 1"
+A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
+for test sets such as the published ones (hand at 0.21 m/s).
+
+Examples:
+  pushplan generate data/train --preset mixed --episodes 20000 --seed 1
+  pushplan generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
+      --objects 9 --joints mixed --solids cylinders --speed 0.21"
 )]
 pub struct GenerateArgs {
     /// Folder for the data
@@ -31,6 +38,18 @@ pub struct GenerateArgs {
     /// Family of scenes
     #[arg(long, value_enum, default_value_t)]
     preset: PresetName,
+    /// Number of objects of a crowd, 2 to 12 [default: any of them]
+    #[arg(long, value_name = "N")]
+    objects: Option<usize>,
+    /// Joints between near neighbours of a crowd [default: drawn anew every 25 episodes]
+    #[arg(long, value_enum, value_name = "RULE")]
+    joints: Option<JointName>,
+    /// Solids of a crowd [default: drawn anew every 25 episodes]
+    #[arg(long, value_enum, value_name = "KIND")]
+    solids: Option<SolidName>,
+    /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
+    #[arg(long, value_name = "M/S")]
+    speed: Option<f64>,
     /// Episodes in one file; an interruption loses at most one file's worth
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes_per_shard)]
     episodes_per_shard: u64,
@@ -42,6 +61,64 @@ enum PresetName {
     /// One to three objects, sometimes obstacles, random tools of cuboids
     #[default]
     Tools,
+    /// A crowd, scattered; a round hand makes seven or eight 30 cm strokes, one after another
+    Sparse,
+    /// A crowd, scattered; one long straight stroke
+    SparseLine,
+    /// A crowd in a grid, almost touching; one 50 cm stroke
+    Dense,
+    /// Episodes of all of them, a third of the frames with tools: for training
+    Mixed,
+}
+
+/// [`JointRule`] with words for `--help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum JointName {
+    /// None
+    None,
+    /// Some neighbours joined rigidly
+    Fixed,
+    /// Some neighbours joined by fixed, revolute and prismatic joints
+    Mixed,
+}
+
+/// [`Solids`] with words for `--help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SolidName {
+    /// Cylinders alone
+    Cylinders,
+    /// Cylinders and cuboids
+    Any,
+}
+
+impl GenerateArgs {
+    fn config(&self) -> DatasetConfig {
+        DatasetConfig {
+            seed: self.seed,
+            episodes: self.episodes,
+            episodes_per_shard: self.episodes_per_shard,
+            preset: match self.preset {
+                PresetName::Tools => Preset::Tools,
+                PresetName::Sparse => Preset::Sparse,
+                PresetName::SparseLine => Preset::SparseLine,
+                PresetName::Dense => Preset::Dense,
+                PresetName::Mixed => Preset::Mixed,
+            },
+            constraints: Constraints {
+                objects: self.objects,
+                joints: self.joints.map(|rule| match rule {
+                    JointName::None => JointRule::None,
+                    JointName::Fixed => JointRule::Fixed,
+                    JointName::Mixed => JointRule::Mixed,
+                }),
+                solids: self.solids.map(|solids| match solids {
+                    SolidName::Cylinders => Solids::Cylinders,
+                    SolidName::Any => Solids::Any,
+                }),
+                speed: self.speed,
+            },
+        }
+    }
 }
 
 /// Shows how far a generation is, and stops it on Ctrl-C.
@@ -76,14 +153,7 @@ impl Watch for Following<'_> {
 }
 
 pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
-    let config = DatasetConfig {
-        seed: args.seed,
-        episodes: args.episodes,
-        episodes_per_shard: args.episodes_per_shard,
-        preset: match args.preset {
-            PresetName::Tools => Preset::Tools,
-        },
-    };
+    let config = args.config();
     interrupt::watch();
     let following = Following::new(session, "episodes");
     let made = session.compute(|| generate(&config, &args.folder, &following));
@@ -106,6 +176,10 @@ pub fn data_error(error: DatasetError) -> CliError {
     match error {
         DatasetError::Cancelled => CliError::Interrupted(error.to_string()),
         DatasetError::Empty(_) => CliError::usage(error.to_string(), "ask for at least one"),
+        DatasetError::Constraint(_) => CliError::usage(
+            error.to_string(),
+            "`pushplan generate --help` says what each preset has",
+        ),
         DatasetError::OtherSettings { .. } => {
             CliError::usage(error.to_string(), "the same settings go on with an unfinished set")
         }

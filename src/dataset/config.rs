@@ -2,69 +2,44 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Ranges, Span};
+use crate::scene::Ranges;
 
-use super::error::DatasetError;
-
-/// The family of scenes to sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Preset {
-    /// One to three objects, sometimes obstacles, pushed by random tools of cuboids.
-    #[default]
-    Tools,
-}
-
-impl Preset {
-    /// What the family covers.
-    pub fn ranges(self) -> Ranges {
-        match self {
-            Preset::Tools => Ranges {
-                objects: Span::new(1.0, 3.0),
-                mass: Span::new(0.05, 3.0),
-                // Beyond this, touching bodies sink into each other in the simulator.
-                mass_ratio: 10.0,
-                friction: Span::new(0.1, 1.0),
-                radius: Span::new(0.02, 0.08),
-                side: Span::new(0.03, 0.30),
-                aspect: 6.0,
-                parts: Span::new(1.0, 5.0),
-                part_length: Span::new(0.02, 0.50),
-                part_width: Span::new(0.015, 0.15),
-                part_radius: Span::new(0.01, 0.06),
-                speed: Span::new(0.03, 0.3),
-                travel: Span::new(0.05, 0.30),
-                pushes: Span::new(1.0, 3.0),
-            },
-        }
-    }
-}
+use super::{constraints::Constraints, error::DatasetError, preset::Preset};
 
 /// Everything that decides the bits of a data set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DatasetConfig {
-    /// Episode `index` depends on this and on `index` alone.
+    /// Episode `index` depends on this, the preset, the constraints and `index` alone.
     pub seed: u64,
     /// Number of episodes.
     pub episodes: u64,
     /// Episodes in one file: an interrupted generation loses at most one file's worth, about a
-    /// second of work at the default of 512.
+    /// second of work (of tools; up to half a minute of sparse scenes) at the default of 512.
     pub episodes_per_shard: u64,
     /// What is sampled.
     pub preset: Preset,
+    /// What is fixed rather than sampled.
+    #[serde(default)]
+    pub constraints: Constraints,
 }
 
 impl Default for DatasetConfig {
     fn default() -> Self {
-        Self { seed: 1, episodes: 40_000, episodes_per_shard: 512, preset: Preset::Tools }
+        Self {
+            seed: 1,
+            episodes: 40_000,
+            episodes_per_shard: 512,
+            preset: Preset::Tools,
+            constraints: Constraints::default(),
+        }
     }
 }
 
 impl DatasetConfig {
     /// What the data cover.
     pub fn ranges(&self) -> Ranges {
-        self.preset.ranges()
+        self.constraints.narrow(self.preset.ranges())
     }
 
     /// The same data for another seed and size: a validation split.
@@ -72,15 +47,16 @@ impl DatasetConfig {
         Self { seed, episodes, ..self.clone() }
     }
 
-    /// Whether it asks for anything at all.
+    /// Whether it asks for anything, and for nothing impossible.
     ///
     /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes, in all or in a file.
+    /// [`DatasetError::Empty`] for zero episodes, in all or in a file;
+    /// [`DatasetError::Constraint`] for constraints that the preset cannot fulfil.
     pub fn check(&self) -> Result<(), DatasetError> {
         match (self.episodes, self.episodes_per_shard) {
             (0, _) => Err(DatasetError::Empty("episodes")),
             (_, 0) => Err(DatasetError::Empty("episodes_per_shard")),
-            _ => Ok(()),
+            _ => self.constraints.check(self.preset),
         }
     }
 

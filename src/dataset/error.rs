@@ -10,6 +10,9 @@ pub enum DatasetError {
     /// The configuration asks for nothing.
     #[error("{0} must be at least 1")]
     Empty(&'static str),
+    /// The configuration asks for scenes that the family does not have.
+    #[error("{0}")]
+    Constraint(String),
     /// The caller asked to stop.
     #[error("stopped; what was finished is kept, run the same command again to go on")]
     Cancelled,

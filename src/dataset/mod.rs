@@ -2,34 +2,49 @@
 //!
 //! Every episode is a pure function of the configuration's seed and its own index, so data are
 //! never committed but made again, in memory or as resumable shards of files, with the same
-//! bits for any number of threads. The shipped tools never occur in it. Trains nothing.
+//! bits for any number of threads. Either tools on tables with few objects (`tools`), or crowds of
+//! objects, some joined, pushed by a round hand (`sparse`, `dense`). The shipped tools never occur
+//! in it. Trains nothing.
 
 mod aim;
 mod assembly;
 mod chance;
 mod codec;
 mod config;
+mod constraints;
+mod crowd;
+mod curriculum;
+mod dense;
 mod episode;
 mod error;
 mod generate;
+mod hand;
 mod jam;
+mod joints;
 mod manifest;
 mod novelty;
 mod obstacle;
+mod preset;
 mod shard;
+mod sparse;
 mod store;
 mod tabletop;
+mod tools;
 mod watch;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
 pub use chance::{generator, log_uniform};
-pub use config::{DatasetConfig, Preset};
+pub use config::DatasetConfig;
+pub use constraints::{Constraints, JointRule, TEST_SPEED};
 pub use episode::{Episode, sample};
 pub use error::DatasetError;
 pub use generate::generate;
+pub use hand::HAND_RADIUS;
+pub use joints::NEAR;
 pub use manifest::{Manifest, ShardEntry};
 pub use novelty::is_shipped;
+pub use preset::Preset;
 pub use store::Dataset;
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
 pub use watch::{Unwatched, Watch};

@@ -1,7 +1,7 @@
 //! One file of a data set.
 //!
 //! ```text
-//! shard = "PUSHPLN2", digest of the configuration u64, number of episodes u64,
+//! shard = "PUSHPLN3", digest of the configuration u64, number of episodes u64,
 //!         episodes, checksum u64 (FNV-1a of everything before it)
 //! ```
 //! A shard is written under another name and renamed when complete, so a file under the final
@@ -21,7 +21,7 @@ use super::{
 };
 
 /// First bytes of every shard; the last one counts versions of the format and of the sampler.
-const MAGIC: &[u8; 8] = b"PUSHPLN2";
+const MAGIC: &[u8; 8] = b"PUSHPLN3";
 
 /// Bytes before the episodes.
 const HEADER: usize = 24;
@@ -125,7 +125,7 @@ fn damaged(path: &Path, why: &'static str) -> DatasetError {
 /// Tells the settings that decide a shard's bits from all others.
 fn digest(config: &DatasetConfig) -> u64 {
     let numbers = [config.seed, config.episodes, config.episodes_per_shard];
-    let mut bytes = format!("{:?}", config.preset).into_bytes();
+    let mut bytes = format!("{:?} {:?}", config.preset, config.constraints).into_bytes();
     numbers.iter().for_each(|&number| put_u64(&mut bytes, number));
     checksum(&bytes)
 }

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use rand::Rng;
 use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
@@ -19,7 +20,8 @@ const HEIGHT: Span = Span::new(0.05, 0.15);
 const GAP: Span = Span::new(1e-3, 0.06);
 
 /// Which solids are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Solids {
     /// Cylinders and cuboids alike.
     Any,
@@ -43,11 +45,7 @@ pub struct Crowd {
 /// A table with `crowd` around the origin and no obstacles.
 pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
-    let middle = log_uniform(rng, ranges.mass);
-    // Around the first mass by the root of the ratio to either side, so that any two keep it.
-    let reach = ranges.mass_ratio.sqrt();
-    let masses =
-        Span::new((middle / reach).max(ranges.mass.low), (middle * reach).min(ranges.mass.high));
+    let (middle, masses) = mass_span(rng, ranges);
     let mut scene = Scene { table_friction: friction(rng), ..Scene::default() };
     for index in 0..crowd.count {
         let shape = random_shape(rng, ranges, crowd.solids);
@@ -76,7 +74,17 @@ pub fn anywhere(rng: &mut Pcg64, mut scene: Scene) -> Scene {
     scene
 }
 
-fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
+/// A first mass, and the masses, kg, that may stand beside it.
+pub(super) fn mass_span(rng: &mut Pcg64, ranges: &Ranges) -> (f64, Span) {
+    let middle = log_uniform(rng, ranges.mass);
+    // Around the first mass by the root of the ratio to either side, so that any two keep it.
+    let reach = ranges.mass_ratio.sqrt();
+    let (low, high) = (middle / reach, middle * reach);
+    (middle, Span::new(low.max(ranges.mass.low), high.min(ranges.mass.high)))
+}
+
+/// A solid within the ranges.
+pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
     let height = uniform(rng, HEIGHT.low, HEIGHT.high);
     let cylinder = match solids {
         Solids::Any => rng.random::<bool>(),

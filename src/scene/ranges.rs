@@ -21,9 +21,17 @@ pub struct Span {
 }
 
 impl Span {
+    /// The interval that holds nothing; its ends are finite, so that it can be written down.
+    pub const NOTHING: Self = Self { low: f64::MAX, high: f64::MIN };
+
     /// The interval from `low` to `high`.
     pub const fn new(low: f64, high: f64) -> Self {
         Self { low, high }
+    }
+
+    /// The smallest interval that holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
     /// Whether `value` lies inside, up to rounding.
@@ -67,6 +75,26 @@ pub struct Ranges {
 }
 
 impl Ranges {
+    /// The smallest ranges that cover both.
+    pub fn hull(&self, other: &Self) -> Self {
+        Self {
+            objects: self.objects.hull(other.objects),
+            mass: self.mass.hull(other.mass),
+            mass_ratio: self.mass_ratio.max(other.mass_ratio),
+            friction: self.friction.hull(other.friction),
+            radius: self.radius.hull(other.radius),
+            side: self.side.hull(other.side),
+            aspect: self.aspect.max(other.aspect),
+            parts: self.parts.hull(other.parts),
+            part_length: self.part_length.hull(other.part_length),
+            part_width: self.part_width.hull(other.part_width),
+            part_radius: self.part_radius.hull(other.part_radius),
+            speed: self.speed.hull(other.speed),
+            travel: self.travel.hull(other.travel),
+            pushes: self.pushes.hull(other.pushes),
+        }
+    }
+
     /// A warning for every quantity of the scene and the motion that lies outside; travel and
     /// the number of pushes are left out, because a rollout is made of frames that look the
     /// same however many there are.
@@ -135,7 +163,7 @@ impl Ranges {
 
 /// An interval that holds nothing.
 fn none() -> Span {
-    Span::new(f64::MAX, f64::MIN)
+    Span::NOTHING
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 mod architecture;
 mod assets;
 mod cli;
+mod crowds;
 mod dataset;
 mod evaluation;
 mod network;

@@ -1,0 +1,47 @@
+//! The objects of a crowd: up to twelve, put down one after another.
+
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+use crate::{
+    geometry::{Footprint, Pose},
+    scene::{Object, Ranges, Scene},
+};
+
+use super::{
+    chance::{log_uniform, uniform},
+    curriculum::Block,
+    tabletop::{Solids, mass_span, random_shape},
+};
+
+/// How many objects there are.
+pub(super) fn object_count(rng: &mut Pcg64, ranges: &Ranges) -> usize {
+    rng.random_range(ranges.objects.low as usize..=ranges.objects.high as usize)
+}
+
+/// A table with `count` objects, each where `place` puts it beside those before it.
+pub(super) fn crowd(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+    block: &Block,
+    count: usize,
+    mut place: impl FnMut(&mut Pcg64, &[Object], &Footprint) -> Pose,
+) -> Scene {
+    let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
+    let (_, masses) = mass_span(rng, ranges);
+    let mut scene = Scene { table_friction: friction(rng), ..Scene::default() };
+    for index in 0..count {
+        let cylinder = rng.random_bool(block.cylinders);
+        let solids = if cylinder { Solids::Cylinders } else { Solids::Cuboids };
+        let shape = random_shape(rng, ranges, solids);
+        let pose = place(rng, &scene.objects, &shape.footprint());
+        scene.objects.push(Object {
+            name: format!("object-{}", index + 1),
+            shape,
+            mass: log_uniform(rng, masses),
+            friction: friction(rng),
+            pose,
+        });
+    }
+    scene
+}
