@@ -3,6 +3,8 @@
 //! Planner, benchmarks and trade-off see only [`EffectModel`]; learned, simulated and trivial
 //! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
 
+mod assume;
+mod disturbed;
 mod learned;
 mod model;
 mod shipped;
@@ -10,6 +12,8 @@ mod simulated;
 mod trivial;
 
 pub use crate::scene::Job;
+pub use assume::{Assuming, Assumption};
+pub use disturbed::{Disturbed, Mistake};
 pub use learned::{Learned, QuasiStatic};
 pub use model::EffectModel;
 pub use shipped::EffectModels;

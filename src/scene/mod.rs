@@ -3,6 +3,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
+mod groups;
 mod guess;
 mod hypothesis;
 mod job;

@@ -2,6 +2,7 @@
 
 mod architecture;
 mod assets;
+mod baselines;
 mod cli;
 mod crowds;
 mod dataset;

@@ -18,8 +18,8 @@ struct Sticking {
 }
 
 impl Rule for Sticking {
-    fn begin(objects: usize) -> Self {
-        Self { held: vec![false; objects] }
+    fn begin(scene: &Scene) -> Self {
+        Self { held: vec![false; scene.objects.len()] }
     }
 
     fn step(&mut self, table: &Table, from: &Pose, to: &Pose, poses: &mut [Pose]) {

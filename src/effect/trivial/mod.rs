@@ -7,6 +7,7 @@ mod follow;
 mod play;
 mod projection;
 mod still;
+mod ties;
 
 pub use follow::Follow;
 pub use projection::Projection;

@@ -15,7 +15,7 @@ pub struct Still;
 struct Nothing;
 
 impl Rule for Nothing {
-    fn begin(_: usize) -> Self {
+    fn begin(_: &Scene) -> Self {
         Nothing
     }
 

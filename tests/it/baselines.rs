@@ -1,0 +1,121 @@
+//! Baselines in scenes with joints: the projection holds them, and models can be told otherwise.
+
+use std::sync::Arc;
+
+use pushplan::{
+    effect::{
+        Assuming, Assumption, Disturbed, EffectModel, Job, Mistake, Projection, Simulated, Still,
+    },
+    geometry::{Pose, Shape, Vector, wrap_angle},
+    scene::{
+        Joint, JointKind, Object, Part, Push, Record, Scene, Span, State, Tool, ToolMotion,
+        Trajectory,
+    },
+    sim::Simulator,
+};
+
+/// A cylinder of 5 cm radius.
+fn can(name: &str, x: f64, y: f64) -> Object {
+    Object {
+        name: name.into(),
+        shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
+        mass: 0.4,
+        friction: 0.4,
+        pose: Pose::new(x, y, 0.0),
+    }
+}
+
+/// Two cans beside each other across the push, the first one straight in front of the hand.
+fn pair(kind: JointKind) -> Scene {
+    let joint = Joint { between: [0, 1], kind, guessed: false };
+    let objects = vec![can("a", 0.12, 0.0), can("b", 0.12, 0.101)];
+    Scene { table_friction: 0.5, objects, joints: vec![joint], ..Scene::default() }
+}
+
+/// A round hand pushes 0.3 m along x.
+fn job(scene: &Scene) -> Job {
+    let hand = Shape::Cylinder { radius: 0.05, height: 0.1 };
+    let hand = Part { name: "hand".into(), shape: hand, pose: Pose::default() };
+    let tool = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![hand], &[]);
+    let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.3, speed: 0.1 };
+    let tool = Arc::new(tool.expect("one part is one piece"));
+    let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
+    Job { start: scene.start(), motion, hypothesis: None }
+}
+
+fn roll(model: &dyn EffectModel, scene: &Scene) -> Trajectory {
+    model.rollout(scene, &[job(scene)], Record::Frames).remove(0)
+}
+
+/// The second object as the first one sees it.
+fn relative(state: &State) -> Pose {
+    state.poses[0].inverse() * state.poses[1]
+}
+
+#[test]
+fn a_fixed_pair_turns_as_one_body_in_the_projection_as_in_the_simulator() {
+    let scene = pair(JointKind::Fixed);
+    let before = relative(&scene.start());
+    let projected = roll(&Projection, &scene);
+    for frame in &projected.frames {
+        let now = relative(&frame.state);
+        assert!((now.position - before.position).norm() < 1e-5, "{now:?}");
+        assert!(wrap_angle(now.heading - before.heading).abs() < 1e-5, "{now:?}");
+    }
+    let simulated = roll(&Simulated::new(Simulator::planar()), &scene);
+    let turn = |trajectory: &Trajectory| trajectory.outcome().poses[0].heading;
+    assert!(turn(&projected) > 0.3 && turn(&simulated) > 0.3, "both turn the same way round");
+}
+
+#[test]
+fn the_other_joints_hold_in_the_projection() {
+    let revolute = pair(JointKind::Revolute { at: Vector::new(0.12, 0.05), limits: None });
+    let before = relative(&revolute.start()).position.norm();
+    for frame in &roll(&Projection, &revolute).frames {
+        assert!((relative(&frame.state).position.norm() - before).abs() < 1e-5);
+    }
+    let limits = Some(Span::new(-0.05, 0.02));
+    let prismatic = pair(JointKind::Prismatic { axis: Vector::x(), limits });
+    let end = roll(&Projection, &prismatic);
+    let shift = relative(end.outcome()).position;
+    // The first slides on until the limit, then takes the second along.
+    assert!((shift.x + 0.05).abs() < 1e-5 && (shift.y - 0.101).abs() < 1e-5, "{shift:?}");
+}
+
+#[test]
+fn assumptions_replace_the_joints_and_nothing_else() {
+    let scene = pair(JointKind::Fixed);
+    let free = Scene { joints: Vec::new(), ..scene.clone() };
+    let told_none = Assuming::new(Projection, Assumption::NoJoints);
+    assert_eq!(told_none.name(), "projection, no joints");
+    assert_eq!(roll(&told_none, &scene), roll(&Projection, &free));
+    let told_all = Assuming::new(Projection, Assumption::ContactsFixed);
+    assert_eq!(roll(&told_all, &free), roll(&Projection, &scene));
+    let types = Assuming::new(Projection, Assumption::TypesOnly);
+    assert_eq!(roll(&types, &scene), roll(&Projection, &scene));
+}
+
+#[test]
+fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
+    let scene = pair(JointKind::Fixed);
+    let planar = Simulated::new(Simulator::planar());
+    let slippery = Disturbed::new(planar.clone(), Mistake::Friction(0.7));
+    assert_eq!(slippery.name(), "planar, friction x 0.7");
+    let mut lighter = scene.clone();
+    lighter.table_friction *= 0.7;
+    lighter.objects.iter_mut().for_each(|object| object.friction *= 0.7);
+    let mut with_lighter_tool = job(&lighter);
+    let mut tool = (*with_lighter_tool.motion.tool).clone();
+    tool.friction *= 0.7;
+    with_lighter_tool.motion.tool = Arc::new(tool);
+    let expected = planar.rollout(&lighter, &[with_lighter_tool], Record::Frames).remove(0);
+    assert_eq!(roll(&slippery, &scene), expected);
+
+    let moved = Disturbed::new(Still, Mistake::Start(1e-4));
+    assert_eq!(moved.name(), "still, start off by 0.1 mm");
+    let start = roll(&moved, &scene).outcome().clone();
+    let off = |k: usize| start.poses[k].position - scene.objects[k].pose.position;
+    assert!((off(0).norm() - 1e-4).abs() < 1e-12);
+    assert!((off(0) - off(1)).norm() < 1e-12, "joined objects move together");
+    assert_eq!(roll(&moved, &scene).outcome(), &start);
+}
