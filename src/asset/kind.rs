@@ -8,6 +8,7 @@ use crate::scene::Tool;
 use super::fault::{Fault, Faults};
 use super::library::ToolLibrary;
 use super::node::Node;
+use super::recording::{RECORDING_KEYS, Recording};
 use super::saved::{PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
 use super::{spec::Key, task, tool};
@@ -23,6 +24,8 @@ pub enum Kind {
     Plan,
     /// A trajectory file.
     Trajectory,
+    /// A recording.
+    Recording,
 }
 
 impl fmt::Display for Kind {
@@ -32,6 +35,7 @@ impl fmt::Display for Kind {
             Kind::Task => "task",
             Kind::Plan => "plan",
             Kind::Trajectory => "trajectory",
+            Kind::Recording => "recording",
         })
     }
 }
@@ -49,25 +53,31 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Task => task::parse_with(&text, &file, library).map(|_| kind),
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
+        Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
     }
 }
 
 fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
-    let json = Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
-    let root = Node::parse(if json { Source::json(file, text) } else { Source::yaml(file, text) })?;
+    let root = Node::parse(Source::of(file, text))?;
     match root.get("kind").and_then(Node::text) {
         Some("plan") => return Ok(Kind::Plan),
         Some("trajectory") => return Ok(Kind::Trajectory),
+        Some("recording") => return Ok(Kind::Recording),
         _ => {}
     }
     // By the number of keys that fit, so that a misspelled one does not hide what was meant.
     let fitting = |keys: &[Key]| keys.iter().filter(|key| root.get(key.name).is_some()).count();
-    let (tool, task) = (fitting(tool::TOOL_KEYS), fitting(task::TASK_KEYS));
-    match tool.cmp(&task) {
-        std::cmp::Ordering::Greater => Ok(Kind::Tool),
-        std::cmp::Ordering::Less => Ok(Kind::Task),
-        std::cmp::Ordering::Equal => {
-            let message = "this is not a tool, task, plan or trajectory file";
+    let kinds = [
+        (fitting(tool::TOOL_KEYS), Kind::Tool),
+        (fitting(task::TASK_KEYS), Kind::Task),
+        (fitting(RECORDING_KEYS), Kind::Recording),
+    ];
+    let most = kinds.iter().map(|(keys, _)| *keys).max().unwrap_or(0);
+    let mut best = kinds.into_iter().filter(|(keys, _)| *keys == most).map(|(_, kind)| kind);
+    match (best.next(), best.next()) {
+        (Some(kind), None) => Ok(kind),
+        _ => {
+            let message = "this is not a tool, task, plan, trajectory or recording file";
             let advice = "`pushplan schema` shows what belongs into such files";
             Err(Fault::of_file(file, message, advice).into())
         }

@@ -1,4 +1,4 @@
-//! Reading and writing user files: tools, tasks, plans, trajectories.
+//! Reading and writing user files: tools, tasks, plans, trajectories, recordings.
 //!
 //! Strict, with source positions and all faults of a file at once; the only room that names
 //! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
@@ -10,6 +10,7 @@ mod fault;
 mod kind;
 mod library;
 mod node;
+mod recording;
 mod saved;
 mod schema;
 mod spec;
@@ -23,8 +24,9 @@ mod write;
 pub use fault::{Fault, Faults, Place};
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;
+pub use recording::{Instant, RECORDING_FORMAT, RecordedFrame, Recording, Replay};
 pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
-pub use schema::{plan_schema, task_schema, tool_schema, trajectory_schema};
+pub use schema::{plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema};
 pub use task::load_task;
 pub use write::write_atomic;
 

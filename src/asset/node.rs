@@ -60,6 +60,8 @@ impl Node {
                 "the file is empty; `pushplan schema` shows what belongs into it"
             } else if language == Language::Yaml && text.contains('\t') {
                 "YAML indents with spaces; tabs are not allowed"
+            } else if language == Language::Json && names_no_number(text) {
+                "JSON has no NaN and no Infinity: leave out what was not measured"
             } else {
                 "check indentation, brackets and quotes around this place"
             };
@@ -176,6 +178,14 @@ fn read(source: Source, stop: usize) -> Result<Node, Failure> {
             })
         }
     }
+}
+
+/// Whether a value of a JSON text is written as Python writes numbers that are not finite.
+fn names_no_number(text: &str) -> bool {
+    ["NaN", "Infinity"].iter().any(|word| {
+        text.match_indices(word)
+            .any(|(at, _)| text[..at].trim_end().ends_with([',', '[', ':', '-']))
+    })
 }
 
 #[derive(Clone, Copy)]

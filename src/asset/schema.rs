@@ -25,6 +25,13 @@ pub fn trajectory_schema() -> Json {
     document("pushplan trajectory", &super::saved::TRAJECTORY_FILE)
 }
 
+/// The schema of recordings, with the format in words.
+pub fn recording_schema() -> Json {
+    let mut schema = document("pushplan recording", &super::recording::RECORDING);
+    schema["description"] = json!(super::RECORDING_FORMAT);
+    schema
+}
+
 fn document(title: &str, value: &Value) -> Json {
     let mut schema = schema(value);
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
@@ -87,7 +94,8 @@ mod tests {
 
     #[test]
     fn schemas_describe_every_key() {
-        for schema in [tool_schema(), task_schema(), plan_schema(), trajectory_schema()] {
+        let saved = [plan_schema(), trajectory_schema(), recording_schema()];
+        for schema in [tool_schema(), task_schema()].into_iter().chain(saved) {
             let properties = schema["properties"].as_object().unwrap();
             assert!(!properties.is_empty());
             assert!(properties.values().all(|p| p["description"].is_string()));

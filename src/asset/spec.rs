@@ -137,6 +137,7 @@ pub(super) const MASS: Value = Value::Number(Range {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::asset::recording::RECORDING;
     use crate::asset::saved::{PLAN_FILE, TRAJECTORY_FILE};
     use crate::asset::{task::TASK, tool::TOOL};
 
@@ -154,7 +155,7 @@ mod tests {
 
     #[test]
     fn every_key_is_explained_and_every_range_holds_something() {
-        for root in [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE] {
+        for root in [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING] {
             walk(root, &mut |value| match value {
                 Value::Map(keys) | Value::Variant(keys) => {
                     for key in *keys {

@@ -2,11 +2,11 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{task_schema, tool_schema};
+use crate::asset::{recording_schema, task_schema, tool_schema};
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Print the JSON schema of tool or task files, for editors
+/// Print the JSON schema of tool, task or recording files, for editors
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan schema task > task.schema.json
@@ -21,12 +21,14 @@ pub struct SchemaArgs {
 enum Kind {
     Tool,
     Task,
+    Recording,
 }
 
 pub fn run(args: &SchemaArgs, session: &Session) -> Result<u8, CliError> {
     let schema = match args.kind {
         Kind::Tool => tool_schema(),
         Kind::Task => task_schema(),
+        Kind::Recording => recording_schema(),
     };
     session.print(&format!("{schema:#}\n"))?;
     Ok(exit_code::DONE)

@@ -113,6 +113,16 @@ impl Footprint {
         }
     }
 
+    /// The same shape smaller by `margin` metres on every side, but by no more than half its
+    /// smallest half extent.
+    pub fn shrunk(&self, margin: f64) -> Footprint {
+        let inner = match *self {
+            Footprint::Disc { radius } => radius,
+            Footprint::Rectangle { half } => half.x.min(half.y),
+        };
+        self.grown(-margin.min(0.5 * inner))
+    }
+
     /// Distance from the centre to the boundary along the unit vector `direction`, given in the
     /// shape's own frame: the support function, metres.
     pub fn extent(&self, direction: Vector) -> f64 {

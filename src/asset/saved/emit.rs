@@ -28,7 +28,7 @@ pub(super) fn task(task: &Task) -> Json {
 }
 
 /// A tool as in a tool file.
-pub(super) fn tool(tool: &Tool) -> Json {
+pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     let parts: Vec<Json> = tool
         .parts
         .iter()
@@ -62,7 +62,8 @@ fn shape(shape: &Shape) -> Json {
     }
 }
 
-fn scene(scene: &Scene) -> Json {
+/// A scene as in a task file.
+pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |object: &Object| {
         let fields = json!({
             "name": object.name, "shape": shape(&object.shape), "mass": object.mass, "friction": object.friction,
@@ -158,7 +159,7 @@ fn vector(vector: Vector) -> [f64; 2] {
 /// The angle in degrees that reads back as exactly `radians`: the roundest such number, so
 /// that a plan made from a file is verified with the same bits. An angle that came from no
 /// file may have none; it then reads back as a neighbouring number.
-fn degrees(radians: f64) -> f64 {
+pub(in crate::asset) fn degrees(radians: f64) -> f64 {
     let plain = radians.to_degrees();
     // A full turn and more looks the same.
     let plain = if plain.abs() > 360.0 { plain % 360.0 } else { plain };

@@ -3,7 +3,7 @@
 //! Each holds the task and the tool in full, in the same keys as the user's own files, so that
 //! it can be verified, drawn and evaluated with nothing else at hand.
 
-mod emit;
+pub(super) mod emit;
 mod plan;
 mod read;
 mod spec;
@@ -13,4 +13,4 @@ pub use plan::PlanFile;
 pub use spec::SCHEMA_VERSION;
 pub use trajectory::TrajectoryFile;
 
-pub(super) use spec::{PLAN_FILE, TRAJECTORY_FILE};
+pub(super) use spec::{PLAN_FILE, TRAJECTORY_FILE, VERSION};

@@ -40,7 +40,7 @@ pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
 
 const MODEL: &str = "Name of the model or engine that computed the motion; by default unknown.";
 
-const VERSION: Value = Value::Count(Range {
+pub(in crate::asset) const VERSION: Value = Value::Count(Range {
     what: "the schema version",
     low: SCHEMA_VERSION as f64,
     high: SCHEMA_VERSION as f64,

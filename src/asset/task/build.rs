@@ -32,7 +32,8 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     })
 }
 
-fn scene(node: &Node) -> Option<Scene> {
+/// The scene, or `None` if anything needed is missing or was faulty.
+pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
     Some(Scene {

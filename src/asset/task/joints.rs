@@ -28,7 +28,7 @@ const FAR: f64 = 0.5;
 const UNIT: f64 = 1e-12;
 
 /// What a joint may hold.
-pub(super) const JOINT: Value = Value::Map(KEYS);
+pub(in crate::asset) const JOINT: Value = Value::Map(KEYS);
 
 const KEYS: &[Key] = &[
     Key::required(

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::scene::{Task, Tool, ToolChoice};
+use crate::scene::{Scene, Task, Tool, ToolChoice};
 
 use crate::asset::fault::{Fault, Faults, did_you_mean};
 use crate::asset::library::ToolLibrary;
@@ -97,6 +97,13 @@ pub(in crate::asset) fn parse_with(
 pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Task> {
     rules::check(root, ledger);
     build::task(root, file)
+}
+
+/// The scene of another kind of file, by the rules of a task's; bodies may be `slack` metres
+/// deep in each other. `None` if anything needed is missing.
+pub(in crate::asset) fn scene_of(node: &Node, slack: f64, ledger: &mut Ledger) -> Option<Scene> {
+    rules::check_scene(node, slack, ledger);
+    build::scene(node)
 }
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {

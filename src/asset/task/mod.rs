@@ -6,6 +6,7 @@ mod load;
 mod rules;
 mod spec;
 
+pub(super) use joints::JOINT;
 pub use load::load_task;
-pub(super) use load::{parse_with, task_of};
-pub(super) use spec::{TASK, TASK_KEYS};
+pub(super) use load::{parse_with, scene_of, task_of};
+pub(super) use spec::{OBSTACLE, TASK, TASK_KEYS};

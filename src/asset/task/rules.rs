@@ -29,24 +29,30 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let (scene, pushes) = (section("scene"), section("pushes"));
     let objects = scene.get("objects").map(Node::items).unwrap_or_default();
     let obstacles = scene.get("obstacles").map(Node::items).unwrap_or_default();
-    unique_names(objects.iter().chain(obstacles), "bodies", ledger);
-    overlaps(objects, obstacles, ledger);
-    masses(objects, ledger);
-    let joints = scene.get("joints").map(Node::items).unwrap_or_default();
-    joints::check(joints, objects, obstacles, ledger);
+    check_scene(scene, SLACK, ledger);
     robot(section("robot"), pushes, ledger);
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     goal(section("goal"), objects, obstacles, ledger);
 }
 
-fn overlaps(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    let solid = |node| body(node).map(|(footprint, pose)| (footprint.grown(-SLACK / 2.0), pose));
+/// Notes every fault of a scene, in which bodies may be `slack` metres deep in each other.
+pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
+    let items = |key| scene.get(key).map(Node::items).unwrap_or_default();
+    let (objects, obstacles) = (items("objects"), items("obstacles"));
+    unique_names(objects.iter().chain(obstacles), "bodies", ledger);
+    overlaps(objects, obstacles, slack, ledger);
+    masses(objects, ledger);
+    joints::check(items("joints"), objects, obstacles, ledger);
+}
+
+fn overlaps(objects: &[Node], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {
+    let solid = |node| body(node).map(|(footprint, pose)| (footprint.shrunk(slack / 2.0), pose));
     let solids: Vec<_> = objects.iter().chain(obstacles).map(|n| (n, solid(n))).collect();
     for (k, (node, solid)) in solids.iter().enumerate() {
         for (other, other_solid) in &solids[..k.min(objects.len())] {
             let (Some((a, at)), Some((b, bt))) = (solid, other_solid) else { continue };
-            if clearance((a, at), (b, bt), SLACK) <= 0.0 {
+            if clearance((a, at), (b, bt), slack) <= 0.0 {
                 let name = |node| name_of(node).unwrap_or("?").to_owned();
                 ledger.fault(
                     node.get("position").unwrap_or(node),

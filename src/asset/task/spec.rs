@@ -77,7 +77,7 @@ const OBJECT: Value = Value::Map(&[
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);
 
-const OBSTACLE: Value = Value::Map(&[
+pub(in crate::asset) const OBSTACLE: Value = Value::Map(&[
     Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
     Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
     Key::required("position", POSITION, "Centre, [x, y] in metres."),

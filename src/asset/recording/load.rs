@@ -1,0 +1,196 @@
+//! Reading a recording: the scene, the pusher and what their frames say.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::asset::fault::Faults;
+use crate::asset::node::{Content, Node};
+use crate::asset::strict::{Ledger, check};
+use crate::asset::take::{name_of, number_or, shape};
+use crate::asset::text::Source;
+use crate::asset::{read_text, task, tool};
+use crate::geometry::Pose;
+use crate::scene::{Part, Scene, State, Tool};
+
+use super::spec::{PUSHER_KEYS, RECORDING, default};
+use super::{frames, units};
+
+/// Measured bodies may be this deep in each other in a frame, metres: what trackers and the
+/// rounding of radii leave.
+pub(super) const NOISE: f64 = 0.005;
+
+/// What happened on a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// From the file's name or its `name` key.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// What stood on the table, in the poses of the first frame.
+    pub scene: Scene,
+    /// The pusher.
+    pub tool: Arc<Tool>,
+    /// Height of its underside above the table, metres.
+    pub lift: f64,
+    /// Whether the heading of each object was recorded.
+    pub headings: Vec<bool>,
+    /// At least two, in order of time, the first at 0 s.
+    pub frames: Vec<RecordedFrame>,
+}
+
+/// One recorded instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedFrame {
+    /// Since the first frame, seconds.
+    pub time: f64,
+    /// Pose of the tool frame.
+    pub tool: Pose,
+    /// Whether the pusher was lifted before this frame and set down here.
+    pub lifted: bool,
+    /// Poses of the objects; headings that were not recorded are those of the start.
+    pub poses: Vec<Pose>,
+}
+
+impl Recording {
+    /// Reads a recording; JSON if the file's name ends so, else YAML.
+    ///
+    /// # Errors
+    /// All faults of the file, each with its place.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        let (file, text) = read_text(path.as_ref())?;
+        Self::parse(&text, &file)
+    }
+
+    /// Reads a recording's text; `file` names it in faults, and its stem a recording that has
+    /// no `name`.
+    ///
+    /// # Errors
+    /// All faults of the text, each with its place.
+    pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
+        let source = Source::of(file, text);
+        let mut root = Node::parse(source)?;
+        let mut ledger = Ledger::new(source);
+        if units::check(&root, &mut ledger) {
+            return ledger.finish(None);
+        }
+        check(&mut root, &RECORDING, &mut ledger);
+        let recording = read(&root, file, &mut ledger);
+        ledger.finish(recording)
+    }
+
+    /// Everything at its start, at rest.
+    pub fn start(&self) -> State {
+        self.scene.start()
+    }
+}
+
+fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
+    let times = frames::times(root, ledger);
+    let (tool, lift) = root.get("pusher").and_then(|node| pusher(node, ledger)).unzip();
+    let objects = root.get("scene")?.get("objects")?.items();
+    let read = frames::frames(root, objects, times.as_deref(), ledger);
+    let scene = scene(root, ledger);
+    let (frames, headings) = read?;
+    let recording = Recording {
+        name: name_of(root).map_or_else(|| stem(file), str::to_owned),
+        description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
+        scene: scene?,
+        tool: tool?,
+        lift: lift?,
+        headings,
+        frames,
+    };
+    frames::set_down(root, &recording, ledger);
+    Some(recording)
+}
+
+/// `push` of `data/push.recording.json`.
+fn stem(file: &str) -> String {
+    let name = Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    name.split('.').next().unwrap_or_default().to_owned()
+}
+
+/// The scene with the first frame's poses and the defaults of what is not said.
+fn scene(root: &Node, ledger: &mut Ledger) -> Option<Scene> {
+    let mut scene = root.get("scene")?.clone();
+    let first = root.get("frames")?.items().first()?.get("objects")?.items();
+    if let Content::Map(pairs) = &mut scene.content {
+        let objects = pairs.iter_mut().find(|(key, _)| key.text() == Some("objects"));
+        if let Some(Content::List(objects)) = objects.map(|(_, objects)| &mut objects.content) {
+            for (object, pose) in objects.iter_mut().zip(first) {
+                complete(object, pose, ledger);
+            }
+        }
+    }
+    task::scene_of(&scene, NOISE, ledger)
+}
+
+/// Fills in what an object leaves open; faults of the position are told at the first frame.
+fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
+    let id = object.id;
+    let [Some(x), Some(y), yaw] = [0, 1, 2].map(|k| pose.items().get(k)) else { return };
+    let position = Node { id: pose.id, content: Content::List(vec![x.clone(), y.clone()]) };
+    if let Some(said) = object.get("position") {
+        let differs = |k: usize, found: &Node| {
+            let said = said.items().get(k).and_then(Node::number);
+            // Below a tenth of what counts as touching nobody can have meant two places.
+            matches!((said, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
+        };
+        if differs(0, x) || differs(1, y) {
+            let message = "the object starts elsewhere in the first frame";
+            ledger.fault(said, message, "leave `position` out: the first frame says where it is");
+        }
+    }
+    let Content::Map(pairs) = &mut object.content else { return };
+    let mut put = |name: &str, value: Option<Node>, always: bool| {
+        let there = pairs.iter_mut().find(|(key, _)| key.text() == Some(name));
+        match (there, value) {
+            (Some((_, node)), Some(value)) if always => *node = value,
+            (None, Some(value)) => {
+                pairs.push((Node { id, content: Content::Text(name.into()) }, value));
+            }
+            _ => {}
+        }
+    };
+    put("position", Some(position), true);
+    put("yaw_deg", yaw.cloned(), true);
+    put("mass", Some(Node { id, content: Content::Number(default::MASS) }), false);
+    put("friction", Some(Node { id, content: Content::Number(default::FRICTION) }), false);
+}
+
+/// The pusher as a tool, and its lift.
+fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
+    let lift = number_or(node, "lift", default::LIFT);
+    let solids: Vec<&Node> =
+        ["cylinder", "cuboid", "tool"].iter().filter_map(|key| node.get(key)).collect();
+    let known = |key: &Node| PUSHER_KEYS.iter().any(|known| key.text() == Some(known.name));
+    match solids[..] {
+        [_] => {}
+        // A misspelled key is one fault, not two.
+        [] if !node.pairs().iter().all(|(key, _)| known(key)) => return None,
+        _ => {
+            let advice = "write one of `cylinder: {radius: r, height: h}`, `cuboid: {size: [x, y, \
+                          z]}` and `tool: {...}`";
+            ledger.fault(node, "a pusher has one solid", advice);
+            return None;
+        }
+    }
+    if let Some(tool) = node.get("tool") {
+        if let Some(friction) = node.get("friction") {
+            let advice = "remove it; the tool has its own friction value";
+            ledger.fault(friction, "`friction` beside a tool", advice);
+        }
+        return Some((Arc::new(tool::tool_of(tool, ledger)?), lift?));
+    }
+    let friction = number_or(node, "friction", default::FRICTION)?;
+    let part = Part { name: "pusher".into(), shape: shape(node)?, pose: Pose::default() };
+    let tool = Tool {
+        name: "pusher".into(),
+        description: String::new(),
+        grip: Pose::default(),
+        friction,
+        parts: vec![part],
+        joints: Vec::new(),
+    };
+    Some((Arc::new(tool), lift?))
+}

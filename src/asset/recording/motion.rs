@@ -1,0 +1,130 @@
+//! From recorded pusher poses to strokes that an effect model can play.
+
+use std::sync::Arc;
+
+use crate::geometry::Pose;
+use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
+
+use super::load::{RecordedFrame, Recording};
+
+/// A pusher that moves less than this between frames stands still, metres and radians: what
+/// trackers tremble by.
+const STANDING: f64 = 2e-4;
+const STANDING_TURN: f64 = 4e-3;
+
+/// Frames are joined to one stroke as long as the pusher is no farther than this from an even
+/// motion along it, metres and radians: well below what pushing shows.
+const STRAIGHT: f64 = 5e-4;
+const STRAIGHT_TURN: f64 = 0.02;
+
+/// A recording as a tool motion, with the instants at which prediction and record can be
+/// compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replay {
+    /// What the pusher did: strokes of about a model's frame, no waiting for rest but where the
+    /// pusher was lifted.
+    pub motion: ToolMotion,
+    /// In order of time; the last one is the last recorded frame.
+    pub instants: Vec<Instant>,
+}
+
+/// A recorded frame and the stroke that ends with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Instant {
+    /// Index into [`Recording::frames`].
+    pub frame: usize,
+    /// Index of the stroke.
+    pub stroke: usize,
+    /// Whether it is the rest after the stroke that is meant, not its end.
+    pub settled: bool,
+}
+
+impl Recording {
+    /// The pusher's motion. Frames are joined as far as the pusher moves straight and evenly,
+    /// up to the travel of a model's frame; longer steps are cut by the stroke itself.
+    pub fn replay(&self) -> Replay {
+        let frames = &self.frames;
+        let motion =
+            ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes: Vec::new() };
+        let mut replay = Replay { motion, instants: Vec::new() };
+        let Some(first) = frames.first() else { return replay };
+        let mut at = first.tool;
+        let mut from = 0;
+        while from + 1 < frames.len() {
+            let to = reach(frames, from, &at);
+            if frames[to].lifted {
+                replay.settle();
+                at = frames[to].tool;
+                let stroke = replay.motion.strokes.len();
+                // Before any stroke there is nothing to wait for.
+                if let Some(stroke) = stroke.checked_sub(1) {
+                    replay.instants.push(Instant { frame: to, stroke, settled: true });
+                }
+            } else {
+                let duration = frames[to].time - frames[from].time;
+                replay.move_to(&mut at, frames[to].tool, duration);
+                let stroke = replay.motion.strokes.len() - 1;
+                replay.instants.push(Instant { frame: to, stroke, settled: false });
+            }
+            from = to;
+        }
+        replay
+    }
+}
+
+impl Replay {
+    fn settle(&mut self) {
+        if let Some(last) = self.motion.strokes.last_mut() {
+            last.settle = true;
+        }
+    }
+
+    /// Adds the strokes that bring the pusher from `at` to `to`.
+    fn move_to(&mut self, at: &mut Pose, to: Pose, duration: f64) {
+        let mut push = |from, to, duration| {
+            self.motion.strokes.push(Stroke { from, to, duration, settle: false });
+        };
+        if stands(at, &to) {
+            // As long a frame as a model knows from waiting for rest.
+            let pieces = (duration / COAST_FRAME - 1e-6).ceil().max(1.0);
+            for _ in 0..pieces as usize {
+                push(*at, *at, duration / pieces);
+            }
+        } else {
+            push(*at, to, duration);
+            *at = to;
+        }
+    }
+}
+
+/// The last frame that one stroke from frame `from`, with the pusher at `at`, can end with.
+fn reach(frames: &[RecordedFrame], from: usize, at: &Pose) -> usize {
+    let mut to = from + 1;
+    if frames[to].lifted {
+        return to;
+    }
+    while to + 1 < frames.len() && !frames[to + 1].lifted && one_stroke(frames, from, to + 1, at) {
+        to += 1;
+    }
+    to
+}
+
+/// Whether the pusher moves evenly from `at` in frame `from` to its pose in frame `to`.
+fn one_stroke(frames: &[RecordedFrame], from: usize, to: usize, at: &Pose) -> bool {
+    let (start, end) = (frames[from].time, frames[to].time);
+    if stands(at, &frames[to].tool) {
+        let still = frames[from..=to].iter().all(|frame| stands(at, &frame.tool));
+        return still && end - start <= COAST_FRAME * (1.0 + 1e-6);
+    }
+    let travel = (frames[to].tool.position - at.position).norm();
+    travel <= FRAME_TRAVEL * (1.0 + 1e-6)
+        && frames[from + 1..to].iter().all(|frame| {
+            let even = at.towards(&frames[to].tool, (frame.time - start) / (end - start));
+            (frame.tool.position - even.position).norm() <= STRAIGHT
+                && (frame.tool.heading - even.heading).abs() <= STRAIGHT_TURN
+        })
+}
+
+fn stands(at: &Pose, to: &Pose) -> bool {
+    (to.position - at.position).norm() < STANDING && (to.heading - at.heading).abs() < STANDING_TURN
+}

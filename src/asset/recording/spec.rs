@@ -1,0 +1,164 @@
+//! What a recording may hold.
+
+use crate::asset::saved::VERSION;
+use crate::asset::spec::{
+    ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value,
+};
+use crate::asset::task::{JOINT, OBSTACLE};
+use crate::asset::tool::TOOL_KEYS;
+
+/// Defaults of optional keys; the words of the keys below repeat them.
+pub(super) mod default {
+    /// Mass of an object, kg: a full mug.
+    pub const MASS: f64 = 0.5;
+    /// Friction value of objects and pushers: wood or plastic.
+    pub const FRICTION: f64 = 0.4;
+    /// Height of the pusher's underside above the table, metres, as in tasks.
+    pub const LIFT: f64 = 0.002;
+}
+
+/// What a recording may hold.
+pub(in crate::asset) static RECORDING: Value = Value::Map(RECORDING_KEYS);
+
+/// The keys of a recording.
+pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
+    Key::required("schema_version", VERSION, "Version of the format, 1."),
+    Key::required("kind", Value::Word(&["recording"]), "What the file is."),
+    Key::optional("name", Value::Name, "The recording's name; by default the file's."),
+    Key::optional("description", Value::Text, "One line for people; by default empty."),
+    Key::required("scene", SCENE, "What stands on the table."),
+    Key::required("pusher", Value::Map(PUSHER_KEYS), "What moves the objects."),
+    Key::optional(
+        "frame_time",
+        TIME_STEP,
+        "Time between two frames, seconds; no default, a recording has this or `times`.",
+    ),
+    Key::optional(
+        "times",
+        Value::List { of: &TIME, items: "times", min: 2, max: MOST_FRAMES },
+        "Time of each frame, seconds; no default, a recording has this or `frame_time`.",
+    ),
+    Key::required(
+        "frames",
+        Value::List { of: &FRAME, items: "frames", min: 2, max: MOST_FRAMES },
+        "Where everything was, instant by instant; all rests in the first frame.",
+    ),
+];
+
+const MOST_FRAMES: usize = 100_000;
+
+const SCENE: Value = Value::Map(&[
+    Key::optional(
+        "table",
+        Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
+        "The table; by default of friction 0.5.",
+    ),
+    Key::required(
+        "objects",
+        Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
+        "The movable objects, in the order of the frames.",
+    ),
+    Key::optional(
+        "joints",
+        Value::List { of: &JOINT, items: "joints", min: 0, max: 64 },
+        "Joints between objects, as they are in the first frame; by default none.",
+    ),
+    Key::optional(
+        "obstacles",
+        Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
+        "Cuboids fixed to the table; by default none.",
+    ),
+]);
+
+const OBJECT: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The object's name, unique in the scene."),
+    Key::required("shape", SHAPE, "The object's solid, standing upright."),
+    Key::optional("mass", MASS, "Mass in kg; default 0.5."),
+    Key::optional("friction", FRICTION, "Friction value; default 0.4."),
+    Key::optional(
+        "position",
+        POSITION,
+        "Centre at the start, [x, y] in metres; by default, and at any rate, that of the first \
+         frame.",
+    ),
+    Key::optional(
+        "yaw_deg",
+        ANGLE,
+        "Heading at the start where the frames hold positions alone, degrees; default 0.",
+    ),
+]);
+
+/// The keys of a pusher.
+pub(super) const PUSHER_KEYS: &[Key] = &[
+    Key::optional(
+        "cylinder",
+        Value::Map(&[
+            Key::required("radius", SIZE, "Radius in metres."),
+            Key::required("height", SIZE, "Height in metres."),
+        ]),
+        "An upright cylinder; no default, a pusher has this, `cuboid` or `tool`.",
+    ),
+    Key::optional(
+        "cuboid",
+        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
+        "A cuboid; no default, a pusher has this, `cylinder` or `tool`.",
+    ),
+    Key::optional(
+        "tool",
+        Value::Map(TOOL_KEYS),
+        "A tool, as in a tool file; no default, a pusher has this, `cylinder` or `cuboid`.",
+    ),
+    Key::optional("friction", FRICTION, "Friction value of a cylinder or cuboid; default 0.4."),
+    Key::optional(
+        "lift",
+        Value::Number(Range {
+            what: "a height in metres",
+            low: 0.0,
+            high: 1.0,
+            advice: "2 mm is 0.002",
+        }),
+        "Height of its underside above the table in metres; default 0.002.",
+    ),
+];
+
+const TIME_STEP: Value = Value::Number(Range {
+    what: "a time step in seconds",
+    low: 1e-4,
+    high: 10.0,
+    advice: "thirty frames a second are 0.0333",
+});
+
+const TIME: Value = Value::Number(Range {
+    what: "a time in seconds",
+    low: -1e10,
+    high: 1e10,
+    advice: "times are in seconds; only their differences count",
+});
+
+const FRAME: Value = Value::Map(&[
+    Key::required("pusher", POSE, "Where the pusher is, [x, y] or [x, y, yaw_deg]."),
+    Key::required(
+        "objects",
+        Value::List { of: &POSE, items: "poses, one per object", min: 1, max: 64 },
+        "Where each object is, [x, y] or [x, y, yaw_deg], in the order of the scene.",
+    ),
+    Key::optional(
+        "lifted",
+        Value::Switch,
+        "Whether the pusher was lifted before this frame and set down here; default false.",
+    ),
+]);
+
+/// The third number is an angle, so the range is that of neither; metres are checked by
+/// `units.rs`.
+const POSE: Value = Value::List {
+    of: &Value::Number(Range {
+        what: "a finite number",
+        low: -1e6,
+        high: 1e6,
+        advice: "leave out frames in which a body was not seen, and give `times`",
+    }),
+    items: "numbers, [x, y] or [x, y, yaw_deg]",
+    min: 2,
+    max: 3,
+};

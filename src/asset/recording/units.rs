@@ -1,0 +1,65 @@
+//! Wrong units, seen from sizes and positions that no table has.
+
+use crate::asset::node::Node;
+use crate::asset::strict::Ledger;
+
+/// An object wider than this stands on no table, metres.
+const WIDEST: f64 = 1.5;
+
+/// Nothing on a table is farther from its origin, metres; the range of coordinates.
+const FARTHEST: f64 = 10.0;
+
+/// Objects are 5 to 40 cm wide: up to this number centimetres are likelier, above it
+/// millimetres. The same for positions, which reach 0.3 to 4 m.
+const WIDTH_IN_CENTIMETRES: f64 = 40.0;
+const REACH_IN_CENTIMETRES: f64 = 400.0;
+
+/// Notes a fault if lengths look like centimetres or millimetres, and says whether it did:
+/// every other rule about lengths would only repeat it.
+pub(super) fn check(root: &Node, ledger: &mut Ledger) -> bool {
+    let objects = root.get("scene").and_then(|scene| scene.get("objects"));
+    let mut widths: Vec<(f64, &Node)> =
+        objects.map(Node::items).unwrap_or_default().iter().filter_map(width).collect();
+    widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // The median, so that one slip is reported as what it is, a size out of range.
+    if let Some((width, node)) = widths.get(widths.len() / 2).filter(|(width, _)| *width > WIDEST) {
+        let found = format!("an object {width} m wide");
+        note(node, &found, *width <= WIDTH_IN_CENTIMETRES, ledger);
+        return true;
+    }
+    let frames = root.get("frames").map(Node::items).unwrap_or_default();
+    let poses = frames.iter().flat_map(|frame| {
+        let objects = frame.get("objects").map(Node::items).unwrap_or_default();
+        frame.get("pusher").into_iter().chain(objects)
+    });
+    let farthest = poses
+        .flat_map(|pose| pose.items().iter().take(2))
+        .filter_map(|node| Some((node.number()?.abs(), node)))
+        .filter(|(reach, _)| reach.is_finite())
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((reach, node)) = farthest.filter(|(reach, _)| *reach > FARTHEST) {
+        let found = format!("a position {reach} m from the origin");
+        note(node, &found, reach <= REACH_IN_CENTIMETRES, ledger);
+        return true;
+    }
+    false
+}
+
+/// Horizontal extent of an object, in whatever unit, and the node that says it.
+fn width(object: &Node) -> Option<(f64, &Node)> {
+    let shape = object.get("shape")?;
+    if let Some(radius) = shape.get("cylinder").and_then(|cylinder| cylinder.get("radius")) {
+        return Some((2.0 * radius.number()?, radius)).filter(|(width, _)| width.is_finite());
+    }
+    let sides = shape.get("cuboid")?.get("size")?.items().iter().take(2);
+    sides
+        .filter_map(|side| Some((side.number()?, side)))
+        .filter(|(side, _)| side.is_finite())
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+fn note(node: &Node, found: &str, centimetres: bool, ledger: &mut Ledger) {
+    let (unit, factor) = if centimetres { ("centimetres", 100) } else { ("millimetres", 1000) };
+    let advice = format!("lengths are in metres: divide all of them by {factor}");
+    ledger.fault(node, format!("{found}: is this in {unit}?"), advice);
+}
