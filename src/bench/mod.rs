@@ -4,6 +4,7 @@
 //! be written as JSON; nothing is drawn here.
 
 mod cpu_clock;
+mod crowd;
 mod heldout;
 mod inference;
 mod random_task;
@@ -12,6 +13,10 @@ mod statistics;
 mod suite;
 mod timing;
 
+pub use crowd::{
+    CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Drift, Moment, Phases,
+    Trial, When, evaluate_crowd,
+};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
 pub use inference::{InferenceCost, inference_costs};
 pub use random_task::random_task;

@@ -2,6 +2,7 @@
 
 mod faults;
 mod joints;
+mod recordings;
 mod robustness;
 mod saved;
 

@@ -1,0 +1,99 @@
+//! What was measured, as plain data.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::Span;
+
+use super::{
+    family::{CrowdFamily, CrowdSet},
+    physical::Drift,
+};
+
+/// Errors of several models on one test set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CrowdReport {
+    /// A line for tables.
+    pub title: String,
+    /// The set's family.
+    pub family: CrowdFamily,
+    /// What the scenes hold; nothing for recordings.
+    pub set: Option<CrowdSet>,
+    /// Seed of the set; nothing for recordings.
+    pub seed: Option<u64>,
+    /// Number of trajectories.
+    pub trajectories: usize,
+    /// Mean number of compared frames in one of them.
+    pub frames: f64,
+    /// One entry a model, in the order in which they were given.
+    pub models: Vec<CrowdModel>,
+}
+
+/// Errors of one model on one test set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CrowdModel {
+    /// Name of the model.
+    pub model: String,
+    /// Over all objects.
+    pub all: Phases,
+    /// Over the objects whose true motion exceeds 1 cm in the end.
+    pub moved: Phases,
+    /// Mean heading error at the final frame, moved cuboids of known heading, degrees.
+    pub heading_deg: Option<f64>,
+    /// Mean error of all objects by horizon.
+    pub curve: Vec<CurvePoint>,
+    /// Deepest overlap of two predicted bodies at any compared frame, metres.
+    pub overlap: f64,
+    /// The same, averaged over trajectories, metres.
+    pub overlap_mean: f64,
+    /// Drift of fixed, revolute and prismatic joints.
+    pub drift: [Drift; 3],
+    /// Trajectories in which the prediction left the finite numbers; judged by where it stopped.
+    pub failed: usize,
+}
+
+/// Errors at the final frame and over all frames; nothing where there are no objects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Phases {
+    /// At the final frame, when everything rests.
+    pub end: Option<CrowdErrors>,
+    /// Averaged over the frames of each object.
+    pub averaged: Option<CrowdErrors>,
+}
+
+/// Position errors over a group of objects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CrowdErrors {
+    /// Number of objects.
+    pub objects: usize,
+    /// Mean distance of the true positions from the start, metres.
+    pub motion: f64,
+    /// Mean distance of the predicted from the true positions, metres.
+    pub mean: f64,
+    /// Median over objects, metres.
+    pub median: f64,
+    /// 90th percentile over objects, metres.
+    pub p90: f64,
+    /// Mean error as a share of the mean motion.
+    pub relative: f64,
+    /// 95 % interval of that share, by bootstrap over trajectories, whose objects are not
+    /// independent of each other.
+    pub relative_interval: Span,
+}
+
+impl CrowdErrors {
+    /// A length in metres as a share of the mean motion.
+    pub fn share(&self, metres: f64) -> f64 {
+        metres / self.motion.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// A point of the curve of error by horizon.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CurvePoint {
+    /// Share of the trajectory's frames that have passed, 0 to 1.
+    pub horizon: f64,
+    /// Mean error, metres.
+    pub error: f64,
+    /// Mean true distance from the start, metres.
+    pub motion: f64,
+}

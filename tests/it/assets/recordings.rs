@@ -1,0 +1,251 @@
+//! Recordings: what the documentation shows can be read, what is written reads back, replays
+//! give back what was recorded, and everything that is wrong is said with its place.
+
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+
+use pushplan::asset::{Kind, RECORDING_FORMAT, Recording, check};
+use pushplan::effect::{EffectModel, Job, Simulated};
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::scene::{
+    Joint, JointKind, Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory,
+};
+use pushplan::sim::Simulator;
+
+/// A sound recording; the tests spoil it.
+const SOUND: &str = "\
+schema_version: 1
+kind: recording
+scene:
+  objects:
+    - {name: can, shape: {cylinder: {radius: 0.05, height: 0.1}}}
+    - {name: box, shape: {cuboid: {size: [0.1, 0.08, 0.06]}}, mass: 0.7, yaw_deg: 10}
+pusher: {cylinder: {radius: 0.05, height: 0.1}}
+times: [5.0, 5.1, 5.2, 5.3]
+frames:
+  - {pusher: [0.00, 0], objects: [[0.20, 0], [0.5, 0.1, 10]]}
+  - {pusher: [0.05, 0], objects: [[0.20, 0], [0.5, 0.1, 10]]}
+  - {pusher: [0.10, 0], objects: [[0.20, 0], [0.5, 0.1, 10]]}
+  - {pusher: [0.15, 0], objects: [[0.25, 0], [0.5, 0.1, 10]]}
+";
+
+fn parse(text: &str) -> Result<Recording, String> {
+    Recording::parse(text, "r.yaml").map_err(|faults| faults.to_string())
+}
+
+/// The block of `language` in the documentation of the format.
+fn block(language: &str) -> &str {
+    let start = format!("```{language}\n");
+    let text = RECORDING_FORMAT.split(&start).nth(1).expect("a block");
+    text.split("```").next().expect("its end")
+}
+
+#[test]
+fn what_the_documentation_shows_can_be_read() {
+    let example = Recording::parse(block("json"), "r.json").expect("the example is sound");
+    assert_eq!((example.scene.objects.len(), example.scene.joints.len()), (2, 1));
+    assert_eq!(example.scene.objects[0].mass, 0.5);
+    assert_eq!(example.headings, [false, true]);
+
+    // The produced file is kept for where there is no Python.
+    let folder = tempfile::tempdir().expect("a folder");
+    let python =
+        Command::new("python3").args(["-c", block("python")]).current_dir(&folder).status();
+    let path = match python {
+        Ok(status) => {
+            assert!(status.success());
+            folder.path().join("push.recording.json")
+        }
+        Err(_) => Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/assets/push.recording.json"),
+    };
+    assert!(block("python").lines().count() <= 10);
+    assert_eq!(check(&path, None), Ok(Kind::Recording));
+    let recording = Recording::load(&path).expect("the written file is sound");
+    assert_eq!((recording.name.as_str(), recording.frames.len()), ("push", 31));
+    assert!(off(&recording, &replayed(&recording)) < 2e-3);
+}
+
+#[test]
+fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
+    let object = |name: &str, shape, x, y, turn| Object {
+        name: name.into(),
+        shape,
+        mass: 0.4,
+        friction: 0.4,
+        pose: Pose::new(x, y, turn),
+    };
+    let can = Shape::Cylinder { radius: 0.05, height: 0.1 };
+    let cuboid = Shape::Cuboid { size: [0.08, 0.12, 0.05] };
+    let scene = Scene {
+        table_friction: 0.5,
+        objects: vec![object("a", can, 0.15, 0.0, 0.0), object("b", cuboid, 0.25, 0.02, 0.4)],
+        joints: vec![Joint { between: [0, 1], kind: JointKind::Fixed, guessed: false }],
+        ..Scene::default()
+    };
+    let hand = Part { name: "hand".into(), shape: can, pose: Pose::default() };
+    let hand = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![hand], &[]);
+    let push =
+        |x, y, direction| Push { start: Vector::new(x, y), direction, length: 0.2, speed: 0.1 };
+    let pushes = [push(0.0, 0.01, 0.0), push(0.6, 0.2, -2.5)];
+    let motion = ToolMotion::pushes(Arc::new(hand.expect("one piece")), 0.002, 0.0, &pushes, true);
+    let simulated = Simulator::planar().run(&scene, &scene.start(), None, &motion, Record::Frames);
+
+    let recording = Recording::of_frames("two-pushes", &scene, &motion, &simulated.frames);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("two-pushes.recording.json");
+    recording.write(&path).expect("a writable folder");
+    let read = Recording::load(&path).expect("what is written can be read");
+    assert_eq!(read.scene, scene);
+    assert_eq!(read.tool.parts, recording.tool.parts);
+    assert_eq!(read.frames.len(), recording.frames.len());
+    for (ours, theirs) in recording.frames.iter().zip(&read.frames) {
+        assert!((ours.time - theirs.time).abs() < 1e-9 && ours.lifted == theirs.lifted);
+        for (a, b) in ours.poses.iter().zip(&theirs.poses) {
+            assert!(
+                (a.position - b.position).norm() < 1e-12 && (a.heading - b.heading).abs() < 1e-9
+            );
+        }
+    }
+    assert_eq!(read.frames.iter().filter(|frame| frame.lifted).count(), 1);
+    assert!(off(&read, &replayed(&read)) < 1e-4);
+}
+
+#[test]
+fn slow_frames_are_joined_and_fast_ones_cut() {
+    let recording = |step: f64| {
+        let frames: Vec<String> = (0..=20)
+            .map(|k| format!("{{pusher: [{}, 0.5], objects: [[0.0, 0.0]]}}", step * f64::from(k)))
+            .collect();
+        let text = format!(
+            "schema_version: 1\nkind: recording\nframe_time: 0.02\n\
+             pusher: {{cylinder: {{radius: 0.02, height: 0.1}}}}\n\
+             scene: {{objects: [{{name: can, shape: {{cylinder: {{radius: 0.05, height: 0.1}}}}}}]}}\n\
+             frames: [{}]\n",
+            frames.join(", ")
+        );
+        parse(&text).expect("a sound recording").replay()
+    };
+    let slow = recording(0.002);
+    assert_eq!(slow.motion.strokes.len(), 4, "five frames of 2 mm make a stroke");
+    assert!(slow.instants.iter().map(|instant| instant.frame).eq([5, 10, 15, 20]));
+    let fast = recording(0.05);
+    assert_eq!(fast.motion.strokes.len(), 20);
+    assert!(fast.motion.strokes.iter().all(|stroke| stroke.frames() == 5));
+    let standing = recording(0.0);
+    assert_eq!(standing.motion.strokes.len(), 10, "0.4 s in frames of 40 ms");
+    assert!(standing.motion.strokes.iter().all(|stroke| stroke.from == stroke.to));
+}
+
+#[test]
+fn everything_wrong_is_said_with_its_place() {
+    parse(SOUND).expect("the unspoiled recording is sound");
+    let spoiled: &[(&str, &str, &str)] = &[
+        ("pusher: [0.05, 0]", "pusher: [.nan, 0]", "r.yaml:11:15: error: expected a finite number"),
+        (
+            "[[0.20, 0], [0.5, 0.1, 10]]}\n  - {pusher: [0.10",
+            "[[0.20, 0]]}\n  - {pusher: [0.10",
+            "r.yaml:11:34: error: frame 1 has 1 poses for 2 objects",
+        ),
+        (
+            "[0.25, 0], [0.5, 0.1, 10]",
+            "[0.25, 0], [0.5, 0.1]",
+            "r.yaml:13:46: error: frame 3 has no heading where frame 0 has one",
+        ),
+        (
+            "[0.25, 0], [0.5, 0.1, 10]",
+            "[0.45, 0], [0.5, 0.1, 10]",
+            "r.yaml:13:35: error: `can` moves 25 cm between frames 2 and 3",
+        ),
+        (
+            "[0.25, 0], [0.5, 0.1, 10]",
+            "[0.25, 0], [0.5, 0.1, 190]",
+            "r.yaml:13:46: error: `box` turns by 180 degrees between frames 2 and 3",
+        ),
+        (
+            "pusher: [0.15, 0]",
+            "pusher: [0.55, -0.2]",
+            "r.yaml:13:14: error: the pusher moves 49 cm between frames 2 and 3",
+        ),
+        ("5.2, 5.3]", "5.2, 5.2]", "r.yaml:8:24: error: frame 3 is at 5.2 s, not after frame 2"),
+        ("5.2, 5.3]", "5.2]", "r.yaml:8:8: error: 3 times for 4 frames"),
+        ("5.2, 5.3]", "5.2, 5.9]", "error: frames are missing between frames 2 and 3"),
+        ("times: [5.0, 5.1, 5.2, 5.3]\n", "", "error: neither `frame_time` nor `times` is given"),
+        ("frames:\n", "frame_time: 0.1\nframes:\n", "error: both `frame_time` and `times`"),
+        (
+            "pusher: [0.00, 0]",
+            "pusher: [0.17, 0]",
+            "r.yaml:10:14: error: in frame 0 the pusher stands inside `can`",
+        ),
+        (
+            "[0.5, 0.1, 10]]}\n  - {pusher: [0.05",
+            "[0.21, 0.05, 10]]}\n  - {pusher: [0.05",
+            "r.yaml:10:46: error: `box` overlaps `can`",
+        ),
+        (
+            "yaw_deg: 10}",
+            "position: [0.6, 0.1]}",
+            "r.yaml:6:84: error: the object starts elsewhere in the first frame",
+        ),
+        (
+            "radius: 0.05, height: 0.1}}}\n",
+            "radius: 5, height: 10}}}\n",
+            "r.yaml:5:46: error: an object 10 m wide: is this in centimetres?",
+        ),
+        (
+            "radius: 0.05, height: 0.1}}}\n",
+            "radius: 50, height: 100}}}\n",
+            "r.yaml:5:46: error: an object 100 m wide: is this in millimetres?",
+        ),
+        (
+            "[0.25, 0], [0.5, 0.1, 10]",
+            "[25, 0], [50, 10, 10]",
+            "r.yaml:13:45: error: a position 50 m from the origin: is this in centimetres?",
+        ),
+        ("pusher: {cylinder", "pusher: {cilinder", "r.yaml:7:10: error: unknown key `cilinder`"),
+        (
+            "pusher: {cylinder: {radius: 0.05, height: 0.1}}",
+            "pusher: {lift: 0.01}",
+            "r.yaml:7:9: error: a pusher has one solid",
+        ),
+    ];
+    let mut missed = String::new();
+    for (old, new, expected) in spoiled {
+        assert!(SOUND.contains(old), "{old}");
+        let found = parse(&SOUND.replacen(old, new, 1)).expect_err(expected);
+        if !found.contains(expected) {
+            missed += &format!("{expected}\nfound:\n{found}\n\n");
+        }
+    }
+    assert!(missed.is_empty(), "\n{missed}");
+    // Declared, a jump of the pusher is none.
+    let lifted = SOUND.replace("pusher: [0.15, 0]", "lifted: true, pusher: [0.55, -0.2]");
+    assert!(parse(&lifted.replace("[0.25, 0]", "[0.20, 0]")).is_ok());
+    let json = "{\"frames\": [{\"pusher\": [NaN, 0.0]}]}";
+    let found = Recording::parse(json, "r.json").expect_err("NaN is no JSON").to_string();
+    assert!(found.contains("JSON has no NaN"), "{found}");
+}
+
+/// What the planar engine makes of the recorded pusher.
+fn replayed(recording: &Recording) -> Trajectory {
+    let motion = recording.replay().motion;
+    let job = Job { start: recording.start(), motion, hypothesis: None };
+    let model = Simulated::new(Simulator::planar());
+    model.rollout(&recording.scene, &[job], Record::Frames).remove(0)
+}
+
+/// Largest distance of any object from its recorded place at the end of a stroke, metres.
+fn off(recording: &Recording, trajectory: &Trajectory) -> f64 {
+    let replay = recording.replay();
+    let mut largest: f64 = 0.0;
+    for instant in replay.instants.iter().filter(|instant| !instant.settled) {
+        let of_stroke = trajectory.frames.iter().skip(1).filter(|f| f.stroke == instant.stroke);
+        let frames = replay.motion.strokes[instant.stroke].frames();
+        let predicted = of_stroke.take(frames).last().expect("every stroke has frames");
+        let truth = &recording.frames[instant.frame].poses;
+        for (a, b) in predicted.state.poses.iter().zip(truth) {
+            largest = largest.max((a.position - b.position).norm());
+        }
+    }
+    largest
+}
