@@ -13,6 +13,20 @@ use super::{chance::weighted, hand::HAND_RADIUS};
 /// ("Object and relation centric representations for push effect prediction",
 /// arXiv 2102.02100): up to twelve objects, some joined to near neighbours, pushed by a round
 /// hand of 10 cm diameter.
+///
+/// Measured, each with 200 episodes or more (episodes per second of one core of the development
+/// machine; a shared core, so half of what an idle one does):
+///
+/// | | episodes / s | frames an episode | objects | joints | objects moved over 1 cm |
+/// |---|---|---|---|---|---|
+/// | tools | 270 | 26 | 1.6 | 0 | 84 % |
+/// | sparse | 22 | 239 | 6.8 | 2 | 98 % |
+/// | sparse line | 70 | 92 | 6.8 | 2 | 54 % |
+/// | dense | 80 | 55 | 6.8 | 3 | 84 % |
+/// | mixed | 106 | 49 | 3.5 | 1 | 81 % |
+///
+/// Scenes that do not come to rest within three seconds are drawn again: 3 to 5 % of those with
+/// mixed joints, almost none of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
@@ -34,7 +48,7 @@ pub enum Preset {
 }
 
 /// How often an episode of [`Preset::Mixed`] is of each family: a sparse one has ten times
-/// the frames of one with a tool. Frames come out as 35, 30, 10 and 25 %.
+/// the frames of one with a tool. Frames come out as about 35, 30, 10 and 25 %.
 const MIXED: [(Preset, f64); 4] = [
     (Preset::Tools, 0.67),
     (Preset::Sparse, 0.06),

@@ -160,6 +160,38 @@ fn a_task_without_a_solution_ends_with_code_4_and_shows_the_nearest_plan() {
     assert_eq!(files(folder.path()), ["too-far.nearest.plan.json", "too-far.nearest.svg"]);
 }
 
+#[test]
+fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let output = pushplan(&[
+        "generate",
+        out,
+        "--episodes",
+        "3",
+        "--preset",
+        "sparse-line",
+        "--objects",
+        "6",
+        "--joints",
+        "mixed",
+        "--solids",
+        "cylinders",
+        "--speed",
+        "0.21",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(files(folder.path()), ["manifest.json", "shard-00000.bin"]);
+    let manifest = std::fs::read(folder.path().join("manifest.json")).expect("a manifest");
+    let manifest: Json = serde_json::from_slice(&manifest).expect("JSON");
+    let config = &manifest["config"];
+    assert_eq!(config["preset"], "sparse_line");
+    let wanted = serde_json::json!(
+        {"objects": 6, "joints": "mixed", "solids": "cylinders", "speed": 0.21}
+    );
+    assert_eq!(config["constraints"], wanted);
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
