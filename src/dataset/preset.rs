@@ -14,8 +14,8 @@ use super::{chance::weighted, hand::HAND_RADIUS};
 /// arXiv 2102.02100): up to twelve objects, some joined to near neighbours, pushed by a round
 /// hand of 10 cm diameter.
 ///
-/// Measured, each with 200 episodes or more (episodes per second of one core of the development
-/// machine; a shared core, so half of what an idle one does):
+/// Measured, each with 200 episodes or more (episodes per second of CPU time, on a virtual core
+/// whose twin was busy):
 ///
 /// | | episodes / s | frames an episode | objects | joints | objects moved over 1 cm |
 /// |---|---|---|---|---|---|
@@ -25,7 +25,7 @@ use super::{chance::weighted, hand::HAND_RADIUS};
 /// | dense | 80 | 55 | 6.8 | 3 | 84 % |
 /// | mixed | 106 | 49 | 3.5 | 1 | 81 % |
 ///
-/// Scenes that do not come to rest within three seconds are drawn again: 3 to 5 % of those with
+/// Scenes that do not come to rest within three seconds are drawn again: 4 to 6 % of those with
 /// mixed joints, almost none of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
