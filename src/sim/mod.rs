@@ -9,7 +9,7 @@
 //! (mean; median 0.5) and 4.3 mm for cuboids (median 1.6).
 
 mod drive;
-mod joints;
+mod groups;
 mod parameters;
 mod planar;
 mod simulator;

@@ -1,7 +1,7 @@
 //! Settings that both engines share, and why they are so.
 
 use crate::geometry::Vector;
-use crate::scene::State;
+use crate::scene::{JointKind, Scene, State};
 
 /// Penetration that is not corrected, metres. rapier's default of 1 mm lets bodies sink 1.4 mm.
 pub(super) const ALLOWED_ERROR: f64 = 1e-5;
@@ -10,10 +10,25 @@ pub(super) const ALLOWED_ERROR: f64 = 1e-5;
 /// other (8 mm at 100).
 const SOFT_MASS_RATIO: f64 = 10.0;
 
-/// Contact spring for scenes above [`SOFT_MASS_RATIO`]: natural frequency (Hz) and damping
-/// ratio. It removes the sinking but doubles the contact noise of cylinders, so rapier's own
-/// stays in use below.
+/// Contact spring for scenes above [`SOFT_MASS_RATIO`] and for articulated ones: natural
+/// frequency (Hz) and damping ratio. It removes the sinking but doubles the contact noise of
+/// cylinders, so rapier's own stays in use elsewhere.
 pub(super) const STIFF_CONTACT: (f64, f64) = (300.0, 1.0);
+
+/// Small steps inside a step for articulated scenes; rapier's own number is 4.
+///
+/// In a row of 8 cans on revolute joints, pushed 1 m at 0.21 m/s, the axes drift by at most 0.70
+/// mm in the planar engine (0.92 in 3-D) with 4, 0.10 (0.16) with 6 and 0.06 (0.11) with 8.
+pub(super) const ARTICULATED_ITERATIONS: usize = 6;
+
+/// Whether some objects can move against others that they are joined with.
+///
+/// Such neighbours also touch each other, with the leverage of all that hangs on the joint:
+/// rapier's soft contacts let 12 boxes on revolute joints with gaps of 2 mm, which can turn by 3
+/// degrees, turn by 24 instead, and the row then never came to rest.
+pub(super) fn is_articulated(scene: &Scene) -> bool {
+    scene.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
+}
 
 /// Whether the masses (kg) differ so much that contacts must be stiffened.
 pub(super) fn needs_stiff_contacts(masses: &[f64]) -> bool {

@@ -6,7 +6,7 @@
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, GenericJointBuilder, Group,
+    CoefficientCombineRule, ColliderBuilder, ColliderHandle, GenericJointBuilder, Group as Layer,
     InteractionGroups, InteractionTestMode, JointAxesMask, JointAxis, PhysicsWorld,
     Pose2 as RapierPose, Real, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
     Vector as RapierVector,
@@ -18,18 +18,21 @@ use crate::scene::{
 };
 
 use super::drive::World;
-use super::joints::{JointFrames, neighbours_touch};
-use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, centre, needs_stiff_contacts};
+use super::groups::{Group, Member};
+use super::parameters::{
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
+    needs_stiff_contacts,
+};
 use super::support::Support;
 
 /// Tool parts.
-const PART: Group = Group::GROUP_1;
+const PART: Layer = Layer::GROUP_1;
 /// Objects tall enough for the tool's parts to meet them.
-const TALL: Group = Group::GROUP_2;
+const TALL: Layer = Layer::GROUP_2;
 /// Objects that the lifted tool passes over.
-const LOW: Group = Group::GROUP_3;
+const LOW: Layer = Layer::GROUP_3;
 /// Obstacles.
-const OBSTACLE: Group = Group::GROUP_4;
+const OBSTACLE: Layer = Layer::GROUP_4;
 
 /// A scene in rapier2d.
 pub(super) struct PlanarWorld {
@@ -37,16 +40,15 @@ pub(super) struct PlanarWorld {
     /// Where rapier's origin lies in the world frame, metres.
     origin: Vector,
     tool: RigidBodyHandle,
-    objects: Vec<Tracked>,
+    bodies: Vec<Tracked>,
+    objects: Vec<(Member, Support)>,
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
 }
 
-/// An object and how far it has come since the world was built.
+/// A body and how far it has come since the world was built.
 struct Tracked {
-    body: RigidBodyHandle,
-    support: Support,
-    start: Pose,
+    handle: RigidBodyHandle,
     first_position: RapierVector,
     last_angle: f64,
     turned: f64,
@@ -61,15 +63,19 @@ impl World for PlanarWorld {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(parameters),
+            world: empty_world(scene, parameters),
             origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
+            bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
         };
         this.add_tool(motion, parameters, tool);
+        let groups = Group::of(scene, state, &parameters.masses);
+        groups.iter().for_each(|group| this.add_body(group));
         for index in 0..scene.objects.len() {
-            this.add_object(scene, state, parameters, motion.lift, index);
+            let member = Member::of(&groups, state, index);
+            this.add_object(scene, parameters, motion.lift, index, member);
         }
         this.add_obstacles(scene);
         this.add_joints(scene);
@@ -89,38 +95,43 @@ impl World for PlanarWorld {
 
     fn step(&mut self) {
         let dt = f64::from(self.world.integration_parameters.dt);
-        for object in &self.objects {
-            let body = &mut self.world.bodies[object.body];
-            let (velocity, turning) = (body.linvel(), body.angvel());
-            let (force, torque) =
-                object.support.drag(f64::from(velocity.length()), f64::from(turning), dt);
+        for tracked in &self.bodies {
+            let body = &mut self.world.bodies[tracked.handle];
             body.reset_forces(true);
             body.reset_torques(true);
-            body.add_force(velocity * -force as Real, true);
-            body.add_torque(turning * -torque as Real, true);
+        }
+        for (member, support) in &self.objects {
+            let tracked = &self.bodies[member.body];
+            let body = &mut self.world.bodies[tracked.handle];
+            let arm = vector(member.arm(tracked.turned));
+            let turning = body.angvel();
+            let velocity = body.linvel() + arm.perp() * turning;
+            let (force, torque) =
+                support.drag(f64::from(velocity.length()), f64::from(turning), dt);
+            let force = velocity * -force as Real;
+            body.add_force(force, true);
+            body.add_torque(turning * -torque as Real + arm.perp_dot(force), true);
         }
         self.world.step();
-        for object in &mut self.objects {
-            let angle = f64::from(self.world.bodies[object.body].rotation().angle());
-            object.turned += wrap_angle(angle - object.last_angle);
-            object.last_angle = angle;
+        for tracked in &mut self.bodies {
+            let angle = f64::from(self.world.bodies[tracked.handle].rotation().angle());
+            tracked.turned += wrap_angle(angle - tracked.last_angle);
+            tracked.last_angle = angle;
         }
     }
 
     fn state(&self) -> State {
         let mut state = State::default();
-        for object in &self.objects {
-            let body = &self.world.bodies[object.body];
-            let moved = body.translation() - object.first_position;
-            state.poses.push(Pose {
-                position: object.start.position + Vector::new(moved.x.into(), moved.y.into()),
-                heading: object.start.heading + object.turned,
-            });
+        for (member, _) in &self.objects {
+            let tracked = &self.bodies[member.body];
+            let body = &self.world.bodies[tracked.handle];
+            let moved = body.translation() - tracked.first_position;
+            let moved = Vector::new(moved.x.into(), moved.y.into());
+            state.poses.push(member.pose(moved, tracked.turned));
             let linear = body.linvel();
-            state.velocities.push(Velocity {
-                linear: Vector::new(linear.x.into(), linear.y.into()),
-                angular: body.angvel().into(),
-            });
+            let linear = Vector::new(linear.x.into(), linear.y.into());
+            let velocity = Velocity { linear, angular: body.angvel().into() };
+            state.velocities.push(member.velocity(velocity, tracked.turned));
         }
         state
     }
@@ -169,38 +180,40 @@ impl PlanarWorld {
         }
     }
 
+    fn add_body(&mut self, group: &Group) {
+        let body = RigidBodyBuilder::dynamic()
+            .pose(to_rapier(&group.pose, self.origin))
+            .linvel(vector(group.velocity.linear))
+            .angvel(group.velocity.angular as Real)
+            .can_sleep(false);
+        let handle = self.world.insert_body(body);
+        self.bodies.push(Tracked {
+            handle,
+            first_position: self.world.bodies[handle].translation(),
+            last_angle: self.world.bodies[handle].rotation().angle().into(),
+            turned: 0.0,
+        });
+    }
+
     fn add_object(
         &mut self,
         scene: &Scene,
-        state: &State,
         parameters: &Hypothesis,
         lift: f64,
         index: usize,
+        member: Member,
     ) {
-        let (pose, velocity) = (state.poses[index], state.velocities[index]);
         let (shape, friction) = (&scene.objects[index].shape, parameters.frictions[index]);
         let footprint = shape.footprint();
-        let body = RigidBodyBuilder::dynamic()
-            .pose(to_rapier(&pose, self.origin))
-            .linvel(vector(velocity.linear))
-            .angvel(velocity.angular as Real)
-            .can_sleep(false);
-        let body = self.world.insert_body(body);
         // All parts have their underside at the same height, so the object alone decides.
         let own = if shape.height() > lift { TALL } else { LOW };
         let collider = collider(&footprint, friction)
             .mass(parameters.masses[index] as Real)
-            .collision_groups(groups(own, Group::ALL));
-        self.insert(collider, Body::Object(index), body);
+            .position(to_rapier(&member.local, Vector::zeros()))
+            .collision_groups(groups(own, Layer::ALL));
+        self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
         let table = Scene::pair_friction(friction, parameters.table_friction);
-        self.objects.push(Tracked {
-            body,
-            support: Support::new(&footprint, table, parameters.masses[index]),
-            start: pose,
-            first_position: self.world.bodies[body].translation(),
-            last_angle: self.world.bodies[body].rotation().angle().into(),
-            turned: 0.0,
-        });
+        self.objects.push((member, Support::new(&footprint, table, parameters.masses[index])));
     }
 
     fn add_obstacles(&mut self, scene: &Scene) {
@@ -215,27 +228,26 @@ impl PlanarWorld {
 
     fn add_joints(&mut self, scene: &Scene) {
         for joint in &scene.joints {
-            let axes = match joint.kind {
-                JointKind::Fixed => JointAxesMask::LOCKED_FIXED_AXES,
-                JointKind::Revolute { .. } => JointAxesMask::LOCKED_REVOLUTE_AXES,
-                JointKind::Prismatic { .. } => JointAxesMask::LOCKED_PRISMATIC_AXES,
+            let (axes, free) = match joint.kind {
+                // Its objects are one body.
+                JointKind::Fixed => continue,
+                JointKind::Revolute { .. } => {
+                    (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX)
+                }
+                JointKind::Prismatic { .. } => {
+                    (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX)
+                }
             };
-            let frames = JointFrames::new(scene, joint);
+            let [first, second] = joint.between.map(|index| &self.objects[index].0);
+            let [at_first, at_second] = joint.frames(&scene.objects);
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(to_rapier(&frames.first, Vector::zeros()))
-                .local_frame2(to_rapier(&frames.second, Vector::zeros()))
-                .contacts_enabled(neighbours_touch(&joint.kind));
-            // Both frames lie on each other where the scene states its objects, so zero is there.
-            match joint.kind {
-                JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
-                    built = built.limits(JointAxis::AngX, [low as Real, high as Real]);
-                }
-                JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
-                    built = built.limits(JointAxis::LinX, [low as Real, high as Real]);
-                }
-                _ => {}
+                .local_frame1(to_rapier(&(first.local * at_first), Vector::zeros()))
+                .local_frame2(to_rapier(&(second.local * at_second), Vector::zeros()));
+            // The frames coincide where the scene states its objects, so zero is there.
+            if let Some(Span { low, high }) = joint.limits() {
+                built = built.limits(free, [low as Real, high as Real]);
             }
-            let [first, second] = joint.between.map(|index| self.objects[index].body);
+            let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
             self.world.insert_impulse_joint(first, second, built);
         }
     }
@@ -247,11 +259,15 @@ impl PlanarWorld {
     }
 }
 
-fn empty_world(parameters: &Hypothesis) -> PhysicsWorld {
+fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
-    if needs_stiff_contacts(&parameters.masses) {
+    let articulated = is_articulated(scene);
+    if articulated {
+        settings.num_solver_iterations = ARTICULATED_ITERATIONS;
+    }
+    if articulated || needs_stiff_contacts(&parameters.masses) {
         let (frequency, damping) = STIFF_CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     }
@@ -266,7 +282,7 @@ fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {
     shape.friction(friction as Real).friction_combine_rule(CoefficientCombineRule::Average)
 }
 
-fn groups(own: Group, meets: Group) -> InteractionGroups {
+fn groups(own: Layer, meets: Layer) -> InteractionGroups {
     InteractionGroups::new(own, meets, InteractionTestMode::And)
 }
 

@@ -19,8 +19,11 @@ use crate::scene::{
 };
 
 use super::drive::World;
-use super::joints::{JointFrames, neighbours_touch};
-use super::parameters::{ALLOWED_ERROR, STIFF_CONTACT, centre, needs_stiff_contacts};
+use super::groups::{Group, Member};
+use super::parameters::{
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
+    needs_stiff_contacts,
+};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -35,16 +38,17 @@ pub(super) struct SpatialWorld {
     origin: Vector,
     lift: f64,
     tool: RigidBodyHandle,
-    objects: Vec<Tracked>,
+    bodies: Vec<Tracked>,
+    objects: Vec<(Member, f64)>,
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
 }
 
-/// An object and how far it has turned since the world was built.
+/// A body and how far it has come since the world was built.
 struct Tracked {
-    body: RigidBodyHandle,
-    start: Pose,
+    handle: RigidBodyHandle,
     first_position: RapierVector,
+    first_rotation: Rotation,
     last_angle: f64,
     turned: f64,
 }
@@ -58,10 +62,11 @@ impl World for SpatialWorld {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(parameters),
+            world: empty_world(scene, parameters),
             origin: centre(state).unwrap_or(tool.position),
             lift: motion.lift,
             tool: RigidBodyHandle::invalid(),
+            bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
         };
@@ -71,8 +76,11 @@ impl World for SpatialWorld {
         );
         this.world.insert_collider(table.user_data(TABLE), None);
         this.add_tool(motion, parameters, tool);
+        let groups = Group::of(scene, state, &parameters.masses);
+        groups.iter().for_each(|group| this.add_body(scene, group));
         for index in 0..scene.objects.len() {
-            this.add_object(scene, state, parameters, index);
+            let member = Member::of(&groups, state, index);
+            this.add_object(scene, parameters, index, member);
         }
         this.add_obstacles(scene);
         this.add_joints(scene);
@@ -92,26 +100,28 @@ impl World for SpatialWorld {
 
     fn step(&mut self) {
         self.world.step();
-        for object in &mut self.objects {
-            let angle = yaw(self.world.bodies[object.body].rotation());
-            object.turned += wrap_angle(angle - object.last_angle);
-            object.last_angle = angle;
+        for tracked in &mut self.bodies {
+            let angle = yaw(self.world.bodies[tracked.handle].rotation());
+            tracked.turned += wrap_angle(angle - tracked.last_angle);
+            tracked.last_angle = angle;
         }
     }
 
     fn state(&self) -> State {
         let mut state = State::default();
-        for object in &self.objects {
-            let body = &self.world.bodies[object.body];
-            let moved = body.translation() - object.first_position;
-            state.poses.push(Pose {
-                position: object.start.position + Vector::new(moved.x, moved.y),
-                heading: object.start.heading + object.turned,
-            });
+        for (member, rise) in &self.objects {
+            let tracked = &self.bodies[member.body];
+            let body = &self.world.bodies[tracked.handle];
+            let moved = body.translation() - tracked.first_position;
+            // A body that leans carries its objects' centres aside.
+            let lean = *body.rotation() * tracked.first_rotation.inverse();
+            let leaned = lean * (RapierVector::Z * *rise);
+            let moved = Vector::new(moved.x + leaned.x, moved.y + leaned.y);
+            state.poses.push(member.pose(moved, tracked.turned));
             let (linear, angular) = (body.linvel(), body.angvel());
-            state
-                .velocities
-                .push(Velocity { linear: Vector::new(linear.x, linear.y), angular: angular.z });
+            let linear = Vector::new(linear.x, linear.y);
+            let velocity = Velocity { linear, angular: angular.z };
+            state.velocities.push(member.velocity(velocity, tracked.turned));
         }
         state
     }
@@ -137,9 +147,9 @@ impl World for SpatialWorld {
     }
 
     fn toppled(&self) -> Vec<usize> {
-        let leans = |object: &Tracked| {
-            let axis = *self.world.bodies[object.body].rotation() * RapierVector::Z;
-            axis.z < TOPPLED.cos()
+        let leans = |(member, _): &(Member, f64)| {
+            let body = &self.world.bodies[self.bodies[member.body].handle];
+            (*body.rotation() * RapierVector::Z).z < TOPPLED.cos()
         };
         (0..self.objects.len()).filter(|&index| leans(&self.objects[index])).collect()
     }
@@ -159,32 +169,45 @@ impl SpatialWorld {
         for (index, part) in motion.tool.parts.iter().enumerate() {
             // The tool frame lies at the parts' underside. Without mass the centre of mass,
             // which rapier's velocity is of, is the tool frame.
-            let collider = rubbing(solid(&part.shape), parameters.tool_friction)
-                .density(0.0)
-                .position(to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0));
+            let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
+            let collider =
+                rubbing(upright(&part.shape, placed), parameters.tool_friction).density(0.0);
             self.insert(collider, Body::Part(index), self.tool);
         }
     }
 
-    fn add_object(&mut self, scene: &Scene, state: &State, parameters: &Hypothesis, index: usize) {
-        let (pose, velocity) = (state.poses[index], state.velocities[index]);
-        let shape = &scene.objects[index].shape;
+    fn add_body(&mut self, scene: &Scene, group: &Group) {
+        // Several objects may differ in height, so their body's frame lies on the table.
+        let height = match group.objects[..] {
+            [only] => scene.objects[only].shape.height() / 2.0,
+            _ => 0.0,
+        };
+        let Velocity { linear, angular } = group.velocity;
         let body = RigidBodyBuilder::dynamic()
-            .pose(to_rapier(&pose, self.origin, shape.height() / 2.0))
-            .linvel(RapierVector::new(velocity.linear.x, velocity.linear.y, 0.0))
-            .angvel(RapierVector::Z * velocity.angular)
+            .pose(to_rapier(&group.pose, self.origin, height))
+            .linvel(RapierVector::new(linear.x, linear.y, 0.0))
+            .angvel(RapierVector::Z * angular)
             .can_sleep(false);
-        let body = self.world.insert_body(body);
-        let collider =
-            rubbing(upright(shape), parameters.frictions[index]).mass(parameters.masses[index]);
-        self.insert(collider, Body::Object(index), body);
-        self.objects.push(Tracked {
-            body,
-            start: pose,
-            first_position: self.world.bodies[body].translation(),
-            last_angle: yaw(self.world.bodies[body].rotation()),
+        let handle = self.world.insert_body(body);
+        let body = &self.world.bodies[handle];
+        self.bodies.push(Tracked {
+            handle,
+            first_position: body.translation(),
+            first_rotation: *body.rotation(),
+            last_angle: yaw(body.rotation()),
             turned: 0.0,
         });
+    }
+
+    fn add_object(&mut self, scene: &Scene, parameters: &Hypothesis, index: usize, member: Member) {
+        let shape = &scene.objects[index].shape;
+        let Tracked { handle, first_position, .. } = self.bodies[member.body];
+        let rise = shape.height() / 2.0 - first_position.z;
+        let placed = to_rapier(&member.local, Vector::zeros(), rise);
+        let collider = rubbing(upright(shape, placed), parameters.frictions[index])
+            .mass(parameters.masses[index]);
+        self.insert(collider, Body::Object(index), handle);
+        self.objects.push((member, rise));
     }
 
     fn add_obstacles(&mut self, scene: &Scene) {
@@ -198,38 +221,35 @@ impl SpatialWorld {
 
     fn add_joints(&mut self, scene: &Scene) {
         for joint in &scene.joints {
-            let (axes, axis) = match joint.kind {
-                JointKind::Fixed => (JointAxesMask::LOCKED_FIXED_AXES, Rotation::IDENTITY),
+            let (axes, free, axis) = match joint.kind {
+                // Its objects are one body.
+                JointKind::Fixed => continue,
                 JointKind::Prismatic { .. } => {
-                    (JointAxesMask::LOCKED_PRISMATIC_AXES, Rotation::IDENTITY)
+                    (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY)
                 }
-                // rapier turns about the frame's x axis; this turn makes it the vertical.
                 JointKind::Revolute { .. } => {
-                    (JointAxesMask::LOCKED_REVOLUTE_AXES, Rotation::from_rotation_y(-FRAC_PI_2))
+                    // rapier turns about the frame's x axis; this makes it the vertical.
+                    let upright = Rotation::from_rotation_y(-FRAC_PI_2);
+                    (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright)
                 }
             };
-            let frames = JointFrames::new(scene, joint);
-            let [first, second] = joint.between;
-            let frame = |pose: &Pose, object: usize| {
-                let below = -scene.objects[object].shape.height() / 2.0;
-                let frame = to_rapier(pose, Vector::zeros(), below);
+            let frame = |object: usize, at: Pose| {
+                let (member, _) = &self.objects[object];
+                let below = -self.bodies[member.body].first_position.z;
+                let frame = to_rapier(&(member.local * at), Vector::zeros(), below);
                 Pose3::from_parts(frame.translation, frame.rotation * axis)
             };
+            let ([first, second], [at_first, at_second]) =
+                (joint.between, joint.frames(&scene.objects));
             let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(frame(&frames.first, first))
-                .local_frame2(frame(&frames.second, second))
-                .contacts_enabled(neighbours_touch(&joint.kind));
-            // Both frames lie on each other where the scene states its objects, so zero is there.
-            match joint.kind {
-                JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
-                    built = built.limits(JointAxis::AngX, [low, high]);
-                }
-                JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
-                    built = built.limits(JointAxis::LinX, [low, high]);
-                }
-                _ => {}
+                .local_frame1(frame(first, at_first))
+                .local_frame2(frame(second, at_second));
+            // The frames coincide where the scene states its objects, so zero is there.
+            if let Some(Span { low, high }) = joint.limits() {
+                built = built.limits(free, [low, high]);
             }
-            let (first, second) = (self.objects[first].body, self.objects[second].body);
+            let [first, second] =
+                [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
             self.world.insert_impulse_joint(first, second, built);
         }
     }
@@ -241,14 +261,18 @@ impl SpatialWorld {
     }
 }
 
-fn empty_world(parameters: &Hypothesis) -> PhysicsWorld {
+fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
     let gravity = RapierVector::Z * -GRAVITY;
     let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     // One friction constraint per contact point; the simplified model is 2 cm off on cuboids.
     settings.friction_model = FrictionModel::Coulomb;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR;
-    if needs_stiff_contacts(&parameters.masses) {
+    let articulated = is_articulated(scene);
+    if articulated {
+        settings.num_solver_iterations = ARTICULATED_ITERATIONS;
+    }
+    if articulated || needs_stiff_contacts(&parameters.masses) {
         let (frequency, damping) = STIFF_CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }
@@ -262,11 +286,14 @@ fn solid(shape: &Shape) -> ColliderBuilder {
     }
 }
 
-/// The solid with its axis along z; rapier's cylinder has it along y.
-fn upright(shape: &Shape) -> ColliderBuilder {
+/// The solid at `pose` with its axis along z; rapier's cylinder has it along y.
+fn upright(shape: &Shape, pose: Pose3) -> ColliderBuilder {
     match shape {
-        Shape::Cylinder { .. } => solid(shape).rotation(RapierVector::X * FRAC_PI_2),
-        Shape::Cuboid { .. } => solid(shape),
+        Shape::Cylinder { .. } => {
+            let turn = Rotation::from_rotation_x(FRAC_PI_2);
+            solid(shape).position(Pose3::from_parts(pose.translation, pose.rotation * turn))
+        }
+        Shape::Cuboid { .. } => solid(shape).position(pose),
     }
 }
 

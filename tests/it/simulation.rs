@@ -4,6 +4,8 @@ mod contacts;
 mod determinism;
 mod energy;
 mod fixtures;
+mod joint_drift;
+mod joint_limits;
 mod joints;
 mod rapier_035_friction_direction;
 mod sequences;

@@ -1,7 +1,7 @@
 //! Joints of a task file: their reading, and the rules that they must keep.
 //!
 //! The simulators hold a forest of joints: every jointed group is a tree, of at most [`GROUP`]
-//! objects of similar mass. A closed loop would be pulled at from two sides by constraints that
+//! objects of similar mass (where not all of its joints are fixed). A closed loop would be pulled at from two sides by constraints that
 //! never quite agree.
 
 use crate::asset::node::Node;
@@ -16,8 +16,9 @@ use super::rules::{body, known_object};
 /// The most objects that one group of joints may hold.
 const GROUP: usize = 12;
 
-/// The largest ratio of masses within one group of joints, where the simulators hold the joints
-/// of a chain of light and heavy objects in turn.
+/// The largest ratio of masses within one group whose joints are not all fixed. In a row of 12
+/// boxes, light and heavy in turn, pushed by half a metre, the axes of revolute joints drift by up to
+/// 0.8 mm at a ratio of 10 and by 4 mm at 30.
 const GROUP_MASS_RATIO: f64 = 10.0;
 
 /// No joint of things on a table reaches over a larger gap, metres.
@@ -262,11 +263,13 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
 struct Groups {
     /// For every object the first of its group.
     first: Vec<usize>,
+    /// Whether the group that begins with an object has a joint that is not fixed.
+    moves: Vec<bool>,
 }
 
 impl Groups {
     fn of(objects: usize) -> Self {
-        Self { first: (0..objects).collect() }
+        Self { first: (0..objects).collect(), moves: vec![false; objects] }
     }
 
     fn size(&self, group: usize) -> usize {
@@ -299,10 +302,12 @@ impl Groups {
             );
         }
         self.first.iter_mut().filter(|first| **first == b).for_each(|first| *first = a);
+        let fixed = node.get("kind").and_then(Node::text) == Some("fixed");
+        self.moves[a] |= self.moves[b] || !fixed;
     }
 
     fn check_masses(&self, objects: &[Node], ledger: &mut Ledger) {
-        for group in 0..objects.len() {
+        for group in (0..objects.len()).filter(|&group| self.moves[group]) {
             let mut masses: Vec<(f64, &Node)> = objects
                 .iter()
                 .zip(&self.first)

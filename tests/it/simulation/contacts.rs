@@ -4,7 +4,7 @@ use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::scene::{Body, Hypothesis, Obstacle, Record, Warning};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{bar, brick, can, engines, push, table};
+use super::fixtures::{bar, brick, can, engines, hand_push, push, table};
 
 #[test]
 fn a_lifted_tool_passes_over_a_low_object() {
@@ -121,5 +121,22 @@ fn on_ice_waiting_is_given_up_with_a_warning() {
     for simulator in engines() {
         let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
         assert_eq!(trajectory.warnings, vec![Warning::NotAtRest { waited: 3.0 }]);
+    }
+}
+
+#[test]
+fn a_round_tool_part_stands_upright() {
+    // Lying on its side the hand would be a roller with flat ends.
+    let scene = table(vec![can()]);
+    for (direction, start) in [(0.0, Vector::new(-0.12, 0.0)), (1.2, Vector::zeros())] {
+        let along = Vector::new(f64::cos(direction), f64::sin(direction));
+        let start = if direction == 0.0 { start } else { along * -0.12 };
+        let motion = hand_push(start, direction, 0.2, 0.1);
+        for simulator in engines() {
+            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+            let end = trajectory.outcome().poses[0].position;
+            let touching = start + along * (0.2 + 0.1);
+            assert!((end - touching).norm() < 3e-3, "{:?}: {end}", simulator.engine());
+        }
     }
 }

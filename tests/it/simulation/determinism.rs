@@ -2,15 +2,24 @@
 
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
-use pushplan::scene::Record;
+use pushplan::scene::{JointKind, Record, Scene};
 
-use super::fixtures::{brick, can, engines, push, table};
+use super::fixtures::{brick, can, engines, push, row, table};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let mut objects = vec![can(), brick()];
     objects[1].pose.position = Vector::new(0.09, 0.02);
-    let scene = table(objects);
+    let revolute = |at| JointKind::Revolute { at, limits: None };
+    let mut joined = row(6, &can(), 0.102, revolute);
+    joined.joints[1].kind = JointKind::Fixed;
+    joined.joints[3].kind = JointKind::Prismatic { axis: Vector::x(), limits: None };
+    for scene in [table(objects), joined] {
+        assert_same_bits(&scene);
+    }
+}
+
+fn assert_same_bits(scene: &Scene) {
     let jobs: Vec<Job> = (0..12)
         .map(|k| Job {
             start: scene.start(),
@@ -22,7 +31,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         let model = Simulated::new(simulator);
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("a pool").install(|| model.rollout(&scene, &jobs, Record::Frames))
+            pool.expect("a pool").install(|| model.rollout(scene, &jobs, Record::Frames))
         };
         let (one, two) = (run(1), run(2));
         for (k, (a, b)) in one.iter().zip(&two).enumerate() {

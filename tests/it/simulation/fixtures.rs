@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Object, Part, Push, Scene, Tool, ToolMotion};
+use pushplan::geometry::{Pose, Shape, Vector, wrap_angle};
+use pushplan::scene::{
+    Joint, JointKind, Object, Part, Push, Scene, State, Tool, ToolMotion, Trajectory,
+};
 use pushplan::sim::Simulator;
 
 /// A cylinder of 10 cm diameter and height at the origin.
@@ -48,4 +50,62 @@ pub fn push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotio
 /// Both engines at their default step.
 pub fn engines() -> [Simulator; 2] {
     [Simulator::planar(), Simulator::spatial()]
+}
+
+/// A hand as in the thesis: a cylinder of 10 cm diameter about the end effector.
+pub fn hand() -> Arc<Tool> {
+    let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
+    let part = Part { name: "hand".into(), shape, pose: Pose::default() };
+    let tool = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
+    Arc::new(tool.expect("one part is one piece"))
+}
+
+/// One settled straight push of the hand.
+pub fn hand_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
+    ToolMotion::pushes(hand(), 0.002, 0.0, &[Push { start, direction, length, speed }], true)
+}
+
+/// `count` objects like `model` in a row along y, `pitch` metres apart, each joined to the next
+/// by what `kind` makes of the point midway between them.
+pub fn row(count: usize, model: &Object, pitch: f64, kind: fn(Vector) -> JointKind) -> Scene {
+    let object = |k: usize| Object {
+        name: format!("o{k}"),
+        pose: Pose::new(0.0, pitch * k as f64, model.pose.heading),
+        ..model.clone()
+    };
+    let joint = |k: usize| {
+        let between = Vector::new(0.0, pitch * (k as f64 - 0.5));
+        Joint { between: [k - 1, k], kind: kind(between), guessed: false }
+    };
+    let mut scene = table((0..count).map(object).collect());
+    scene.joints = (1..count).map(joint).collect();
+    scene
+}
+
+/// How far the second object of joint `index` has come against the first: across, in the joint's
+/// own frame (metres), and turned (radians).
+pub fn opened(scene: &Scene, state: &State, index: usize) -> Pose {
+    let joint = &scene.joints[index];
+    let [first, second] = joint.frames(&scene.objects);
+    let [a, b] = joint.between.map(|object| state.poses[object]);
+    let relative = (a * first).inverse() * (b * second);
+    Pose { heading: wrap_angle(relative.heading), ..relative }
+}
+
+/// The largest violation of what the joints hold, over all joints and frames: distance (metres)
+/// and angle (radians).
+pub fn drift(scene: &Scene, trajectory: &Trajectory) -> (f64, f64) {
+    let (mut distance, mut angle) = (0f64, 0f64);
+    for frame in &trajectory.frames {
+        for (index, joint) in scene.joints.iter().enumerate() {
+            let Pose { position, heading } = opened(scene, &frame.state, index);
+            let (held, turned) = match joint.kind {
+                JointKind::Fixed => (position.norm(), heading),
+                JointKind::Revolute { .. } => (position.norm(), 0.0),
+                JointKind::Prismatic { .. } => (position.y.abs(), heading),
+            };
+            (distance, angle) = (distance.max(held), angle.max(turned.abs()));
+        }
+    }
+    (distance, angle)
 }

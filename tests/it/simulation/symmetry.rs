@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Engine, Object, Record, Scene, Stroke, Tool, ToolMotion};
+use pushplan::scene::{Engine, JointKind, Object, Record, Scene, Span, Stroke, Tool, ToolMotion};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{bar, brick, can, engines, table};
+use super::fixtures::{bar, brick, can, engines, row, table};
 
 /// A scene and a push in it, placed by `place` (a proper or mirrored motion of the plane).
 fn outcome(simulator: &Simulator, objects: &[Object], place: &dyn Fn(Pose) -> Pose) -> Vec<Pose> {
@@ -100,5 +100,53 @@ fn a_square_looks_the_same_after_a_quarter_turn() {
         let b = outcome(&simulator, &[turned.clone()], &|pose| pose)[0];
         let error = (a.position - b.position).norm();
         assert!(error < tolerance(simulator.engine(), &[]), "{:?}: {error}", simulator.engine());
+    }
+}
+
+#[test]
+fn turning_a_jointed_scene_turns_the_result() {
+    let kinds: [fn(Vector) -> JointKind; 3] = [
+        |_| JointKind::Fixed,
+        |at| JointKind::Revolute { at, limits: Some(Span::new(-0.1, 0.2)) },
+        |_| JointKind::Prismatic { axis: Vector::x(), limits: Some(Span::new(-0.02, 0.03)) },
+    ];
+    let mut model = brick();
+    model.pose.heading = std::f64::consts::FRAC_PI_2;
+    for kind in kinds {
+        let plain = row(3, &model, 0.12, kind);
+        for angle in [0.7, 1.9, -2.6] {
+            let turn = Pose::new(0.3, -0.2, angle);
+            let mut turned = plain.clone();
+            turned.objects.iter_mut().for_each(|object| object.pose = turn * object.pose);
+            for joint in &mut turned.joints {
+                match &mut joint.kind {
+                    JointKind::Fixed => {}
+                    JointKind::Revolute { at, .. } => *at = turn.point(*at),
+                    JointKind::Prismatic { axis, .. } => *axis = turn.vector(*axis),
+                }
+            }
+            let stroke = |place: Pose| Stroke {
+                from: place * Pose::new(-0.05, 0.07, 0.0),
+                to: place * Pose::new(0.1, 0.07, 0.0),
+                duration: 1.5,
+                settle: true,
+            };
+            for simulator in engines() {
+                let end = |scene: &Scene, place: Pose| {
+                    let strokes = vec![stroke(place)];
+                    let motion = ToolMotion { tool: bar(), lift: 0.002, strokes };
+                    let run = simulator.run(scene, &scene.start(), None, &motion, Record::Outcome);
+                    run.outcome().poses.clone()
+                };
+                let (a, b) = (end(&plain, Pose::default()), end(&turned, turn));
+                for (a, b) in a.iter().zip(&b) {
+                    let error = ((turn * *a).position - b.position).norm();
+                    // What turns or slides against its neighbours feels the last bits more.
+                    let fixed = plain.joints[0].kind == JointKind::Fixed;
+                    let limit = if fixed { tolerance(simulator.engine(), &[]) } else { 1e-3 };
+                    assert!(error < limit, "{:?}: {error}", simulator.engine());
+                }
+            }
+        }
     }
 }
