@@ -3,7 +3,7 @@
 use crate::geometry::Vector;
 use crate::report::svg::{Font, Style, Svg};
 
-use super::palette;
+use super::{joints::Symbol, palette};
 
 const ROW: f64 = 21.0;
 const SAMPLE: f64 = 26.0;
@@ -20,6 +20,8 @@ pub enum Sample {
     Way(Style),
     /// A numbered push.
     Push,
+    /// A joint.
+    Joint(Symbol),
 }
 
 /// Height of the legend in pixels when it may be `width` pixels wide.
@@ -42,6 +44,7 @@ pub fn draw(svg: &mut Svg, entries: &[(Sample, String)], corner: Vector, width: 
                 svg.polyline(&[middle - Vector::new(13.0, 0.0), end], style);
                 svg.circle(end, 5.5, style);
             }
+            Sample::Joint(symbol) => symbol.draw(svg, middle, Vector::x(), palette::INK),
             Sample::Push => {
                 let half = Vector::new(12.0, 0.0);
                 svg.arrow(middle - half, middle + half, 9.0, palette::INK, 2.0);

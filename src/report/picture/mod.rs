@@ -4,6 +4,7 @@
 //! It draws what it is given and computes nothing: no rollouts, no verdicts.
 
 mod bodies;
+mod joints;
 mod legend;
 mod palette;
 mod scene_picture;

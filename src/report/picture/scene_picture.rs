@@ -1,11 +1,12 @@
 //! The whole picture: title, plot, legend.
 
-use crate::geometry::{Vector, wrap_angle};
+use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::report::svg::{Font, Style, Svg};
 use crate::scene::{Engine, Goal, Robot, Scene, ToolMotion, Trajectory};
 
 use super::{
     bodies,
+    joints::{self, Symbol},
     legend::{self, Sample},
     palette, strokes,
     view::{Bounds, View},
@@ -111,6 +112,10 @@ impl ScenePicture<'_> {
         for (k, object) in self.scene.objects.iter().enumerate() {
             bodies::object(svg, view, object, self.is_goal(k));
         }
+        let start: Vec<Pose> = self.scene.objects.iter().map(|object| object.pose).collect();
+        for joint in &self.scene.joints {
+            joints::joint(svg, view, &self.scene.objects, joint, &start, palette::INK);
+        }
         if let Some(goal) = self.goal {
             bodies::goal(svg, view, goal);
         }
@@ -133,6 +138,7 @@ impl ScenePicture<'_> {
     fn track(&self, svg: &mut Svg, view: &View, track: &Track) {
         let Some(last) = track.trajectory.frames.last() else { return };
         let style = style(track.source);
+        let mut drawn = vec![false; self.scene.objects.len()];
         for (k, (object, end)) in self.scene.objects.iter().zip(&last.state.poses).enumerate() {
             let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
                 && !object.shape.is_cylinder();
@@ -140,12 +146,21 @@ impl ScenePicture<'_> {
             if !(moved || turned) || !end.is_finite() {
                 continue;
             }
+            drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
             if let Some(goal) =
                 self.goal.filter(|goal| self.is_goal(k) && !goal.reached(&last.state))
             {
                 bodies::miss(svg, view, goal, end.position);
+            }
+        }
+        let (objects, ends) = (&self.scene.objects, &last.state.poses);
+        for joint in &self.scene.joints {
+            let [first, second] = joint.between;
+            let finite = ends[first].is_finite() && ends[second].is_finite();
+            if finite && (drawn[first] || drawn[second]) {
+                joints::joint(svg, view, objects, joint, ends, colour(track.source));
             }
         }
     }
@@ -197,6 +212,11 @@ impl ScenePicture<'_> {
         if self.scene.objects.len() > usize::from(self.goal.is_some()) {
             add(Sample::Area(palette::OTHER_OBJECT), "other object, at the start".to_owned());
         }
+        for (symbol, words) in Symbol::ALL {
+            if self.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
+                add(Sample::Joint(symbol), words.to_owned());
+            }
+        }
         for track in &self.tracks {
             let words = match track.source {
                 Source::Predicted => "predicted way and end",
@@ -232,20 +252,33 @@ impl ScenePicture<'_> {
 }
 
 fn style(source: Source) -> Style {
+    let colour = colour(source);
     match source {
-        Source::Predicted => Style::stroke(palette::PREDICTED, 2.0).dashed("6 4"),
-        Source::Simulated(Engine::Planar) => Style::stroke(palette::PLANAR, 2.0),
-        Source::Simulated(Engine::Spatial) => Style::stroke(palette::SPATIAL, 1.6).dashed("2 3"),
+        Source::Predicted => Style::stroke(colour, 2.0).dashed("6 4"),
+        Source::Simulated(Engine::Planar) => Style::stroke(colour, 2.0),
+        Source::Simulated(Engine::Spatial) => Style::stroke(colour, 1.6).dashed("2 3"),
+    }
+}
+
+fn colour(source: Source) -> &'static str {
+    match source {
+        Source::Predicted => palette::PREDICTED,
+        Source::Simulated(Engine::Planar) => palette::PLANAR,
+        Source::Simulated(Engine::Spatial) => palette::SPATIAL,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Pose, Shape};
-    use crate::scene::{Frame, Object};
+    use crate::geometry::Shape;
+    use crate::scene::{Frame, Joint, JointKind, Object};
 
     fn picture_of(ends: Vec<Pose>) -> String {
+        jointed_picture_of(ends, Vec::new())
+    }
+
+    fn jointed_picture_of(ends: Vec<Pose>, joints: Vec<Joint>) -> String {
         let shape = Shape::Cuboid { size: [0.1, 0.06, 0.1] };
         let object = |name: &str, x: f64| Object {
             name: name.to_owned(),
@@ -257,6 +290,7 @@ mod tests {
         let scene = Scene {
             table_friction: 0.5,
             objects: vec![object("box", 0.4), object("other", 0.7)],
+            joints,
             ..Scene::default()
         };
         let end = crate::scene::State::at_rest(ends);
@@ -278,6 +312,21 @@ mod tests {
     fn only_what_moved_is_drawn_twice() {
         let svg = picture_of(vec![Pose::new(0.5, 0.0, 0.0), Pose::new(0.7, 0.0, 0.0)]);
         assert_eq!(svg.matches("<polygon").count(), 3);
+    }
+
+    #[test]
+    fn joints_are_drawn_where_they_were_and_where_they_went() {
+        let at = Vector::new(0.55, 0.0);
+        let kind = JointKind::Revolute { at, limits: None };
+        let joint = Joint { between: [0, 1], kind, guessed: false };
+        let still = vec![Pose::new(0.4, 0.0, 0.0), Pose::new(0.7, 0.0, 0.0)];
+        let moved = vec![Pose::new(0.4, 0.1, 0.0), Pose::new(0.7, 0.1, 0.0)];
+        let words = "<title>box and other: revolute</title>";
+        let drawn = |ends| jointed_picture_of(ends, vec![joint.clone()]).matches(words).count();
+        assert_eq!((drawn(still.clone()), drawn(moved)), (1, 2));
+        let legend = "revolute joint";
+        assert!(jointed_picture_of(still.clone(), vec![joint.clone()]).contains(legend));
+        assert!(!picture_of(still).contains(legend));
     }
 
     #[test]
