@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Offsets, Task, Tool};
+use crate::scene::{JointKind, Offsets, Task, Tool};
 
 use super::SolveError;
 
@@ -63,6 +63,21 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
             return fault(format!(
                 "object `{}` needs a positive finite size and mass",
                 object.name
+            ));
+        }
+    }
+    for joint in &task.scene.joints {
+        let [a, b] = joint.between;
+        let placed = match joint.kind {
+            JointKind::Fixed => true,
+            JointKind::Revolute { at, .. } => at.iter().all(|v| v.is_finite()),
+            JointKind::Prismatic { axis, .. } => (axis.norm() - 1.0).abs() < 1e-6,
+        };
+        let limited = joint.limits().is_none_or(|span| span.low <= 0.0 && span.high >= 0.0);
+        if a == b || a.max(b) >= task.scene.objects.len() || !placed || !limited {
+            return fault(format!(
+                "the joint between objects {a} and {b} needs two different objects of the scene, \
+                 a finite axis (of length one) and limits that hold the start"
             ));
         }
     }

@@ -5,7 +5,7 @@ use std::fmt;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::geometry::Vector;
+use crate::geometry::{Pose, Vector};
 use crate::scene::{Hypothesis, Scene, State, Tool};
 
 /// Largest shift of an object at the start along each axis, metres.
@@ -32,13 +32,12 @@ impl Disturbance {
         // A fresh stream's first numbers resemble those of its neighbours.
         let mut random = Pcg64::seed_from_u64(random.random());
         let mut start = scene.start();
-        for (k, pose) in start.poses.iter_mut().enumerate() {
+        let groups = jointed(scene);
+        for (k, group) in groups.iter().enumerate() {
             let mut within = |range: f64| random.random_range(-range..=range);
-            let (x, y, turn) = (within(SHIFT), within(SHIFT), within(TURN));
-            // Moving one side of a joint alone would break it.
-            if !scene.joints.iter().any(|joint| joint.between.contains(&k)) {
-                pose.position += Vector::new(x, y);
-                pose.heading += turn;
+            let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
+            if !group.is_empty() {
+                disturb(&mut start.poses, group, k, shift, turn);
             }
         }
         let mut hypothesis = Hypothesis::nominal(scene, tool);
@@ -53,6 +52,34 @@ impl Disturbance {
     }
 }
 
+/// For every object the objects that move with it, itself among them, if it is the first of
+/// them; nothing for the others. Moving one side of a joint alone would break it.
+fn jointed(scene: &Scene) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = (0..scene.objects.len()).map(|k| vec![k]).collect();
+    for joint in &scene.joints {
+        let holder = |object| groups.iter().position(|group| group.contains(&object));
+        let [Some(a), Some(b)] = joint.between.map(holder) else { continue };
+        if a != b {
+            let moved = std::mem::take(&mut groups[a.max(b)]);
+            groups[a.min(b)].extend(moved);
+        }
+    }
+    groups
+}
+
+/// Shifts a group and turns it about its object `first`, but only as far as moves none of its
+/// objects by more than [`SHIFT`].
+fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, turn: f64) {
+    let about = poses[first].position;
+    let reach = group.iter().map(|&k| (poses[k].position - about).norm()).fold(0.0, f64::max);
+    let turn = if reach * TURN > SHIFT { turn * SHIFT / (reach * TURN) } else { turn };
+    let turned = Pose { position: about + shift, heading: turn };
+    for &k in group {
+        let arm = Pose { position: poses[k].position - about, ..poses[k] };
+        poses[k] = turned * arm;
+    }
+}
+
 impl fmt::Display for Disturbance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
@@ -63,5 +90,48 @@ impl fmt::Display for Disturbance {
             FRICTION * 1e2,
             self.draw + 1
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Shape;
+    use crate::scene::{Joint, JointKind, Object, Part};
+
+    #[test]
+    fn a_jointed_group_is_disturbed_as_one_piece_and_by_little() {
+        let object = |k: usize| Object {
+            name: format!("o{k}"),
+            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
+            mass: 0.4,
+            friction: 0.4,
+            pose: Pose::new(0.12 * k as f64, 0.0, 0.2),
+        };
+        let joint = |a, b| Joint { between: [a, b], kind: JointKind::Fixed, guessed: false };
+        let scene = Scene {
+            table_friction: 0.5,
+            objects: (0..5).map(object).collect(),
+            joints: vec![joint(3, 1), joint(3, 4)],
+            ..Scene::default()
+        };
+        let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
+        let tool =
+            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[])
+                .unwrap();
+        for draw in 0..20 {
+            let start = Disturbance::draw(&scene, &tool, 1, draw).start;
+            let relative = |poses: &[Pose], k: usize| poses[1].inverse() * poses[k];
+            let stated: Vec<Pose> = scene.objects.iter().map(|object| object.pose).collect();
+            for k in [3, 4] {
+                let (now, before) = (relative(&start.poses, k), relative(&stated, k));
+                assert!((now.position - before.position).norm() < 1e-12);
+                assert!((now.heading - before.heading).abs() < 1e-12);
+            }
+            for (pose, stated) in start.poses.iter().zip(&stated) {
+                let moved = (pose.position - stated.position).norm();
+                assert!(moved > 0.0 && moved < 3.0 * SHIFT, "{moved}");
+            }
+        }
     }
 }

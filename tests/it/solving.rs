@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
-use pushplan::scene::{Frame, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory, Warning};
+use pushplan::scene::{
+    Frame, Joint, JointKind, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory, Warning,
+};
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution, Stage};
 
@@ -109,10 +111,14 @@ fn any_number_of_threads_gives_the_same_plans() {
     }
 }
 
+fn joint(between: [usize; 2], kind: JointKind) -> Joint {
+    Joint { between, kind, guessed: false }
+}
+
 #[test]
 fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     let (task, library) = shipped("pull-back.yaml");
-    let spoil: [fn(&mut Task); 9] = [
+    let spoil: [fn(&mut Task); 11] = [
         |task| task.goal.tolerance = f64::NAN,
         |task| task.goal.position.x = f64::INFINITY,
         |task| task.goal.object = 99,
@@ -122,6 +128,8 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
         |task| task.robot.reach_max = f64::NAN,
         |task| task.scene.objects[0].mass = 0.0,
         |task| task.tools = ToolChoice::Named(vec!["nonesuch".into()]),
+        |task| task.scene.joints.push(joint([0, 7], JointKind::Fixed)),
+        |task| task.scene.joints.push(joint([0, 0], JointKind::Fixed)),
     ];
     for (k, spoil) in spoil.into_iter().enumerate() {
         let mut task = task.clone();

@@ -1,10 +1,13 @@
 //! Joints: a bar for a fixed one, a pin for a revolute one, a slot for a prismatic one.
 
-use crate::geometry::{Pose, Vector, contact_points, perpendicular};
+use crate::geometry::{ContactPoint, Pose, Vector, contact_points, perpendicular};
 use crate::report::svg::{Style, Svg};
 use crate::scene::{Joint, JointKind, Object, Span};
 
 use super::view::View;
+
+/// Two faces whose gaps at both ends differ by less lie flat against each other, metres.
+const FLAT: f64 = 5e-3;
 
 /// How a kind of joint is drawn, pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,24 +37,25 @@ impl Symbol {
         }
     }
 
-    /// Draws the symbol at a place of the page, along a unit vector of the page.
-    pub fn draw(self, svg: &mut Svg, at: Vector, along: Vector, colour: &'static str) {
+    /// Draws the symbol at a place of the page, along a unit vector of the page, across a gap of
+    /// `gap` pixels.
+    pub fn draw(self, svg: &mut Svg, at: Vector, along: Vector, gap: f64, colour: &'static str) {
         let rim = "#ffffff";
         match self {
             Symbol::Bar => {
-                svg.line(at - along * 9.0, at + along * 9.0, Style::stroke(rim, 8.0));
-                svg.line(at - along * 8.0, at + along * 8.0, Style::stroke(colour, 5.0));
+                let half = along * (0.5 * gap + 5.0).max(8.0);
+                svg.line(at - half - along, at + half + along, Style::stroke(rim, 8.0));
+                svg.line(at - half, at + half, Style::stroke(colour, 5.0));
             }
             Symbol::Pin => {
                 svg.circle(at, 5.5, Style::fill(rim).outlined(colour, 2.0));
                 svg.circle(at, 1.8, Style::fill(colour));
             }
             Symbol::Slot => {
-                let side = perpendicular(along) * 3.5;
-                svg.line(at - along * 13.0, at + along * 13.0, Style::stroke(rim, 10.0));
-                for side in [side, -side] {
-                    let (from, to) = (at + side - along * 13.0, at + side + along * 13.0);
-                    svg.line(from, to, Style::stroke(colour, 2.0));
+                let half = along * (0.5 * gap + 8.0).max(13.0);
+                svg.line(at - half, at + half, Style::stroke(rim, 10.0));
+                for side in [3.5, -3.5].map(|offset| at + perpendicular(along) * offset) {
+                    svg.line(side - half, side + half, Style::stroke(colour, 2.0));
                 }
             }
         }
@@ -70,12 +74,14 @@ pub fn joint(
     let [first, second] = joint.between;
     let [at_first, _] = joint.frames(objects);
     let own = poses[first] * at_first;
-    let gap = middle(objects, joint, poses);
+    let (from, to) = nearest(objects, joint, poses);
+    let middle = 0.5 * (from + to);
     let (place, along) = match joint.kind {
-        JointKind::Fixed => (gap, poses[second].position - poses[first].position),
+        JointKind::Fixed => (middle, poses[second].position - poses[first].position),
         JointKind::Revolute { .. } => (own.position, Vector::x()),
-        JointKind::Prismatic { .. } => (gap, own.vector(Vector::x())),
+        JointKind::Prismatic { .. } => (middle, own.vector(Vector::x())),
     };
+    let gap = view.length((to - from).dot(&along.try_normalize(1e-9).unwrap_or(Vector::x())).abs());
     let at = view.map(place);
     // The page's y points down.
     let along = Vector::new(along.x, -along.y).try_normalize(1e-9).unwrap_or(Vector::x());
@@ -85,17 +91,25 @@ pub fn joint(
             svg.line(at, view.map(poses[index].position), Style::stroke(colour, 1.2));
         }
     }
-    Symbol::of(joint).draw(svg, at, along, colour);
+    Symbol::of(joint).draw(svg, at, along, gap, colour);
     svg.close();
 }
 
-/// Midway between the closest points of the two objects.
-fn middle(objects: &[Object], joint: &Joint, poses: &[Pose]) -> Vector {
+/// Where the two objects are nearest to each other, on each of them; the middles of faces that
+/// lie flat against each other.
+fn nearest(objects: &[Object], joint: &Joint, poses: &[Pose]) -> (Vector, Vector) {
     let [first, second] = joint.between;
     let footprint = |index: usize| objects[index].shape.footprint();
     let (a, b) = ((&footprint(first), &poses[first]), (&footprint(second), &poses[second]));
-    let middle = 0.5 * (poses[first].position + poses[second].position);
-    contact_points(a, b, f64::INFINITY).0[0].map_or(middle, |c| 0.5 * (c.on_first + c.on_second))
+    let (points, _) = contact_points(a, b, f64::INFINITY);
+    let flat = |points: [ContactPoint; 2]| (points[1].gap - points[0].gap).abs() < FLAT;
+    match points {
+        [Some(one), Some(two)] if flat([one, two]) => {
+            (0.5 * (one.on_first + two.on_first), 0.5 * (one.on_second + two.on_second))
+        }
+        [Some(one), _] => (one.on_first, one.on_second),
+        _ => (poses[first].position, poses[second].position),
+    }
 }
 
 /// What the joint is, for a reader who points at it.

@@ -44,7 +44,7 @@ pub fn draw(svg: &mut Svg, entries: &[(Sample, String)], corner: Vector, width: 
                 svg.polyline(&[middle - Vector::new(13.0, 0.0), end], style);
                 svg.circle(end, 5.5, style);
             }
-            Sample::Joint(symbol) => symbol.draw(svg, middle, Vector::x(), palette::INK),
+            Sample::Joint(symbol) => symbol.draw(svg, middle, Vector::x(), 0.0, palette::INK),
             Sample::Push => {
                 let half = Vector::new(12.0, 0.0);
                 svg.arrow(middle - half, middle + half, 9.0, palette::INK, 2.0);

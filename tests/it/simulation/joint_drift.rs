@@ -20,7 +20,10 @@ use pushplan::sim::Simulator;
 
 use super::fixtures::{brick, can, drift, hand_push, row};
 
-const KINDS: [(&str, fn(Vector) -> JointKind); 3] = [
+/// A name, and the joint about the point midway between two objects.
+type Named = (&'static str, fn(Vector) -> JointKind);
+
+const KINDS: [Named; 3] = [
     ("fixed", |_| JointKind::Fixed),
     ("revolute", |at| JointKind::Revolute { at, limits: None }),
     ("prismatic", |_| JointKind::Prismatic { axis: Vector::new(1.0, 0.0), limits: None }),

@@ -1,10 +1,10 @@
 //! An object that slides freely goes as far as its support law says.
 
 use pushplan::geometry::{Pose, Shape, Vector, cross};
-use pushplan::scene::{GRAVITY, Object, Record, State, Velocity};
+use pushplan::scene::{GRAVITY, JointKind, Object, Record, Scene, State, Velocity};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, engines, push, table};
+use super::fixtures::{brick, can, engines, push, row, table};
 
 /// How an object that starts at the origin with `velocity` ends when nothing touches it.
 fn slide(simulator: &Simulator, object: Object, velocity: Velocity) -> (Pose, f64) {
@@ -89,6 +89,80 @@ fn with_spin_the_planar_engine_follows_its_limit_surface_and_goes_further() {
         let straight = Velocity { angular: 0.0, ..SPINNING };
         let (without, _) = slide(&Simulator::planar(), object, straight);
         assert!(end.position.norm() > without.position.norm() + 5e-3);
+    }
+}
+
+/// Two cans and a brick that fixed joints hold together, of different masses.
+fn group() -> Scene {
+    let mut scene = row(3, &can(), 0.11, |_| JointKind::Fixed);
+    scene.objects[1] = Object { pose: Pose::new(0.05, 0.11, 0.4), ..brick() };
+    scene.objects[0].mass = 0.9;
+    scene
+}
+
+/// How the group ends when it starts with `velocity` about the world's origin, untouched.
+fn slide_group(simulator: &Simulator, scene: &Scene, velocity: Velocity) -> State {
+    let mut start = scene.start();
+    for (pose, own) in start.poses.iter().zip(&mut start.velocities) {
+        *own = Velocity { linear: velocity.at(pose.position), ..velocity };
+    }
+    let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.05, 0.05);
+    let trajectory = simulator.run(scene, &start, None, &motion, Record::Outcome);
+    assert!(trajectory.warnings.is_empty(), "{:?}", trajectory.warnings);
+    trajectory.outcome().clone()
+}
+
+#[test]
+fn a_fixed_group_slides_v_squared_over_two_mu_g_too() {
+    let scene = group();
+    let velocity = Velocity { linear: Vector::new(0.4, 0.3), angular: 0.0 };
+    let expected = velocity.linear * (0.5 / (2.0 * 0.45 * GRAVITY));
+    for simulator in engines() {
+        let end = slide_group(&simulator, &scene, velocity);
+        for (object, pose) in scene.objects.iter().zip(&end.poses) {
+            let error = (pose.position - object.pose.position - expected).norm();
+            assert!(error < 1.5e-3, "{:?} {}: {error}", simulator.engine(), object.name);
+        }
+    }
+}
+
+#[test]
+fn in_the_plane_a_fixed_group_follows_the_friction_of_each_of_its_objects() {
+    let mut scene = group();
+    scene.objects[2].friction = 0.9;
+    let mass: f64 = scene.objects.iter().map(|object| object.mass).sum();
+    let weighed = |object: &Object| object.mass * object.pose.position;
+    let centre = scene.objects.iter().map(weighed).sum::<Vector>() / mass;
+    let gyration = |object: &Object| object.shape.footprint().gyration_radius();
+    let inertia: f64 = (scene.objects.iter())
+        .map(|object| {
+            let arm = object.pose.position - centre;
+            object.mass * (gyration(object).powi(2) + arm.norm_squared())
+        })
+        .sum();
+    let velocity = Velocity { linear: Vector::new(0.3, 0.2), angular: 6.0 };
+    let at_centre = Velocity { linear: velocity.at(centre), ..velocity };
+    let expected = integrate(at_centre, |heading, v| {
+        let mut rate = Velocity::default();
+        for (k, object) in scene.objects.iter().enumerate() {
+            let turn = Pose { position: Vector::zeros(), heading };
+            let arm = turn.vector(object.pose.position - centre);
+            let (slip, c) = (v.at(arm), object.shape.footprint().mean_radius());
+            let weight = scene.support_friction(k) * object.mass * GRAVITY;
+            let s = slip.norm().hypot(c * v.angular).max(1e-12);
+            let push = slip * (-weight / s);
+            rate.linear += push / mass;
+            rate.angular += (cross(arm, push) - weight * c * c * v.angular / s) / inertia;
+        }
+        rate
+    });
+    let end = slide_group(&Simulator::planar(), &scene, velocity);
+    let moved = Pose { position: centre + expected.position, heading: expected.heading };
+    for (object, pose) in scene.objects.iter().zip(&end.poses) {
+        let stood = Pose { position: object.pose.position - centre, ..object.pose };
+        let error = (pose.position - (moved * stood).position).norm();
+        assert!(error < 1e-3, "{}: {error}", object.name);
+        assert!((pose.heading - (moved * stood).heading).abs() < 0.01, "{pose:?} {moved:?}");
     }
 }
 
