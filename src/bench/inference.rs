@@ -12,7 +12,7 @@ use crate::{
     sim::Simulator,
 };
 
-use super::{cpu_clock::processor_time, suite::Suite};
+use super::{cpu_clock::processor_time, suite::Case};
 
 /// Each figure is the best of this many rounds: other work on the machine can only lengthen it.
 const ROUNDS: usize = 7;
@@ -46,14 +46,14 @@ pub struct InferenceCost {
     pub peak: f64,
 }
 
-/// Times batches of `sizes` graphs, taken from frames of the suite's pushes in which the tool
-/// is near an object.
+/// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the
+/// tool is near an object.
 ///
 /// # Errors
 /// Those of candle.
 pub fn inference_costs(
     weights: &Weights,
-    suite: &Suite,
+    cases: &[Case],
     sizes: &[usize],
 ) -> candle_core::Result<Vec<InferenceCost>> {
     let engine = Engine::new(weights);
@@ -63,7 +63,7 @@ pub fn inference_costs(
         .iter()
         .map(|&size| {
             let mut batch = Batch::default();
-            let building = fill(&mut batch, suite, size);
+            let building = fill(&mut batch, cases, size);
             let mut workspace = Workspace::default();
             let mut corrections = Vec::new();
             let fused = best(|| engine.forward(&batch, &mut workspace, &mut corrections));
@@ -89,12 +89,12 @@ pub fn inference_costs(
 }
 
 /// Fills `batch` with `size` graphs and returns the processor time that building them took.
-fn fill(batch: &mut Batch, suite: &Suite, size: usize) -> f64 {
+fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     let simulator = Simulator::planar();
     let mut found = Vec::new();
     let mut motions = Vec::new();
     let mut trial = Batch::default();
-    for case in &suite.cases {
+    for case in cases {
         let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, None);
         let start = case.scene.start();
         let truth = simulator.run(&case.scene, &start, None, &case.motion, Record::Frames);

@@ -22,5 +22,5 @@ pub use inference::{InferenceCost, inference_costs};
 pub use random_task::random_task;
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use statistics::{Summary, mean, percentile};
-pub use suite::{Case, Suite, SuiteKind};
+pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};

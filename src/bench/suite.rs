@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::{
     asset::ToolLibrary,
     dataset::{
-        Aim, Crowd, Preset, Solids, aimed_stroke, anywhere, generator, log_uniform,
-        random_direction, random_heading, random_scene,
+        Aim, Constraints, Crowd, DatasetConfig, JointRule, Preset, Solids, aimed_stroke, anywhere,
+        generator, log_uniform, random_direction, random_heading, random_scene, sample,
     },
     scene::{Scene, ToolMotion},
 };
@@ -82,6 +82,24 @@ impl Suite {
         let cases = (0..cases).map(|index| draw_case(kind, library, seed, index)).collect();
         Self { kind, cases }
     }
+}
+
+/// Scenes of `objects` objects, scattered and dense in turn, with mixed joints, and the first
+/// stroke of the hand in each: what the network is timed on. `objects` is from 2 to 12.
+pub fn crowd_cases(objects: usize, seed: u64, count: usize) -> Vec<Case> {
+    let config = |preset| DatasetConfig {
+        seed,
+        preset,
+        constraints: Constraints::test(objects.clamp(2, 12), JointRule::Mixed, Solids::Any),
+        ..DatasetConfig::default()
+    };
+    let families = [Preset::Sparse, Preset::Dense].map(config);
+    let case = |index: usize| {
+        let (scene, mut motion) = sample(&families[index % 2], index as u64);
+        motion.strokes.truncate(1);
+        Case { scene, motion }
+    };
+    (0..count).map(case).collect()
 }
 
 fn draw_case(kind: SuiteKind, library: &ToolLibrary, seed: u64, index: usize) -> Case {

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::asset::{SCHEMA_VERSION, load_task};
 use crate::bench::{
-    Suite, SuiteKind, inference_costs, push_costs, refinement_report, search_costs,
+    Suite, SuiteKind, crowd_cases, inference_costs, push_costs, refinement_report, search_costs,
 };
 use crate::effect::EffectModel;
 use crate::report::{
@@ -92,8 +92,12 @@ struct CostArgs {
     #[command(flatten)]
     common: Common,
     /// The task that is searched
-    #[arg(value_name = "TASK")]
-    task: PathBuf,
+    #[arg(value_name = "TASK", required_unless_present = "crowd")]
+    task: Option<PathBuf>,
+    /// Time the network alone, on scenes of this many objects, some joined
+    #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
+          conflicts_with = "task", value_parser = clap::value_parser!(u16).range(2..=12))]
+    crowd: Option<u16>,
     /// Most candidates of the search
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -167,8 +171,9 @@ fn refinement(args: &RefinementArgs, session: &Session) -> Result<(), CliError> 
 }
 
 fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let Some(task) = &args.task else { return crowd_cost(args, session) };
     let library = args.common.library.load()?;
-    let task = load_task(&args.task, &library)?;
+    let task = load_task(task, &library)?;
     let tools = task.tools(&library)?;
     let model = args.common.model.load()?;
     let planar = ModelName::Planar.load()?;
@@ -177,7 +182,7 @@ fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
     let networks = match args.common.model.weights()? {
-        Some(weights) => inference_costs(&weights, &suite, &NETWORK_BATCHES)
+        Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES)
             .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
         None => Vec::new(),
     };
@@ -193,6 +198,21 @@ fn cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     }
     let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
     args.common.print(session, "cost", &report, "", &tables)
+}
+
+fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let objects = args.crowd.map_or(10, usize::from);
+    let weights = args.common.model.weights()?.ok_or_else(|| {
+        CliError::usage("only a network can be timed on a crowd", "leave --model out")
+    })?;
+    let spinner = session.spinner("timing");
+    let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
+    let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES)
+        .map_err(|error| CliError::unexpected("cannot time the network", &error))?;
+    spinner.finish_and_clear();
+    let report = json!({"objects": objects, "networks": networks});
+    let head = format!("{objects} objects, sparse and dense, mixed joints; times a graph-step\n\n");
+    args.common.print(session, "cost", &report, &head, &[inference_table(&networks)])
 }
 
 impl Common {

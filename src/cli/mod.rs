@@ -9,6 +9,7 @@ mod check;
 mod completions;
 mod error;
 mod evaluate;
+mod evaluate_crowd;
 pub mod exit_code;
 mod generate;
 mod interrupt;

@@ -5,10 +5,14 @@ use crate::geometry::Vector;
 use super::svg::{Anchor, Font, Style, Svg};
 
 const SIZE: Vector = Vector::new(600.0, 320.0);
+/// Upper left corner of the plot below a legend of one line.
 const CORNER: Vector = Vector::new(74.0, 66.0);
+/// Height of a line of the legend.
+const LEGEND_LINE: f64 = 18.0;
 const INK: &str = "#212529";
 const FAINT_INK: &str = "#6c757d";
-/// Okabe and Ito's colours, told apart by colour-blind readers; repeated after seven series.
+/// Okabe and Ito's colours, told apart by colour-blind readers; repeated with dashes after
+/// seven series.
 const COLOURS: [&str; 7] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#495057"];
 
@@ -70,24 +74,29 @@ impl Chart {
                 .map(move |point| axis.place(point[k]))
         };
         let (x, y) = (Range::of(shown(0), self.x.log), Range::of(shown(1), self.y.log));
+        let legend = self.legend();
+        let lines = legend.iter().map(|(_, place)| place.y).fold(0.0, f64::max);
+        let corner = CORNER + Vector::new(0.0, lines);
         let map = |point: &[f64; 2]| {
-            CORNER
+            corner
                 + Vector::new(
                     x.share(self.x.place(point[0])) * SIZE.x,
                     (1.0 - y.share(self.y.place(point[1]))) * SIZE.y,
                 )
         };
 
-        let mut svg = Svg::new(CORNER.x + SIZE.x + 24.0, CORNER.y + SIZE.y + 52.0, &self.title);
-        svg.text(Vector::new(CORNER.x, 26.0), &self.title, Font::new(16.0, INK).bold());
-        svg.rect(CORNER, SIZE, 0.0, Style::fill("#fbfcfd").outlined("#dee2e6", 1.0));
-        self.axes(&mut svg, &x, &y);
-        svg.open_clipped("plot", CORNER - Vector::new(6.0, 6.0), SIZE + Vector::new(12.0, 12.0));
+        let mut svg = Svg::new(corner.x + SIZE.x + 24.0, corner.y + SIZE.y + 52.0, &self.title);
+        svg.text(Vector::new(corner.x, 26.0), &self.title, Font::new(16.0, INK).bold());
+        svg.rect(corner, SIZE, 0.0, Style::fill("#fbfcfd").outlined("#dee2e6", 1.0));
+        self.axes(&mut svg, corner, &x, &y);
+        svg.open_clipped("plot", corner - Vector::new(6.0, 6.0), SIZE + Vector::new(12.0, 12.0));
         for (k, series) in self.series.iter().enumerate() {
-            self.draw(&mut svg, series, COLOURS[k % COLOURS.len()], &map);
+            self.draw(&mut svg, series, k, &map);
         }
         svg.close();
-        self.legend(&mut svg);
+        for (k, place) in legend {
+            self.draw_legend(&mut svg, k, Vector::new(CORNER.x, 46.0) + place);
+        }
         svg.finish()
     }
 
@@ -96,42 +105,42 @@ impl Chart {
         fits(point[0], &self.x) && fits(point[1], &self.y)
     }
 
-    fn axes(&self, svg: &mut Svg, x: &Range, y: &Range) {
+    fn axes(&self, svg: &mut Svg, corner: Vector, x: &Range, y: &Range) {
         let font = Font::new(11.0, FAINT_INK);
         let grid = Style::stroke("#e9ecef", 1.0);
         for (value, label) in x.ticks(self.x.log) {
-            let at = CORNER.x + x.share(value) * SIZE.x;
-            let bottom = Vector::new(at, CORNER.y + SIZE.y);
-            svg.line(Vector::new(at, CORNER.y), bottom, grid);
+            let at = corner.x + x.share(value) * SIZE.x;
+            let bottom = Vector::new(at, corner.y + SIZE.y);
+            svg.line(Vector::new(at, corner.y), bottom, grid);
             svg.text(bottom + Vector::new(0.0, 16.0), &label, font.anchored(Anchor::Middle));
         }
         for (value, label) in y.ticks(self.y.log) {
-            let at = CORNER.y + (1.0 - y.share(value)) * SIZE.y;
-            let left = Vector::new(CORNER.x, at);
-            svg.line(left, Vector::new(CORNER.x + SIZE.x, at), grid);
+            let at = corner.y + (1.0 - y.share(value)) * SIZE.y;
+            let left = Vector::new(corner.x, at);
+            svg.line(left, Vector::new(corner.x + SIZE.x, at), grid);
             svg.text(left + Vector::new(-8.0, 4.0), &label, font.anchored(Anchor::End));
         }
         let font = Font::new(12.0, INK).anchored(Anchor::Middle);
-        let below = CORNER + Vector::new(SIZE.x / 2.0, SIZE.y + 38.0);
+        let below = corner + Vector::new(SIZE.x / 2.0, SIZE.y + 38.0);
         svg.text(below, &self.x.label, font);
-        svg.turned_text(Vector::new(20.0, CORNER.y + SIZE.y / 2.0), -90.0, &self.y.label, font);
+        svg.turned_text(Vector::new(20.0, corner.y + SIZE.y / 2.0), -90.0, &self.y.label, font);
     }
 
     fn draw(
         &self,
         svg: &mut Svg,
         series: &Series,
-        colour: &'static str,
+        index: usize,
         map: &impl Fn(&[f64; 2]) -> Vector,
     ) {
         let points: Vec<Vector> =
             series.points.iter().filter(|point| self.visible(point)).map(map).collect();
         if series.mark != Mark::Dots {
-            svg.polyline(&points, Style::stroke(colour, 1.8));
+            svg.polyline(&points, line(index, 1.8));
         }
         if series.mark != Mark::Line {
             for point in &points {
-                svg.circle(*point, 3.5, Style::fill(colour).outlined("#ffffff", 1.0));
+                svg.circle(*point, 3.5, Style::fill(colour(index)).outlined("#ffffff", 1.0));
             }
         }
         for (k, words) in &series.labels {
@@ -142,20 +151,40 @@ impl Chart {
         }
     }
 
-    fn legend(&self, svg: &mut Svg) {
+    /// The series with a name, and where each stands in the legend, from its upper left.
+    fn legend(&self) -> Vec<(usize, Vector)> {
         let font = Font::new(12.0, INK);
-        let mut x = CORNER.x;
+        let mut next = Vector::zeros();
+        let mut places = Vec::new();
         for (k, series) in self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
-            let colour = COLOURS[k % COLOURS.len()];
-            let at = Vector::new(x, 46.0);
-            match series.mark {
-                Mark::Dots => svg.circle(at + Vector::new(9.0, 0.0), 3.5, Style::fill(colour)),
-                _ => svg.line(at, at + Vector::new(18.0, 0.0), Style::stroke(colour, 2.4)),
+            let width = 24.0 + font.width(&series.name);
+            if next.x > 0.0 && next.x + width > SIZE.x {
+                next = Vector::new(0.0, next.y + LEGEND_LINE);
             }
-            svg.text(at + Vector::new(24.0, 4.0), &series.name, font);
-            x += 24.0 + font.width(&series.name) + 18.0;
+            places.push((k, next));
+            next.x += width + 18.0;
         }
+        places
     }
+
+    fn draw_legend(&self, svg: &mut Svg, index: usize, at: Vector) {
+        let series = &self.series[index];
+        match series.mark {
+            Mark::Dots => svg.circle(at + Vector::new(9.0, 0.0), 3.5, Style::fill(colour(index))),
+            _ => svg.line(at, at + Vector::new(18.0, 0.0), line(index, 2.4)),
+        }
+        svg.text(at + Vector::new(24.0, 4.0), &series.name, Font::new(12.0, INK));
+    }
+}
+
+fn colour(index: usize) -> &'static str {
+    COLOURS[index % COLOURS.len()]
+}
+
+/// Later series have the colours of earlier ones, dashed.
+fn line(index: usize, width: f64) -> Style {
+    let style = Style::stroke(colour(index), width);
+    if index < COLOURS.len() { style } else { style.dashed("5 3") }
 }
 
 impl Axis {

@@ -3,6 +3,7 @@
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 
 mod chart;
+mod crowd;
 mod measured;
 mod number;
 mod picture;
@@ -13,6 +14,7 @@ mod table;
 mod training;
 
 pub use chart::{Axis, Chart, Mark, Series};
+pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
 pub use measured::{
     group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
     search_cost_table,

@@ -2,11 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Span;
+use crate::{effect::EffectModel, scene::Span};
 
 use super::{
     family::{CrowdFamily, CrowdSet},
+    measure::evaluate_crowd,
     physical::Drift,
+    trial::Trial,
 };
 
 /// Errors of several models on one test set.
@@ -26,6 +28,40 @@ pub struct CrowdReport {
     pub frames: f64,
     /// One entry a model, in the order in which they were given.
     pub models: Vec<CrowdModel>,
+}
+
+impl CrowdReport {
+    /// Errors of `models` on the trajectories of a test set, drawn with `seed`; `tick` is called
+    /// after each rollout.
+    pub fn of_set(
+        set: &CrowdSet,
+        seed: u64,
+        trials: &[Trial],
+        models: &[Box<dyn EffectModel>],
+        tick: &(dyn Fn() + Sync),
+    ) -> Self {
+        let report = Self::of_recordings(set.title(), trials, models, tick);
+        Self { family: set.family, set: Some(*set), seed: Some(seed), ..report }
+    }
+
+    /// Errors of `models` on recorded trajectories; `tick` is called after each rollout.
+    pub fn of_recordings(
+        title: String,
+        trials: &[Trial],
+        models: &[Box<dyn EffectModel>],
+        tick: &(dyn Fn() + Sync),
+    ) -> Self {
+        let frames: usize = trials.iter().map(|trial| trial.truth.len()).sum();
+        Self {
+            title,
+            family: CrowdFamily::Recordings,
+            set: None,
+            seed: None,
+            trajectories: trials.len(),
+            frames: frames as f64 / trials.len().max(1) as f64,
+            models: models.iter().map(|model| evaluate_crowd(&**model, trials, tick)).collect(),
+        }
+    }
 }
 
 /// Errors of one model on one test set.
