@@ -21,7 +21,7 @@ use super::{
     session::Session,
 };
 
-/// Measure prediction errors on held-out pushes, beside trivial predictors
+/// Measure prediction errors on held-out pushes, crowds and your own recordings
 #[derive(Args, Debug)]
 #[command(after_help = "What to measure on, any of:
   tools          all pushes of a shipped tool: single, single-any-speed, touching (default)

@@ -305,4 +305,28 @@ mod tests {
     fn an_empty_chart_is_still_a_chart() {
         assert!(Chart::default().to_svg().ends_with("</svg>\n"));
     }
+
+    #[test]
+    fn a_long_legend_takes_more_lines_and_later_series_are_dashed() {
+        let chart = |count: usize| Chart {
+            series: (0..count)
+                .map(|k| Series {
+                    name: format!("a series with a long name, {k}"),
+                    points: vec![[0.0, k as f64], [1.0, 1.0]],
+                    mark: Mark::Line,
+                    labels: Vec::new(),
+                })
+                .collect(),
+            ..Chart::default()
+        };
+        assert!(!chart(7).to_svg().contains("stroke-dasharray"));
+        assert!(chart(9).to_svg().contains("stroke-dasharray"));
+        let lines = |count: usize| {
+            let places = chart(count).legend();
+            let last = places.last().expect("a series").1.y;
+            assert!(places.iter().all(|(_, place)| place.x < SIZE.x));
+            last / LEGEND_LINE
+        };
+        assert_eq!((lines(1), lines(9)), (0.0, 4.0));
+    }
 }

@@ -73,7 +73,7 @@ pub const CROWD_LEGEND: &str = "\
 error: mean final distance from the truth over all objects; of motion, median, p90: the same, its
 median and 90th percentile, as shares of the mean true motion; moved: over objects that move more
 than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
-predicted bodies; fixed, revolute, prismatic: mean / largest drift of predicted joints";
+predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
 
 /// One row a set: the first model beside the projection and the simulator's own spread.
 pub fn crowd_summary(reports: &[CrowdReport]) -> Table {
@@ -140,7 +140,7 @@ pub fn crowd_chart(family: CrowdFamily, reports: &[CrowdReport]) -> Option<Chart
     Some(Chart {
         title: format!("Error by horizon, {}, {} sets", family.title(), reports.len()),
         x: Axis::linear("share of the frames, %"),
-        y: Axis::log("mean error of all objects, % of their mean final motion"),
+        y: Axis::log("mean error, % of the mean final motion"),
         series: first.models.iter().map(|model| series(&model.model)).collect(),
     })
 }

@@ -4,6 +4,7 @@ mod architecture;
 mod assets;
 mod baselines;
 mod cli;
+mod crowd_errors;
 mod crowds;
 mod dataset;
 mod evaluation;

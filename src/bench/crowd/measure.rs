@@ -129,9 +129,8 @@ fn judge(model: &dyn EffectModel, trial: &Trial) -> Judged {
             sums[1] += motion(frame, object);
         }
     }
-    let overlaps = Overlaps::new(&trial.scene, &trial.motion);
-    let overlap =
-        states.iter().zip(&trial.truth).map(|(s, moment)| overlaps.deepest(s, &moment.tool));
+    let overlaps = Overlaps::new(&trial.scene);
+    let overlap = states.iter().map(|state| overlaps.deepest(state));
     Judged {
         overlap: overlap.fold(0.0, f64::max),
         drift: Joints::new(&trial.scene).drift(&states),

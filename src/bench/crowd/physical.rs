@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Footprint, Pose, contact_points, wrap_angle},
-    scene::{Joint, JointKind, Scene, State, ToolMotion},
+    scene::{Joint, JointKind, Scene, State},
 };
 
 /// How far the joints of one kind drift in a prediction, over all joints and frames.
@@ -100,7 +100,6 @@ fn index(kind: &JointKind) -> usize {
 
 /// Looks for bodies inside each other.
 pub(super) struct Overlaps<'a> {
-    motion: &'a ToolMotion,
     scene: &'a Scene,
     footprints: Vec<Footprint>,
     /// Objects with the same number are one body by fixed joints and cannot meet.
@@ -108,15 +107,15 @@ pub(super) struct Overlaps<'a> {
 }
 
 impl<'a> Overlaps<'a> {
-    pub(super) fn new(scene: &'a Scene, motion: &'a ToolMotion) -> Self {
+    pub(super) fn new(scene: &'a Scene) -> Self {
         let footprints = scene.objects.iter().map(|object| object.shape.footprint()).collect();
         let bodies = scene.groups(|joint| joint.kind == JointKind::Fixed);
-        Self { motion, scene, footprints, bodies }
+        Self { scene, footprints, bodies }
     }
 
-    /// The deepest overlap of two objects, or of an object with the tool or an obstacle, when
-    /// the tool frame is at `tool`, metres.
-    pub(super) fn deepest(&self, state: &State, tool: &Pose) -> f64 {
+    /// The deepest overlap of two objects, or of an object with an obstacle, metres. Not with
+    /// the tool: where the truth sets it down, a prediction may have left an object.
+    pub(super) fn deepest(&self, state: &State) -> f64 {
         let mut deepest: f64 = 0.0;
         let mut meet = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {
             if let Some(point) = contact_points(a, b, 0.0).0[0] {
@@ -128,12 +127,6 @@ impl<'a> Overlaps<'a> {
                 (k + 1..self.footprints.len()).filter(|o| self.bodies[*o] != self.bodies[k])
             {
                 meet((footprint, pose), (&self.footprints[other], &state.poses[other]));
-            }
-            if self.motion.lift < self.scene.objects[k].shape.height() {
-                for (index, part) in self.motion.tool.parts.iter().enumerate() {
-                    let at = self.motion.tool.part_pose(index, tool);
-                    meet((footprint, pose), (&part.footprint(), &at));
-                }
             }
             for obstacle in &self.scene.obstacles {
                 meet((footprint, pose), (&obstacle.shape().footprint(), &obstacle.pose));

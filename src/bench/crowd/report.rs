@@ -77,7 +77,7 @@ pub struct CrowdModel {
     pub heading_deg: Option<f64>,
     /// Mean error of all objects by horizon.
     pub curve: Vec<CurvePoint>,
-    /// Deepest overlap of two predicted bodies at any compared frame, metres.
+    /// Deepest overlap of two objects, or of one with an obstacle, at any compared frame, metres.
     pub overlap: f64,
     /// The same, averaged over trajectories, metres.
     pub overlap_mean: f64,

@@ -1,0 +1,201 @@
+//! Errors on crowds and recordings: the truth has none, staying errs by the motion, and the
+//! command writes what it measures.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use pushplan::{
+    asset::{Recording, ToolLibrary},
+    bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, Trial, crowd_cases, evaluate_crowd},
+    dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
+    effect::{Assuming, Assumption, EffectModel, Projection, Simulated, Still},
+    report::{crowd_chart, crowd_line, crowd_summary, crowd_table},
+    sim::Simulator,
+};
+use serde_json::Value as Json;
+
+fn set(family: CrowdFamily, objects: usize) -> CrowdSet {
+    CrowdSet { family, objects, joints: JointRule::Mixed, solids: Solids::Any }
+}
+
+fn trials(family: CrowdFamily, objects: usize, count: usize) -> Vec<Trial> {
+    set(family, objects).draw(3, count, &|| {})
+}
+
+fn measured(model: &dyn EffectModel, trials: &[Trial]) -> CrowdModel {
+    evaluate_crowd(model, trials, &|| {})
+}
+
+#[test]
+fn the_truth_has_no_error_and_staying_errs_by_the_motion() {
+    for (family, objects, count) in [(CrowdFamily::Dense, 8, 6), (CrowdFamily::Sparse, 6, 2)] {
+        let trials = trials(family, objects, count);
+        assert!(trials.iter().all(|trial| trial.scene.objects.len() == objects));
+        let truth = measured(&Simulated::new(Simulator::planar()), &trials);
+        let end = truth.all.end.as_ref().expect("objects");
+        assert_eq!((end.objects, end.mean, truth.failed), (objects * count, 0.0, 0));
+        assert!(truth.curve.iter().all(|point| point.error == 0.0));
+        assert!(truth.drift.iter().all(|drift| drift.max < 5e-3), "{:?}", truth.drift);
+        assert!(truth.overlap < 0.02, "{}", truth.overlap);
+
+        let still = measured(&Still, &trials);
+        let (all, moved) = (still.all.end.as_ref(), still.moved.end.as_ref());
+        let (all, moved) = (all.expect("objects"), moved.expect("something moves"));
+        assert_eq!((all.mean, all.relative), (all.motion, 1.0));
+        assert_eq!((all.relative_interval.low, all.relative_interval.high), (1.0, 1.0));
+        assert!(moved.objects <= all.objects && moved.motion >= all.motion);
+        assert!(moved.objects > 0 && moved.motion > 0.01);
+        let averaged = still.all.averaged.as_ref().expect("objects");
+        assert_eq!(averaged.mean, averaged.motion);
+        assert_eq!(still.curve[0].error, 0.0);
+        let last = still.curve.last().expect("a curve");
+        assert!((last.horizon - 1.0).abs() < 1e-12 && (last.error - all.mean).abs() < 1e-12);
+        assert!(still.drift.iter().all(|drift| drift.max < 1e-9));
+        let joints: usize = trials.iter().map(|trial| trial.scene.joints.len()).sum();
+        assert_eq!(still.drift.iter().map(|drift| drift.joints).sum::<usize>(), joints);
+    }
+}
+
+#[test]
+fn sets_differ_from_each_other_and_from_training_and_threads_change_nothing() {
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let trials = trials(CrowdFamily::Dense, 6, 6);
+            (measured(&Projection, &trials), trials)
+        })
+    };
+    let one = with(1);
+    assert_eq!(one, with(2));
+    let sets =
+        [CrowdFamily::Sparse, CrowdFamily::SparseLine, CrowdFamily::Dense].map(CrowdSet::all);
+    assert!(sets.iter().all(|sets| sets.len() == 12));
+    let first = |set: &CrowdSet| set.draw(3, 1, &|| {}).remove(0).scene;
+    let scenes: Vec<_> = sets[2].iter().map(first).collect();
+    for (k, scene) in scenes.iter().enumerate() {
+        assert!(scenes[..k].iter().all(|other| other.objects != scene.objects));
+    }
+    let training = DatasetConfig { seed: 3, preset: Preset::Dense, ..DatasetConfig::default() };
+    let seen = Episode::draw(&training, 0).scene;
+    assert!(scenes.iter().all(|scene| scene.objects[0] != seen.objects[0]));
+}
+
+#[test]
+fn a_recorded_simulation_is_judged_like_the_simulation() {
+    let config = DatasetConfig { seed: 5, preset: Preset::Sparse, ..DatasetConfig::default() };
+    let episode = Episode::draw(&config, 1);
+    let recording =
+        Recording::of_frames("sparse", &episode.scene, &episode.motion, &episode.frames);
+    let trial = Trial::of_recording(&recording);
+    let strokes = |trial: &Trial| trial.motion.strokes.iter().filter(|s| s.settle).count();
+    assert_eq!(strokes(&trial), episode.motion.strokes.len() - 1, "lifted between the strokes");
+    let both = [trial, Trial::of_episode(&episode)];
+    let planar = Simulated::new(Simulator::planar());
+    let still = both.clone().map(|trial| measured(&Still, &[trial]).all.end.expect("objects"));
+    assert!((still[0].motion - still[1].motion).abs() < 1e-9);
+    let again = measured(&planar, &both[..1]).all.end.expect("objects");
+    // Frames end in other steps of the engine, so not to the bit.
+    assert!(again.relative < 0.02, "{again:?}");
+}
+
+#[test]
+fn reports_become_tables_and_curves_and_survive_json() {
+    let set = set(CrowdFamily::Dense, 6);
+    let drawn = set.draw(3, 3, &|| {});
+    let models: Vec<Box<dyn EffectModel>> = vec![
+        Box::new(Projection),
+        Box::new(Assuming::new(Projection, Assumption::NoJoints)),
+        Box::new(Still),
+    ];
+    let report = CrowdReport::of_set(&set, 3, &drawn, &models, &|| {});
+    let text = serde_json::to_string(&report).unwrap();
+    let back: CrowdReport = serde_json::from_str(&text).unwrap();
+    assert_eq!(serde_json::to_string(&back).unwrap(), text);
+    assert!(crowd_line(&report).starts_with("dense, 6 objects, mixed joints, any solids: 3 "));
+    let table = crowd_table(&report).to_text();
+    assert_eq!(table.lines().count(), 4);
+    assert!(table.contains("projection, no joints") && !table.contains("NaN"), "{table}");
+    let reports = [report];
+    assert!(crowd_summary(&reports).to_text().contains("dense, 6 objects"));
+    assert!(crowd_chart(CrowdFamily::Sparse, &reports).is_none());
+    let chart = crowd_chart(CrowdFamily::Dense, &reports).expect("curves").to_svg();
+    assert!(chart.contains("projection, no joints") && !chart.contains("NaN"));
+}
+
+#[test]
+fn the_network_is_timed_on_scenes_of_the_asked_size() {
+    assert!(!ToolLibrary::embedded().unwrap().is_empty());
+    for case in crowd_cases(10, 7, 4) {
+        assert_eq!((case.scene.objects.len(), case.motion.strokes.len()), (10, 1));
+    }
+}
+
+#[test]
+fn the_command_measures_sets_and_files_and_writes_what_it_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let run = |arguments: &[&str]| -> Output {
+        Command::new(env!("CARGO_BIN_EXE_pushplan"))
+            .arg("evaluate")
+            .args(arguments)
+            .args(["--out", out.to_str().expect("UTF-8")])
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .expect("the command runs")
+    };
+    let one = ["--objects", "6", "--joints", "fixed", "--solids", "cylinders", "--count", "2"];
+    let dense = run(&[&["projection", "--on", "dense"], &one[..], &["--json"]].concat());
+    assert_eq!(dense.status.code(), Some(0), "{}", stderr(&dense));
+    let json: Json = serde_json::from_slice(&dense.stdout).expect("JSON alone");
+    let report = &json["crowds"][0];
+    assert_eq!(report["trajectories"], 2);
+    assert_eq!(report["set"]["objects"], 6);
+    let names: Vec<&str> = report["models"]
+        .as_array()
+        .expect("models")
+        .iter()
+        .filter_map(|model| model["model"].as_str())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "projection",
+            "projection, types only",
+            "projection, no joints",
+            "projection, every contact fixed",
+            "quasi-static",
+            "follow",
+            "still",
+            "planar, friction x 0.7",
+            "planar, friction x 1.3",
+            "planar, start off by 0.1 mm",
+        ]
+    );
+    let written: Json = serde_json::from_slice(&read(&out.join("evaluation.json"))).expect("JSON");
+    assert_eq!(written["crowds"], json["crowds"]);
+    assert!(out.join("error-by-horizon-dense.svg").exists());
+
+    let push = "tests/it/assets/push.recording.json";
+    let recorded = run(&["--model", "quasi-static", "--on", push, push]);
+    assert_eq!(recorded.status.code(), Some(0), "{}", stderr(&recorded));
+    let text = String::from_utf8(recorded.stdout).expect("UTF-8");
+    assert!(text.contains("push: 1 trajectories") && text.contains("2 recordings: 2 trajectories"));
+    assert!(text.lines().any(|line| line.starts_with("planar  ")), "{text}");
+
+    let bad = folder.path().join("bad.recording.json");
+    let spoiled = String::from_utf8(read(Path::new(push))).expect("UTF-8").replace("0.05", "5.0");
+    std::fs::write(&bad, spoiled).expect("a file");
+    let refused = run(&["--on", bad.to_str().expect("UTF-8")]);
+    assert_eq!(refused.status.code(), Some(3));
+    assert!(stderr(&refused).contains("is this in centimetres?"), "{}", stderr(&refused));
+    assert_eq!(run(&["--on", "spars"]).status.code(), Some(2));
+    assert_eq!(run(&["--on", "dense", "--objects", "7"]).status.code(), Some(2));
+}
+
+fn read(path: &Path) -> Vec<u8> {
+    std::fs::read(path).expect("a file")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
