@@ -8,7 +8,7 @@ use crate::asset::{self, Faults};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 
-/// Check tool, task, plan, trajectory and recording files; print every fault with its place
+/// Check tool, task, plan, trajectory and recording files: every fault with its place
 #[derive(Args, Debug)]
 #[command(after_help = "Example:\n  pushplan check tools/*.yaml tasks/*.yaml")]
 pub struct CheckArgs {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use pushplan::{
-    asset::{Recording, ToolLibrary},
+    asset::Recording,
     bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, Trial, crowd_cases, evaluate_crowd},
     dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, Assumption, EffectModel, Projection, Simulated, Still},
@@ -41,12 +41,13 @@ fn the_truth_has_no_error_and_staying_errs_by_the_motion() {
         let still = measured(&Still, &trials);
         let (all, moved) = (still.all.end.as_ref(), still.moved.end.as_ref());
         let (all, moved) = (all.expect("objects"), moved.expect("something moves"));
-        assert_eq!((all.mean, all.relative), (all.motion, 1.0));
-        assert_eq!((all.relative_interval.low, all.relative_interval.high), (1.0, 1.0));
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        assert!(near(all.mean, all.motion) && near(all.relative, 1.0));
+        assert!(near(all.relative_interval.low, 1.0) && near(all.relative_interval.high, 1.0));
         assert!(moved.objects <= all.objects && moved.motion >= all.motion);
         assert!(moved.objects > 0 && moved.motion > 0.01);
         let averaged = still.all.averaged.as_ref().expect("objects");
-        assert_eq!(averaged.mean, averaged.motion);
+        assert!(near(averaged.mean, averaged.motion));
         assert_eq!(still.curve[0].error, 0.0);
         let last = still.curve.last().expect("a curve");
         assert!((last.horizon - 1.0).abs() < 1e-12 && (last.error - all.mean).abs() < 1e-12);
@@ -124,7 +125,6 @@ fn reports_become_tables_and_curves_and_survive_json() {
 
 #[test]
 fn the_network_is_timed_on_scenes_of_the_asked_size() {
-    assert!(!ToolLibrary::embedded().unwrap().is_empty());
     for case in crowd_cases(10, 7, 4) {
         assert_eq!((case.scene.objects.len(), case.motion.strokes.len()), (10, 1));
     }
