@@ -3,11 +3,11 @@
 //! They use frames like every other model, but nothing of theirs moves unless the tool does, so
 //! everything rests as soon as a stroke ends. Masses and frictions do not enter.
 
+mod bodies;
 mod follow;
 mod play;
 mod projection;
 mod still;
-mod ties;
 
 pub use follow::Follow;
 pub use projection::Projection;

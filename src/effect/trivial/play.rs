@@ -46,6 +46,17 @@ impl Table<'_> {
         other: (Body, &Pose),
         reach: f64,
     ) -> Option<ContactPoint> {
+        self.contacts(index, pose, other, reach)[0]
+    }
+
+    /// The same with the second point of two rectangles.
+    pub(super) fn contacts(
+        &self,
+        index: usize,
+        pose: &Pose,
+        other: (Body, &Pose),
+        reach: f64,
+    ) -> [Option<ContactPoint>; 2] {
         let object = &self.scene.objects[index];
         let footprint = match other.0 {
             Body::Object(other) => self.scene.objects[other].shape.footprint(),
@@ -53,10 +64,10 @@ impl Table<'_> {
             Body::Part(other) if self.motion.lift < object.shape.height() => {
                 self.tool().parts[other].footprint()
             }
-            Body::Part(_) => return None,
+            Body::Part(_) => return [None, None],
         };
         let first = (&object.shape.footprint(), pose);
-        contact_points(first, (&footprint, other.1), reach).0[0]
+        contact_points(first, (&footprint, other.1), reach).0
     }
 
     /// The tool's parts with their poses when the tool frame is at `tool`.

@@ -7,38 +7,35 @@ use crate::{
 };
 
 use super::{
+    bodies::{Bodies, Side},
     play::{Rule, Table, play_all},
-    ties::Ties,
 };
 
 /// Overlaps and gaps in joints below this are left, metres.
 const LEFT: f64 = 1e-6;
 
-/// Rounds over all pairs in one small step; a row of three touching objects needs about twenty,
-/// a fixed group of six about sixty.
+/// Rounds over all pairs in one small step; a row of three touching objects needs about twenty.
 const ROUNDS: usize = 200;
 
-/// After every small step of the tool, objects are shifted along the contact normals until
-/// nothing overlaps and all joints hold: the tool and the obstacles stay, two objects share a
-/// shift evenly, and nothing turns but a group of objects joined by fixed joints, as a whole.
-///
-/// Of a revolute joint the distance of the centres is kept, of a prismatic one the offset
-/// across its axis and its limits.
+/// After every small step of the tool, objects are shifted and turned until nothing overlaps
+/// and all joints hold, each as little as possible: the tool and the obstacles stay, two bodies
+/// share a correction by the areas that it moves, objects joined by fixed joints are one body.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projection;
 
 struct Shifting {
-    ties: Ties,
+    bodies: Bodies,
 }
 
 impl Rule for Shifting {
     fn begin(scene: &Scene) -> Self {
-        Self { ties: Ties::new(scene) }
+        Self { bodies: Bodies::new(scene) }
     }
 
     fn step(&mut self, table: &Table, _: &Pose, to: &Pose, poses: &mut [Pose]) {
+        self.bodies.follow(poses);
         for _ in 0..ROUNDS {
-            let held = self.ties.hold(poses);
+            let held = self.bodies.hold(poses);
             if held.max(self.part(table, to, poses)) < LEFT {
                 break;
             }
@@ -47,30 +44,44 @@ impl Rule for Shifting {
 }
 
 impl Shifting {
-    /// Shifts everything out of everything else once, and gives the largest overlap, metres.
-    fn part(&self, table: &Table, tool: &Pose, poses: &mut [Pose]) -> f64 {
+    /// Moves everything out of everything else once, and gives the largest overlap, metres.
+    fn part(&mut self, table: &Table, tool: &Pose, poses: &mut [Pose]) -> f64 {
         let mut largest: f64 = 0.0;
         for object in 0..poses.len() {
             for other in object + 1..poses.len() {
-                if self.ties.same_body(object, other) {
-                    continue;
-                }
-                let body = (Body::Object(other), &poses[other]);
-                if let Some(point) = table.contact(object, &poses[object], body, 0.0) {
-                    let shift = point.normal * (0.5 * point.gap);
-                    poses[object].position -= shift;
-                    poses[other].position += shift;
-                    largest = largest.max(-point.gap);
+                if !self.bodies.same_body(object, other) {
+                    let pose = poses[other];
+                    let depth = self.leave(table, object, (Body::Object(other), pose), poses);
+                    largest = largest.max(depth);
                 }
             }
-            for (body, pose) in table.parts(tool).chain(table.obstacles()) {
-                if let Some(point) = table.contact(object, &poses[object], (body, &pose), 0.0) {
-                    poses[object].position -= point.normal * point.gap;
-                    largest = largest.max(-point.gap);
-                }
+            for other in table.parts(tool).chain(table.obstacles()) {
+                largest = largest.max(self.leave(table, object, other, poses));
             }
         }
         largest
+    }
+
+    /// Moves an object out of another body, and gives how deep it was, metres.
+    fn leave(
+        &mut self,
+        table: &Table,
+        object: usize,
+        other: (Body, Pose),
+        poses: &mut [Pose],
+    ) -> f64 {
+        let points = table.contacts(object, &poses[object], (other.0, &other.1), 0.0);
+        // Two corners of one face share its way out.
+        let share = if points[1].is_some() { 0.5 } else { 1.0 };
+        for point in points.iter().flatten() {
+            let first = Side { object, at: point.on_first };
+            let second = match other.0 {
+                Body::Object(object) => Some(Side { object, at: point.on_second }),
+                Body::Obstacle(_) | Body::Part(_) => None,
+            };
+            self.bodies.part(first, second, point.normal, -point.gap * share, poses);
+        }
+        points[0].map_or(0.0, |point| -point.gap)
     }
 }
 

@@ -1,0 +1,186 @@
+//! What a projection moves: objects, and groups of objects that fixed joints make one body, each
+//! shifted and turned as little as possible.
+//!
+//! "As little" is measured by the area that moves: a correction of the distance of two points
+//! along a direction is shared by the two bodies, and in each by shift and turn, so that the sum
+//! of squared travels of all their points is smallest (position based dynamics of rigid bodies,
+//! Macklin et al. 2016, doi:10.1145/2994258.2994272, with areas for masses).
+
+use crate::{
+    geometry::{Pose, Vector, cross, wrap_angle},
+    scene::{JointKind, Scene, Span},
+};
+
+/// The bodies of a scene and the joints between them.
+pub(super) struct Bodies {
+    bodies: Vec<Body>,
+    /// Index into `bodies` of every object.
+    body_of: Vec<usize>,
+    joints: Vec<Tie>,
+}
+
+/// Objects that move as one.
+struct Body {
+    members: Vec<usize>,
+    /// Poses of the members when the body's pose is the identity.
+    rest: Vec<Pose>,
+    pose: Pose,
+    /// Square metres, and their second moment about the centre.
+    area: f64,
+    moment: f64,
+}
+
+/// A joint between objects of two bodies.
+struct Tie {
+    between: [usize; 2],
+    /// The joint's frame as each object sees it.
+    frames: [Pose; 2],
+    kind: JointKind,
+}
+
+/// A body's share in a correction: nothing for what does not give way.
+#[derive(Clone, Copy)]
+pub(super) struct Side {
+    /// An object of the body.
+    pub object: usize,
+    /// Where the correction acts, world frame, metres.
+    pub at: Vector,
+}
+
+impl Bodies {
+    /// The bodies of `scene`, as they are at the poses that it states.
+    pub fn new(scene: &Scene) -> Self {
+        let objects = &scene.objects;
+        let first = scene.groups(|joint| joint.kind == JointKind::Fixed);
+        let mut bodies = Vec::new();
+        let mut body_of = vec![0; objects.len()];
+        for leader in (0..objects.len()).filter(|k| first[*k] == *k) {
+            let members: Vec<usize> =
+                (leader..objects.len()).filter(|k| first[*k] == leader).collect();
+            members.iter().for_each(|k| body_of[*k] = bodies.len());
+            let footprint = |k: &usize| objects[*k].shape.footprint();
+            let area: f64 = members.iter().map(|k| footprint(k).area()).sum();
+            let weighted = |k: &usize| objects[*k].pose.position * footprint(k).area();
+            let centre = members.iter().map(weighted).sum::<Vector>() / area;
+            let rest: Vec<Pose> = members
+                .iter()
+                .map(|k| Pose {
+                    position: objects[*k].pose.position - centre,
+                    heading: objects[*k].pose.heading,
+                })
+                .collect();
+            let moment = members.iter().zip(&rest).map(|(k, rest)| {
+                let own = footprint(k).gyration_radius().powi(2);
+                footprint(k).area() * (own + rest.position.norm_squared())
+            });
+            let moment = moment.sum();
+            bodies.push(Body { members, rest, pose: Pose::default(), area, moment });
+        }
+        let joints = scene.joints.iter().filter(|j| body_of[j.between[0]] != body_of[j.between[1]]);
+        let joints = joints.map(|joint| Tie {
+            between: joint.between,
+            frames: joint.frames(objects),
+            kind: joint.kind,
+        });
+        Self { joints: joints.collect(), bodies, body_of }
+    }
+
+    /// Takes over where the objects are.
+    pub fn follow(&mut self, poses: &[Pose]) {
+        for body in &mut self.bodies {
+            body.pose = poses[body.members[0]] * body.rest[0].inverse();
+        }
+    }
+
+    /// Whether two objects are parts of one body and cannot meet.
+    pub fn same_body(&self, a: usize, b: usize) -> bool {
+        self.body_of[a] == self.body_of[b]
+    }
+
+    /// Moves `first` by `distance` metres along the unit vector `direction` against `second`,
+    /// or by itself if there is no second body that gives way.
+    pub fn part(
+        &mut self,
+        first: Side,
+        second: Option<Side>,
+        direction: Vector,
+        distance: f64,
+        poses: &mut [Pose],
+    ) {
+        let ease = |side: &Side| {
+            let body = &self.bodies[self.body_of[side.object]];
+            let arm = cross(side.at - body.pose.position, direction);
+            1.0 / body.area + arm * arm / body.moment
+        };
+        let impulse = distance / (ease(&first) + second.as_ref().map_or(0.0, ease));
+        self.push(first, direction * impulse, poses);
+        if let Some(second) = second {
+            self.push(second, direction * -impulse, poses);
+        }
+    }
+
+    fn push(&mut self, side: Side, impulse: Vector, poses: &mut [Pose]) {
+        let body = &mut self.bodies[self.body_of[side.object]];
+        let turn = cross(side.at - body.pose.position, impulse) / body.moment;
+        body.pose.position += impulse / body.area;
+        body.pose.heading += turn;
+        body.put(poses);
+    }
+
+    /// Turns the second object of a pair by `angle` radians against the first.
+    fn turn(&mut self, between: [usize; 2], angle: f64, poses: &mut [Pose]) {
+        let [a, b] = between.map(|object| self.body_of[object]);
+        let share = self.bodies[a].moment / (self.bodies[a].moment + self.bodies[b].moment);
+        for (body, angle) in [(a, -angle * (1.0 - share)), (b, angle * share)] {
+            self.bodies[body].pose.heading += angle;
+            self.bodies[body].put(poses);
+        }
+    }
+
+    /// Moves objects so that the joints hold, and gives the largest correction, metres.
+    pub fn hold(&mut self, poses: &mut [Pose]) -> f64 {
+        let mut largest: f64 = 0.0;
+        for k in 0..self.joints.len() {
+            let Tie { between, frames, kind } = self.joints[k];
+            let ends = |poses: &[Pose]| [0, 1].map(|end| poses[between[end]] * frames[end]);
+            let [first, second] = ends(poses);
+            let turned = wrap_angle(second.heading - first.heading);
+            let excess = match kind {
+                JointKind::Revolute { limits, .. } => beyond(turned, limits),
+                JointKind::Prismatic { .. } | JointKind::Fixed => turned,
+            };
+            if excess != 0.0 {
+                self.turn(between, -excess, poses);
+                largest = largest.max(excess.abs() * frames[1].position.norm());
+            }
+            let [first, second] = ends(poses);
+            let seen = first.local_point(second.position);
+            let off = match kind {
+                JointKind::Prismatic { limits, .. } => Vector::new(beyond(seen.x, limits), seen.y),
+                JointKind::Revolute { .. } | JointKind::Fixed => seen,
+            };
+            let distance = off.norm();
+            if distance > 0.0 {
+                let direction = first.vector(off / distance);
+                let at = second.position;
+                let [a, b] = between.map(|object| Side { object, at });
+                self.part(a, Some(b), direction, distance, poses);
+                largest = largest.max(distance);
+            }
+        }
+        largest
+    }
+}
+
+impl Body {
+    fn put(&self, poses: &mut [Pose]) {
+        for (member, rest) in self.members.iter().zip(&self.rest) {
+            poses[*member] = self.pose * *rest;
+        }
+    }
+}
+
+/// How far `value` lies outside of the limits; nothing where there are none.
+fn beyond(value: f64, limits: Option<Span>) -> f64 {
+    limits.map_or(0.0, |span| value - value.clamp(span.low, span.high))
+}
