@@ -185,6 +185,7 @@ fn recordings(
     reports: &mut Vec<CrowdReport>,
 ) -> Result<(), CliError> {
     let models = models(name, true, args.no_baselines)?;
+    warn(sources, &*models[0], session);
     let names = sources.recordings.iter().map(|recording| recording.name.clone());
     let trials: Vec<Trial> = sources.recordings.iter().map(Trial::of_recording).collect();
     let mut groups: Vec<(String, &[Trial])> = names.zip(trials.chunks(1)).collect();
@@ -201,6 +202,15 @@ fn recordings(
         show_last(reports, args, shown, session)?;
     }
     Ok(())
+}
+
+/// Says which recordings the model was not made for.
+fn warn(sources: &Sources, model: &dyn EffectModel, session: &Session) {
+    for recording in &sources.recordings {
+        for warning in model.warnings(&recording.scene, &recording.replay().motion) {
+            session.warn(&format!("{}: {warning}", recording.name));
+        }
+    }
 }
 
 /// Prints the newest report and writes the folder's files.

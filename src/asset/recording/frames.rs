@@ -117,7 +117,7 @@ fn frame(
     let (pusher, list) = (node.get("pusher")?, node.get("objects")?);
     let (found, expected) = (list.items().len(), objects.len());
     if found != expected && found > 0 {
-        let message = format!("frame {index} has {found} poses for {expected} objects");
+        let message = format!("frame {index}: expected {expected} poses, found {found}");
         ledger.fault(list, message, "write one pose per object, in the order of the scene");
         return None;
     }

@@ -84,8 +84,9 @@ impl Trial {
     }
 
     /// The predicted state at every moment of the truth. Models and truth come to rest after
-    /// different numbers of frames; from then on the state stays what it is.
-    pub fn aligned<'a>(&'a self, predicted: &'a Trajectory) -> Vec<&'a State> {
+    /// different numbers of frames; from then on the state stays what it is. The prediction must
+    /// have a frame.
+    pub(super) fn aligned<'a>(&'a self, predicted: &'a Trajectory) -> Vec<&'a State> {
         let frames = &predicted.frames;
         let mut ends = Vec::new();
         let mut from = 1.min(frames.len());

@@ -14,7 +14,7 @@ use pushplan::scene::{
 use pushplan::sim::Simulator;
 
 /// A sound recording; the tests spoil it.
-const SOUND: &str = "\
+pub const SOUND: &str = "\
 schema_version: 1
 kind: recording
 scene:
@@ -29,6 +29,9 @@ frames:
   - {pusher: [0.10, 0], objects: [[0.20, 0], [0.5, 0.1, 10]]}
   - {pusher: [0.15, 0], objects: [[0.25, 0], [0.5, 0.1, 10]]}
 ";
+
+/// What the documentation's Python writes.
+pub const PUSH: &str = include_str!("push.recording.json");
 
 fn parse(text: &str) -> Result<Recording, String> {
     Recording::parse(text, "r.yaml").map_err(|faults| faults.to_string())
@@ -145,7 +148,7 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "[[0.20, 0], [0.5, 0.1, 10]]}\n  - {pusher: [0.10",
             "[[0.20, 0]]}\n  - {pusher: [0.10",
-            "r.yaml:11:34: error: frame 1 has 1 poses for 2 objects",
+            "r.yaml:11:34: error: frame 1: expected 2 poses, found 1",
         ),
         (
             "[0.25, 0], [0.5, 0.1, 10]",

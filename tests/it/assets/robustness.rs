@@ -1,9 +1,10 @@
 //! No text, however damaged, makes a reader panic; what it refuses it explains.
 
 use proptest::prelude::*;
-use pushplan::asset::{Faults, PlanFile, TrajectoryFile};
+use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile};
 use pushplan::scene::{Task, Tool};
 
+use super::recordings;
 use super::saved::{plan_file, trajectory_file};
 
 const TOOL: &str = include_str!("../../../tools/l-hook.yaml");
@@ -47,6 +48,8 @@ fn read(text: &str) {
     explained(Task::parse(text, "t"));
     explained(PlanFile::parse(text, "t"));
     explained(TrajectoryFile::parse(text, "t"));
+    explained(Recording::parse(text, "t"));
+    explained(Recording::parse(text, "t.json"));
 }
 
 fn explained<T>(read: Result<T, Faults>) {
@@ -87,6 +90,16 @@ proptest! {
         let text = if file < 3 { TASKS[file] } else { TOOL };
         let text = spoiled(text, start, length, SNIPPETS[snippet]);
         if file < 3 { explained(Task::parse(&text, "t")) } else { explained(Tool::parse(&text, "t")) }
+    }
+
+    #[test]
+    fn spoiled_recordings_are_read_or_refused(
+        yaml in any::<bool>(), start in 0.0..1.0, length in 0..12usize, snippet in 0..SNIPPETS.len(),
+    ) {
+        let (text, file) = if yaml { (recordings::SOUND, "t") } else { (recordings::PUSH, "t.json") };
+        let read = Recording::parse(&spoiled(text, start, length, SNIPPETS[snippet]), file);
+        // What is accepted can also be played.
+        explained(read.map(|recording| recording.replay()));
     }
 
     #[test]
