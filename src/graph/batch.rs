@@ -3,6 +3,7 @@
 use crate::scene::Body;
 
 use super::{
+    build::Scratch,
     features::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD},
     node::Node,
 };
@@ -43,6 +44,7 @@ pub struct Batch {
     pub senders: Vec<u32>,
     /// Contacts with an overlap, in the order of the relations.
     pub touches: Vec<Touch>,
+    pub(super) scratch: Scratch,
 }
 
 impl Batch {

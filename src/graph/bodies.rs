@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{Footprint, Pose, Vector},
-    scene::{GRAVITY, Hypothesis, Scene, Tool},
+    scene::{GRAVITY, Hypothesis, JointKind, Scene, Span, Tool},
 };
 
 /// A movable body as the graph sees it.
@@ -39,6 +39,61 @@ pub struct Given {
     pub span: (f64, f64),
 }
 
+/// A joint as the graph sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Jointed {
+    /// Indices of the two objects.
+    pub between: [usize; 2],
+    /// What it allows.
+    pub kind: JointKind,
+    /// The joint's frame as seen from each of the two, see [`crate::scene::Joint::frames`].
+    pub frames: [Pose; 2],
+    /// Range of turns (radians) or shifts (metres) against the start, where limited.
+    pub limits: Option<Span>,
+    /// Whether anchor or axis is only a guess.
+    pub guessed: bool,
+}
+
+/// Which objects move as one, because fixed joints hold them together.
+#[derive(Clone, Debug, Default)]
+pub struct Groups {
+    /// The group of every object.
+    pub of: Vec<usize>,
+    /// The objects of every group, in order.
+    pub members: Vec<Vec<usize>>,
+    /// Every object's pose in the frame of the first object of its group.
+    pub places: Vec<Pose>,
+}
+
+impl Groups {
+    fn new(scene: &Scene) -> Self {
+        let count = scene.objects.len();
+        let mut lowest: Vec<usize> = (0..count).collect();
+        let fixed = || scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed);
+        for _ in 0..count {
+            for [a, b] in fixed().map(|joint| joint.between) {
+                let low = lowest[a].min(lowest[b]);
+                (lowest[a], lowest[b]) = (low, low);
+            }
+        }
+        let mut groups = Self::default();
+        for object in 0..count {
+            let first = lowest[object];
+            if first == object {
+                groups.of.push(groups.members.len());
+                groups.members.push(vec![object]);
+            } else {
+                let group = groups.of[first];
+                groups.of.push(group);
+                groups.members[group].push(object);
+            }
+            let [base, own] = [first, object].map(|index| scene.objects[index].pose);
+            groups.places.push(base.inverse() * own);
+        }
+        groups
+    }
+}
+
 /// All bodies of a scene with a tool in it.
 #[derive(Clone, Debug)]
 pub struct Bodies {
@@ -48,6 +103,10 @@ pub struct Bodies {
     pub parts: Vec<Given>,
     /// Obstacles.
     pub obstacles: Vec<Given>,
+    /// Joints between objects.
+    pub joints: Vec<Jointed>,
+    /// Objects that fixed joints make one rigid body, single ones included.
+    pub groups: Groups,
 }
 
 /// A planar displacement and the velocity at its end.
@@ -127,6 +186,17 @@ impl Bodies {
                 span: (0.0, obstacle.size[2]),
             })
             .collect();
-        Self { objects, parts, obstacles }
+        let joints = scene
+            .joints
+            .iter()
+            .map(|joint| Jointed {
+                between: joint.between,
+                kind: joint.kind,
+                frames: joint.frames(&scene.objects),
+                limits: joint.limits(),
+                guessed: joint.guessed,
+            })
+            .collect();
+        Self { objects, parts, obstacles, joints, groups: Groups::new(scene) }
     }
 }

@@ -9,11 +9,22 @@ use super::{
     batch::{Batch, KINEMATIC, Touch},
     bodies::{Bodies, Motion},
     coast::coast,
+    contact::{Contact, find_contacts},
     features::{node_features, relation_features},
-    link::{Link, find_links},
     node::{Node, UNIT},
-    prior::quasi_statics,
+    prior::Prior,
+    relation::{Relation, Tie, of_contact, of_joint},
 };
+
+/// Memory that building a graph reuses.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    contacts: Vec<Contact>,
+    prior: Prior,
+    awake: Vec<bool>,
+    index: Vec<u32>,
+    relations: Vec<Relation>,
+}
 
 /// Adds the graph of one frame to `batch` under the number `graph`, and fills `motions` with
 /// what every object of the scene does if it is left alone. Those that the network decides
@@ -37,79 +48,111 @@ pub fn add_graph(
             .zip(&state.velocities)
             .map(|(body, velocity)| coast(body, velocity, step.duration)),
     );
-    let mut links = find_links(bodies, state, step, motions);
-    if links.is_empty() {
-        return;
+    let mut scratch = std::mem::take(&mut batch.scratch);
+    let Scratch { contacts, prior, awake, index, relations } = &mut scratch;
+    find_contacts(bodies, state, step, motions, contacts);
+    find_awake(bodies, contacts, motions, step, awake);
+    if awake.contains(&true) {
+        contacts.retain(|contact| awake[contact.object]);
+        prior.solve(bodies, state, step, axis, motions, contacts);
+        relations.clear();
+        for (k, contact) in contacts.iter().enumerate() {
+            relations.extend(
+                of_contact(bodies, state, motions, prior, k, contact).into_iter().flatten(),
+            );
+        }
+        for k in 0..bodies.joints.len() {
+            if awake[bodies.joints[k].between[0]] {
+                relations.extend(of_joint(bodies, state, motions, prior, k));
+            }
+        }
+        index.clear();
+        index.resize(bodies.objects.len(), KINEMATIC);
+        for (object, body) in bodies.objects.iter().enumerate().filter(|(k, _)| awake[*k]) {
+            index[object] = batch.node_count() as u32;
+            let mut node = Node {
+                graph,
+                object: object as u32,
+                axis,
+                duration: step.duration,
+                support: body.support,
+                prior: [0.0; 6],
+            };
+            node.prior = node.encode(&prior.motions[object]);
+            let pressed: f64 =
+                relations.iter().filter(|r| r.receiver == object).map(overlap).sum::<f64>() / UNIT;
+            let (even, odd) = node_features(&node, body, &motions[object], pressed);
+            batch.push_node(node, even, odd);
+        }
+        for relation in relations.iter() {
+            let receiver = index[relation.receiver];
+            let sender = match relation.sender {
+                Body::Object(sender) => index[sender],
+                _ => KINEMATIC,
+            };
+            let (even, odd) = relation_features(&batch.nodes[receiver as usize], relation);
+            batch.push_relation(receiver, sender, even, odd);
+            if overlap(relation) > 0.0 {
+                let (object, with) = (relation.receiver, relation.sender);
+                batch.touches.push(Touch { graph, object, with });
+            }
+        }
     }
-    let awake = awake(&links, motions, step);
-    if !awake.contains(&true) {
-        return;
-    }
-    links.retain(|link| awake[link.receiver]);
-    let priors = quasi_statics(bodies, &mut links, motions, step.duration);
+    batch.scratch = scratch;
+}
 
-    let first = batch.node_count() as u32;
-    let mut index = vec![KINEMATIC; bodies.objects.len()];
-    let mut count = 0;
-    for (object, body) in bodies.objects.iter().enumerate() {
-        if !awake[object] {
-            continue;
-        }
-        index[object] = first + count;
-        count += 1;
-        let mut node = Node {
-            graph,
-            object: object as u32,
-            axis,
-            duration: step.duration,
-            support: body.support,
-            prior: [0.0; 6],
-        };
-        node.prior = node.encode(&priors[object]);
-        let pressed: f64 =
-            links.iter().filter(|l| l.receiver == object).map(|l| l.overlap).sum::<f64>() / UNIT;
-        let (even, odd) = node_features(&node, body, &motions[object], pressed);
-        batch.push_node(node, even, odd);
-    }
-    for link in &links {
-        let receiver = index[link.receiver];
-        let sender = match link.sender {
-            Body::Object(sender) => index[sender],
-            _ => KINEMATIC,
-        };
-        let (even, odd) = relation_features(&batch.nodes[receiver as usize], link);
-        batch.push_relation(receiver, sender, even, odd);
-        if link.overlap > 0.0 {
-            batch.touches.push(Touch { graph, object: link.receiver, with: link.sender });
-        }
+fn overlap(relation: &Relation) -> f64 {
+    match relation.tie {
+        Tie::Contact { overlap, .. } => overlap,
+        Tie::Joint { .. } => 0.0,
     }
 }
 
 /// Which objects may do anything but coast: those near a moving part, those that move near
-/// anything, and those related to such an object.
-fn awake(links: &[Link], coasts: &[Motion], step: &FrameStep) -> Vec<bool> {
+/// anything or in a joint, and those in touch or jointed with such an object.
+fn find_awake(
+    bodies: &Bodies,
+    contacts: &[Contact],
+    coasts: &[Motion],
+    step: &FrameStep,
+    awake: &mut Vec<bool>,
+) {
     let tool_moves = step.from != step.to;
     let moving = |object: usize| coasts[object] != Motion::default();
-    let mut awake = vec![false; coasts.len()];
-    for link in links {
-        let pushed = matches!(link.sender, Body::Part(_)) && tool_moves;
-        if pushed || moving(link.receiver) {
-            awake[link.receiver] = true;
+    awake.clear();
+    awake.resize(coasts.len(), false);
+    for contact in contacts {
+        let pushed = matches!(contact.with, Body::Part(_)) && tool_moves;
+        if pushed || moving(contact.object) {
+            awake[contact.object] = true;
+        }
+        if let Body::Object(other) = contact.with
+            && moving(other)
+        {
+            awake[other] = true;
         }
     }
+    for joint in &bodies.joints {
+        for object in joint.between {
+            awake[object] |= moving(object);
+        }
+    }
+    let contacts = contacts.iter().filter_map(|contact| match contact.with {
+        Body::Object(other) => Some([contact.object, other]),
+        _ => None,
+    });
+    let pairs: Vec<[usize; 2]> =
+        contacts.chain(bodies.joints.iter().map(|joint| joint.between)).collect();
     loop {
         let mut changed = false;
-        for link in links {
-            if let Body::Object(sender) = link.sender
-                && awake[sender]
-                && !awake[link.receiver]
-            {
-                awake[link.receiver] = true;
+        for &[a, b] in &pairs {
+            if awake[a] != awake[b] {
+                (awake[a], awake[b]) = (true, true);
                 changed = true;
             }
         }
         if !changed {
-            return awake;
+            return;
         }
     }
 }

@@ -3,12 +3,15 @@
 //! Axes: x along the tool's motion, y to its left, origin at the receiver's centre. All
 //! numbers are invariant to shifting and turning the scene; even ones also to mirroring it.
 
-use crate::{geometry::Vector, scene::Body};
+use crate::{
+    geometry::{Vector, cross},
+    scene::{Body, JointKind},
+};
 
 use super::{
     bodies::{Motion, Movable},
-    link::Link,
     node::{Node, UNIT},
+    relation::{Relation, Tie},
 };
 
 /// Unit of body-sized lengths, metres.
@@ -17,14 +20,17 @@ const BODY: f64 = 0.05;
 /// Unit of frame durations, seconds.
 const TIME: f64 = 0.1;
 
+/// Room to a joint's limit from which it counts, radians or metres.
+const NEAR: f64 = 0.05;
+
 /// Even features of a node.
 pub const NODE_EVEN: usize = 8;
 /// Odd features of a node.
 pub const NODE_ODD: usize = 8;
 /// Even features of a relation.
-pub const RELATION_EVEN: usize = 19;
+pub const RELATION_EVEN: usize = 27;
 /// Odd features of a relation.
-pub const RELATION_ODD: usize = 10;
+pub const RELATION_ODD: usize = 12;
 /// Even outputs of a node: shift x, velocity x.
 pub const OUTPUT_EVEN: usize = 2;
 /// Odd outputs of a node: shift y, turn, velocity y, spin.
@@ -56,55 +62,86 @@ pub(super) fn node_features(
     )
 }
 
-/// Features of a contact point as its receiver sees it.
+/// Features of a relation as its receiver sees it. Contacts leave the columns of joints empty
+/// and the other way round.
 pub(super) fn relation_features(
     node: &Node,
-    link: &Link,
+    relation: &Relation,
 ) -> ([f64; RELATION_EVEN], [f64; RELATION_ODD]) {
     let axis = node.axis;
     let along = |v: Vector| axis.x * v.x + axis.y * v.y;
     let across = |v: Vector| axis.x * v.y - axis.y * v.x;
-    let cross = |a: Vector, b: Vector| a.x * b.y - a.y * b.x;
-    let [of_part, of_obstacle, of_object] = match link.sender {
+    let [of_part, of_obstacle, of_object] = match relation.sender {
         Body::Part(_) => [1.0, 0.0, 0.0],
         Body::Obstacle(_) => [0.0, 1.0, 0.0],
         Body::Object(_) => [0.0, 0.0, 1.0],
     };
-    let answer = &link.answer;
-    (
-        [
-            along(link.arm) / BODY,
-            along(link.normal),
-            link.gap / UNIT,
-            along(link.relative) / UNIT,
-            link.overlap / UNIT,
-            link.relative.dot(&link.normal) / UNIT,
-            link.arm.dot(&link.normal) / BODY,
-            link.friction,
-            link.weight,
-            link.remaining,
-            of_part,
-            of_obstacle,
-            of_object,
-            link.mass_ratio,
-            along(link.sender_arm) / BODY,
-            link.sender_support / BODY,
-            link.sender_arm.dot(&link.normal) / BODY,
-            along(answer.shift) / UNIT,
-            // Whether the contact's friction holds: the sliding share of its displacement.
-            link.slip / UNIT,
-        ],
-        [
-            across(link.arm) / BODY,
-            across(link.normal),
-            across(link.relative) / UNIT,
-            cross(link.arm, link.normal) / BODY,
-            cross(link.normal, link.relative) / UNIT,
-            across(link.sender_arm) / BODY,
-            cross(link.sender_arm, link.normal) / BODY,
-            across(answer.shift) / UNIT,
-            answer.turn * node.support / UNIT,
-            cross(link.arm, link.relative) / (BODY * UNIT),
-        ],
-    )
+    let Relation { arm, sender_arm, relative, answer: (shift, turn), .. } = *relation;
+    let mut even = [0.0; RELATION_EVEN];
+    let mut odd = [0.0; RELATION_ODD];
+    even[..10].copy_from_slice(&[
+        along(arm) / BODY,
+        along(relative) / UNIT,
+        of_part,
+        of_obstacle,
+        of_object,
+        relation.mass_ratio,
+        along(sender_arm) / BODY,
+        relation.sender_support / BODY,
+        along(shift) / UNIT,
+        arm.norm() / BODY,
+    ]);
+    odd[..6].copy_from_slice(&[
+        across(arm) / BODY,
+        across(relative) / UNIT,
+        across(sender_arm) / BODY,
+        across(shift) / UNIT,
+        turn * node.support / UNIT,
+        cross(arm, relative) / (BODY * UNIT),
+    ]);
+    match relation.tie {
+        Tie::Contact { normal, gap, friction, overlap, remaining, left, slip, load } => {
+            even[10..21].copy_from_slice(&[
+                along(normal),
+                gap / UNIT,
+                overlap / UNIT,
+                relative.dot(&normal) / UNIT,
+                arm.dot(&normal) / BODY,
+                sender_arm.dot(&normal) / BODY,
+                friction,
+                remaining,
+                left / UNIT,
+                slip.abs() / UNIT,
+                load.ln_1p(),
+            ]);
+            odd[6..11].copy_from_slice(&[
+                across(normal),
+                cross(arm, normal) / BODY,
+                cross(normal, relative) / UNIT,
+                cross(sender_arm, normal) / BODY,
+                slip / UNIT,
+            ]);
+        }
+        Tie::Joint { kind, guessed, axis: slide, room: (down, up) } => {
+            let [fixed, revolute, prismatic] = match kind {
+                JointKind::Fixed => [1.0, 0.0, 0.0],
+                JointKind::Revolute { .. } => [0.0, 1.0, 0.0],
+                JointKind::Prismatic { .. } => [0.0, 0.0, 1.0],
+            };
+            // Twice the angle, because a slide has no sign.
+            let (x, y) = (along(slide), across(slide));
+            let sliding = prismatic * f64::from(u8::from(!guessed));
+            let near = |room: f64| 1.0 - (room / NEAR).clamp(0.0, 1.0);
+            even[21..27].copy_from_slice(&[
+                fixed,
+                revolute,
+                prismatic,
+                f64::from(u8::from(guessed)),
+                sliding * (x * x - y * y),
+                near(down.min(up)),
+            ]);
+            odd[11] = sliding * 2.0 * x * y;
+        }
+    }
+    (even, odd)
 }

@@ -8,14 +8,15 @@ mod batch;
 mod bodies;
 mod build;
 mod coast;
+mod contact;
 mod features;
-mod link;
 mod node;
 mod prior;
-mod push;
+mod relation;
+mod system;
 
 pub use batch::{Batch, KINEMATIC, Touch};
-pub use bodies::{Bodies, Motion};
+pub use bodies::{Bodies, Jointed, Motion};
 pub use build::add_graph;
 pub use coast::coast;
 pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};

@@ -1,130 +1,267 @@
-//! The quasi-static prior of every object: what its contacts ask of it, swept to agreement.
+//! The prior of every object in a frame: what contacts, joints, friction and inertia make of it
+//! to first order, for the network to correct.
 
-use crate::{geometry::perpendicular, scene::Body};
+use nalgebra::Vector3;
 
-use super::{
-    bodies::{Bodies, Motion},
-    link::Link,
-    node::UNIT,
-    push::{Twist, contact_twist},
+use crate::{
+    geometry::{Vector, perpendicular},
+    scene::{Body, FrameStep, JointKind, State},
 };
 
-/// Sweeps of the prior over the contacts; what they leave is for the network to correct. On
-/// 200 cuboids pushed 20 cm the prior alone ends 28 mm off on average after three sweeps,
-/// 4.4 mm after six and 4.2 mm after twelve.
-const SWEEPS: usize = 6;
+use super::{
+    bodies::{Bodies, Jointed, Motion},
+    contact::Contact,
+    system::{Constraint, GIVEN, Law, System, Unknown, along, shift},
+};
 
-/// Overlap at which a contact counts fully in the prior, in [`UNIT`]s: well below what noise
-/// in a rollout produces.
-const SOFT_OVERLAP: f64 = 0.01;
+/// A limit this far off, or nearer, is watched: metres, or radians at [`ARM`].
+const NEAR_LIMIT: f64 = 0.03;
 
-/// Fills the links' quasi-static answers and returns every object's prior motion: coasting,
-/// plus in every sweep what its contacts still ask for, weighted by the squares of the
-/// overlaps that are left.
-///
-/// This is projected Jacobi iteration without the memory of earlier impulses; weights that sum
-/// to at most one keep it from overshooting, and make it independent of the contacts' order.
-pub(super) fn quasi_statics(
-    bodies: &Bodies,
-    links: &mut [Link],
-    coasts: &[Motion],
-    duration: f64,
-) -> Vec<Motion> {
-    let mut priors = coasts.to_vec();
-    let mut pressed = vec![0.0; coasts.len()];
-    let mut asked = vec![(Twist::default(), 0.0); links.len()];
-    let soft = (SOFT_OVERLAP * UNIT).powi(2);
-    for sweep in 0..SWEEPS {
-        pressed.fill(0.0);
-        for (link, asked) in links.iter_mut().zip(&mut asked) {
-            *asked = ask(bodies, link, coasts, &priors, sweep == 0);
-            pressed[link.receiver] += asked.1 * asked.1;
-        }
-        if pressed.iter().all(|&p| p <= soft) && sweep > 0 {
-            break;
-        }
-        for (link, (twist, overlap)) in links.iter_mut().zip(&asked) {
-            let weight = overlap * overlap / (pressed[link.receiver] + soft);
-            if sweep == 0 {
-                link.weight = weight;
-            }
-            let prior = &mut priors[link.receiver];
-            prior.shift += twist.shift * weight;
-            prior.turn += twist.turn * weight;
-        }
-    }
-    end_velocities(bodies, links, &mut priors, duration);
-    priors
+/// A target that no motion of a frame falls short of, metres.
+const OUT_OF_REACH: f64 = -10.0;
+
+/// What turns a row of angles into metres.
+const ARM: f64 = 0.05;
+
+/// The prior and what it is made of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Prior {
+    /// Of every object.
+    pub motions: Vec<Motion>,
+    pub system: System,
+    /// First constraint of every joint and one past its last.
+    pub joints: Vec<(usize, usize)>,
+    velocities: System,
 }
 
-/// Brings the velocities at the frame's end to what the contacts made in it allow, by the same
-/// sweeps: in contact, a point moves with what pushes it.
-fn end_velocities(bodies: &Bodies, links: &[Link], priors: &mut [Motion], duration: f64) {
-    let soft = (SOFT_OVERLAP * UNIT).powi(2);
-    let mut pressed = vec![0.0; priors.len()];
-    let mut asked = vec![(Twist::default(), 0.0); links.len()];
-    for _ in 0..SWEEPS {
-        pressed.fill(0.0);
-        for (link, asked) in links.iter().zip(&mut asked) {
-            *asked = (Twist::default(), 0.0);
-            if link.overlap <= 0.0 {
-                continue;
-            }
-            let sent = match link.sender {
-                Body::Object(sender) => priors[sender].velocity_at(link.sender_arm) * duration,
-                _ => link.given,
+impl Prior {
+    /// Solves the frame. Constraint k of the system is contact k, along its normal and its
+    /// tangent; those of the joints follow.
+    pub fn solve(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        step: &FrameStep,
+        axis: Vector,
+        coasts: &[Motion],
+        contacts: &[Contact],
+    ) {
+        let travel = (step.to.position - step.from.position).norm();
+        let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
+        let system = &mut self.system;
+        system.begin(bodies, state, coasts, step.duration, fastest);
+        for contact in contacts {
+            let groups = &bodies.groups.of;
+            let centre = |group: usize| system.unknowns[group].centre;
+            let a = groups[contact.object];
+            let point = state.poses[contact.object].position + contact.arm;
+            let (b, from) = match contact.with {
+                Body::Object(other) => {
+                    let b = groups[other];
+                    let arm = state.poses[other].position + contact.other_arm - centre(b);
+                    (b, Some(arm))
+                }
+                _ => (GIVEN, None),
             };
-            let relative = sent - priors[link.receiver].velocity_at(link.arm) * duration;
-            let closing = relative.dot(&link.normal).max(0.0);
-            let c = bodies.objects[link.receiver].support;
-            let twist = contact_twist(c, link.arm, link.normal, relative, link.friction);
-            *asked = (twist, closing);
-            pressed[link.receiver] += closing * closing;
+            let directions = [contact.normal, perpendicular(contact.normal)];
+            let arm = point - centre(a);
+            let to = directions.map(|direction| along(direction, arm));
+            let from = match from {
+                Some(arm) => directions.map(|direction| along(direction, arm)),
+                None => [Vector3::zeros(); 2],
+            };
+            let [sent, carried] = directions.map(|direction| contact.given.dot(&direction));
+            let law = Law::Contact { friction: contact.friction };
+            let target = [sent - contact.gap, carried];
+            system.constraints.push(Constraint::new((a, to), (b, from), target, law));
         }
-        if pressed.iter().all(|&p| p <= soft) {
-            return;
+        self.joints.clear();
+        for joint in &bodies.joints {
+            let first = system.constraints.len();
+            constrain(bodies, state, joint, axis, system);
+            self.joints.push((first, system.constraints.len()));
         }
-        for (link, (twist, closing)) in links.iter().zip(&asked) {
-            let weight = closing * closing / (pressed[link.receiver] + soft) / duration;
-            priors[link.receiver].velocity += twist.shift * weight;
-            priors[link.receiver].spin += twist.turn * weight;
+        system.solve(bodies, state, coasts, step.duration, |constraints, unknowns| {
+            for (contact, constraint) in contacts.iter().zip(constraints) {
+                slide_only_in_touch(bodies, state, coasts, contact, constraint, unknowns);
+            }
+        });
+        self.end_velocities(bodies, state, step, coasts, contacts);
+        self.collect(bodies, state, step.duration);
+    }
+
+    /// The velocities at the frame's end: the same equations for v T, in which what has come
+    /// into contact stays there.
+    fn end_velocities(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        step: &FrameStep,
+        coasts: &[Motion],
+        contacts: &[Contact],
+    ) {
+        let ends: Vec<Motion> = coasts
+            .iter()
+            .map(|coast| Motion {
+                shift: coast.velocity * step.duration,
+                turn: coast.spin * step.duration,
+                ..*coast
+            })
+            .collect();
+        let velocities = &mut self.velocities;
+        velocities.unknowns.clone_from(&self.system.unknowns);
+        velocities.constraints.clone_from(&self.system.constraints);
+        for (k, constraint) in velocities.constraints.iter_mut().enumerate() {
+            let touching = constraint.force.x > 0.0;
+            let (normal, tangent) = match contacts.get(k) {
+                Some(c) => (c.given.dot(&c.normal), c.given.dot(&perpendicular(c.normal))),
+                None => (0.0, 0.0),
+            };
+            let open = !touching && !matches!(constraint.law, Law::Equal);
+            constraint.target = [if open { OUT_OF_REACH } else { normal }, tangent];
         }
+        velocities.solve(bodies, state, &ends, step.duration, |_, _| {});
+    }
+
+    /// Every object's motion from those of its group; groups turn exactly, so that what is
+    /// fixed stays so.
+    fn collect(&mut self, bodies: &Bodies, state: &State, duration: f64) {
+        self.motions.clear();
+        for (k, &group) in bodies.groups.of.iter().enumerate() {
+            let unknown = &self.system.unknowns[group];
+            let arm = state.poses[k].position - unknown.centre;
+            let twist = &unknown.twist;
+            let (sin, cos) = twist.z.sin_cos();
+            let turned = Vector::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
+            let end = &self.velocities.unknowns[group].twist;
+            self.motions.push(Motion {
+                shift: Vector::new(twist.x, twist.y) + turned - arm,
+                turn: twist.z,
+                velocity: shift(end, arm) / duration,
+                spin: end.z / duration,
+            });
+        }
+    }
+
+    /// The motion that the force of contact `k` alone gives to an object of group `group`
+    /// whose centre lies at `position`: shift (metres) and turn (radians).
+    pub fn answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
+        self.answer_of(&self.system.constraints[k..k + 1], group, position)
+    }
+
+    /// The same for the forces of joint `k`.
+    pub fn joint_answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
+        let (first, end) = self.joints[k];
+        self.answer_of(&self.system.constraints[first..end], group, position)
+    }
+
+    fn answer_of(
+        &self,
+        constraints: &[Constraint],
+        group: usize,
+        position: Vector,
+    ) -> (Vector, f64) {
+        let mut pressed = Vector3::zeros();
+        for c in constraints {
+            if c.a == group {
+                pressed += c.to[0] * c.force.x + c.to[1] * c.force.y;
+            } else {
+                pressed -= c.from[0] * c.force.x + c.from[1] * c.force.y;
+            }
+        }
+        let unknown = &self.system.unknowns[group];
+        let twist = unknown.inverse * pressed;
+        (shift(&twist, position - unknown.centre), twist.z)
     }
 }
 
-/// The twist that one contact alone still asks its receiver for beyond `priors`, and the
-/// overlap left there, metres. In the first sweep this also fills the link's own description.
-fn ask(
+/// Friction acts only after the gap has closed: the sliding before is not held back.
+fn slide_only_in_touch(
     bodies: &Bodies,
-    link: &mut Link,
+    state: &State,
     coasts: &[Motion],
-    priors: &[Motion],
-    first: bool,
-) -> (Twist, f64) {
-    let sent = match link.sender {
-        Body::Object(sender) => priors[sender].at(link.sender_arm),
-        _ => link.given,
-    };
-    let free = sent - coasts[link.receiver].at(link.arm);
-    let closing = free.dot(&link.normal);
-    // An object that is itself pushed against another pushes it, not the other way round; how
-    // far the other slows it is left to the network.
-    let passive = matches!(link.sender, Body::Object(_)) && closing <= link.gap.max(0.0);
-    let relative = sent - priors[link.receiver].at(link.arm);
-    let left = relative.dot(&link.normal) - link.gap;
-    let overlap = if passive { 0.0 } else { left.max(0.0) };
-    link.relative = free;
-    link.remaining =
-        if closing > link.gap.max(0.0) { 1.0 - link.gap.max(0.0) / closing } else { 0.0 };
-    let across = relative.dot(&perpendicular(link.normal)) * link.remaining;
-    let displacement = link.normal * overlap + perpendicular(link.normal) * across;
-    let c = bodies.objects[link.receiver].support;
-    let twist = contact_twist(c, link.arm, link.normal, displacement, link.friction);
-    if first || overlap > link.overlap {
-        link.overlap = overlap;
-        link.answer = twist;
-        let moved = twist.shift + twist.turn * perpendicular(link.arm);
-        link.slip = (displacement - moved).dot(&perpendicular(link.normal)).abs();
+    contact: &Contact,
+    constraint: &mut Constraint,
+    unknowns: &[Unknown],
+) {
+    let tangent = perpendicular(contact.normal);
+    let held = contact.given.dot(&tangent);
+    if contact.gap <= 0.0 {
+        constraint.target[1] = held;
+        return;
     }
-    (twist, overlap)
+    let moved = |object: usize, arm: Vector| {
+        let unknown = &unknowns[bodies.groups.of[object]];
+        shift(&unknown.twist, state.poses[object].position + arm - unknown.centre)
+    };
+    let (other, other_coast) = match contact.with {
+        Body::Object(other) => {
+            (moved(other, contact.other_arm), coasts[other].at(contact.other_arm))
+        }
+        _ => (contact.given, contact.given),
+    };
+    let (own, own_coast) =
+        (moved(contact.object, contact.arm), coasts[contact.object].at(contact.arm));
+    // How far the two would have come into each other had either only coasted.
+    let closing =
+        (other - own_coast).dot(&contact.normal).max((other_coast - own).dot(&contact.normal));
+    let before = if closing > contact.gap { contact.gap / closing } else { 1.0 };
+    constraint.target[1] = held + before * ((own_coast - other_coast).dot(&tangent));
+}
+
+/// The constraints of a joint between different groups: of the second against the first.
+fn constrain(bodies: &Bodies, state: &State, joint: &Jointed, axis: Vector, system: &mut System) {
+    let [a, b] = joint.between.map(|object| bodies.groups.of[object]);
+    if a == b {
+        return;
+    }
+    let [first, second] = joint.between.map(|object| state.poses[object]);
+    let [on_first, on_second] = [first * joint.frames[0], second * joint.frames[1]];
+    let apart = on_second.position - on_first.position;
+    let turned = on_second.heading - on_first.heading;
+    let [centre_a, centre_b] = [a, b].map(|group| system.unknowns[group].centre);
+    let turn = Vector3::new(0.0, 0.0, ARM);
+    let mut add = |to, from, target, law| {
+        system.constraints.push(Constraint::new((b, to), (a, from), target, law));
+    };
+    match joint.kind {
+        JointKind::Fixed => {}
+        JointKind::Revolute { .. } => {
+            // Along the tool's motion and across it, so that they turn with the scene.
+            let directions = [axis, perpendicular(axis)];
+            add(
+                directions.map(|d| along(d, on_second.position - centre_b)),
+                directions.map(|d| along(d, on_first.position - centre_a)),
+                directions.map(|d| -apart.dot(&d)),
+                Law::Equal,
+            );
+            if let Some(limits) = joint.limits {
+                for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
+                    if left * ARM < NEAR_LIMIT {
+                        let only = [sign * turn, Vector3::zeros()];
+                        add(only, only, [-left * ARM, 0.0], Law::AtLeast);
+                    }
+                }
+            }
+        }
+        JointKind::Prismatic { .. } => {
+            // Both bodies at the second's frame: it slides along an axis that turns with the
+            // first.
+            let slide = on_first.vector(Vector::x());
+            let across = perpendicular(slide);
+            let rows =
+                |direction: Vector, centre: Vector| along(direction, on_second.position - centre);
+            let target = [-apart.dot(&across), -turned * ARM];
+            add([rows(across, centre_b), turn], [rows(across, centre_a), turn], target, Law::Equal);
+            if let Some(limits) = joint.limits {
+                let slid = apart.dot(&slide);
+                for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
+                    if left < NEAR_LIMIT {
+                        let only = |centre| [rows(sign * slide, centre), Vector3::zeros()];
+                        add(only(centre_b), only(centre_a), [-left, 0.0], Law::AtLeast);
+                    }
+                }
+            }
+        }
+    }
 }

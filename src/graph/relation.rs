@@ -1,0 +1,177 @@
+//! Relations: a contact point or a joint, as one of its two bodies, the receiver, sees it.
+
+use crate::{
+    geometry::{Pose, Vector, perpendicular, wrap_angle},
+    scene::{Body, JointKind, State},
+};
+
+use super::{
+    bodies::{Bodies, Motion},
+    contact::Contact,
+    prior::Prior,
+};
+
+/// What relates two bodies.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Tie {
+    /// They touch, or may come to.
+    Contact {
+        /// Unit, into the receiver.
+        normal: Vector,
+        gap: f64,
+        /// Coefficient of friction.
+        friction: f64,
+        /// How far the bodies would overlap if the receiver only coasted, metres.
+        overlap: f64,
+        /// Share of the frame left after the gap has closed.
+        remaining: f64,
+        /// The gap that the prior leaves, metres.
+        left: f64,
+        /// Displacement of the sender's point along the receiver's surface in the prior, metres.
+        slip: f64,
+        /// Normal force over the weight mu m g of what the receiver rubs on the table with.
+        load: f64,
+    },
+    /// A joint holds them together.
+    Joint {
+        kind: JointKind,
+        guessed: bool,
+        /// Direction of sliding of a prismatic joint now; its sign has no meaning.
+        axis: Vector,
+        /// Turn (radians) or slide (metres) that the limits leave, down and up, from the first
+        /// object's view; infinite without limits.
+        room: (f64, f64),
+    },
+}
+
+/// A relation as its receiver sees it. World axes, metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Relation {
+    pub receiver: usize,
+    pub sender: Body,
+    /// From the receiver's centre to the contact point, or to the joint.
+    pub arm: Vector,
+    /// From the sender's centre to the contact point on it, or to the joint; zero where its
+    /// motion is given.
+    pub sender_arm: Vector,
+    /// Natural logarithm of the sender's mass over the receiver's; zero where it is given.
+    pub mass_ratio: f64,
+    /// Length c of the sender; zero where its motion is given.
+    pub sender_support: f64,
+    /// Displacement of the sender's point in the prior against the coasting receiver's.
+    pub relative: Vector,
+    /// The motion that this relation's force alone gives to the receiver: shift and turn.
+    pub answer: (Vector, f64),
+    pub tie: Tie,
+}
+
+/// The relations of a contact: into its object, and into the other one if that can move.
+pub(super) fn of_contact(
+    bodies: &Bodies,
+    state: &State,
+    coasts: &[Motion],
+    prior: &Prior,
+    index: usize,
+    contact: &Contact,
+) -> [Option<Relation>; 2] {
+    let view = |receiver: usize, sender: Body, arms: [Vector; 2], normal: Vector| {
+        let motion = &prior.motions;
+        let sent = match sender {
+            Body::Object(sender) => motion[sender].at(arms[1]),
+            _ => contact.given,
+        };
+        let relative = sent - coasts[receiver].at(arms[0]);
+        let closing = relative.dot(&normal);
+        let gap = contact.gap;
+        let ends = sent - motion[receiver].at(arms[0]);
+        let weight = bodies.objects[receiver].mass * bodies.objects[receiver].deceleration;
+        let position = state.poses[receiver].position;
+        let tie = Tie::Contact {
+            normal,
+            gap,
+            friction: contact.friction,
+            overlap: (closing - gap).max(0.0),
+            remaining: if closing > gap.max(0.0) { 1.0 - gap.max(0.0) / closing } else { 0.0 },
+            left: gap - ends.dot(&normal),
+            slip: ends.dot(&perpendicular(normal)),
+            load: prior.system.constraints[index].force.x / weight,
+        };
+        let answer = prior.answer(index, bodies.groups.of[receiver], position);
+        relation(bodies, receiver, sender, arms, relative, answer, tie)
+    };
+    let first =
+        view(contact.object, contact.with, [contact.arm, contact.other_arm], contact.normal);
+    let second = match contact.with {
+        Body::Object(other) => Some(view(
+            other,
+            Body::Object(contact.object),
+            [contact.other_arm, contact.arm],
+            -contact.normal,
+        )),
+        _ => None,
+    };
+    [Some(first), second]
+}
+
+/// The two relations of joint `index`.
+pub(super) fn of_joint(
+    bodies: &Bodies,
+    state: &State,
+    coasts: &[Motion],
+    prior: &Prior,
+    index: usize,
+) -> [Relation; 2] {
+    let joint = &bodies.joints[index];
+    let poses = joint.between.map(|object| state.poses[object]);
+    let [on_first, on_second]: [Pose; 2] = [poses[0] * joint.frames[0], poses[1] * joint.frames[1]];
+    let axis = on_first.vector(Vector::x());
+    let at = match joint.kind {
+        JointKind::Revolute { .. } => (on_first.position + on_second.position) / 2.0,
+        _ => (poses[0].position + poses[1].position) / 2.0,
+    };
+    let now = match joint.kind {
+        JointKind::Prismatic { .. } => (on_second.position - on_first.position).dot(&axis),
+        _ => wrap_angle(on_second.heading - on_first.heading),
+    };
+    let room = joint
+        .limits
+        .map_or((f64::INFINITY, f64::INFINITY), |limits| (now - limits.low, limits.high - now));
+    let tie = Tie::Joint { kind: joint.kind, guessed: joint.guessed, axis, room };
+    [[0, 1], [1, 0]].map(|[to, from]| {
+        let (receiver, sender) = (joint.between[to], joint.between[from]);
+        let arms = [at - poses[to].position, at - poses[from].position];
+        let relative = prior.motions[sender].at(arms[1]) - coasts[receiver].at(arms[0]);
+        let group = bodies.groups.of[receiver];
+        let answer = prior.joint_answer(index, group, poses[to].position);
+        relation(bodies, receiver, Body::Object(sender), arms, relative, answer, tie)
+    })
+}
+
+fn relation(
+    bodies: &Bodies,
+    receiver: usize,
+    sender: Body,
+    [arm, sender_arm]: [Vector; 2],
+    relative: Vector,
+    answer: (Vector, f64),
+    tie: Tie,
+) -> Relation {
+    let (mass_ratio, sender_support) = match sender {
+        Body::Object(sender) => {
+            let (to, from) = (&bodies.objects[receiver], &bodies.objects[sender]);
+            ((from.mass / to.mass).ln(), from.support)
+        }
+        _ => (0.0, 0.0),
+    };
+    Relation {
+        receiver,
+        sender,
+        arm,
+        sender_arm,
+        mass_ratio,
+        sender_support,
+        relative,
+        answer,
+        tie,
+    }
+}

@@ -1,0 +1,361 @@
+//! The equations of one frame: what contacts and joints ask of rigid groups that rub on the
+//! table, and their solution.
+//!
+//! Implicit time stepping (Moreau 1988; Stewart and Trinkle 1996, doi:10.1002/(SICI)1097-0207
+//! (19960815)39:15<2673::AID-NME972>3.0.CO;2-I) over a whole frame T. For an object of mass m
+//! whose motion xi = (shift, c turn) has the length s = |xi|, support friction of an ellipsoidal
+//! limit surface answers with mu m g xi / s, and inertia with m / T^2 against free coasting, so
+//!
+//! ```text
+//! A (xi - coast) = J^T f        A = mu m g / s + m / T^2
+//! ```
+//!
+//! with contacts (f_n >= 0, no overlap), Coulomb friction (|f_t| <= mu f_n) and joints. A depends
+//! on s, which is taken from the last iterate (iteratively reweighted least squares). Forces
+//! follow from accelerated projected Jacobi steps, each body's mass split among its
+//! constraints (Tonge, Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov
+//! 1983), which unlike Gauss-Seidel do not depend on the order of anything.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use crate::{
+    geometry::{Vector, cross, perpendicular},
+    scene::State,
+};
+
+use super::bodies::{Bodies, Motion, Movable};
+
+/// Iterations between two updates of the weights A, and the most of these updates.
+static ITER: std::sync::LazyLock<(usize, usize, f64)> = std::sync::LazyLock::new(|| {
+    let g = |n: &str, d: f64| std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d);
+    (g("IT", 10.0) as usize, g("UP", 8.0) as usize, g("SET", 2e-6))
+});
+
+/// Smallest s, metres: what moves less in a frame counts as stuck.
+const STUCK: f64 = 1e-4;
+
+/// A change of a whole round of iterations below this ends them, metres.
+const SETTLED: f64 = 2e-6;
+
+/// Share of its own effect by which a force gives way; keeps forces finite where nothing fits.
+const GIVE: f64 = 2e-3;
+
+/// Smallest share of a sliding contact's own compliance along the normal that counts: below it
+/// the contact wedges, which these equations cannot answer.
+const MIN_COMPLIANCE: f64 = 0.2;
+
+/// Index of a body whose motion is given.
+pub(super) const GIVEN: usize = usize::MAX;
+
+/// A rigid group and its motion.
+#[derive(Clone, Debug)]
+pub(super) struct Unknown {
+    /// Mean position of its members at the start of the frame.
+    pub centre: Vector,
+    /// A^-1.
+    pub inverse: Matrix3<f64>,
+    free: Vector3<f64>,
+    /// Shift of the centre, metres, and turn, radians.
+    pub twist: Vector3<f64>,
+    pressed: Vector3<f64>,
+    active: f64,
+}
+
+/// What a constraint allows its two forces to be.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Law {
+    /// Anything: both values become their targets.
+    Equal,
+    /// The first is not negative and its value becomes at least the target; the second is
+    /// unused.
+    AtLeast,
+    /// The same, and the second lies within the friction cone of the first and draws its value
+    /// to the target.
+    Contact { friction: f64 },
+}
+
+/// Two scalar equations between bodies `a` and `b`: `to . twist(a) - from . twist(b)` against
+/// `target`, metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Constraint {
+    pub a: usize,
+    pub b: usize,
+    pub to: [Vector3<f64>; 2],
+    pub from: [Vector3<f64>; 2],
+    pub target: [f64; 2],
+    pub law: Law,
+    pub force: Vector2<f64>,
+    trial: Vector2<f64>,
+    /// J A^-1 J^T of either body.
+    own: [Matrix2<f64>; 2],
+}
+
+impl Constraint {
+    pub fn new(
+        (a, to): (usize, [Vector3<f64>; 2]),
+        (b, from): (usize, [Vector3<f64>; 2]),
+        target: [f64; 2],
+        law: Law,
+    ) -> Self {
+        let (force, trial) = (Vector2::zeros(), Vector2::zeros());
+        Self { a, b, to, from, target, law, force, trial, own: [Matrix2::zeros(); 2] }
+    }
+
+    fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
+        let value = |k: usize| {
+            let mut value = self.to[k].dot(&unknowns[self.a].twist);
+            if self.b != GIVEN {
+                value -= self.from[k].dot(&unknowns[self.b].twist);
+            }
+            value
+        };
+        Vector2::new(value(0), value(1))
+    }
+
+    /// The forces that would meet this constraint if nothing else changed, the compliance
+    /// being `k` and the trial forces what they are.
+    fn answer(&self, k: &Matrix2<f64>, unknowns: &[Unknown]) -> Vector2<f64> {
+        let whole = self.own[0] + self.own[1];
+        let give = GIVE * whole.trace() * 0.5;
+        let left = Vector2::from(self.target) - self.values(unknowns) - self.trial * give;
+        let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
+        match self.law {
+            Law::AtLeast => Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0),
+            Law::Equal | Law::Contact { .. } => {
+                let det = knn * ktt - knt * knt;
+                let step =
+                    Vector2::new(ktt * left.x - knt * left.y, knn * left.y - knt * left.x) / det;
+                let stick = self.trial + step;
+                let Law::Contact { friction } = self.law else { return stick };
+                if stick.x >= 0.0 && stick.y.abs() <= friction * stick.x {
+                    return stick;
+                }
+                // Sliding: on the edge of the cone that the sticking force lies beyond.
+                let edge = friction * stick.y.signum();
+                let compliance = (knn + edge * knt).max(MIN_COMPLIANCE * knn);
+                let asked = left.x + knn * self.trial.x + knt * self.trial.y;
+                let pressed = (asked / compliance).max(0.0);
+                Vector2::new(pressed, edge * pressed)
+            }
+        }
+    }
+}
+
+/// The row of the displacement along `direction` of a point `arm` metres from a group's centre.
+pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
+    Vector3::new(direction.x, direction.y, cross(arm, direction))
+}
+
+/// Unknowns and rows of one frame.
+#[derive(Clone, Debug, Default)]
+pub(super) struct System {
+    pub unknowns: Vec<Unknown>,
+    pub constraints: Vec<Constraint>,
+    before: Vec<Vector3<f64>>,
+}
+
+impl System {
+    /// The groups of `bodies`, coasting; `reach` is how far they are first assumed to move
+    /// (metres), which only decides where the iteration begins.
+    pub fn begin(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        coasts: &[Motion],
+        duration: f64,
+        reach: f64,
+    ) {
+        self.constraints.clear();
+        self.unknowns.clear();
+        for members in &bodies.groups.members {
+            let positions = members.iter().map(|&k| state.poses[k].position);
+            let centre = positions.sum::<Vector>() / members.len() as f64;
+            self.unknowns.push(Unknown {
+                centre,
+                inverse: Matrix3::identity(),
+                free: Vector3::zeros(),
+                twist: Vector3::zeros(),
+                pressed: Vector3::zeros(),
+                active: 0.0,
+            });
+        }
+        for group in 0..self.unknowns.len() {
+            self.weigh(bodies, state, coasts, duration, group, Some(reach));
+            let unknown = &mut self.unknowns[group];
+            unknown.twist = unknown.free;
+        }
+    }
+
+    /// Solves for forces and twists. `retarget` may move the targets after each update of the
+    /// weights.
+    pub fn solve(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        coasts: &[Motion],
+        duration: f64,
+        mut retarget: impl FnMut(&mut [Constraint], &[Unknown]),
+    ) {
+        if self.constraints.is_empty() {
+            return;
+        }
+        for update in 0..ITER.1 {
+            if update > 0 {
+                for group in 0..self.unknowns.len() {
+                    self.weigh(bodies, state, coasts, duration, group, None);
+                }
+            }
+            retarget(&mut self.constraints, &self.unknowns);
+            self.before.clear();
+            self.before.extend(self.unknowns.iter().map(|unknown| unknown.twist));
+            self.iterate();
+            let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
+                let change = now.twist - before;
+                change.x.abs().max(change.y.abs()).max(change.z.abs() * 0.05) > ITER.2
+            });
+            if !changed && update > 0 {
+                return;
+            }
+        }
+    }
+
+    /// Accelerated projected Jacobi steps at fixed weights.
+    fn iterate(&mut self) {
+        let Self { unknowns, constraints, .. } = self;
+        for constraint in constraints.iter_mut() {
+            let before = (constraint.own[0] + constraint.own[1]).trace();
+            constraint.own[0] = compliance(&unknowns[constraint.a], &constraint.to);
+            if constraint.b != GIVEN {
+                constraint.own[1] = compliance(&unknowns[constraint.b], &constraint.from);
+            }
+            // Softer weights need less force for the same motion.
+            constraint.force *= before / (constraint.own[0] + constraint.own[1]).trace();
+            constraint.trial = constraint.force;
+        }
+        let mut momentum = 1.0f64;
+        for _ in 0..ITER.0 {
+            spread(unknowns, constraints);
+            for constraint in constraints.iter() {
+                let acts = match constraint.law {
+                    Law::Equal => true,
+                    _ => {
+                        constraint.trial.x > 0.0
+                            || constraint.target[0] > constraint.values(unknowns).x
+                    }
+                };
+                if acts {
+                    unknowns[constraint.a].active += 1.0;
+                    if constraint.b != GIVEN {
+                        unknowns[constraint.b].active += 1.0;
+                    }
+                }
+            }
+            let previous = momentum;
+            momentum = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            let carry = (previous - 1.0) / momentum;
+            let (mut against, mut largest) = (0.0, 0.0f64);
+            for constraint in constraints.iter_mut() {
+                let mut k = constraint.own[0] * unknowns[constraint.a].active.max(1.0);
+                if constraint.b != GIVEN {
+                    k += constraint.own[1] * unknowns[constraint.b].active.max(1.0);
+                }
+                let force = constraint.answer(&k, unknowns);
+                let change = force - constraint.force;
+                let moved = k * change;
+                against += (constraint.trial - force).dot(&moved);
+                largest = largest.max(moved.amax());
+                constraint.trial = force + carry * change;
+                constraint.force = force;
+            }
+            // Momentum that points away from the answer is dropped (O'Donoghue and Candes
+            // 2015, doi:10.1007/s10208-013-9150-3).
+            if against > 0.0 {
+                momentum = 1.0;
+                constraints.iter_mut().for_each(|c| c.trial = c.force);
+            }
+            if largest < 0.5 * ITER.2 {
+                break;
+            }
+        }
+        constraints.iter_mut().for_each(|c| c.trial = c.force);
+        spread(unknowns, constraints);
+    }
+
+    /// The weights of a group at its present twist (or at `reach`), and its free motion.
+    fn weigh(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        coasts: &[Motion],
+        duration: f64,
+        group: usize,
+        reach: Option<f64>,
+    ) {
+        let unknown = &mut self.unknowns[group];
+        let mut weight = Matrix3::zeros();
+        let mut asked = Vector3::zeros();
+        let members = &bodies.groups.members[group];
+        for &k in members {
+            let body = &bodies.objects[k];
+            let arm = state.poses[k].position - unknown.centre;
+            let moved = match reach {
+                Some(reach) => reach,
+                None => {
+                    let shift = shift(&unknown.twist, arm);
+                    shift.norm().hypot(body.support * unknown.twist.z)
+                }
+            };
+            let (slide, turn) = weights(body, moved.max(STUCK), duration);
+            let (x, y) = (arm.x, arm.y);
+            weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y)
+                + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, turn));
+            let coast = &coasts[k];
+            asked += slide * along(coast.shift, arm) + Vector3::new(0.0, 0.0, turn * coast.turn);
+        }
+        if let [only] = members[..] {
+            let coast = &coasts[only];
+            unknown.free = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
+            unknown.inverse = Matrix3::from_diagonal(&weight.diagonal().map(|w| 1.0 / w));
+        } else {
+            unknown.inverse = weight.try_inverse().unwrap_or_else(Matrix3::identity);
+            unknown.free = unknown.inverse * asked;
+        }
+    }
+}
+
+/// Displacement of a point `arm` metres from a group's centre, to first order, metres.
+pub(super) fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
+    Vector::new(twist.x, twist.y) + twist.z * perpendicular(arm)
+}
+
+/// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,
+/// N m.
+fn weights(body: &Movable, moved: f64, duration: f64) -> (f64, f64) {
+    let rub = body.mass * body.deceleration / moved;
+    let inertia = body.mass / (duration * duration);
+    let c2 = body.support * body.support;
+    (rub + inertia, c2 * (rub + inertia / body.spin))
+}
+
+/// J A^-1 J^T.
+fn compliance(unknown: &Unknown, j: &[Vector3<f64>; 2]) -> Matrix2<f64> {
+    let [p, q] = j.map(|j| unknown.inverse * j);
+    Matrix2::new(j[0].dot(&p), j[0].dot(&q), j[1].dot(&p), j[1].dot(&q))
+}
+
+/// Twists from trial forces.
+fn spread(unknowns: &mut [Unknown], constraints: &[Constraint]) {
+    for unknown in unknowns.iter_mut() {
+        unknown.pressed = Vector3::zeros();
+        unknown.active = 0.0;
+    }
+    for c in constraints {
+        unknowns[c.a].pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
+        if c.b != GIVEN {
+            unknowns[c.b].pressed -= c.from[0] * c.trial.x + c.from[1] * c.trial.y;
+        }
+    }
+    for unknown in unknowns.iter_mut() {
+        unknown.twist = unknown.free + unknown.inverse * unknown.pressed;
+    }
+}
