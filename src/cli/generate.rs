@@ -57,7 +57,7 @@ pub struct GenerateArgs {
 
 /// [`Preset`] with words for `--help`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum PresetName {
+pub(super) enum PresetName {
     /// One to three objects, sometimes obstacles, random tools of cuboids
     #[default]
     Tools,
@@ -69,6 +69,18 @@ enum PresetName {
     Dense,
     /// Episodes of all of them, a third of the frames with tools: for training
     Mixed,
+}
+
+impl PresetName {
+    pub(super) fn preset(self) -> Preset {
+        match self {
+            PresetName::Tools => Preset::Tools,
+            PresetName::Sparse => Preset::Sparse,
+            PresetName::SparseLine => Preset::SparseLine,
+            PresetName::Dense => Preset::Dense,
+            PresetName::Mixed => Preset::Mixed,
+        }
+    }
 }
 
 /// [`JointRule`] with words for `--help`.
@@ -97,13 +109,7 @@ impl GenerateArgs {
             seed: self.seed,
             episodes: self.episodes,
             episodes_per_shard: self.episodes_per_shard,
-            preset: match self.preset {
-                PresetName::Tools => Preset::Tools,
-                PresetName::Sparse => Preset::Sparse,
-                PresetName::SparseLine => Preset::SparseLine,
-                PresetName::Dense => Preset::Dense,
-                PresetName::Mixed => Preset::Mixed,
-            },
+            preset: self.preset.preset(),
             constraints: Constraints {
                 objects: self.objects,
                 joints: self.joints.map(|rule| match rule {

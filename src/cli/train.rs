@@ -14,7 +14,7 @@ use crate::train::{CheckpointError, MetricLine, Report, Settings, TrainError, tr
 use super::{
     error::CliError,
     exit_code,
-    generate::{Following, data_error},
+    generate::{Following, PresetName, data_error},
     interrupt,
     session::Session,
 };
@@ -38,6 +38,9 @@ pub struct TrainArgs {
     /// Folder with data made by `generate`; by default they are made in memory
     #[arg(long, value_name = "DIR", conflicts_with_all = ["episodes", "data_seed"])]
     data: Option<PathBuf>,
+    /// Family of the episodes made in memory
+    #[arg(long, value_enum, default_value_t = PresetName::Mixed, conflicts_with = "data")]
+    preset: PresetName,
     /// Number of episodes made in memory
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
     episodes: u64,
@@ -101,7 +104,8 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
         let data = match &args.data {
             Some(folder) => Dataset::open(folder)?,
             None => {
-                let default = DatasetConfig::default();
+                let preset = args.preset.preset();
+                let default = DatasetConfig { preset, ..DatasetConfig::default() };
                 Dataset::in_memory(&default.split(args.data_seed, args.episodes), &following)?
             }
         };

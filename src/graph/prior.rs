@@ -1,17 +1,17 @@
 //! The prior of every object in a frame: what contacts, joints, friction and inertia make of it
 //! to first order, for the network to correct.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use crate::{
-    geometry::{Vector, perpendicular},
+    geometry::{Vector, perpendicular, wrap_angle},
     scene::{Body, FrameStep, JointKind, State},
 };
 
 use super::{
     bodies::{Bodies, Jointed, Motion},
     contact::Contact,
-    system::{Constraint, GIVEN, Law, System, Unknown, along, shift},
+    system::{Constraint, GIVEN, Law, System, Tie, Unknown, along, shift},
 };
 
 /// A limit this far off, or nearer, is watched: metres, or radians at [`ARM`].
@@ -29,8 +29,8 @@ pub(super) struct Prior {
     /// Of every object.
     pub motions: Vec<Motion>,
     pub system: System,
-    /// First constraint of every joint and one past its last.
-    pub joints: Vec<(usize, usize)>,
+    /// The tie of every joint that is not within a group.
+    pub joints: Vec<Option<usize>>,
     velocities: System,
 }
 
@@ -77,9 +77,9 @@ impl Prior {
         }
         self.joints.clear();
         for joint in &bodies.joints {
-            let first = system.constraints.len();
+            let ties = system.ties.len();
             constrain(bodies, state, joint, axis, system);
-            self.joints.push((first, system.constraints.len()));
+            self.joints.push((system.ties.len() > ties).then_some(ties));
         }
         system.solve(bodies, state, coasts, step.duration, |constraints, unknowns| {
             for (contact, constraint) in contacts.iter().zip(constraints) {
@@ -117,9 +117,10 @@ impl Prior {
                 Some(c) => (c.given.dot(&c.normal), c.given.dot(&perpendicular(c.normal))),
                 None => (0.0, 0.0),
             };
-            let open = !touching && !matches!(constraint.law, Law::Equal);
-            constraint.target = [if open { OUT_OF_REACH } else { normal }, tangent];
+            constraint.target = [if touching { normal } else { OUT_OF_REACH }, tangent];
         }
+        velocities.ties.clone_from(&self.system.ties);
+        velocities.ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         velocities.solve(bodies, state, &ends, step.duration, |_, _| {});
     }
 
@@ -146,29 +147,29 @@ impl Prior {
     /// The motion that the force of contact `k` alone gives to an object of group `group`
     /// whose centre lies at `position`: shift (metres) and turn (radians).
     pub fn answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
-        self.answer_of(&self.system.constraints[k..k + 1], group, position)
+        let c = &self.system.constraints[k];
+        let pressed = if c.a == group {
+            c.to[0] * c.force.x + c.to[1] * c.force.y
+        } else {
+            -(c.from[0] * c.force.x + c.from[1] * c.force.y)
+        };
+        self.moved(group, position, &pressed)
     }
 
-    /// The same for the forces of joint `k`.
+    /// The same for the force of joint `k`; nothing for one within a group.
     pub fn joint_answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
-        let (first, end) = self.joints[k];
-        self.answer_of(&self.system.constraints[first..end], group, position)
+        let Some(tie) = self.joints[k].map(|tie| &self.system.ties[tie]) else {
+            return (Vector::zeros(), 0.0);
+        };
+        let pressed = if tie.b == group {
+            tie.to[0] * tie.force.x + tie.to[1] * tie.force.y
+        } else {
+            -(tie.from[0] * tie.force.x + tie.from[1] * tie.force.y)
+        };
+        self.moved(group, position, &pressed)
     }
 
-    fn answer_of(
-        &self,
-        constraints: &[Constraint],
-        group: usize,
-        position: Vector,
-    ) -> (Vector, f64) {
-        let mut pressed = Vector3::zeros();
-        for c in constraints {
-            if c.a == group {
-                pressed += c.to[0] * c.force.x + c.to[1] * c.force.y;
-            } else {
-                pressed -= c.from[0] * c.force.x + c.from[1] * c.force.y;
-            }
-        }
+    fn moved(&self, group: usize, position: Vector, pressed: &Vector3<f64>) -> (Vector, f64) {
         let unknown = &self.system.unknowns[group];
         let twist = unknown.inverse * pressed;
         (shift(&twist, position - unknown.centre), twist.z)
@@ -217,12 +218,16 @@ fn constrain(bodies: &Bodies, state: &State, joint: &Jointed, axis: Vector, syst
     }
     let [first, second] = joint.between.map(|object| state.poses[object]);
     let [on_first, on_second] = [first * joint.frames[0], second * joint.frames[1]];
-    let apart = on_second.position - on_first.position;
-    let turned = on_second.heading - on_first.heading;
+    // What has opened at a guessed joint is no error of the objects but of the guess.
+    let apart =
+        if joint.guessed { Vector::zeros() } else { on_second.position - on_first.position };
+    let turned = if joint.guessed { 0.0 } else { wrap_angle(on_second.heading - on_first.heading) };
     let [centre_a, centre_b] = [a, b].map(|group| system.unknowns[group].centre);
     let turn = Vector3::new(0.0, 0.0, ARM);
-    let mut add = |to, from, target, law| {
-        system.constraints.push(Constraint::new((b, to), (a, from), target, law));
+    let System { constraints, ties, .. } = system;
+    let mut add = |to, from, target, law| match law {
+        Some(law) => constraints.push(Constraint::new((b, to), (a, from), target, law)),
+        None => ties.push(Tie { a, b, to, from, target, force: Vector2::zeros() }),
     };
     match joint.kind {
         JointKind::Fixed => {}
@@ -233,13 +238,13 @@ fn constrain(bodies: &Bodies, state: &State, joint: &Jointed, axis: Vector, syst
                 directions.map(|d| along(d, on_second.position - centre_b)),
                 directions.map(|d| along(d, on_first.position - centre_a)),
                 directions.map(|d| -apart.dot(&d)),
-                Law::Equal,
+                None,
             );
             if let Some(limits) = joint.limits {
                 for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
                     if left * ARM < NEAR_LIMIT {
                         let only = [sign * turn, Vector3::zeros()];
-                        add(only, only, [-left * ARM, 0.0], Law::AtLeast);
+                        add(only, only, [-left * ARM, 0.0], Some(Law::AtLeast));
                     }
                 }
             }
@@ -252,13 +257,13 @@ fn constrain(bodies: &Bodies, state: &State, joint: &Jointed, axis: Vector, syst
             let rows =
                 |direction: Vector, centre: Vector| along(direction, on_second.position - centre);
             let target = [-apart.dot(&across), -turned * ARM];
-            add([rows(across, centre_b), turn], [rows(across, centre_a), turn], target, Law::Equal);
+            add([rows(across, centre_b), turn], [rows(across, centre_a), turn], target, None);
             if let Some(limits) = joint.limits {
                 let slid = apart.dot(&slide);
                 for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
                     if left < NEAR_LIMIT {
                         let only = |centre| [rows(sign * slide, centre), Vector3::zeros()];
-                        add(only(centre_b), only(centre_a), [-left, 0.0], Law::AtLeast);
+                        add(only(centre_b), only(centre_a), [-left, 0.0], Some(Law::AtLeast));
                     }
                 }
             }

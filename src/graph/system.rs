@@ -10,13 +10,14 @@
 //! A (xi - coast) = J^T f        A = mu m g / s + m / T^2
 //! ```
 //!
-//! with contacts (f_n >= 0, no overlap), Coulomb friction (|f_t| <= mu f_n) and joints. A depends
+//! with contacts (f_n >= 0, no overlap) and Coulomb friction (|f_t| <= mu f_n); joints are
+//! eliminated. A depends
 //! on s, which is taken from the last iterate (iteratively reweighted least squares). Forces
 //! follow from accelerated projected Jacobi steps, each body's mass split among its
 //! constraints (Tonge, Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov
 //! 1983), which unlike Gauss-Seidel do not depend on the order of anything.
 
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
 
 use crate::{
     geometry::{Vector, cross, perpendicular},
@@ -26,10 +27,8 @@ use crate::{
 use super::bodies::{Bodies, Motion, Movable};
 
 /// Iterations between two updates of the weights A, and the most of these updates.
-static ITER: std::sync::LazyLock<(usize, usize, f64)> = std::sync::LazyLock::new(|| {
-    let g = |n: &str, d: f64| std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d);
-    (g("IT", 10.0) as usize, g("UP", 8.0) as usize, g("SET", 2e-6))
-});
+const ITERATIONS: usize = 10;
+const UPDATES: usize = 8;
 
 /// Smallest s, metres: what moves less in a frame counts as stuck.
 const STUCK: f64 = 1e-4;
@@ -58,14 +57,11 @@ pub(super) struct Unknown {
     /// Shift of the centre, metres, and turn, radians.
     pub twist: Vector3<f64>,
     pressed: Vector3<f64>,
-    active: f64,
 }
 
 /// What a constraint allows its two forces to be.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Law {
-    /// Anything: both values become their targets.
-    Equal,
     /// The first is not negative and its value becomes at least the target; the second is
     /// unused.
     AtLeast,
@@ -102,14 +98,11 @@ impl Constraint {
     }
 
     fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        let value = |k: usize| {
-            let mut value = self.to[k].dot(&unknowns[self.a].twist);
-            if self.b != GIVEN {
-                value -= self.from[k].dot(&unknowns[self.b].twist);
-            }
-            value
-        };
-        Vector2::new(value(0), value(1))
+        let mut values = apply(&self.to, &unknowns[self.a].twist);
+        if self.b != GIVEN {
+            values -= apply(&self.from, &unknowns[self.b].twist);
+        }
+        values
     }
 
     /// The forces that would meet this constraint if nothing else changed, the compliance
@@ -121,12 +114,11 @@ impl Constraint {
         let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
         match self.law {
             Law::AtLeast => Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0),
-            Law::Equal | Law::Contact { .. } => {
+            Law::Contact { friction } => {
                 let det = knn * ktt - knt * knt;
                 let step =
                     Vector2::new(ktt * left.x - knt * left.y, knn * left.y - knt * left.x) / det;
                 let stick = self.trial + step;
-                let Law::Contact { friction } = self.law else { return stick };
                 if stick.x >= 0.0 && stick.y.abs() <= friction * stick.x {
                     return stick;
                 }
@@ -141,6 +133,35 @@ impl Constraint {
     }
 }
 
+/// Two scalar equations that a joint keeps exactly: `to . twist(b) - from . twist(a) = target`,
+/// metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tie {
+    pub a: usize,
+    pub b: usize,
+    pub to: [Vector3<f64>; 2],
+    pub from: [Vector3<f64>; 2],
+    pub target: [f64; 2],
+    pub force: Vector2<f64>,
+}
+
+impl Tie {
+    /// The part of this tie's equations that acts on group `index`.
+    fn side(&self, index: usize) -> Option<[Vector3<f64>; 2]> {
+        if index == self.b {
+            Some(self.to)
+        } else if index == self.a {
+            Some(self.from.map(|from| -from))
+        } else {
+            None
+        }
+    }
+
+    fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
+        apply(&self.to, &unknowns[self.b].twist) - apply(&self.from, &unknowns[self.a].twist)
+    }
+}
+
 /// The row of the displacement along `direction` of a point `arm` metres from a group's centre.
 pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
     Vector3::new(direction.x, direction.y, cross(arm, direction))
@@ -150,7 +171,16 @@ pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     pub unknowns: Vec<Unknown>,
+    /// Contacts and limits, met by iteration.
     pub constraints: Vec<Constraint>,
+    /// Joints, eliminated: whatever the contacts do, these hold.
+    pub ties: Vec<Tie>,
+    /// (J A^-1 J^T)^-1 of all ties.
+    tied: DMatrix<f64>,
+    asked: DVector<f64>,
+    /// Which groups hang together by ties: the number of the mechanism of each.
+    mechanism: Vec<usize>,
+    active: Vec<f64>,
     before: Vec<Vector3<f64>>,
 }
 
@@ -166,6 +196,7 @@ impl System {
         reach: f64,
     ) {
         self.constraints.clear();
+        self.ties.clear();
         self.unknowns.clear();
         for members in &bodies.groups.members {
             let positions = members.iter().map(|&k| state.poses[k].position);
@@ -176,7 +207,6 @@ impl System {
                 free: Vector3::zeros(),
                 twist: Vector3::zeros(),
                 pressed: Vector3::zeros(),
-                active: 0.0,
             });
         }
         for group in 0..self.unknowns.len() {
@@ -196,10 +226,8 @@ impl System {
         duration: f64,
         mut retarget: impl FnMut(&mut [Constraint], &[Unknown]),
     ) {
-        if self.constraints.is_empty() {
-            return;
-        }
-        for update in 0..ITER.1 {
+        self.find_mechanisms();
+        for update in 0..UPDATES {
             if update > 0 {
                 for group in 0..self.unknowns.len() {
                     self.weigh(bodies, state, coasts, duration, group, None);
@@ -211,7 +239,7 @@ impl System {
             self.iterate();
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
-                change.x.abs().max(change.y.abs()).max(change.z.abs() * 0.05) > ITER.2
+                change.x.abs().max(change.y.abs()).max(change.z.abs() * 0.05) > SETTLED
             });
             if !changed && update > 0 {
                 return;
@@ -221,32 +249,27 @@ impl System {
 
     /// Accelerated projected Jacobi steps at fixed weights.
     fn iterate(&mut self) {
-        let Self { unknowns, constraints, .. } = self;
-        for constraint in constraints.iter_mut() {
+        self.tie();
+        for k in 0..self.constraints.len() {
+            let own = self.compliance(&self.constraints[k]);
+            let constraint = &mut self.constraints[k];
             let before = (constraint.own[0] + constraint.own[1]).trace();
-            constraint.own[0] = compliance(&unknowns[constraint.a], &constraint.to);
-            if constraint.b != GIVEN {
-                constraint.own[1] = compliance(&unknowns[constraint.b], &constraint.from);
-            }
             // Softer weights need less force for the same motion.
-            constraint.force *= before / (constraint.own[0] + constraint.own[1]).trace();
+            constraint.force *= before / (own[0] + own[1]).trace();
             constraint.trial = constraint.force;
+            constraint.own = own;
         }
         let mut momentum = 1.0f64;
-        for _ in 0..ITER.0 {
-            spread(unknowns, constraints);
+        for _ in 0..ITERATIONS {
+            self.spread();
+            let Self { unknowns, constraints, mechanism, active, .. } = self;
+            active.fill(0.0);
             for constraint in constraints.iter() {
-                let acts = match constraint.law {
-                    Law::Equal => true,
-                    _ => {
-                        constraint.trial.x > 0.0
-                            || constraint.target[0] > constraint.values(unknowns).x
-                    }
-                };
-                if acts {
-                    unknowns[constraint.a].active += 1.0;
-                    if constraint.b != GIVEN {
-                        unknowns[constraint.b].active += 1.0;
+                let pressed = constraint.trial.x > 0.0;
+                if pressed || constraint.target[0] > constraint.values(unknowns).x {
+                    active[mechanism[constraint.a]] += 1.0;
+                    if constraint.b != GIVEN && mechanism[constraint.b] != mechanism[constraint.a] {
+                        active[mechanism[constraint.b]] += 1.0;
                     }
                 }
             }
@@ -255,9 +278,9 @@ impl System {
             let carry = (previous - 1.0) / momentum;
             let (mut against, mut largest) = (0.0, 0.0f64);
             for constraint in constraints.iter_mut() {
-                let mut k = constraint.own[0] * unknowns[constraint.a].active.max(1.0);
+                let mut k = constraint.own[0] * active[mechanism[constraint.a]].max(1.0);
                 if constraint.b != GIVEN {
-                    k += constraint.own[1] * unknowns[constraint.b].active.max(1.0);
+                    k += constraint.own[1] * active[mechanism[constraint.b]].max(1.0);
                 }
                 let force = constraint.answer(&k, unknowns);
                 let change = force - constraint.force;
@@ -273,12 +296,154 @@ impl System {
                 momentum = 1.0;
                 constraints.iter_mut().for_each(|c| c.trial = c.force);
             }
-            if largest < 0.5 * ITER.2 {
+            if largest < 0.5 * SETTLED {
                 break;
             }
         }
-        constraints.iter_mut().for_each(|c| c.trial = c.force);
-        spread(unknowns, constraints);
+        self.constraints.iter_mut().for_each(|c| c.trial = c.force);
+        self.spread();
+    }
+
+    /// Numbers the mechanisms: groups that ties connect.
+    fn find_mechanisms(&mut self) {
+        self.mechanism.clear();
+        self.mechanism.extend(0..self.unknowns.len());
+        for _ in 0..self.unknowns.len() {
+            for tie in &self.ties {
+                let low = self.mechanism[tie.a].min(self.mechanism[tie.b]);
+                self.mechanism[tie.a] = low;
+                self.mechanism[tie.b] = low;
+            }
+            if self.ties.is_empty() {
+                break;
+            }
+        }
+        self.active.resize(self.unknowns.len(), 0.0);
+    }
+
+    /// Prepares the elimination of all ties at the present weights.
+    fn tie(&mut self) {
+        let count = self.ties.len();
+        if count == 0 {
+            return;
+        }
+        let mut whole = DMatrix::zeros(2 * count, 2 * count);
+        for (p, first) in self.ties.iter().enumerate() {
+            for (q, second) in self.ties.iter().enumerate().take(p + 1) {
+                for index in [first.a, first.b] {
+                    let (Some(j), Some(k)) = (first.side(index), second.side(index)) else {
+                        continue;
+                    };
+                    let inverse = &self.unknowns[index].inverse;
+                    for (r, j) in j.iter().enumerate() {
+                        for (s, k) in k.iter().enumerate() {
+                            let value = j.dot(&(inverse * k));
+                            whole[(2 * p + r, 2 * q + s)] += value;
+                            if p != q {
+                                whole[(2 * q + s, 2 * p + r)] += value;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        for k in 0..2 * count {
+            whole[(k, k)] *= 1.0 + 1e-9;
+        }
+        // Joints form no loops, so their equations are independent and this always succeeds;
+        // were they not, going without them is what a reader would see.
+        self.tied = match whole.cholesky() {
+            Some(factor) => factor.inverse(),
+            None => DMatrix::zeros(2 * count, 2 * count),
+        };
+    }
+
+    /// J M J^T of either side of a constraint, M being A^-1 with the ties eliminated; all of it
+    /// on the first side where both belong to one mechanism.
+    fn compliance(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
+        let own = |index: usize, j: &[Vector3<f64>; 2]| {
+            let [p, q] = j.map(|j| self.unknowns[index].inverse * j);
+            Matrix2::new(j[0].dot(&p), j[0].dot(&q), j[1].dot(&p), j[1].dot(&q))
+        };
+        let mut sides = [own(constraint.a, &constraint.to), Matrix2::zeros()];
+        if constraint.b != GIVEN {
+            sides[1] = own(constraint.b, &constraint.from);
+        }
+        if self.ties.is_empty() {
+            return sides;
+        }
+        let first = self.through_ties(constraint.a, &constraint.to);
+        if constraint.b == GIVEN {
+            return [sides[0] - self.taken(&first), Matrix2::zeros()];
+        }
+        let mut second = self.through_ties(constraint.b, &constraint.from);
+        if self.mechanism[constraint.a] != self.mechanism[constraint.b] {
+            return [sides[0] - self.taken(&first), sides[1] - self.taken(&second)];
+        }
+        second.iter_mut().for_each(|(_, w)| *w = -*w);
+        let both = [first, second].concat();
+        [sides[0] + sides[1] - self.taken(&both), Matrix2::zeros()]
+    }
+
+    /// How the ties of group `index` feel the rows `j` of a constraint on it.
+    fn through_ties(&self, index: usize, j: &[Vector3<f64>; 2]) -> Vec<(usize, Matrix2<f64>)> {
+        let [p, q] = j.map(|j| self.unknowns[index].inverse * j);
+        let felt = self.ties.iter().enumerate().filter_map(|(k, tie)| {
+            let side = tie.side(index)?;
+            let felt =
+                Matrix2::new(side[0].dot(&p), side[0].dot(&q), side[1].dot(&p), side[1].dot(&q));
+            Some((k, felt))
+        });
+        felt.collect()
+    }
+
+    /// What the ties take from the compliance of a constraint that they feel like this.
+    fn taken(&self, felt: &[(usize, Matrix2<f64>)]) -> Matrix2<f64> {
+        let mut taken = Matrix2::zeros();
+        for (k, left) in felt {
+            for (l, right) in felt {
+                let between = self.tied.fixed_view::<2, 2>(2 * k, 2 * l);
+                taken += left.transpose() * between * right;
+            }
+        }
+        taken
+    }
+
+    /// Twists from trial forces, the ties met.
+    fn spread(&mut self) {
+        let Self { unknowns, constraints, ties, tied, asked, .. } = self;
+        for unknown in unknowns.iter_mut() {
+            unknown.pressed = Vector3::zeros();
+        }
+        for c in constraints.iter() {
+            unknowns[c.a].pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
+            if c.b != GIVEN {
+                unknowns[c.b].pressed -= c.from[0] * c.trial.x + c.from[1] * c.trial.y;
+            }
+        }
+        let settle = |unknowns: &mut [Unknown]| {
+            for unknown in unknowns {
+                unknown.twist = unknown.free + unknown.inverse * unknown.pressed;
+            }
+        };
+        settle(unknowns);
+        if ties.is_empty() {
+            return;
+        }
+        if asked.len() != 2 * ties.len() {
+            *asked = DVector::zeros(2 * ties.len());
+        }
+        for (k, tie) in ties.iter().enumerate() {
+            let left = Vector2::from(tie.target) - tie.values(unknowns);
+            (asked[2 * k], asked[2 * k + 1]) = (left.x, left.y);
+        }
+        for (k, tie) in ties.iter_mut().enumerate() {
+            let force = |row: usize| tied.column(row).dot(asked);
+            tie.force = Vector2::new(force(2 * k), force(2 * k + 1));
+            unknowns[tie.b].pressed += tie.to[0] * tie.force.x + tie.to[1] * tie.force.y;
+            unknowns[tie.a].pressed -= tie.from[0] * tie.force.x + tie.from[1] * tie.force.y;
+        }
+        settle(unknowns);
     }
 
     /// The weights of a group at its present twist (or at `reach`), and its free motion.
@@ -337,25 +502,6 @@ fn weights(body: &Movable, moved: f64, duration: f64) -> (f64, f64) {
     (rub + inertia, c2 * (rub + inertia / body.spin))
 }
 
-/// J A^-1 J^T.
-fn compliance(unknown: &Unknown, j: &[Vector3<f64>; 2]) -> Matrix2<f64> {
-    let [p, q] = j.map(|j| unknown.inverse * j);
-    Matrix2::new(j[0].dot(&p), j[0].dot(&q), j[1].dot(&p), j[1].dot(&q))
-}
-
-/// Twists from trial forces.
-fn spread(unknowns: &mut [Unknown], constraints: &[Constraint]) {
-    for unknown in unknowns.iter_mut() {
-        unknown.pressed = Vector3::zeros();
-        unknown.active = 0.0;
-    }
-    for c in constraints {
-        unknowns[c.a].pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
-        if c.b != GIVEN {
-            unknowns[c.b].pressed -= c.from[0] * c.trial.x + c.from[1] * c.trial.y;
-        }
-    }
-    for unknown in unknowns.iter_mut() {
-        unknown.twist = unknown.free + unknown.inverse * unknown.pressed;
-    }
+fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
+    Vector2::new(j[0].dot(twist), j[1].dot(twist))
 }

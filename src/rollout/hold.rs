@@ -15,8 +15,8 @@ use crate::{
 };
 
 /// Sweeps over all joints, and the error at which they end, metres.
-const SWEEPS: usize = 60;
-const HELD: f64 = 1e-8;
+const SWEEPS: usize = 24;
+const HELD: f64 = 1e-7;
 
 /// What turns an angle's error into metres.
 const ARM: f64 = 0.05;
@@ -35,7 +35,9 @@ struct Group {
 
 /// Brings poses and velocities of jointed objects to what their joints allow.
 pub fn hold(bodies: &Bodies, state: &mut State) {
-    if bodies.joints.is_empty() {
+    // A guessed axis is no reason to move anything.
+    let joints: Vec<&Jointed> = bodies.joints.iter().filter(|joint| !joint.guessed).collect();
+    if joints.is_empty() {
         return;
     }
     let mut groups: Vec<Group> =
@@ -44,10 +46,10 @@ pub fn hold(bodies: &Bodies, state: &mut State) {
     let places: Vec<Pose> = place(bodies);
     for sweep in 0..SWEEPS {
         let mut error: f64 = 0.0;
-        let count = bodies.joints.len();
+        let count = joints.len();
         for k in 0..count {
             // There and back again, so that no end of a chain is preferred.
-            let joint = &bodies.joints[if sweep % 2 == 0 { k } else { count - 1 - k }];
+            let joint = joints[if sweep % 2 == 0 { k } else { count - 1 - k }];
             error = error.max(meet(bodies, joint, &places, &mut groups));
         }
         if error < HELD {
@@ -56,7 +58,7 @@ pub fn hold(bodies: &Bodies, state: &mut State) {
     }
     for _ in 0..SWEEPS / 4 {
         let mut error: f64 = 0.0;
-        for joint in &bodies.joints {
+        for joint in &joints {
             error = error.max(calm(bodies, joint, &places, &mut groups));
         }
         if error < HELD {
@@ -64,7 +66,8 @@ pub fn hold(bodies: &Bodies, state: &mut State) {
         }
     }
     for (object, &group) in bodies.groups.of.iter().enumerate() {
-        if bodies.groups.members[group].len() == 1 && !is_jointed(bodies, object) {
+        let alone = bodies.groups.members[group].len() == 1;
+        if alone && !joints.iter().any(|joint| joint.between.contains(&object)) {
             continue;
         }
         let Group { pose, velocity, spin, .. } = groups[group];
@@ -77,10 +80,6 @@ pub fn hold(bodies: &Bodies, state: &mut State) {
         state.velocities[object].linear = velocity + spin * perpendicular(arm);
         state.velocities[object].angular = spin;
     }
-}
-
-fn is_jointed(bodies: &Bodies, object: usize) -> bool {
-    bodies.joints.iter().any(|joint| joint.between.contains(&object))
 }
 
 /// Every object's pose in the frame of its group's centre of mass.

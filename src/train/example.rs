@@ -9,7 +9,7 @@ use crate::{
     dataset::Episode,
     geometry::{Pose, Vector},
     graph::{Batch, Bodies, Motion, add_graph},
-    rollout::{apply, integrate},
+    rollout::{apply, hold, integrate},
     scene::{COAST_FRAME, FrameStep, State},
 };
 
@@ -29,6 +29,9 @@ pub struct Noise {
     /// (the "pushforward" of Brandstetter, Worrall and Welling 2022); 0 for none.
     pub lead: usize,
 }
+
+/// Share of the examples with joints whose geometry is only guessed from their types.
+const GUESSED: f64 = 0.2;
 
 impl Noise {
     const SMALLEST: f64 = 0.02;
@@ -65,7 +68,7 @@ impl<'a> Examples<'a> {
             .par_iter()
             .enumerate()
             .flat_map_iter(|(e, episode)| {
-                let bodies = bodies(episode);
+                let bodies = bodies(episode, false);
                 let mut batch = Batch::default();
                 let mut motions = Vec::new();
                 (0..episode.frames.len() - 1).filter_map(move |k| {
@@ -106,10 +109,13 @@ impl<'a> Examples<'a> {
                     None => 0,
                 };
                 let mut state = episode.frames[frame - lead].state.clone();
+                let guessed = !episode.scene.joints.is_empty() && random.random_bool(GUESSED);
+                let bodies = bodies(episode, guessed);
                 if !random.random_bool(noise.clean) {
                     disturb(&mut state, noise, &mut random);
+                    hold(&bodies, &mut state);
                 }
-                Start { episode, bodies: bodies(episode), frame, at: frame - lead, state }
+                Start { episode, bodies, frame, at: frame - lead, state }
             })
             .collect();
         let mut drawn = Supervised::default();
@@ -186,8 +192,16 @@ impl Supervised {
     }
 }
 
-fn bodies(episode: &Episode) -> Bodies {
-    Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, None)
+/// The bodies of an episode, its joints as they are or guessed from their types.
+fn bodies(episode: &Episode, guessed: bool) -> Bodies {
+    let guess;
+    let scene = if guessed {
+        guess = episode.scene.guess_joints();
+        &guess
+    } else {
+        &episode.scene
+    };
+    Bodies::new(scene, &episode.motion.tool, episode.motion.lift, None)
 }
 
 /// The tool's motion between frame `index` and the next, and the unit vector of its stroke.

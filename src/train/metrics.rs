@@ -23,6 +23,9 @@ pub struct HeldOutError {
     pub heading: f64,
     /// The same over episodes with a single object.
     pub single: Option<Box<HeldOutError>>,
+    /// The same over episodes with more than three.
+    #[serde(default)]
+    pub crowd: Option<Box<HeldOutError>>,
 }
 
 /// One line of `metrics.jsonl`.

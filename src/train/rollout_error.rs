@@ -18,9 +18,12 @@ const MOVED: f64 = 0.01;
 /// Cap of a single error in the criterion, metres.
 const CAP: f64 = 0.03;
 
-/// One counted object: error in metres, heading error in radians (cuboids), whether it is the
-/// only object of its scene.
-type Sample = (f64, Option<f64>, bool);
+/// One counted object: error in metres, heading error in radians (cuboids), number of objects
+/// in its scene.
+type Sample = (f64, Option<f64>, usize);
+
+/// Scenes with more objects than this are crowds: those with tools have no more.
+const FEW: usize = 3;
 
 /// Rolls every episode out from its first frame and compares the last.
 pub fn rollout_error(engine: &Engine, episodes: &[Episode], step: u64) -> HeldOutError {
@@ -29,8 +32,15 @@ pub fn rollout_error(engine: &Engine, episodes: &[Episode], step: u64) -> HeldOu
         .map_init(Workspace::default, |workspace, episode| samples(engine, episode, workspace))
         .flatten_iter()
         .collect();
-    let single: Vec<Sample> = samples.iter().copied().filter(|s| s.2).collect();
-    HeldOutError { single: Some(Box::new(summary(&single, step))), ..summary(&samples, step) }
+    let part = |wanted: &dyn Fn(usize) -> bool| {
+        let part: Vec<Sample> = samples.iter().copied().filter(|s| wanted(s.2)).collect();
+        (!part.is_empty()).then(|| Box::new(summary(&part, step)))
+    };
+    HeldOutError {
+        single: part(&|objects| objects == 1),
+        crowd: part(&|objects| objects > FEW),
+        ..summary(&samples, step)
+    }
 }
 
 fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec<Sample> {
@@ -42,7 +52,6 @@ fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec
         engine.forward(batch, workspace, corrections);
     });
     let predicted = predicted[0].outcome();
-    let single = episode.scene.objects.len() == 1;
     let mut found = Vec::new();
     for (k, object) in episode.scene.objects.iter().enumerate() {
         let (start, end) = (first.state.poses[k], last.state.poses[k]);
@@ -52,7 +61,7 @@ fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec
         let guess = predicted.poses[k];
         let heading =
             (!object.shape.is_cylinder()).then(|| wrap_angle(guess.heading - end.heading).abs());
-        found.push(((guess.position - end.position).norm(), heading, single));
+        found.push(((guess.position - end.position).norm(), heading, episode.scene.objects.len()));
     }
     found
 }
@@ -77,5 +86,6 @@ fn summary(samples: &[Sample], step: u64) -> HeldOutError {
         capped: mean(&mut errors.iter().map(|e| e.min(CAP))),
         heading: mean(&mut samples.iter().filter_map(|s| s.1)),
         single: None,
+        crowd: None,
     }
 }
