@@ -65,20 +65,24 @@ pub struct Groups {
     pub places: Vec<Pose>,
 }
 
+/// For every object the lowest one that joints of the wanted kinds connect it with.
+fn connected(scene: &Scene, wanted: impl Fn(&JointKind) -> bool) -> Vec<usize> {
+    let mut lowest: Vec<usize> = (0..scene.objects.len()).collect();
+    for _ in 0..scene.joints.len() {
+        for joint in scene.joints.iter().filter(|joint| wanted(&joint.kind)) {
+            let [a, b] = joint.between;
+            let low = lowest[a].min(lowest[b]);
+            (lowest[a], lowest[b]) = (low, low);
+        }
+    }
+    lowest
+}
+
 impl Groups {
     fn new(scene: &Scene) -> Self {
-        let count = scene.objects.len();
-        let mut lowest: Vec<usize> = (0..count).collect();
-        let fixed = || scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed);
-        for _ in 0..count {
-            for [a, b] in fixed().map(|joint| joint.between) {
-                let low = lowest[a].min(lowest[b]);
-                (lowest[a], lowest[b]) = (low, low);
-            }
-        }
         let mut groups = Self::default();
-        for object in 0..count {
-            let first = lowest[object];
+        let lowest = connected(scene, |kind| *kind == JointKind::Fixed);
+        for (object, first) in lowest.into_iter().enumerate() {
             if first == object {
                 groups.of.push(groups.members.len());
                 groups.members.push(vec![object]);
@@ -107,6 +111,8 @@ pub struct Bodies {
     pub joints: Vec<Jointed>,
     /// Objects that fixed joints make one rigid body, single ones included.
     pub groups: Groups,
+    /// For every object the lowest one that joints of any kind connect it with.
+    pub mechanisms: Vec<usize>,
 }
 
 /// A planar displacement and the velocity at its end.
@@ -197,6 +203,8 @@ impl Bodies {
                 guessed: joint.guessed,
             })
             .collect();
-        Self { objects, parts, obstacles, joints, groups: Groups::new(scene) }
+        let groups = Groups::new(scene);
+        let mechanisms = connected(scene, |_| true);
+        Self { objects, parts, obstacles, joints, groups, mechanisms }
     }
 }

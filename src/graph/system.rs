@@ -43,6 +43,10 @@ const GIVE: f64 = 2e-3;
 /// the contact wedges, which these equations cannot answer.
 const MIN_COMPLIANCE: f64 = 0.2;
 
+/// A contact without force counts only when it is violated by more than this, metres: rounding
+/// must not decide it.
+const OPEN: f64 = 1e-9;
+
 /// Index of a body whose motion is given.
 pub(super) const GIVEN: usize = usize::MAX;
 
@@ -266,7 +270,7 @@ impl System {
             active.fill(0.0);
             for constraint in constraints.iter() {
                 let pressed = constraint.trial.x > 0.0;
-                if pressed || constraint.target[0] > constraint.values(unknowns).x {
+                if pressed || constraint.target[0] > constraint.values(unknowns).x + OPEN {
                     active[mechanism[constraint.a]] += 1.0;
                     if constraint.b != GIVEN && mechanism[constraint.b] != mechanism[constraint.a] {
                         active[mechanism[constraint.b]] += 1.0;

@@ -2,11 +2,12 @@
 //! after every frame.
 //!
 //! Members of a fixed group get the rigid motion nearest to theirs; groups are then moved
-//! against each other until every revolute and prismatic joint, and every limit, is met. All
-//! moves are weighted by masses and moments of inertia, so that momentum is kept (position
-//! based dynamics, Müller et al. 2007, doi:10.1016/j.jvcir.2007.01.005).
+//! against each other until every revolute and prismatic joint, and every limit, is met: the
+//! smallest move, weighted by masses and moments of inertia, so that momentum is kept (the
+//! projection of position based dynamics, Müller et al. 2007,
+//! doi:10.1016/j.jvcir.2007.01.005, for all joints at once).
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector};
 
 use crate::{
     geometry::{Pose, Vector, cross, perpendicular, wrap_angle},
@@ -14,9 +15,9 @@ use crate::{
     scene::{JointKind, State},
 };
 
-/// Sweeps over all joints, and the error at which they end, metres.
-const SWEEPS: usize = 24;
-const HELD: f64 = 1e-7;
+/// Newton steps, and the error at which they end, metres.
+const STEPS: usize = 8;
+const HELD: f64 = 1e-10;
 
 /// What turns an angle's error into metres.
 const ARM: f64 = 0.05;
@@ -33,41 +34,56 @@ struct Group {
     ease: f64,
 }
 
-/// Brings poses and velocities of jointed objects to what their joints allow.
-pub fn hold(bodies: &Bodies, state: &mut State) {
-    // A guessed axis is no reason to move anything.
-    let joints: Vec<&Jointed> = bodies.joints.iter().filter(|joint| !joint.guessed).collect();
+/// Brings poses and velocities of jointed objects to what their joints allow, wherever one of
+/// those that `moved` says is among them.
+pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
+    if bodies.joints.is_empty() {
+        return;
+    }
+    let mut touched = vec![false; bodies.objects.len()];
+    for (object, &mechanism) in bodies.mechanisms.iter().enumerate() {
+        touched[mechanism] |= moved(object);
+    }
+    let wanted = |joint: &Jointed| {
+        // A guessed axis is no reason to move anything.
+        !joint.guessed && touched[bodies.mechanisms[joint.between[0]]]
+    };
+    let joints: Vec<&Jointed> = bodies.joints.iter().filter(|joint| wanted(joint)).collect();
     if joints.is_empty() {
         return;
     }
     let mut groups: Vec<Group> =
         (0..bodies.groups.members.len()).map(|index| gather(bodies, state, index)).collect();
-    // Where every object sits in its group.
-    let places: Vec<Pose> = place(bodies);
-    for sweep in 0..SWEEPS {
-        let mut error: f64 = 0.0;
-        let count = joints.len();
-        for k in 0..count {
-            // There and back again, so that no end of a chain is preferred.
-            let joint = joints[if sweep % 2 == 0 { k } else { count - 1 - k }];
-            error = error.max(meet(bodies, joint, &places, &mut groups));
-        }
-        if error < HELD {
+    let places = place(bodies);
+    let mut limited = vec![false; joints.len()];
+    for _ in 0..STEPS {
+        let rows = rows(bodies, &joints, &places, &groups, &mut limited);
+        let missing = rows.iter().map(|row| row.missing.abs()).fold(0.0, f64::max);
+        if missing < HELD {
             break;
+        }
+        for (row, share) in rows.iter().zip(&solve(&rows, &groups, |row| row.missing)) {
+            row.each_side(&mut groups, |group, shift, turn| {
+                group.pose.position += shift * (share * group.lightness);
+                group.pose.heading += turn * share * group.ease;
+            });
         }
     }
-    for _ in 0..SWEEPS / 4 {
-        let mut error: f64 = 0.0;
-        for joint in &joints {
-            error = error.max(calm(bodies, joint, &places, &mut groups));
-        }
-        if error < HELD {
-            break;
-        }
+    let rows = rows(bodies, &joints, &places, &groups, &mut limited);
+    let speed = |row: &Row| {
+        let [a, b] = row.between.map(|index| &groups[index]);
+        let of = |group: &Group, turn: f64| row.shift.dot(&group.velocity) + turn * group.spin;
+        of(a, row.turns[0]) - of(b, row.turns[1])
+    };
+    let shares = solve(&rows, &groups, speed);
+    for (row, share) in rows.iter().zip(&shares) {
+        row.each_side(&mut groups, |group, shift, turn| {
+            group.velocity += shift * (share * group.lightness);
+            group.spin += turn * share * group.ease;
+        });
     }
     for (object, &group) in bodies.groups.of.iter().enumerate() {
-        let alone = bodies.groups.members[group].len() == 1;
-        if alone && !joints.iter().any(|joint| joint.between.contains(&object)) {
+        if !joints.iter().any(|joint| joint.between.contains(&object)) {
             continue;
         }
         let Group { pose, velocity, spin, .. } = groups[group];
@@ -109,21 +125,32 @@ fn gather(bodies: &Bodies, state: &State, index: usize) -> Group {
     let velocity = centre(bodies, members, |k| state.velocities[k].linear);
     let places = &bodies.groups.places;
     let middle = centre(bodies, members, |k| places[k].position);
-    let base = state.poses[members[0]].heading;
-    let (mut inertia, mut turn, mut spin) = (0.0, 0.0, 0.0);
+    let (mut inertia, mut spin) = (0.0, 0.0);
     for &k in members {
         let mass = bodies.objects[k].mass;
-        let wanted = Pose::new(0.0, 0.0, base).vector(places[k].position - middle);
         let arm = state.poses[k].position - position;
-        let off = wrap_angle(state.poses[k].heading - base - places[k].heading);
-        inertia += mass * wanted.norm_squared() + own(k);
-        turn += mass * cross(wanted, arm) + own(k) * off;
+        inertia += mass * (places[k].position - middle).norm_squared() + own(k);
         spin += mass * cross(arm, state.velocities[k].linear - velocity)
             + own(k) * state.velocities[k].angular;
     }
+    // Two steps bring the best heading from that of the first member to rounding.
+    let mut base = state.poses[members[0]].heading;
+    for _ in 0..STEPS {
+        let mut turn = 0.0;
+        for &k in members {
+            let wanted = Pose::new(0.0, 0.0, base).vector(places[k].position - middle);
+            let arm = state.poses[k].position - position;
+            let off = wrap_angle(state.poses[k].heading - base - places[k].heading);
+            turn += bodies.objects[k].mass * cross(wanted, arm) + own(k) * off;
+        }
+        base += turn / inertia;
+        if (turn / inertia).abs() < HELD {
+            break;
+        }
+    }
     let mass: f64 = members.iter().map(|&k| bodies.objects[k].mass).sum();
     Group {
-        pose: Pose { position, heading: base + turn / inertia },
+        pose: Pose { position, heading: base },
         velocity,
         spin: spin / inertia,
         lightness: 1.0 / mass,
@@ -131,144 +158,115 @@ fn gather(bodies: &Bodies, state: &State, index: usize) -> Group {
     }
 }
 
-/// Where the joint's frame lies on either object now.
-fn frames(bodies: &Bodies, joint: &Jointed, places: &[Pose], groups: &[Group]) -> [Pose; 2] {
-    [0, 1].map(|end| {
-        let object = joint.between[end];
-        groups[bodies.groups.of[object]].pose * places[object] * joint.frames[end]
-    })
+/// One scalar equation: what the second group's displacement beyond the first's must be.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// The two groups.
+    between: [usize; 2],
+    /// Direction of displacement, zero for a turn.
+    shift: Vector,
+    /// What a turn of either group contributes, metres per radian.
+    turns: [f64; 2],
+    /// Metres.
+    missing: f64,
 }
 
-/// What a joint asks of its second body against the first: two directions of displacement at
-/// the second's frame (or a turn), each with what is missing, metres.
-fn asked(joint: &Jointed, on: &[Pose; 2]) -> [Option<(Ask, f64)>; 3] {
-    let apart = on[1].position - on[0].position;
-    let turned = wrap_angle(on[1].heading - on[0].heading);
-    let beyond = |value: f64| {
-        joint.limits.map_or(0.0, |limits| value.clamp(limits.low, limits.high) - value)
-    };
-    match joint.kind {
-        JointKind::Fixed => [None; 3],
-        JointKind::Revolute { .. } => [
-            Some((Ask::Shift(Vector::x()), -apart.x)),
-            Some((Ask::Shift(Vector::y()), -apart.y)),
-            Some((Ask::Turn, beyond(turned) * ARM)).filter(|ask| ask.1 != 0.0),
-        ],
-        JointKind::Prismatic { .. } => {
-            let slide = on[0].vector(Vector::x());
-            let across = perpendicular(slide);
-            [
-                Some((Ask::Shift(across), -apart.dot(&across))),
-                Some((Ask::Turn, -turned * ARM)),
-                Some((Ask::Shift(slide), beyond(apart.dot(&slide)))).filter(|ask| ask.1 != 0.0),
-            ]
+impl Row {
+    fn of_shift(between: [usize; 2], arms: [Vector; 2], direction: Vector, missing: f64) -> Self {
+        let turns = arms.map(|arm| cross(arm, direction));
+        Self { between, shift: direction, turns, missing }
+    }
+
+    fn of_turn(between: [usize; 2], missing: f64) -> Self {
+        Self { between, shift: Vector::zeros(), turns: [ARM; 2], missing: missing * ARM }
+    }
+
+    /// Lets `act` move both groups against each other along this row.
+    fn each_side(&self, groups: &mut [Group], mut act: impl FnMut(&mut Group, Vector, f64)) {
+        let [a, b] = self.between;
+        act(&mut groups[a], -self.shift, -self.turns[0]);
+        act(&mut groups[b], self.shift, self.turns[1]);
+    }
+
+    /// The row's entries for group `index`: signed shift and turn.
+    fn side(&self, index: usize) -> Option<(Vector, f64)> {
+        if index == self.between[0] {
+            Some((-self.shift, -self.turns[0]))
+        } else if index == self.between[1] {
+            Some((self.shift, self.turns[1]))
+        } else {
+            None
         }
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Ask {
-    Shift(Vector),
-    Turn,
-}
-
-/// The displacement along an ask per unit of a group's shift and turn.
-fn row(ask: Ask, arm: Vector) -> (Vector, f64) {
-    match ask {
-        Ask::Shift(direction) => (direction, cross(arm, direction)),
-        Ask::Turn => (Vector::zeros(), ARM),
-    }
-}
-
-/// Moves two groups until their joint is met to first order; returns the error there was,
-/// metres.
-fn meet(bodies: &Bodies, joint: &Jointed, places: &[Pose], groups: &mut [Group]) -> f64 {
-    let [a, b] = joint.between.map(|object| bodies.groups.of[object]);
-    if a == b {
-        return 0.0;
-    }
-    let on = frames(bodies, joint, places, groups);
-    let at = on[1].position;
-    let arms = [at - groups[a].pose.position, at - groups[b].pose.position];
-    let [first, second, limit] = asked(joint, &on);
-    let mut error: f64 = 0.0;
-    let mut apply = |asks: [Option<(Ask, f64)>; 2], groups: &mut [Group]| {
-        let missing = asks.map(|ask| ask.map_or(0.0, |(_, missing)| missing));
-        error = error.max(missing[0].abs()).max(missing[1].abs());
-        let shares = solve(asks.map(|ask| ask.map(|(ask, _)| ask)), arms, [a, b], groups, missing);
-        for (ask, share) in asks.iter().zip(shares) {
-            let Some((ask, _)) = ask else { continue };
-            for (index, arm, sign) in [(b, arms[1], 1.0), (a, arms[0], -1.0)] {
-                let (shift, turn) = row(*ask, arm);
-                let group = &mut groups[index];
-                group.pose.position += shift * (sign * share * group.lightness);
-                group.pose.heading += turn * sign * share * group.ease;
+/// The rows of all joints between different groups. A limit has one once it is exceeded.
+fn rows(
+    bodies: &Bodies,
+    joints: &[&Jointed],
+    places: &[Pose],
+    groups: &[Group],
+    limited: &mut [bool],
+) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(3 * joints.len());
+    for (joint, limited) in joints.iter().zip(limited) {
+        let between = joint.between.map(|object| bodies.groups.of[object]);
+        if between[0] == between[1] {
+            continue;
+        }
+        let on = [0, 1].map(|end| {
+            let place = places[joint.between[end]];
+            groups[between[end]].pose * place * joint.frames[end]
+        });
+        let apart = on[1].position - on[0].position;
+        let turned = wrap_angle(on[1].heading - on[0].heading);
+        let arms = between.map(|index| on[1].position - groups[index].pose.position);
+        let mut beyond = |value: f64| {
+            let held = joint.limits.map(|limits| value.clamp(limits.low, limits.high) - value);
+            *limited |= held.is_some_and(|held| held != 0.0);
+            held.filter(|_| *limited)
+        };
+        match joint.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { .. } => {
+                rows.push(Row::of_shift(between, arms, Vector::x(), -apart.x));
+                rows.push(Row::of_shift(between, arms, Vector::y(), -apart.y));
+                rows.extend(beyond(turned).map(|held| Row::of_turn(between, held)));
+            }
+            JointKind::Prismatic { .. } => {
+                let slide = on[0].vector(Vector::x());
+                let across = perpendicular(slide);
+                rows.push(Row::of_shift(between, arms, across, -apart.dot(&across)));
+                rows.push(Row::of_turn(between, -turned));
+                let slid = apart.dot(&slide);
+                let held = beyond(slid);
+                rows.extend(held.map(|held| Row::of_shift(between, arms, slide, held)));
             }
         }
-    };
-    apply([first, second], groups);
-    if limit.is_some() {
-        apply([limit, None], groups);
     }
-    error
+    rows
 }
 
-/// Takes the velocities out of a joint's held directions; returns the speed there was, m/s.
-fn calm(bodies: &Bodies, joint: &Jointed, places: &[Pose], groups: &mut [Group]) -> f64 {
-    let [a, b] = joint.between.map(|object| bodies.groups.of[object]);
-    if a == b {
-        return 0.0;
-    }
-    let on = frames(bodies, joint, places, groups);
-    let at = on[1].position;
-    let arms = [at - groups[a].pose.position, at - groups[b].pose.position];
-    let [first, second, _] = asked(joint, &on);
-    let asks = [first, second].map(|ask| ask.map(|(ask, _)| ask));
-    let missing = asks.map(|ask| {
-        ask.map_or(0.0, |ask| {
-            let speed = |index: usize, arm| {
-                let (shift, turn) = row(ask, arm);
-                shift.dot(&groups[index].velocity) + turn * groups[index].spin
-            };
-            speed(a, arms[0]) - speed(b, arms[1])
-        })
-    });
-    let shares = solve(asks, arms, [a, b], groups, missing);
-    for (ask, share) in asks.iter().zip(shares) {
-        let Some(ask) = ask else { continue };
-        for (index, arm, sign) in [(b, arms[1], 1.0), (a, arms[0], -1.0)] {
-            let (shift, turn) = row(*ask, arm);
-            let group = &mut groups[index];
-            group.velocity += shift * (sign * share * group.lightness);
-            group.spin += turn * sign * share * group.ease;
+/// The impulses along the rows that together make up for what each of them is missing.
+fn solve(rows: &[Row], groups: &[Group], missing: impl Fn(&Row) -> f64) -> DVector<f64> {
+    let count = rows.len();
+    let mut coupling = DMatrix::zeros(count, count);
+    for (p, first) in rows.iter().enumerate() {
+        for (q, second) in rows.iter().enumerate() {
+            for index in first.between {
+                let (Some((s, t)), Some((u, v))) = (first.side(index), second.side(index)) else {
+                    continue;
+                };
+                let Group { lightness, ease, .. } = groups[index];
+                coupling[(p, q)] += s.dot(&u) * lightness + t * v * ease;
+            }
         }
+        // Rows of a forest of joints are independent but for limits that say the same twice.
+        coupling[(p, p)] *= 1.0 + 1e-9;
     }
-    missing[0].abs().max(missing[1].abs())
-}
-
-/// The impulses along one or two asks that make up for what is `missing`.
-fn solve(
-    asks: [Option<Ask>; 2],
-    arms: [Vector; 2],
-    [a, b]: [usize; 2],
-    groups: &[Group],
-    missing: [f64; 2],
-) -> [f64; 2] {
-    let coupling = |p: Ask, q: Ask| {
-        let own = |index: usize, arm| {
-            let ((s, t), (u, v)) = (row(p, arm), row(q, arm));
-            s.dot(&u) * groups[index].lightness + t * v * groups[index].ease
-        };
-        own(a, arms[0]) + own(b, arms[1])
-    };
-    match asks {
-        [Some(p), Some(q)] => {
-            let cross = coupling(p, q);
-            let k = Matrix2::new(coupling(p, p), cross, cross, coupling(q, q));
-            let found = k.try_inverse().unwrap_or_else(Matrix2::zeros) * Vector2::from(missing);
-            [found.x, found.y]
-        }
-        [Some(p), None] => [missing[0] / coupling(p, p), 0.0],
-        _ => [0.0, 0.0],
+    let missing = DVector::from_iterator(count, rows.iter().map(missing));
+    match coupling.cholesky() {
+        Some(factor) => factor.solve(&missing),
+        None => DVector::zeros(count),
     }
 }

@@ -41,7 +41,7 @@ pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &
             state.velocities[k] = Velocity::default();
         }
     }
-    hold(bodies, state);
+    hold(bodies, state, |object| motions[object] != Motion::default());
     let after = kinetic_energy(bodies, state);
     if coasting && after > before {
         let share = (before / after).sqrt();

@@ -113,7 +113,7 @@ impl<'a> Examples<'a> {
                 let bodies = bodies(episode, guessed);
                 if !random.random_bool(noise.clean) {
                     disturb(&mut state, noise, &mut random);
-                    hold(&bodies, &mut state);
+                    hold(&bodies, &mut state, |_| true);
                 }
                 Start { episode, bodies, frame, at: frame - lead, state }
             })

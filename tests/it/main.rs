@@ -8,6 +8,7 @@ mod crowd_errors;
 mod crowds;
 mod dataset;
 mod evaluation;
+mod jointed;
 mod network;
 mod planning;
 mod readme;
