@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
 use crate::asset::write_atomic;
 use crate::brdpn::Config;
 use crate::dataset::{Dataset, DatasetConfig};
 use crate::report::{millimetres, training_chart};
-use crate::train::{CheckpointError, MetricLine, Report, Settings, TrainError, train};
+use crate::train::{CheckpointError, Exposure, MetricLine, Report, Settings, TrainError, train};
 
 use super::{
     error::CliError,
@@ -82,9 +82,23 @@ pub struct TrainArgs {
     /// Largest number of frames that the network's own rollout leads up to an example
     #[arg(long, value_name = "N", default_value_t = Settings::default().noise.lead)]
     lead: usize,
+    /// How that number is drawn
+    #[arg(long, value_enum, default_value_t = ExposureName::Pushforward)]
+    exposure: ExposureName,
     /// Seed of first weights, batches and noise
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     seed: u64,
+}
+
+/// [`Exposure`] with words for `--help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ExposureName {
+    /// Any number of frames, each equally often
+    Pushforward,
+    /// Scheduled sampling: each frame with a probability that rises from zero to one
+    Scheduled,
+    /// Every start is followed for all of the frames, and every one is an example
+    MultiStep,
 }
 
 /// Shows how far training is, and stops it on Ctrl-C.
@@ -153,6 +167,11 @@ impl TrainArgs {
         };
         settings.noise.shift = self.noise;
         settings.noise.lead = self.lead;
+        settings.noise.exposure = match self.exposure {
+            ExposureName::Pushforward => Exposure::Pushforward,
+            ExposureName::Scheduled => Exposure::Scheduled,
+            ExposureName::MultiStep => Exposure::MultiStep,
+        };
         for (name, even) in [("--width", self.width), ("--batch", self.batch)] {
             if even % 2 == 1 {
                 let message = format!("{name} must be even, not {even}");

@@ -25,9 +25,30 @@ pub struct Noise {
     pub turn_per_metre: f64,
     /// Share of examples left undisturbed.
     pub clean: f64,
-    /// Largest number of frames that the network's own rollout leads up to an example
-    /// (the "pushforward" of Brandstetter, Worrall and Welling 2022); 0 for none.
+    /// Largest number of frames that the network's own rollout leads up to an example; 0 for
+    /// none.
     pub lead: usize,
+    /// How that number is drawn.
+    #[serde(default)]
+    pub exposure: Exposure,
+}
+
+/// How the network meets states of its own making in training. No gradient flows from a frame
+/// into the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Exposure {
+    /// Any number of frames up to `lead`, each equally often, from the start of training on:
+    /// the "pushforward" of Brandstetter, Worrall and Welling (2022).
+    #[default]
+    Pushforward,
+    /// Scheduled sampling (Bengio, Vinyals, Jaitly and Shazeer 2015; Tekden 2020, 8.1.2): each
+    /// of the last `lead` frames is the network's own, given the later ones are, with a
+    /// probability that rises evenly from zero to one over the run.
+    Scheduled,
+    /// A loss over several steps: every start is followed for `lead` frames of its own, and
+    /// every one of them is an example. As many examples a step, from fewer starts.
+    MultiStep,
 }
 
 /// Share of the examples with joints whose geometry is only guessed from their types.
@@ -39,7 +60,13 @@ impl Noise {
 
 impl Default for Noise {
     fn default() -> Self {
-        Self { shift: 1e-3, turn_per_metre: 20.0, clean: 0.2, lead: 4 }
+        Self {
+            shift: 1e-3,
+            turn_per_metre: 20.0,
+            clean: 0.2,
+            lead: 4,
+            exposure: Exposure::Pushforward,
+        }
     }
 }
 
@@ -88,11 +115,13 @@ impl<'a> Examples<'a> {
         self.places.len()
     }
 
-    /// `count` examples drawn with the random numbers of (`seed`, `step`, `part`).
+    /// `count` examples drawn with the random numbers of (`seed`, `step`, `part`), `progress`
+    /// (0 to 1) of the way through the run.
     pub(super) fn draw(
         &self,
         noise: &Noise,
         (seed, step, part): (u64, u64, u64),
+        progress: f64,
         count: usize,
         engine: Option<&Engine>,
     ) -> Supervised {
@@ -100,14 +129,23 @@ impl<'a> Examples<'a> {
             (u128::from(seed) << 64) | u128::from(step),
             0xa02b_dbf7_bb3c_00a7_u128 ^ (u128::from(part) << 8),
         );
-        let mut starts: Vec<Start<'_>> = (0..count)
+        let multiple = match (noise.exposure, engine) {
+            (Exposure::MultiStep, Some(_)) => noise.lead + 1,
+            _ => 1,
+        };
+        let mut starts: Vec<Start<'_>> = (0..count.div_ceil(multiple))
             .map(|_| {
                 let (e, frame) = self.places[random.random_range(0..self.places.len())];
                 let (episode, frame) = (&self.episodes[e as usize], frame as usize);
-                let lead = match engine {
-                    Some(_) => random.random_range(0..=noise.lead).min(frame),
-                    None => 0,
+                let wanted = match (engine, noise.exposure) {
+                    (None, _) => 0,
+                    (_, Exposure::Pushforward) => random.random_range(0..=noise.lead),
+                    (_, Exposure::Scheduled) => {
+                        (0..noise.lead).take_while(|_| random.random_bool(progress)).count()
+                    }
+                    (_, Exposure::MultiStep) => noise.lead,
                 };
+                let lead = wanted.min(frame);
                 let mut state = episode.frames[frame - lead].state.clone();
                 let guessed = !episode.scene.joints.is_empty() && random.random_bool(GUESSED);
                 let bodies = bodies(episode, guessed);
@@ -119,10 +157,17 @@ impl<'a> Examples<'a> {
             })
             .collect();
         let mut drawn = Supervised::default();
+        let mut led = Batch::default();
         let mut motions = Vec::new();
         if let Some(engine) = engine {
-            lead_up(&mut starts, engine, &mut drawn.batch);
-            drawn.batch.clear();
+            while starts.iter().any(|start| start.at < start.frame) {
+                if multiple > 1 {
+                    for start in starts.iter().filter(|start| start.at < start.frame) {
+                        drawn.add(start, &mut motions);
+                    }
+                }
+                lead_on(&mut starts, engine, &mut led);
+            }
         }
         for start in &starts {
             drawn.add(start, &mut motions);
@@ -142,36 +187,29 @@ struct Start<'a> {
     state: State,
 }
 
-/// Rolls every start on to its frame with the network, one frame of all at a time.
-fn lead_up(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
+/// Rolls every start that is not yet at its frame on by one frame with the network.
+fn lead_on(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
     let mut workspace = Workspace::default();
     let mut corrections = Vec::new();
     let mut motions = vec![Vec::new(); starts.len()];
-    loop {
-        batch.clear();
-        let mut left = false;
-        for (k, start) in starts.iter().enumerate().filter(|(_, start)| start.at < start.frame) {
-            left = true;
-            let (step, axis) = transition(start.episode, start.at);
-            let graph = k as u32;
-            add_graph(&start.bodies, &start.state, &step, axis, graph, batch, &mut motions[k]);
-        }
-        if !left {
-            return;
-        }
-        engine.forward(batch, &mut workspace, &mut corrections);
-        apply(batch, &corrections, &mut motions);
-        for (start, motions) in starts.iter_mut().zip(&motions).filter(|(s, _)| s.at < s.frame) {
-            let (step, _) = transition(start.episode, start.at);
-            integrate(&start.bodies, &mut start.state, motions, &step);
-            start.at += 1;
-        }
+    batch.clear();
+    for (k, start) in starts.iter().enumerate().filter(|(_, start)| start.at < start.frame) {
+        let (step, axis) = transition(start.episode, start.at);
+        let graph = k as u32;
+        add_graph(&start.bodies, &start.state, &step, axis, graph, batch, &mut motions[k]);
+    }
+    engine.forward(batch, &mut workspace, &mut corrections);
+    apply(batch, &corrections, &mut motions);
+    for (start, motions) in starts.iter_mut().zip(&motions).filter(|(s, _)| s.at < s.frame) {
+        let (step, _) = transition(start.episode, start.at);
+        integrate(&start.bodies, &mut start.state, motions, &step);
+        start.at += 1;
     }
 }
 
 impl Supervised {
     fn add(&mut self, start: &Start<'_>, motions: &mut Vec<Motion>) {
-        let Start { episode, bodies, frame, state, .. } = start;
+        let Start { episode, bodies, at: frame, state, .. } = start;
         let first = self.batch.node_count();
         let (step, axis) = transition(episode, *frame);
         add_graph(bodies, state, &step, axis, 0, &mut self.batch, motions);

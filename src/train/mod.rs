@@ -15,7 +15,7 @@ mod settings;
 mod trainer;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
-pub use example::{Examples, Noise};
+pub use example::{Examples, Exposure, Noise};
 pub use metrics::{HeldOutError, MetricLine};
 pub use optimiser::AdamW;
 pub use rollout_error::rollout_error;

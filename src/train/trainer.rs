@@ -164,6 +164,7 @@ fn open(
             let sample = examples.draw(
                 &settings.noise,
                 (settings.seed, u64::MAX, 0),
+                0.0,
                 NORMALISER_GRAPHS,
                 None,
             );
@@ -196,7 +197,8 @@ fn gradients(
         .map(|part| {
             let key = (settings.seed, run.optimiser.step, part);
             let count = settings.batch / REPLICAS;
-            let drawn = examples.draw(&settings.noise, key, count, lead);
+            let progress = run.optimiser.step as f64 / settings.steps as f64;
+            let drawn = examples.draw(&settings.noise, key, progress, count, lead);
             replica(run, drawn)
         })
         .collect::<Result<Vec<_>, candle_core::Error>>()?;
