@@ -37,8 +37,12 @@ impl Session {
     /// # Errors
     /// [`CliError::Unexpected`] if the system refuses that many threads.
     pub fn start(args: &GlobalArgs) -> Result<Self, CliError> {
+        let threads = match args.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => usize::from(threads),
+        };
         let pool = ThreadPoolBuilder::new()
-            .num_threads(usize::from(args.threads))
+            .num_threads(threads)
             .build()
             .map_err(|error| CliError::unexpected("cannot start the threads", &error))?;
         Ok(Self { pool, quiet: args.quiet })
