@@ -270,3 +270,143 @@ fn constrain(bodies: &Bodies, state: &State, joint: &Jointed, axis: Vector, syst
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{Pose, Shape},
+        graph::{coast, contact::find_contacts},
+        scene::{Joint, Object, Obstacle, Part, Scene, Tool},
+    };
+
+    fn cuboid(x: f64, y: f64) -> Object {
+        Object {
+            name: format!("{x} {y}"),
+            shape: Shape::Cuboid { size: [0.06, 0.06, 0.1] },
+            mass: 0.5,
+            friction: 0.5,
+            pose: Pose::new(x, y, 0.0),
+        }
+    }
+
+    fn can(x: f64, y: f64) -> Object {
+        Object { shape: Shape::Cylinder { radius: 0.03, height: 0.1 }, ..cuboid(x, y) }
+    }
+
+    fn table(objects: Vec<Object>) -> Scene {
+        Scene { table_friction: 0.5, objects, ..Scene::default() }
+    }
+
+    /// The motions of one slow frame in which a round finger of 2 cm, its far side touching the
+    /// line x = 0, moves by `travel`.
+    fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
+        let finger = Part {
+            name: "finger".into(),
+            shape: Shape::Cylinder { radius: 0.01, height: 0.1 },
+            pose: Pose::new(-0.01, 0.0, 0.0),
+        };
+        let tool =
+            Tool::assemble("finger".into(), String::new(), Pose::default(), 0.5, vec![finger], &[])
+                .expect("one part is one piece");
+        let bodies = Bodies::new(scene, &tool, 0.002, None);
+        let state = scene.start();
+        let to = Pose { position: travel, heading: 0.0 };
+        let step = FrameStep { from: Pose::default(), to, duration: 0.5 };
+        let coasts: Vec<Motion> = (bodies.objects.iter().zip(&state.velocities))
+            .map(|(body, velocity)| coast(body, velocity, step.duration))
+            .collect();
+        let mut contacts = Vec::new();
+        find_contacts(&bodies, &state, &step, &coasts, &mut contacts);
+        let mut prior = Prior::default();
+        prior.solve(&bodies, &state, &step, Vector::x(), &coasts, &contacts);
+        prior.motions
+    }
+
+    #[test]
+    fn a_push_through_the_centre_only_shifts() {
+        let [motion] = prior(&table(vec![cuboid(0.03, 0.0)]), Vector::new(0.008, 0.0))[..] else {
+            panic!("one object")
+        };
+        assert!((motion.shift - Vector::new(0.008, 0.0)).norm() < 5e-5, "{motion:?}");
+        assert!(motion.turn.abs() < 1e-9, "{motion:?}");
+    }
+
+    /// Lynch, Maekawa and Tanie 1992, eq. 6-8: the twist of a sticking push by the limit surface.
+    #[test]
+    fn an_off_centre_push_that_sticks_turns_the_object_as_its_limit_surface_says() {
+        let scene = table(vec![cuboid(0.03, -0.01)]);
+        let [motion] = prior(&scene, Vector::new(0.005, 0.0))[..] else { panic!("one object") };
+        let c2 = scene.objects[0].shape.footprint().mean_radius().powi(2);
+        let arm = Vector::new(-0.03, 0.01);
+        // The push is along x: shift (c^2 + x^2, x y) / (c^2 + x^2 + y^2) times its length.
+        let share = 0.005 / (c2 + arm.norm_squared());
+        let expected = Vector::new(c2 + arm.x * arm.x, arm.x * arm.y) * share;
+        assert!((motion.shift - expected).norm() < 5e-5, "{motion:?} {expected}");
+        let turn = (arm.x * expected.y - arm.y * expected.x) / c2;
+        assert!((motion.turn - turn).abs() < 2e-3, "{motion:?} {turn}");
+    }
+
+    #[test]
+    fn a_sliding_contact_moves_the_object_along_the_edge_of_the_friction_cone() {
+        let slippery = |object: Object| Object { friction: 0.0, ..object };
+        let scene = Scene { table_friction: 1.0, ..table(vec![slippery(can(0.03, 0.0))]) };
+        let [motion] = prior(&scene, Vector::new(0.004, 0.006))[..] else { panic!("one object") };
+        // Coefficient 0.25 with the finger's 0.5; a disc's rim also turns, which takes no
+        // displacement from its centre.
+        assert!((motion.shift.y / motion.shift.x - 0.25).abs() < 0.01, "{motion:?}");
+        assert!((motion.shift.x - 0.004).abs() < 5e-5, "{motion:?}");
+    }
+
+    #[test]
+    fn a_row_is_pushed_through_to_its_end() {
+        let row = (0..4).map(|k| can(0.03 + 0.06 * f64::from(k), 0.0)).collect();
+        for motion in prior(&table(row), Vector::new(0.01, 0.0)) {
+            // Contacts give way by a share of the load, here that of four cans.
+            assert!((motion.shift - Vector::new(0.01, 0.0)).norm() < 8e-4, "{motion:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_pushed_against_a_wall_stays_finite_and_between() {
+        let mut scene = table(vec![can(0.03, 0.0)]);
+        scene.obstacles.push(Obstacle {
+            name: "wall".into(),
+            size: [0.02, 0.3, 0.1],
+            pose: Pose::new(0.07, 0.0, 0.0),
+            friction: 0.5,
+        });
+        let [motion] = prior(&scene, Vector::new(0.01, 0.0))[..] else { panic!("one object") };
+        assert!(motion.shift.x > 0.0 && motion.shift.x < 0.01, "{motion:?}");
+        assert!(motion.shift.y.abs() < 1e-6 && motion.turn.abs() < 1e-6, "{motion:?}");
+    }
+
+    #[test]
+    fn a_revolute_pair_keeps_its_anchor_and_a_prismatic_one_its_line() {
+        for kind in [
+            JointKind::Revolute { at: Vector::new(0.07, 0.0), limits: None },
+            JointKind::Prismatic { axis: Vector::y(), limits: None },
+        ] {
+            let mut scene = table(vec![can(0.03, -0.015), can(0.11, 0.0)]);
+            scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
+            let motions = prior(&scene, Vector::new(0.008, 0.0));
+            let joint = &scene.joints[0];
+            let frames = joint.frames(&scene.objects);
+            let shifted = |k: usize| {
+                let at = scene.objects[joint.between[k]].pose * frames[k];
+                motions[k].at(at.position - scene.objects[k].pose.position)
+            };
+            let apart = shifted(1) - shifted(0);
+            match kind {
+                JointKind::Revolute { .. } => {
+                    assert!(apart.norm() < 1e-8 + motions[0].turn.powi(2), "{apart}");
+                    assert!((motions[0].turn - motions[1].turn).abs() > 1e-3, "{motions:?}");
+                }
+                _ => {
+                    assert!((motions[0].turn - motions[1].turn).abs() < 1e-9, "{motions:?}");
+                    assert!(motions[1].shift.x > 0.004, "pushed along: {motions:?}");
+                }
+            }
+        }
+    }
+}

@@ -5,7 +5,10 @@ use std::{fs, path::Path};
 use pushplan::{
     brdpn::{Config, Weights},
     dataset::{Dataset, DatasetConfig, Unwatched},
-    train::{Checkpoint, CheckpointError, MetricLine, Report, Settings, TrainError, train},
+    train::{
+        Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Report, Settings, TrainError,
+        train,
+    },
 };
 
 fn settings() -> Settings {
@@ -85,6 +88,25 @@ fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
     let best = Weights::from_bytes(&files(&whole).1).expect("weights");
     assert_eq!(best.card.data_seed, 1);
     assert!(best.card.errors.pushes > 0 && best.card.errors.p95 > 0.0);
+}
+
+#[test]
+fn every_exposure_to_own_states_resumes_to_the_same_bits() {
+    let (data, held_out) = (data(1, 20), data(2, 4));
+    for exposure in [Exposure::Scheduled, Exposure::MultiStep] {
+        let noise = Noise { exposure, ..Noise::default() };
+        let settings = Settings { noise, steps: 100, ..settings() };
+        let folder = tempfile::tempdir().expect("folder");
+        let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+        let mut run = |folder: &Path, stop_at| {
+            let mut listener = Listener { stop_at, ..Listener::default() };
+            train(&settings, &data, &held_out, folder, &mut listener).expect("training");
+        };
+        run(&whole, None);
+        run(&parts, Some(20));
+        run(&parts, None);
+        assert!(files(&whole) == files(&parts), "{exposure:?} ended with other bits");
+    }
 }
 
 #[test]
