@@ -9,8 +9,8 @@ use crate::{
 
 use super::{EffectModel, Learned, Simulated};
 
-/// The trained weights that are part of the library; `models/brdpn-tools.md` says what they are.
-const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn-tools.safetensors");
+/// The trained weights that are part of the library; `models/brdpn.md` says what they are.
+const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn.safetensors");
 
 /// Where effect models come from.
 pub struct EffectModels;

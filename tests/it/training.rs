@@ -17,7 +17,7 @@ fn settings() -> Settings {
         steps: 200,
         batch: 32,
         warm_up: 20,
-        learning_rate: 6e-3,
+        learning_rate: 2e-3,
         evaluate_every: 50,
         ..Settings::default()
     }
@@ -98,7 +98,7 @@ fn every_exposure_to_own_states_resumes_to_the_same_bits() {
         let settings = Settings { noise, steps: 100, ..settings() };
         let folder = tempfile::tempdir().expect("folder");
         let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
-        let mut run = |folder: &Path, stop_at| {
+        let run = |folder: &Path, stop_at| {
             let mut listener = Listener { stop_at, ..Listener::default() };
             train(&settings, &data, &held_out, folder, &mut listener).expect("training");
         };
