@@ -19,12 +19,12 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
 
-use crate::{
-    geometry::{Vector, cross, perpendicular},
-    scene::State,
-};
+use crate::{geometry::Vector, scene::State};
 
-use super::bodies::{Bodies, Motion, Movable};
+use super::{
+    bodies::{Bodies, Motion, Movable},
+    constraint::{Constraint, GIVEN, Tie, along, shift},
+};
 
 /// Iterations between two updates of the weights A, and the most of these updates.
 const ITERATIONS: usize = 10;
@@ -36,19 +36,9 @@ const STUCK: f64 = 1e-4;
 /// A change of a whole round of iterations below this ends them, metres.
 const SETTLED: f64 = 2e-6;
 
-/// Share of its own effect by which a force gives way; keeps forces finite where nothing fits.
-const GIVE: f64 = 2e-3;
-
-/// Smallest share of a sliding contact's own compliance along the normal that counts: below it
-/// the contact wedges, which these equations cannot answer.
-const MIN_COMPLIANCE: f64 = 0.2;
-
 /// A contact without force counts only when it is violated by more than this, metres: rounding
 /// must not decide it.
 const OPEN: f64 = 1e-9;
-
-/// Index of a body whose motion is given.
-pub(super) const GIVEN: usize = usize::MAX;
 
 /// A rigid group and its motion.
 #[derive(Clone, Debug)]
@@ -61,114 +51,6 @@ pub(super) struct Unknown {
     /// Shift of the centre, metres, and turn, radians.
     pub twist: Vector3<f64>,
     pressed: Vector3<f64>,
-}
-
-/// What a constraint allows its two forces to be.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Law {
-    /// The first is not negative and its value becomes at least the target; the second is
-    /// unused.
-    AtLeast,
-    /// The same, and the second lies within the friction cone of the first and draws its value
-    /// to the target.
-    Contact { friction: f64 },
-}
-
-/// Two scalar equations between bodies `a` and `b`: `to . twist(a) - from . twist(b)` against
-/// `target`, metres.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Constraint {
-    pub a: usize,
-    pub b: usize,
-    pub to: [Vector3<f64>; 2],
-    pub from: [Vector3<f64>; 2],
-    pub target: [f64; 2],
-    pub law: Law,
-    pub force: Vector2<f64>,
-    trial: Vector2<f64>,
-    /// J A^-1 J^T of either body.
-    own: [Matrix2<f64>; 2],
-}
-
-impl Constraint {
-    pub fn new(
-        (a, to): (usize, [Vector3<f64>; 2]),
-        (b, from): (usize, [Vector3<f64>; 2]),
-        target: [f64; 2],
-        law: Law,
-    ) -> Self {
-        let (force, trial) = (Vector2::zeros(), Vector2::zeros());
-        Self { a, b, to, from, target, law, force, trial, own: [Matrix2::zeros(); 2] }
-    }
-
-    fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        let mut values = apply(&self.to, &unknowns[self.a].twist);
-        if self.b != GIVEN {
-            values -= apply(&self.from, &unknowns[self.b].twist);
-        }
-        values
-    }
-
-    /// The forces that would meet this constraint if nothing else changed, the compliance
-    /// being `k` and the trial forces what they are.
-    fn answer(&self, k: &Matrix2<f64>, unknowns: &[Unknown]) -> Vector2<f64> {
-        let whole = self.own[0] + self.own[1];
-        let give = GIVE * whole.trace() * 0.5;
-        let left = Vector2::from(self.target) - self.values(unknowns) - self.trial * give;
-        let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
-        match self.law {
-            Law::AtLeast => Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0),
-            Law::Contact { friction } => {
-                let det = knn * ktt - knt * knt;
-                let step =
-                    Vector2::new(ktt * left.x - knt * left.y, knn * left.y - knt * left.x) / det;
-                let stick = self.trial + step;
-                if stick.x >= 0.0 && stick.y.abs() <= friction * stick.x {
-                    return stick;
-                }
-                // Sliding: on the edge of the cone that the sticking force lies beyond.
-                let edge = friction * stick.y.signum();
-                let compliance = (knn + edge * knt).max(MIN_COMPLIANCE * knn);
-                let asked = left.x + knn * self.trial.x + knt * self.trial.y;
-                let pressed = (asked / compliance).max(0.0);
-                Vector2::new(pressed, edge * pressed)
-            }
-        }
-    }
-}
-
-/// Two scalar equations that a joint keeps exactly: `to . twist(b) - from . twist(a) = target`,
-/// metres.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tie {
-    pub a: usize,
-    pub b: usize,
-    pub to: [Vector3<f64>; 2],
-    pub from: [Vector3<f64>; 2],
-    pub target: [f64; 2],
-    pub force: Vector2<f64>,
-}
-
-impl Tie {
-    /// The part of this tie's equations that acts on group `index`.
-    fn side(&self, index: usize) -> Option<[Vector3<f64>; 2]> {
-        if index == self.b {
-            Some(self.to)
-        } else if index == self.a {
-            Some(self.from.map(|from| -from))
-        } else {
-            None
-        }
-    }
-
-    fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        apply(&self.to, &unknowns[self.b].twist) - apply(&self.from, &unknowns[self.a].twist)
-    }
-}
-
-/// The row of the displacement along `direction` of a point `arm` metres from a group's centre.
-pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
-    Vector3::new(direction.x, direction.y, cross(arm, direction))
 }
 
 /// Unknowns and rows of one frame.
@@ -492,11 +374,6 @@ impl System {
     }
 }
 
-/// Displacement of a point `arm` metres from a group's centre, to first order, metres.
-pub(super) fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
-    Vector::new(twist.x, twist.y) + twist.z * perpendicular(arm)
-}
-
 /// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,
 /// N m.
 fn weights(body: &Movable, moved: f64, duration: f64) -> (f64, f64) {
@@ -504,8 +381,4 @@ fn weights(body: &Movable, moved: f64, duration: f64) -> (f64, f64) {
     let inertia = body.mass / (duration * duration);
     let c2 = body.support * body.support;
     (rub + inertia, c2 * (rub + inertia / body.spin))
-}
-
-fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
-    Vector2::new(j[0].dot(twist), j[1].dot(twist))
 }

@@ -25,7 +25,7 @@ pub(super) fn weights(width: usize) -> Weights {
     for name in ["motion.even", "motion.odd"] {
         if let Some(values) = parameters.values.get_mut(name) {
             let count = values.len();
-            values.iter_mut().zip(&like[..count]).for_each(|(value, x)| *value = 0.05 * x);
+            values.iter_mut().zip(&like[..count]).for_each(|(value, x)| *value = 0.02 * x);
         }
     }
     let batch = batch(&scene(), &scene().start(), &stroke());
@@ -197,7 +197,9 @@ fn mirroring_the_scene_mirrors_the_prediction() {
 #[test]
 fn the_order_of_objects_and_parts_does_not_matter() {
     let model = Learned::new(weights(64));
-    let (scene, stroke) = (scene(), stroke());
+    // Half the way: a random network soon makes centimetres of the last bit's rounding.
+    let to = Pose::new(0.05, 0.01, 0.0);
+    let (scene, stroke) = (scene(), Stroke { to, duration: 0.5, settle: false, ..stroke() });
     let plain = rollout(&model, &scene, stroke);
     let mut other = scene.clone();
     other.objects.reverse();
@@ -247,9 +249,9 @@ fn a_golden_forward_pass() {
 
 /// Printed by this test when the network was last found equal to its candle graph.
 const GOLDEN: [[f64; 6]; 3] = [
-    [-0.15353, -0.00545, -0.00714, 0.06169, 0.01666, 0.05027],
-    [0.18455, 0.13681, -0.05203, 0.00500, -0.02123, 0.07939],
-    [-0.12124, 0.03061, 0.00020, 0.01878, 0.00891, 0.02913],
+    [-0.06141, -0.00218, -0.00286, 0.02468, 0.00666, 0.02011],
+    [0.07382, 0.05473, -0.02081, 0.00200, -0.00849, 0.03176],
+    [-0.04849, 0.01224, 0.00008, 0.00751, 0.00356, 0.01165],
 ];
 
 #[test]
