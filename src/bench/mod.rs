@@ -10,6 +10,7 @@ mod inference;
 mod random_task;
 mod refinement;
 mod statistics;
+mod store;
 mod suite;
 mod timing;
 
@@ -22,5 +23,8 @@ pub use inference::{InferenceCost, inference_costs};
 pub use random_task::random_task;
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use statistics::{Summary, mean, percentile};
+pub use store::{
+    Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, merge_runs,
+};
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};

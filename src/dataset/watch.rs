@@ -1,8 +1,8 @@
-//! How a caller follows, and stops, a generation.
+//! How a caller follows, and stops, a long job.
 
-/// Follows a long generation. Called from many threads.
+/// Follows a long job of many units: episodes, or tasks of a benchmark. Called from many threads.
 pub trait Watch: Sync {
-    /// `done` of `total` episodes are finished.
+    /// `done` of `total` units are finished.
     fn progress(&self, done: u64, total: u64) {
         let _ = (done, total);
     }
@@ -12,7 +12,7 @@ pub trait Watch: Sync {
         let _ = message;
     }
 
-    /// Whether to stop; asked before every episode.
+    /// Whether to stop; asked before every unit.
     fn cancelled(&self) -> bool {
         false
     }

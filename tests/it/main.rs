@@ -3,6 +3,7 @@
 mod architecture;
 mod assets;
 mod baselines;
+mod bench_store;
 mod cli;
 mod crowd_errors;
 mod crowds;

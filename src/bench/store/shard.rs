@@ -1,0 +1,123 @@
+//! Which part of a benchmark a run measures.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Shard `number` of `of`: the tasks whose index leaves `number - 1` when divided by `of`, so
+/// that kinds which take turns are spread evenly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "Numbers", into = "Numbers")]
+pub struct Shard {
+    number: usize,
+    of: usize,
+}
+
+/// Numbers that name no shard.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("a shard is written i/n, from 1/n to n/n with n at most {most}; `{text}` is none", most = Shard::MOST)]
+pub struct ShardError {
+    text: String,
+}
+
+/// A shard as the manifest holds it.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Numbers {
+    number: usize,
+    of: usize,
+}
+
+impl Shard {
+    /// Most shards of a run: more files than anybody wants to merge.
+    pub const MOST: usize = 100_000;
+
+    /// The only shard of a run that is not split.
+    pub const WHOLE: Shard = Shard { number: 1, of: 1 };
+
+    /// Shard `number`, from 1, of `of`.
+    ///
+    /// # Errors
+    /// If there is no such shard.
+    pub fn new(number: usize, of: usize) -> Result<Self, ShardError> {
+        if (1..=of).contains(&number) && of <= Self::MOST {
+            Ok(Self { number, of })
+        } else {
+            Err(ShardError { text: format!("{number}/{of}") })
+        }
+    }
+
+    /// Its number, from 1.
+    pub fn number(self) -> usize {
+        self.number
+    }
+
+    /// How many shards there are.
+    pub fn of(self) -> usize {
+        self.of
+    }
+
+    /// Indices of its tasks among `count`, ascending.
+    pub fn indices(self, count: usize) -> impl ExactSizeIterator<Item = usize> + Clone {
+        (self.number - 1..count.max(self.number - 1)).step_by(self.of)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = ShardError;
+
+    fn from_str(text: &str) -> Result<Self, ShardError> {
+        let wrong = || ShardError { text: text.to_owned() };
+        let (number, of) = text.split_once('/').ok_or_else(wrong)?;
+        let number = number.parse().map_err(|_| wrong())?;
+        Shard::new(number, of.parse().map_err(|_| wrong())?)
+    }
+}
+
+impl TryFrom<Numbers> for Shard {
+    type Error = ShardError;
+
+    fn try_from(numbers: Numbers) -> Result<Self, ShardError> {
+        Shard::new(numbers.number, numbers.of)
+    }
+}
+
+impl From<Shard> for Numbers {
+    fn from(shard: Shard) -> Self {
+        Self { number: shard.number, of: shard.of }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_task_is_in_one_shard() {
+        for (count, of) in [(0, 1), (1, 3), (7, 3), (9, 3), (10, 4)] {
+            let mut all: Vec<usize> = (1..=of)
+                .flat_map(|number| Shard::new(number, of).expect("a shard").indices(count))
+                .collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..count).collect::<Vec<_>>(), "{count} tasks in {of} shards");
+        }
+    }
+
+    #[test]
+    fn what_is_no_shard_is_refused() {
+        assert_eq!("2/4".parse(), Shard::new(2, 4));
+        for text in ["", "2", "0/4", "5/4", "1/0", "-1/2", "1/2/3", "1/100001", "a/b"] {
+            let error = text.parse::<Shard>().expect_err(text);
+            assert!(error.to_string().contains(&format!("`{text}` is none")), "{error}");
+        }
+        assert!(serde_json::from_str::<Shard>(r#"{"number": 3, "of": 2}"#).is_err());
+    }
+}
