@@ -85,20 +85,19 @@ pub(super) const EXTENTS: Value = numbers(&SIZE, 3);
 
 /// A solid standing upright.
 pub(super) const SHAPE: Value = Value::Variant(&[
-    Key::optional(
-        "cylinder",
-        Value::Map(&[
-            Key::required("radius", SIZE, "Radius in metres."),
-            Key::required("height", SIZE, "Height in metres."),
-        ]),
-        "An upright cylinder; no default.",
-    ),
-    Key::optional(
-        "cuboid",
-        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
-        "A cuboid with its faces along its own axes; no default.",
-    ),
+    Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
+    Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
 ]);
+
+/// The extents of a cylinder.
+pub(super) const CYLINDER: Value = Value::Map(&[
+    Key::required("radius", SIZE, "Radius in metres."),
+    Key::required("height", SIZE, "Height in metres."),
+]);
+
+/// The extents of a cuboid.
+pub(super) const CUBOID: Value =
+    Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]);
 
 /// A turn or direction.
 pub(super) const ANGLE: Value =

@@ -37,7 +37,7 @@ pub struct GenerateArgs {
     seed: u64,
     /// Family of scenes
     #[arg(long, value_enum, default_value_t)]
-    preset: PresetName,
+    preset: Preset,
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
@@ -53,34 +53,6 @@ pub struct GenerateArgs {
     /// Episodes in one file; an interruption loses at most one file's worth
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes_per_shard)]
     episodes_per_shard: u64,
-}
-
-/// [`Preset`] with words for `--help`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum PresetName {
-    /// One to three objects, sometimes obstacles, random tools of cuboids
-    #[default]
-    Tools,
-    /// A crowd, scattered; a round hand makes seven or eight 30 cm strokes, one after another
-    Sparse,
-    /// A crowd, scattered; one long straight stroke
-    SparseLine,
-    /// A crowd in a grid, almost touching; one 50 cm stroke
-    Dense,
-    /// Episodes of all of them, a third of the frames with tools: for training
-    Mixed,
-}
-
-impl PresetName {
-    pub(super) fn preset(self) -> Preset {
-        match self {
-            PresetName::Tools => Preset::Tools,
-            PresetName::Sparse => Preset::Sparse,
-            PresetName::SparseLine => Preset::SparseLine,
-            PresetName::Dense => Preset::Dense,
-            PresetName::Mixed => Preset::Mixed,
-        }
-    }
 }
 
 /// [`JointRule`] with words for `--help`.
@@ -109,7 +81,7 @@ impl GenerateArgs {
             seed: self.seed,
             episodes: self.episodes,
             episodes_per_shard: self.episodes_per_shard,
-            preset: self.preset.preset(),
+            preset: self.preset,
             constraints: Constraints {
                 objects: self.objects,
                 joints: self.joints.map(|rule| match rule {

@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::asset::SCHEMA_VERSION;
 use crate::effect::Job;
 use crate::report::{
-    Align, Table, degrees, goal_line, millimetres, plan_line, point, push_table, seconds,
+    Align, NONE, Table, degrees, goal_line, millimetres, plan_line, point, push_table, seconds,
 };
 use crate::scene::{Record, State, Task, Trajectory};
 
@@ -135,7 +135,7 @@ fn effect_table(task: &Task, effects: &[Effect]) -> Table {
                 effect.model.clone(),
                 point(end.poses[k].position),
                 millimetres(moved(end, k)),
-                if cylinder { "\u{2013}".to_owned() } else { degrees(turned) },
+                if cylinder { NONE.to_owned() } else { degrees(turned) },
                 if is_goal { millimetres(task.goal.error(end)) } else { String::new() },
                 seconds(effect.seconds),
             ]);

@@ -7,14 +7,14 @@ use indicatif::ProgressBar;
 
 use crate::asset::write_atomic;
 use crate::brdpn::Config;
-use crate::dataset::{Dataset, DatasetConfig};
+use crate::dataset::{Dataset, DatasetConfig, Preset};
 use crate::report::{millimetres, training_chart};
 use crate::train::{CheckpointError, Exposure, MetricLine, Report, Settings, TrainError, train};
 
 use super::{
     error::CliError,
     exit_code,
-    generate::{Following, PresetName, data_error},
+    generate::{Following, data_error},
     interrupt,
     session::Session,
 };
@@ -39,8 +39,8 @@ pub struct TrainArgs {
     #[arg(long, value_name = "DIR", conflicts_with_all = ["episodes", "data_seed"])]
     data: Option<PathBuf>,
     /// Family of the episodes made in memory
-    #[arg(long, value_enum, default_value_t = PresetName::Mixed, conflicts_with = "data")]
-    preset: PresetName,
+    #[arg(long, value_enum, default_value_t = Preset::Mixed, conflicts_with = "data")]
+    preset: Preset,
     /// Number of episodes made in memory
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
     episodes: u64,
@@ -48,10 +48,10 @@ pub struct TrainArgs {
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     data_seed: u64,
     /// Number of held-out episodes
-    #[arg(long, value_name = "N", default_value_t = 500)]
+    #[arg(long, value_name = "N", default_value_t = 600)]
     held_out: u64,
     /// Seed of the held-out episodes; must differ from that of the data
-    #[arg(long, value_name = "N", default_value_t = 1_000_003)]
+    #[arg(long, value_name = "N", default_value_t = 2)]
     held_out_seed: u64,
     /// Steps of the whole schedule
     #[arg(long, value_name = "N", default_value_t = Settings::default().steps,
@@ -118,7 +118,7 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
         let data = match &args.data {
             Some(folder) => Dataset::open(folder)?,
             None => {
-                let preset = args.preset.preset();
+                let preset = args.preset;
                 let default = DatasetConfig { preset, ..DatasetConfig::default() };
                 Dataset::in_memory(&default.split(args.data_seed, args.episodes), &following)?
             }

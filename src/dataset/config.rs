@@ -28,7 +28,7 @@ impl Default for DatasetConfig {
     fn default() -> Self {
         Self {
             seed: 1,
-            episodes: 40_000,
+            episodes: 60_000,
             episodes_per_shard: 512,
             preset: Preset::Tools,
             constraints: Constraints::default(),

@@ -4,11 +4,9 @@ use crate::bench::{CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, Drift};
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
-    number::millimetres,
-    table::{Align, Table},
+    number::{fine_millimetres, millimetres},
+    table::{Align, NONE, Table},
 };
-
-const NONE: &str = "\u{2013}";
 
 /// What was measured: trajectories, seed, how far the objects really moved.
 pub fn crowd_line(report: &CrowdReport) -> String {
@@ -50,7 +48,7 @@ pub fn crowd_table(report: &CrowdReport) -> Table {
         let (all, moved) = (model.all.end.as_ref(), model.moved.end.as_ref());
         table.row([
             name(model, report.trajectories),
-            all.map_or(NONE.to_owned(), |errors| length(errors.mean)),
+            all.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean)),
             share(all, |errors| errors.mean),
             share(all, |errors| errors.median),
             share(all, |errors| errors.p90),
@@ -59,7 +57,7 @@ pub fn crowd_table(report: &CrowdReport) -> Table {
             share(moved, |errors| errors.p90),
             share(model.all.averaged.as_ref(), |errors| errors.mean),
             share(model.moved.averaged.as_ref(), |errors| errors.mean),
-            length(model.overlap),
+            fine_millimetres(model.overlap),
             drift(&model.drift[0]),
             drift(&model.drift[1]),
             drift(&model.drift[2]),
@@ -175,11 +173,6 @@ fn percent(share: f64) -> String {
 fn drift(drift: &Drift) -> String {
     match drift.joints {
         0 => NONE.to_owned(),
-        _ => format!("{} / {}", length(drift.mean), length(drift.max)),
+        _ => format!("{} / {}", fine_millimetres(drift.mean), fine_millimetres(drift.max)),
     }
-}
-
-/// Two digits below a centimetre.
-fn length(metres: f64) -> String {
-    if metres < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
 }

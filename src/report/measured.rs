@@ -5,10 +5,8 @@ use crate::bench::{
 };
 use crate::bench::{SearchCost, Summary};
 
-use super::number::{millimetres, seconds};
-use super::table::{Align, Table};
-
-const NONE: &str = "\u{2013}";
+use super::number::{fine_millimetres, millimetres, seconds};
+use super::table::{Align, NONE, Table};
 
 /// What was measured: pushes, seed, how far the objects really moved.
 pub fn heldout_line(report: &HeldOutReport) -> String {
@@ -168,9 +166,5 @@ fn error_cells(name: &str, row: &ErrorRow) -> [String; 9] {
 }
 
 fn pick(summary: &Option<Summary>, value: impl Fn(&Summary) -> f64) -> String {
-    summary.as_ref().map_or(NONE.to_owned(), |summary| {
-        let metres = value(summary);
-        // Below ten millimetres a tenth is a few per cent: one digit more.
-        if metres < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
-    })
+    summary.as_ref().map_or(NONE.to_owned(), |summary| fine_millimetres(value(summary)))
 }

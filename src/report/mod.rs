@@ -23,5 +23,5 @@ pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text, task_table};
-pub use table::{Align, Table};
+pub use table::{Align, NONE, Table};
 pub use training::training_chart;

@@ -12,6 +12,11 @@ pub fn millimetres(metres: f64) -> String {
     }
 }
 
+/// The same with two digits below a centimetre, where a tenth of a millimetre is a few per cent.
+pub fn fine_millimetres(metres: f64) -> String {
+    if metres.abs() < 0.00995 { format!("{:.2} mm", metres * 1e3) } else { millimetres(metres) }
+}
+
 /// An angle given in radians, in degrees.
 pub fn degrees(radians: f64) -> String {
     let value = radians.to_degrees();
@@ -41,6 +46,9 @@ mod tests {
         assert_eq!(millimetres(0.00312), "3.1 mm");
         assert_eq!(millimetres(0.4127), "413 mm");
         assert_eq!(millimetres(f64::NAN), "not finite");
+        assert_eq!(fine_millimetres(0.00312), "3.12 mm");
+        assert_eq!(fine_millimetres(0.4127), "413 mm");
+        assert_eq!(fine_millimetres(f64::NAN), "not finite");
         assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90.0\u{00b0}");
         assert_eq!(seconds(0.0123), "12.3 ms");
         assert_eq!(seconds(5400.0), "90.0 min");

@@ -5,11 +5,8 @@ use crate::scene::{Outcome, Plan, Task};
 
 use super::{
     number::{degrees, millimetres},
-    table::{Align, Table},
+    table::{Align, NONE, Table},
 };
-
-/// Stands for a number that is not asked for.
-const NONE: &str = "\u{2013}";
 
 /// One line: tool, grip yaw, number of pushes; of a plan to leave things as they are, just that.
 pub fn plan_line(plan: &Plan) -> String {

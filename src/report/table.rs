@@ -1,5 +1,8 @@
 //! Tables for the terminal and for Markdown.
 
+/// What stands in a cell that has no value.
+pub const NONE: &str = "\u{2013}";
+
 /// Side on which a column's cells line up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {

@@ -23,12 +23,7 @@ impl Group {
     /// The bodies of a scene in `state` with these masses (kg), in the order of their first
     /// objects.
     pub fn of(scene: &Scene, state: &State, masses: &[f64]) -> Vec<Group> {
-        let mut first: Vec<usize> = (0..scene.objects.len()).collect();
-        for joint in scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed) {
-            let [a, b] = joint.between.map(|index| first[index]);
-            let (low, high) = (a.min(b), a.max(b));
-            first.iter_mut().filter(|first| **first == high).for_each(|first| *first = low);
-        }
+        let first = scene.groups(|joint| joint.kind == JointKind::Fixed);
         (0..first.len())
             .filter(|&index| first[index] == index)
             .map(|index| {

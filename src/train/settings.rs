@@ -39,7 +39,7 @@ impl Default for Settings {
         Self {
             config: Config::default(),
             seed: 1,
-            steps: 120_000,
+            steps: 60_000,
             batch: 256,
             learning_rate: 2e-3,
             warm_up: 500,

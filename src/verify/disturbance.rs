@@ -32,13 +32,13 @@ impl Disturbance {
         // A fresh stream's first numbers resemble those of its neighbours.
         let mut random = Pcg64::seed_from_u64(random.random());
         let mut start = scene.start();
-        let groups = jointed(scene);
-        for (k, group) in groups.iter().enumerate() {
+        // Moving one side of a joint alone would break it.
+        let groups = scene.groups(|_| true);
+        for first in 0..groups.len() {
             let mut within = |range: f64| random.random_range(-range..=range);
             let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
-            if !group.is_empty() {
-                disturb(&mut start.poses, group, k, shift, turn);
-            }
+            let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
+            disturb(&mut start.poses, &group, first, shift, turn);
         }
         let mut hypothesis = Hypothesis::nominal(scene, tool);
         let values = hypothesis
@@ -50,21 +50,6 @@ impl Disturbance {
         }
         Self { draw, start, hypothesis }
     }
-}
-
-/// For every object the objects that move with it, itself among them, if it is the first of
-/// them; nothing for the others. Moving one side of a joint alone would break it.
-fn jointed(scene: &Scene) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = (0..scene.objects.len()).map(|k| vec![k]).collect();
-    for joint in &scene.joints {
-        let holder = |object| groups.iter().position(|group| group.contains(&object));
-        let [Some(a), Some(b)] = joint.between.map(holder) else { continue };
-        if a != b {
-            let moved = std::mem::take(&mut groups[a.max(b)]);
-            groups[a.min(b)].extend(moved);
-        }
-    }
-    groups
 }
 
 /// Shifts a group and turns it about its object `first`, but only as far as moves none of its

@@ -1,10 +1,8 @@
 //! What a recording may hold.
 
 use crate::asset::saved::VERSION;
-use crate::asset::spec::{
-    ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value,
-};
-use crate::asset::task::{JOINT, OBSTACLE};
+use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
+use crate::asset::task::{self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE};
 use crate::asset::tool::TOOL_KEYS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -14,7 +12,7 @@ pub(super) mod default {
     /// Friction value of objects and pushers: wood or plastic.
     pub const FRICTION: f64 = 0.4;
     /// Height of the pusher's underside above the table, metres, as in tasks.
-    pub const LIFT: f64 = 0.002;
+    pub const LIFT: f64 = crate::asset::task::default::LIFT;
 }
 
 /// What a recording may hold.
@@ -48,11 +46,7 @@ pub(in crate::asset) const RECORDING_KEYS: &[Key] = &[
 const MOST_FRAMES: usize = 100_000;
 
 const SCENE: Value = Value::Map(&[
-    Key::optional(
-        "table",
-        Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
-        "The table; by default of friction 0.5.",
-    ),
+    TABLE,
     Key::required(
         "objects",
         Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
@@ -60,19 +54,15 @@ const SCENE: Value = Value::Map(&[
     ),
     Key::optional(
         "joints",
-        Value::List { of: &JOINT, items: "joints", min: 0, max: 64 },
+        JOINTS,
         "Joints between objects, as they are in the first frame; by default none.",
     ),
-    Key::optional(
-        "obstacles",
-        Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
-        "Cuboids fixed to the table; by default none.",
-    ),
+    OBSTACLES,
 ]);
 
 const OBJECT: Value = Value::Map(&[
-    Key::required("name", Value::Name, "The object's name, unique in the scene."),
-    Key::required("shape", SHAPE, "The object's solid, standing upright."),
+    OBJECT_NAME,
+    OBJECT_SHAPE,
     Key::optional("mass", MASS, "Mass in kg; default 0.5."),
     Key::optional("friction", FRICTION, "Friction value; default 0.4."),
     Key::optional(
@@ -92,15 +82,12 @@ const OBJECT: Value = Value::Map(&[
 pub(super) const PUSHER_KEYS: &[Key] = &[
     Key::optional(
         "cylinder",
-        Value::Map(&[
-            Key::required("radius", SIZE, "Radius in metres."),
-            Key::required("height", SIZE, "Height in metres."),
-        ]),
+        CYLINDER,
         "An upright cylinder; no default, a pusher has this, `cuboid` or `tool`.",
     ),
     Key::optional(
         "cuboid",
-        Value::Map(&[Key::required("size", EXTENTS, "Full extents [x, y, z] in metres.")]),
+        CUBOID,
         "A cuboid; no default, a pusher has this, `cylinder` or `tool`.",
     ),
     Key::optional(
@@ -111,12 +98,7 @@ pub(super) const PUSHER_KEYS: &[Key] = &[
     Key::optional("friction", FRICTION, "Friction value of a cylinder or cuboid; default 0.4."),
     Key::optional(
         "lift",
-        Value::Number(Range {
-            what: "a height in metres",
-            low: 0.0,
-            high: 1.0,
-            advice: "2 mm is 0.002",
-        }),
+        task::LIFT,
         "Height of its underside above the table in metres; default 0.002.",
     ),
 ];

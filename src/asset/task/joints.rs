@@ -1,8 +1,8 @@
 //! Joints of a task file: their reading, and the rules that they must keep.
 //!
 //! The simulators hold a forest of joints: every jointed group is a tree, of at most [`GROUP`]
-//! objects of similar mass (where not all of its joints are fixed). A closed loop would be pulled at from two sides by constraints that
-//! never quite agree.
+//! objects of similar mass (where not all of its joints are fixed). A closed loop would be pulled
+//! at from two sides by constraints that never quite agree.
 
 use crate::asset::node::Node;
 use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, numbers};
@@ -17,8 +17,8 @@ use super::rules::{body, known_object};
 const GROUP: usize = 12;
 
 /// The largest ratio of masses within one group whose joints are not all fixed. In a row of 12
-/// boxes, light and heavy in turn, pushed by half a metre, the axes of revolute joints drift by up to
-/// 0.8 mm at a ratio of 10 and by 4 mm at 30.
+/// boxes, light and heavy in turn, pushed by half a metre, the axes of revolute joints drift by up
+/// to 0.8 mm at a ratio of 10 and by 4 mm at 30.
 const GROUP_MASS_RATIO: f64 = 10.0;
 
 /// No joint of things on a table reaches over a larger gap, metres.
@@ -29,7 +29,7 @@ const FAR: f64 = 0.5;
 const UNIT: f64 = 1e-12;
 
 /// What a joint may hold.
-pub(in crate::asset) const JOINT: Value = Value::Map(KEYS);
+pub(super) const JOINT: Value = Value::Map(KEYS);
 
 const KEYS: &[Key] = &[
     Key::required(

@@ -6,7 +6,8 @@ mod load;
 mod rules;
 mod spec;
 
-pub(super) use joints::JOINT;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
-pub(super) use spec::{OBSTACLE, TASK, TASK_KEYS};
+pub(super) use spec::{
+    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE, TASK, TASK_KEYS, default,
+};

@@ -5,7 +5,7 @@ use crate::asset::spec::{ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, S
 use super::joints::JOINT;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
-pub(super) mod default {
+pub(in crate::asset) mod default {
     /// Friction value of the table and of obstacles: plain wood.
     pub const FRICTION: f64 = 0.5;
     /// Travel of a push, metres: that of the reference benchmark.
@@ -42,31 +42,37 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
 ];
 
 const SCENE: Value = Value::Map(&[
-    Key::optional(
-        "table",
-        Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
-        "The table; by default of friction 0.5.",
-    ),
+    TABLE,
     Key::required(
         "objects",
         Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
         "The movable objects.",
     ),
-    Key::optional(
-        "joints",
-        Value::List { of: &JOINT, items: "joints", min: 0, max: 64 },
-        "Joints between objects; by default none.",
-    ),
-    Key::optional(
-        "obstacles",
-        Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
-        "Cuboids fixed to the table; by default none.",
-    ),
+    Key::optional("joints", JOINTS, "Joints between objects; by default none."),
+    OBSTACLES,
 ]);
 
+/// What the objects stand on.
+pub(in crate::asset) const TABLE: Key = Key::optional(
+    "table",
+    Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
+    "The table; by default of friction 0.5.",
+);
+
+/// Joints of one scene.
+pub(in crate::asset) const JOINTS: Value =
+    Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
+
+/// Obstacles of one scene.
+pub(in crate::asset) const OBSTACLES: Key = Key::optional(
+    "obstacles",
+    Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
+    "Cuboids fixed to the table; by default none.",
+);
+
 const OBJECT: Value = Value::Map(&[
-    Key::required("name", Value::Name, "The object's name, unique in the scene."),
-    Key::required("shape", SHAPE, "The object's solid, standing upright."),
+    OBJECT_NAME,
+    OBJECT_SHAPE,
     Key::required("mass", MASS, "Mass in kg."),
     Key::required(
         "friction",
@@ -77,7 +83,15 @@ const OBJECT: Value = Value::Map(&[
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);
 
-pub(in crate::asset) const OBSTACLE: Value = Value::Map(&[
+/// What messages and other keys call an object.
+pub(in crate::asset) const OBJECT_NAME: Key =
+    Key::required("name", Value::Name, "The object's name, unique in the scene.");
+
+/// What an object looks like.
+pub(in crate::asset) const OBJECT_SHAPE: Key =
+    Key::required("shape", SHAPE, "The object's solid, standing upright.");
+
+const OBSTACLE: Value = Value::Map(&[
     Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
     Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
     Key::required("position", POSITION, "Centre, [x, y] in metres."),
@@ -181,7 +195,8 @@ const MAX_COUNT: Value = Value::Count(Range {
     advice: "three pushes bring an object around a corner",
 });
 
-const LIFT: Value = Value::Number(Range {
+/// A height of a tool's underside above the table.
+pub(in crate::asset) const LIFT: Value = Value::Number(Range {
     what: "a height in metres",
     low: 0.0,
     high: 1.0,
