@@ -92,6 +92,12 @@ impl Engine {
         }
     }
 
+    /// The same with another number of propagation steps than it was trained with: for
+    /// measuring what each is worth.
+    pub fn with_steps(self, steps: usize) -> Self {
+        Self { steps, ..self }
+    }
+
     /// Floating-point operations of the matrix products in one [`Engine::forward`], counting a
     /// multiplication and an addition each.
     pub fn operations(&self, batch: &Batch) -> u64 {

@@ -80,7 +80,7 @@ impl ModelName {
             Self::Follow => Arc::new(Follow),
             Self::Projection => Arc::new(Projection),
             // Networks have returned above.
-            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) => Arc::new(QuasiStatic),
+            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) => Arc::new(QuasiStatic::default()),
         })
     }
 

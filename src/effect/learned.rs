@@ -1,11 +1,13 @@
 //! The learned effect model: the BRDPN physics predictor behind [`EffectModel`].
 
+use std::time::{Duration, Instant};
+
 use rayon::prelude::*;
 
 use crate::{
     brdpn::{Engine, Weights, Workspace},
-    rollout::roll,
-    scene::{Job, Record, Scene, ToolMotion, Trajectory, Warning},
+    rollout::{RollSettings, roll},
+    scene::{FRAME_TRAVEL, Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
 use super::EffectModel;
@@ -20,18 +22,61 @@ pub struct Learned {
     name: String,
     engine: Engine,
     weights: Weights,
+    settings: RollSettings,
+    error_p95: f64,
 }
 
 impl Learned {
     /// A model of these weights.
     pub fn new(weights: Weights) -> Self {
         let name = format!("brdpn-{}", weights.card.config.width);
-        Self { name, engine: Engine::new(&weights), weights }
+        let error_p95 = weights.card.errors.p95;
+        let engine = Engine::new(&weights);
+        Self { name, engine, weights, settings: RollSettings::default(), error_p95 }
+    }
+
+    /// The same with `stride` frames predicted as one. Measured errors are those of stride 1;
+    /// that of any other is unknown.
+    pub fn with_stride(mut self, stride: usize) -> Self {
+        self.settings.stride = stride.max(1);
+        self.error_p95 = f64::INFINITY;
+        self.name += &stride_name(stride);
+        self
+    }
+
+    /// The same with `steps` propagation steps, whatever it was trained with; its error is
+    /// unknown then.
+    pub fn with_steps(mut self, steps: usize) -> Self {
+        self.engine = self.engine.with_steps(steps);
+        self.error_p95 = f64::INFINITY;
+        let plural = if steps == 1 { "" } else { "s" };
+        self.name += &format!(", {steps} step{plural}");
+        self
+    }
+
+    /// The same under another name.
+    pub fn named(self, name: String) -> Self {
+        Self { name, ..self }
     }
 
     /// What the weights are.
     pub fn weights(&self) -> &Weights {
         &self.weights
+    }
+
+    /// [`EffectModel::rollout`] on this thread, jobs in one batch, and how much of the time
+    /// went to the network; the rest is geometry, prior, features and integration.
+    pub fn timed_rollout(&self, scene: &Scene, jobs: &[Job]) -> (Vec<Trajectory>, Duration) {
+        let (mut workspace, mut network) = (Workspace::default(), Duration::ZERO);
+        let trajectories = jobs.chunks(CHUNK).flat_map(|chunk| {
+            roll(scene, chunk, Record::Outcome, self.settings, &mut |batch, corrections| {
+                let began = Instant::now();
+                self.engine.forward(batch, &mut workspace, corrections);
+                network += began.elapsed();
+            })
+        });
+        let trajectories = trajectories.collect();
+        (trajectories, network)
     }
 }
 
@@ -45,13 +90,13 @@ impl EffectModel for Learned {
     }
 
     fn error_p95(&self) -> f64 {
-        self.weights.card.errors.p95
+        self.error_p95
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map_init(Workspace::default, |workspace, chunk| {
-                roll(scene, chunk, record, &mut |batch, corrections| {
+                roll(scene, chunk, record, self.settings, &mut |batch, corrections| {
                     self.engine.forward(batch, workspace, corrections);
                 })
             })
@@ -61,12 +106,30 @@ impl EffectModel for Learned {
 }
 
 /// The quasi-static prior alone, without any network: the cheapest level with physics in it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct QuasiStatic;
+#[derive(Clone, Debug)]
+pub struct QuasiStatic {
+    name: String,
+    settings: RollSettings,
+}
+
+impl QuasiStatic {
+    /// The same with `stride` frames predicted as one.
+    pub fn with_stride(mut self, stride: usize) -> Self {
+        self.settings.stride = stride.max(1);
+        self.name += &stride_name(stride);
+        self
+    }
+}
+
+impl Default for QuasiStatic {
+    fn default() -> Self {
+        Self { name: "quasi-static".to_owned(), settings: RollSettings::default() }
+    }
+}
 
 impl EffectModel for QuasiStatic {
     fn name(&self) -> &str {
-        "quasi-static"
+        &self.name
     }
 
     fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
@@ -80,7 +143,7 @@ impl EffectModel for QuasiStatic {
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map(|chunk| {
-                roll(scene, chunk, record, &mut |batch, corrections| {
+                roll(scene, chunk, record, self.settings, &mut |batch, corrections| {
                     corrections.clear();
                     corrections.resize(batch.node_count(), [0.0; 6]);
                 })
@@ -88,4 +151,9 @@ impl EffectModel for QuasiStatic {
             .flatten_iter()
             .collect()
     }
+}
+
+/// What a stride adds to a name: the tool's travel in a frame.
+fn stride_name(stride: usize) -> String {
+    format!(", {:.0} mm frames", 1e3 * FRAME_TRAVEL * stride as f64)
 }

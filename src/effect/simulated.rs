@@ -3,29 +3,36 @@
 use rayon::prelude::*;
 
 use crate::scene::{Engine, Record, Scene, ToolMotion, Trajectory, Warning};
-use crate::sim::Simulator;
+use crate::sim::{DEFAULT_STEP, Simulator};
 
 use super::{EffectModel, Job};
 
 /// A simulator as an effect model: the dearest level of the ladder, and the truth of the others.
 #[derive(Clone, Debug)]
 pub struct Simulated {
+    name: String,
     simulator: Simulator,
 }
 
 impl Simulated {
-    /// The effects that `simulator` computes.
+    /// The effects that `simulator` computes. The name says the step where it is not the
+    /// default: `planar, 1/60 s`.
     pub fn new(simulator: Simulator) -> Self {
-        Self { simulator }
+        let engine = match simulator.engine() {
+            Engine::Planar => "planar",
+            Engine::Spatial => "3d",
+        };
+        let name = match simulator.step() {
+            step if step == DEFAULT_STEP => engine.to_owned(),
+            step => format!("{engine}, 1/{:.0} s", 1.0 / step),
+        };
+        Self { name, simulator }
     }
 }
 
 impl EffectModel for Simulated {
     fn name(&self) -> &str {
-        match self.simulator.engine() {
-            Engine::Planar => "planar",
-            Engine::Spatial => "3d",
-        }
+        &self.name
     }
 
     fn warnings(&self, _scene: &Scene, _motion: &ToolMotion) -> Vec<Warning> {
@@ -85,6 +92,8 @@ mod tests {
         let simulator = Simulator::planar();
         let model = Simulated::new(simulator.clone());
         assert_eq!((model.name(), model.error_p95()), ("planar", 0.0));
+        let coarse = Simulated::new(Simulator::spatial_with_step(1.0 / 120.0));
+        assert_eq!(coarse.name(), "3d, 1/120 s");
         let trajectories = model.rollout(&scene, &jobs, Record::Frames);
         for (job, trajectory) in jobs.iter().zip(&trajectories) {
             let hypothesis = job.hypothesis.as_deref();

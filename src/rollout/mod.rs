@@ -9,4 +9,4 @@ mod roll;
 
 pub use hold::hold;
 pub use integrate::integrate;
-pub use roll::{Corrector, apply, roll};
+pub use roll::{Corrector, RollSettings, apply, roll};

@@ -15,6 +15,21 @@ use super::integrate;
 /// per node, in output units (see [`crate::graph::Node::encode`]).
 pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<[f64; 6]>) + 'a;
 
+/// How finely a rollout goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RollSettings {
+    /// Frames of a moving tool (see [`crate::scene::FRAME_TRAVEL`]) that are predicted as one,
+    /// at least 1. The states between are interpolated, so that a trajectory has the same
+    /// frames whatever the stride.
+    pub stride: usize,
+}
+
+impl Default for RollSettings {
+    fn default() -> Self {
+        Self { stride: 1 }
+    }
+}
+
 /// Rolls out every job until everything rests.
 ///
 /// Jobs do not influence each other; they only share the network's batches.
@@ -22,6 +37,7 @@ pub fn roll(
     scene: &Scene,
     jobs: &[Job],
     record: Record,
+    settings: RollSettings,
     correct: &mut Corrector<'_>,
 ) -> Vec<Trajectory> {
     let mut runs: Vec<Run> = jobs.iter().map(|job| Run::new(scene, job, record)).collect();
@@ -32,7 +48,7 @@ pub fn roll(
         batch.clear();
         let mut active = false;
         for (k, run) in runs.iter_mut().enumerate() {
-            run.next_step(scene);
+            run.next_step(scene, settings.stride);
             let Some(step) = &run.step else { continue };
             active = true;
             add_graph(
@@ -84,6 +100,8 @@ struct Run<'a> {
     axis: Vector,
     /// The frame to compute now; `None` when the job is done.
     step: Option<FrameStep>,
+    /// How many of the stroke's frames it stands for.
+    span: usize,
     trajectory: Trajectory,
 }
 
@@ -100,6 +118,7 @@ impl<'a> Run<'a> {
             time: 0.0,
             axis: Vector::x(),
             step: None,
+            span: 1,
             trajectory: Trajectory::default(),
         };
         if record == Record::Frames {
@@ -110,13 +129,15 @@ impl<'a> Run<'a> {
     }
 
     /// Decides what the tool does in the next frame.
-    fn next_step(&mut self, scene: &Scene) {
+    fn next_step(&mut self, scene: &Scene, stride: usize) {
         self.step = None;
+        self.span = 1;
         while let Some(stroke) = self.job.motion.strokes.get(self.stroke) {
             let moving = stroke.frames();
             if self.frame < moving {
                 self.axis = direction(stroke).unwrap_or(self.axis);
-                self.step = Some(stroke.frame(self.frame));
+                self.span = stride.clamp(1, moving - self.frame);
+                self.step = Some(stroke.frames_from(self.frame, self.span));
                 return;
             }
             if stroke.settle && !scene.is_resting(&self.state) {
@@ -145,11 +166,27 @@ impl<'a> Run<'a> {
             self.stroke = self.job.motion.strokes.len();
             return;
         }
-        self.frame += 1;
+        self.frame += self.span;
+        if record == Record::Frames && self.span > 1 {
+            self.record_between(&before, &step);
+        }
         self.time += step.duration;
         if record == Record::Frames {
             self.record(step.to);
         }
+    }
+
+    /// Records the frames that a longer step leaves out, with objects on straight ways.
+    fn record_between(&mut self, before: &State, step: &FrameStep) {
+        let (after, began) = (self.state.clone(), self.time);
+        for k in 1..self.span {
+            let share = k as f64 / self.span as f64;
+            let pairs = before.poses.iter().zip(&after.poses);
+            self.state.poses = pairs.map(|(from, to)| from.towards(to, share)).collect();
+            self.time = began + share * step.duration;
+            self.record(step.from.towards(&step.to, share));
+        }
+        (self.state, self.time) = (after, began);
     }
 
     fn record(&mut self, tool: crate::geometry::Pose) {

@@ -76,11 +76,16 @@ impl Stroke {
 
     /// Frame `index` of the stroke.
     pub fn frame(&self, index: usize) -> FrameStep {
+        self.frames_from(index, 1)
+    }
+
+    /// `count` frames of the stroke as one, beginning with frame `index`.
+    pub fn frames_from(&self, index: usize, count: usize) -> FrameStep {
         let n = self.frames() as f64;
         FrameStep {
             from: self.from.towards(&self.to, index as f64 / n),
-            to: self.from.towards(&self.to, (index + 1) as f64 / n),
-            duration: self.duration / n,
+            to: self.from.towards(&self.to, (index + count) as f64 / n),
+            duration: self.duration / n * count as f64,
         }
     }
 }

@@ -20,4 +20,4 @@ mod simulator;
 mod spatial;
 mod support;
 
-pub use simulator::Simulator;
+pub use simulator::{DEFAULT_STEP, Simulator};

@@ -6,7 +6,7 @@ use crate::{
     brdpn::{Engine, Workspace},
     dataset::Episode,
     geometry::wrap_angle,
-    rollout::roll,
+    rollout::{RollSettings, roll},
     scene::{Job, Record},
 };
 
@@ -48,9 +48,15 @@ fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec
         return Vec::new();
     };
     let job = Job { start: first.state.clone(), motion: episode.motion.clone(), hypothesis: None };
-    let predicted = roll(&episode.scene, &[job], Record::Outcome, &mut |batch, corrections| {
-        engine.forward(batch, workspace, corrections);
-    });
+    let predicted = roll(
+        &episode.scene,
+        &[job],
+        Record::Outcome,
+        RollSettings::default(),
+        &mut |batch, corrections| {
+            engine.forward(batch, workspace, corrections);
+        },
+    );
     let predicted = predicted[0].outcome();
     let mut found = Vec::new();
     for (k, object) in episode.scene.objects.iter().enumerate() {

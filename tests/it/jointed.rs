@@ -90,7 +90,7 @@ fn the_order_of_objects_and_joints_does_not_matter() {
 
 #[test]
 fn naming_the_two_objects_of_a_joint_the_other_way_round_changes_nothing() {
-    let plain = rollout(&QuasiStatic, &scene(), stroke());
+    let plain = rollout(&QuasiStatic::default(), &scene(), stroke());
     let mut other = scene();
     for joint in &mut other.joints {
         joint.between.reverse();
@@ -98,7 +98,7 @@ fn naming_the_two_objects_of_a_joint_the_other_way_round_changes_nothing() {
             *limits = Span::new(-limits.high, -limits.low);
         }
     }
-    assert_same(&plain, &rollout(&QuasiStatic, &other, stroke()));
+    assert_same(&plain, &rollout(&QuasiStatic::default(), &other, stroke()));
 }
 
 /// How far the joints are from what they allow: metres, or radians at 5 cm.
@@ -128,7 +128,7 @@ fn violation(scene: &Scene, state: &State) -> f64 {
 fn joints_hold_whatever_the_network_says() {
     let long = Stroke { to: Pose::new(0.6, 0.1, 0.0), duration: 4.0, ..stroke() };
     let models: [Box<dyn EffectModel>; 2] =
-        [Box::new(Learned::new(gentle())), Box::new(QuasiStatic)];
+        [Box::new(Learned::new(gentle())), Box::new(QuasiStatic::default())];
     for model in models {
         let end = rollout(&*model, &scene(), long);
         let travel = (end.poses[3].position - scene().objects[3].pose.position).norm();
@@ -159,8 +159,10 @@ fn a_fixed_pair_is_predicted_as_the_one_body_it_is() {
     let whole =
         Object { mass: 0.8, ..object(Shape::Cuboid { size: [0.06, 0.12, 0.1] }, 0.06, 0.03, 0.0) };
     let one = Scene { objects: vec![whole], joints: Vec::new(), ..both.clone() };
-    let (pair, single) =
-        (rollout(&QuasiStatic, &both, stroke()), rollout(&QuasiStatic, &one, stroke()));
+    let (pair, single) = (
+        rollout(&QuasiStatic::default(), &both, stroke()),
+        rollout(&QuasiStatic::default(), &one, stroke()),
+    );
     let middle = (pair.poses[0].position + pair.poses[1].position) / 2.0;
     // The supports differ: two ellipsoids against one.
     assert!((middle - single.poses[0].position).norm() < 2e-3, "{pair:?} {single:?}");

@@ -15,5 +15,6 @@ mod planning;
 mod readme;
 mod simulation;
 mod solving;
+mod tradeoff;
 mod training;
 mod verification;
