@@ -9,6 +9,7 @@ mod heldout;
 mod inference;
 mod random_task;
 mod refinement;
+mod solved;
 mod statistics;
 mod store;
 mod suite;
@@ -22,9 +23,11 @@ pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, 
 pub use inference::{InferenceCost, inference_costs};
 pub use random_task::random_task;
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
+pub use solved::{End, SolvedTask};
 pub use statistics::{Summary, mean, percentile};
 pub use store::{
-    Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, merge_runs,
+    Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, digest,
+    merge_runs,
 };
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};

@@ -45,6 +45,7 @@ pub use joints::NEAR;
 pub use manifest::{Manifest, ShardEntry};
 pub use novelty::is_shipped;
 pub use preset::Preset;
+pub use shard::checksum;
 pub use store::Dataset;
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
 pub use watch::{Unwatched, Watch};

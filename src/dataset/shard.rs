@@ -131,7 +131,7 @@ fn digest(config: &DatasetConfig) -> u64 {
 }
 
 /// FNV-1a with 64 bits (Fowler, Noll and Vo; RFC 9923): finds damage, not forgery.
-fn checksum(bytes: &[u8]) -> u64 {
+pub fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xCBF2_9CE4_8422_2325, |sum, &byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3)
     })

@@ -4,13 +4,13 @@ use crate::geometry::Vector;
 
 use super::svg::{Anchor, Font, Style, Svg};
 
-const SIZE: Vector = Vector::new(600.0, 320.0);
+pub(super) const SIZE: Vector = Vector::new(600.0, 320.0);
 /// Upper left corner of the plot below a legend of one line.
-const CORNER: Vector = Vector::new(74.0, 66.0);
+pub(super) const CORNER: Vector = Vector::new(74.0, 66.0);
 /// Height of a line of the legend.
-const LEGEND_LINE: f64 = 18.0;
-const INK: &str = "#212529";
-const FAINT_INK: &str = "#6c757d";
+pub(super) const LEGEND_LINE: f64 = 18.0;
+pub(super) const INK: &str = "#212529";
+pub(super) const FAINT_INK: &str = "#6c757d";
 /// Okabe and Ito's colours, told apart by colour-blind readers; repeated with dashes after
 /// seven series.
 const COLOURS: [&str; 7] =
@@ -65,6 +65,11 @@ pub struct Chart {
 impl Chart {
     /// The chart as an SVG document.
     pub fn to_svg(&self) -> String {
+        self.to_svg_with_id("plot")
+    }
+
+    /// The same for a page with several charts, on which each needs an `id` of its own.
+    pub(super) fn to_svg_with_id(&self, id: &str) -> String {
         let shown = |k: usize| {
             let axis = [&self.x, &self.y][k];
             self.series
@@ -89,7 +94,7 @@ impl Chart {
         svg.text(Vector::new(corner.x, 26.0), &self.title, Font::new(16.0, INK).bold());
         svg.rect(corner, SIZE, 0.0, Style::fill("#fbfcfd").outlined("#dee2e6", 1.0));
         self.axes(&mut svg, corner, &x, &y);
-        svg.open_clipped("plot", corner - Vector::new(6.0, 6.0), SIZE + Vector::new(12.0, 12.0));
+        svg.open_clipped(id, corner - Vector::new(6.0, 6.0), SIZE + Vector::new(12.0, 12.0));
         for (k, series) in self.series.iter().enumerate() {
             self.draw(&mut svg, series, k, &map);
         }
@@ -177,7 +182,7 @@ impl Chart {
     }
 }
 
-fn colour(index: usize) -> &'static str {
+pub(super) fn colour(index: usize) -> &'static str {
     COLOURS[index % COLOURS.len()]
 }
 

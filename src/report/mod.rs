@@ -2,19 +2,25 @@
 //!
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 
+mod bars;
 mod chart;
 mod crowd;
+mod document;
+mod html;
 mod measured;
 mod number;
 mod picture;
 mod plan_text;
 mod solution;
+mod solved;
 mod svg;
 mod table;
 mod training;
 
+pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
 pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
+pub use document::{Document, Figure, Section};
 pub use measured::{
     group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
     search_cost_table,
@@ -22,6 +28,7 @@ pub use measured::{
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
-pub use solution::{outcomes_text, plan_picture, solution_json, solution_text, task_table};
+pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
+pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};
 pub use training::training_chart;

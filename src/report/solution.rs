@@ -10,7 +10,6 @@ use super::{
     number::{millimetres, seconds},
     picture::{ScenePicture, Source, Track},
     plan_text::{goal_line, outcome_table, plan_line, push_table},
-    table::{Align, Table},
 };
 
 /// The result for people.
@@ -61,49 +60,6 @@ pub fn solution_json(task: &Task, solution: &Solution, model: &str) -> Json {
         "statistics": solution.statistics,
         "warnings": solution.warnings,
     })
-}
-
-/// One row per solved task: the tool, where its plan ends, and how long it took.
-pub fn task_table(solved: &[(&Task, &Solution)]) -> Table {
-    let mut table = Table::new([
-        ("task", Align::Left),
-        ("status", Align::Left),
-        ("tool", Align::Left),
-        ("pushes", Align::Right),
-        ("predicted", Align::Right),
-        ("planar", Align::Right),
-        ("3-D", Align::Right),
-        ("allowed", Align::Right),
-        ("disturbed", Align::Right),
-        ("time", Align::Right),
-    ]);
-    for (task, solution) in solved {
-        let best = solution.best();
-        let verdict = best.and_then(|best| best.verdict.as_ref());
-        let simulated = |engine| {
-            let found = verdict.and_then(|v| nominal(v).find(|e| e.engine == engine));
-            found.map_or(String::new(), |evidence| millimetres(evidence.outcome.error))
-        };
-        let status = match solution.status {
-            PlanStatus::Solved => "solved",
-            PlanStatus::NoPlan => "no plan",
-            PlanStatus::FailedVerification => "failed verification",
-        };
-        let robust = verdict.and_then(|verdict| verdict.robustness);
-        table.row([
-            task.name.clone(),
-            status.to_owned(),
-            best.map_or(String::new(), |best| best.plan.tool.clone()),
-            best.map_or(String::new(), |best| best.plan.pushes.len().to_string()),
-            best.map_or(String::new(), |best| millimetres(best.outcome.error)),
-            simulated(Engine::Planar),
-            simulated(Engine::Spatial),
-            millimetres(task.goal.tolerance),
-            robust.map_or(String::new(), |share| format!("{:.0} %", share * 100.0)),
-            seconds(solution.statistics.timing.total),
-        ]);
-    }
-    table
 }
 
 /// Where a plan ends by prediction and in both engines, and what the verdict is.

@@ -21,13 +21,13 @@ pub struct Table {
 
 impl Table {
     /// A table without rows.
-    pub fn new<const N: usize>(columns: [(&str, Align); N]) -> Self {
+    pub fn new<'a>(columns: impl IntoIterator<Item = (&'a str, Align)>) -> Self {
         let columns = columns.into_iter().map(|(name, align)| (name.to_owned(), align)).collect();
         Self { columns, rows: Vec::new() }
     }
 
     /// Adds a row; missing cells stay empty and surplus ones are dropped.
-    pub fn row<const N: usize>(&mut self, cells: [impl Into<String>; N]) -> &mut Self {
+    pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<String>>) -> &mut Self {
         let mut row: Vec<String> = cells.into_iter().map(Into::into).collect();
         row.resize(self.columns.len(), String::new());
         self.rows.push(row);
@@ -73,6 +73,28 @@ impl Table {
             text.push_str(&wrap(self.padded(cells.iter().map(String::as_str), &widths, " | ")));
         }
         text
+    }
+
+    /// Comma-separated values (RFC 4180, with line feeds alone): the header, then the rows.
+    pub fn to_csv(&self) -> String {
+        let quoted = |cell: &str| match cell.contains([',', '"', '\n', '\r']) {
+            true => format!("\"{}\"", cell.replace('"', "\"\"")),
+            false => cell.to_owned(),
+        };
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        let header = line(self.columns.iter().map(|(name, _)| quoted(name)).collect());
+        let rows = self.rows.iter().map(|row| line(row.iter().map(|cell| quoted(cell)).collect()));
+        header + &rows.collect::<String>()
+    }
+
+    /// Names and sides of the columns.
+    pub(super) fn columns(&self) -> &[(String, Align)] {
+        &self.columns
+    }
+
+    /// The cells, row by row.
+    pub(super) fn rows(&self) -> &[Vec<String>] {
+        &self.rows
     }
 
     fn widths(&self) -> Vec<usize> {

@@ -4,6 +4,7 @@ mod architecture;
 mod assets;
 mod baselines;
 mod bench_store;
+mod benchmarks;
 mod cli;
 mod crowd_errors;
 mod crowds;

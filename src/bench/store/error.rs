@@ -12,10 +12,7 @@ use super::shard::Shard;
 #[derive(Debug, Error)]
 pub enum StoreError {
     /// The caller asked to stop.
-    #[error(
-        "stopped after {done} of {total} tasks; what was finished is kept in a folder given by \
-         --out, run the same command again to go on"
-    )]
+    #[error("stopped after {done} of {total} tasks")]
     Cancelled {
         /// Finished tasks, those of earlier runs included.
         done: usize,

@@ -6,7 +6,7 @@ use std::{fs, path::Path};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::asset::write_atomic;
+use crate::{asset::write_atomic, dataset::checksum};
 
 use super::{error::StoreError, shard::Shard};
 
@@ -15,6 +15,11 @@ pub(super) const MANIFEST: &str = "manifest.json";
 
 /// Version of the folder's layout.
 const FORMAT_VERSION: u32 = 1;
+
+/// Tells a file's bytes from all others in a manifest: 64 bits, hexadecimal.
+pub fn digest(bytes: &[u8]) -> String {
+    format!("{:016x}", checksum(bytes))
+}
 
 /// What a folder of records holds. Two runs with the same manifest have the same records.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

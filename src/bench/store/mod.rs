@@ -23,7 +23,7 @@ mod run;
 mod shard;
 
 pub use error::StoreError;
-pub use manifest::RunManifest;
+pub use manifest::{RunManifest, digest};
 pub use merge::merge_runs;
 pub use run::{Finished, Measured, Seconds, Store};
 pub use shard::{Shard, ShardError};

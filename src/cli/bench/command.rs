@@ -1,0 +1,34 @@
+//! The benchmarks by name.
+
+use clap::{Args, Subcommand};
+
+use crate::cli::{error::CliError, exit_code, session::Session};
+
+use super::{cost, refinement, saved, tasks};
+
+/// Measure what solving brings and what pushes and searches cost
+#[derive(Args, Debug)]
+pub struct BenchArgs {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    Tasks(tasks::TasksArgs),
+    Refinement(refinement::RefinementArgs),
+    Cost(cost::CostArgs),
+    Merge(saved::MergeArgs),
+    Report(saved::ReportArgs),
+}
+
+pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
+    match &args.what {
+        What::Tasks(args) => tasks::run(args, session)?,
+        What::Refinement(args) => refinement::run(args, session)?,
+        What::Cost(args) => cost::run(args, session)?,
+        What::Merge(args) => saved::merge(args, session)?,
+        What::Report(args) => saved::report(args, session)?,
+    }
+    Ok(exit_code::DONE)
+}

@@ -1,0 +1,95 @@
+//! `pushplan bench cost`: what pushes, networks and searches cost.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use crate::asset::load_task;
+use crate::bench::{Suite, SuiteKind, crowd_cases, inference_costs, push_costs, search_costs};
+use crate::cli::{error::CliError, model::ModelName, session::Session};
+use crate::effect::EffectModel;
+use crate::report::{inference_table, push_cost_table, search_cost_table};
+use crate::solve::Effort;
+
+use super::common::Common;
+
+/// Time of one push by every model, and of a search of one-push candidates
+#[derive(Args, Debug)]
+pub struct CostArgs {
+    #[command(flatten)]
+    common: Common,
+    /// The task that is searched
+    #[arg(value_name = "TASK", required_unless_present = "crowd")]
+    task: Option<PathBuf>,
+    /// Time the network alone, on scenes of this many objects, some joined
+    #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
+          conflicts_with = "task", value_parser = clap::value_parser!(u16).range(2..=12))]
+    crowd: Option<u16>,
+    /// Most candidates of the search
+    #[arg(long, value_name = "N", default_value_t = 500,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    candidates: u32,
+    /// Lateral offsets per face; by default those of the standard effort
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
+    offsets: Option<u16>,
+    /// Pushes predicted together
+    #[arg(long, value_name = "N", default_value_t = 64,
+          value_parser = clap::value_parser!(u16).range(1..=4096))]
+    batch: u16,
+    /// Pushes that are timed
+    #[arg(long, value_name = "N", default_value_t = 32,
+          value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pushes: u16,
+    /// Seed of the pushes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+}
+
+/// Candidate-steps that the network is timed on together: one, a search's batch, many.
+const NETWORK_BATCHES: [usize; 3] = [1, 64, 512];
+
+pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let Some(task) = &args.task else { return crowd_cost(args, session) };
+    let library = args.common.library.load()?;
+    let task = load_task(task, &library)?;
+    let tools = task.tools(&library)?;
+    let model = args.common.model.load()?;
+    let planar = ModelName::Planar.load()?;
+    let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
+    let spinner = session.spinner("timing");
+    let pushes = push_costs(&model, &suite, usize::from(args.batch))
+        .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
+    let networks = match args.common.model.weights()? {
+        Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES)
+            .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
+        None => Vec::new(),
+    };
+    let models: [&dyn EffectModel; 2] = [&*model, &*planar];
+    let standard = Effort::Standard.settings().offsets;
+    let offsets = args.offsets.map_or(standard, usize::from);
+    let searches =
+        session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
+    spinner.finish_and_clear();
+    let mut tables = vec![push_cost_table(&pushes), search_cost_table(&searches)];
+    if !networks.is_empty() {
+        tables.insert(0, inference_table(&networks));
+    }
+    let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
+    args.common.form.print(session, "cost", &report, "", &tables)
+}
+
+fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let objects = args.crowd.map_or(10, usize::from);
+    let weights = args.common.model.weights()?.ok_or_else(|| {
+        CliError::usage("only a network can be timed on a crowd", "leave --model out")
+    })?;
+    let spinner = session.spinner("timing");
+    let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
+    let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES)
+        .map_err(|error| CliError::unexpected("cannot time the network", &error))?;
+    spinner.finish_and_clear();
+    let report = json!({"objects": objects, "networks": networks});
+    let head = format!("{objects} objects, sparse and dense, mixed joints; times a graph-step\n\n");
+    args.common.form.print(session, "cost", &report, &head, &[inference_table(&networks)])
+}

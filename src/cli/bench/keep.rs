@@ -1,0 +1,125 @@
+//! Benchmarks that are kept in a folder: resumed, and measured in parts.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::{Serialize, de::DeserializeOwned};
+
+use crate::bench::{Measured, RunManifest, Shard, Store, StoreError, digest};
+use crate::cli::{
+    error::CliError, generate::Following, interrupt, model::ModelName, output, session::Session,
+};
+use crate::report::Document;
+
+/// Names of the files that a report leaves beside the records.
+const PAGE: &str = "report.html";
+const ROWS: &str = "tasks.csv";
+
+/// The section of `--help` for benchmarks that are kept.
+pub const HELP: &str = "With --out every finished task is kept at once: after an interruption \
+(Ctrl-C) the same command goes on.
+manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
+the wall times, which never are. --shard 2/3 measures every third task, on another machine say;
+`pushplan bench merge OUT SHARD...` makes of the parts what one run would have left.";
+
+/// Where results are kept.
+#[derive(Args, Debug)]
+pub struct KeepArgs {
+    /// Folder that keeps every task's result, a report (HTML) and a table (CSV)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Measure only part I of N
+    #[arg(long, value_name = "I/N", requires = "out")]
+    shard: Option<Shard>,
+}
+
+impl KeepArgs {
+    /// Measures what is left of a run, following it on stderr.
+    ///
+    /// # Errors
+    /// What [`Store::open`] and `measure` refuse, and an interruption.
+    pub fn measure<R: Serialize + DeserializeOwned>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        measure: impl FnMut(usize) -> Result<Measured<R>, CliError>,
+    ) -> Result<Store<R>, CliError> {
+        let manifest = match self.shard {
+            Some(shard) => manifest.with_shard(shard),
+            None => manifest,
+        };
+        interrupt::watch();
+        let following = Following::new(session, "tasks");
+        let mut store = match &self.out {
+            Some(dir) => Store::open(dir, manifest, &following)?,
+            None => Store::in_memory(manifest),
+        };
+        let measured = store.run(&following, measure);
+        following.finish();
+        match measured {
+            Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {
+                Some(_) => format!("{message}; the same command goes on from there"),
+                None => format!("{message}; with --out DIR they would have been kept"),
+            })),
+            measured => measured.map(|()| store),
+        }
+    }
+}
+
+/// Writes a report's page and rows into the folder of a run.
+///
+/// # Errors
+/// If they cannot be written.
+pub fn write_report(folder: &Path, document: &Document) -> Result<(), CliError> {
+    output::write(folder, PAGE, document.to_html().as_bytes())?;
+    output::write(folder, ROWS, document.to_csv().as_bytes())?;
+    Ok(())
+}
+
+/// Tells a network's weights from all others; nothing for what has none.
+///
+/// # Errors
+/// If they cannot be read.
+pub fn weights_digest(model: &ModelName) -> Result<Option<String>, CliError> {
+    let Some(weights) = model.weights()? else { return Ok(None) };
+    let bytes = weights.to_bytes();
+    let bytes = bytes.map_err(|error| CliError::unexpected("cannot read the weights", &error))?;
+    Ok(Some(digest(&bytes)))
+}
+
+/// Tells a value from all others.
+///
+/// # Errors
+/// If it cannot be written as JSON, which nothing of ours refuses.
+pub fn value_digest(value: &impl Serialize) -> Result<String, CliError> {
+    let text = serde_json::to_vec(value);
+    let text = text.map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
+    Ok(digest(&text))
+}
+
+impl From<StoreError> for CliError {
+    fn from(error: StoreError) -> Self {
+        let message = error.to_string();
+        match error {
+            StoreError::Cancelled { .. } => Self::Interrupted(message),
+            StoreError::Write(faults) => Self::Output(faults),
+            StoreError::OtherRun { .. } | StoreError::Stray { .. } => {
+                Self::usage(message, "the same command as before goes on with an unfinished run")
+            }
+            StoreError::DuplicateShard { .. }
+            | StoreError::MissingShards { .. }
+            | StoreError::Occupied { .. }
+            | StoreError::NothingToMerge => Self::usage(
+                message,
+                "name a new folder, then those of all shards: pushplan bench merge OUT SHARD...",
+            ),
+            StoreError::Manifest { .. }
+            | StoreError::Damaged { .. }
+            | StoreError::Missing { .. }
+            | StoreError::Unfinished { .. } => Self::File(message),
+            StoreError::Io { .. } | StoreError::Busy { .. } | StoreError::Record { .. } => {
+                Self::Unexpected(message)
+            }
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! `pushplan bench`: what solving brings and costs, one file per benchmark.
+
+mod command;
+mod common;
+mod cost;
+mod keep;
+mod refinement;
+mod saved;
+mod tasks;
+
+pub use command::{BenchArgs, run};

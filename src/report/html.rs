@@ -1,0 +1,140 @@
+//! A report as one HTML page: styles and charts inside, nothing from outside, every text escaped.
+
+use std::fmt::Write;
+
+use super::document::{Document, Figure};
+use super::svg::escape;
+use super::table::{Align, Table};
+
+/// Readable on a screen and on paper, in light and in dark.
+const STYLE: &str = "\
+:root{color-scheme:light dark}\
+body{font:15px/1.5 Inter,'Segoe UI','Helvetica Neue',Arial,'DejaVu Sans',sans-serif;\
+max-width:62rem;margin:2rem auto;padding:0 1rem}\
+h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}\
+.wide{overflow-x:auto}\
+table{border-collapse:collapse;font-variant-numeric:tabular-nums}\
+th,td{padding:.25rem .7rem;border-bottom:1px solid #8884;text-align:left;white-space:nowrap}\
+.n{text-align:right}\
+figure{margin:1rem 0}svg{max-width:100%;height:auto}\
+details{margin-top:2rem}";
+
+/// The page. A browser is told to load nothing at all, so that even a fault here could not.
+pub(super) fn page(document: &Document) -> String {
+    let title = escape(&document.title);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+         style-src 'unsafe-inline'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n\
+         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n"
+    );
+    for note in &document.notes {
+        let _ = writeln!(out, "<p>{}</p>", escape(note));
+    }
+    let mut charts = 0;
+    for section in &document.sections {
+        if !section.title.is_empty() {
+            let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
+        }
+        table(&mut out, &section.table);
+        for figure in &section.figures {
+            charts += 1;
+            let svg = match figure {
+                Figure::Chart(chart) => chart.to_svg_with_id(&format!("plot-{charts}")),
+                Figure::Bars(bars) => bars.to_svg(),
+            };
+            let _ = writeln!(out, "<figure>\n{svg}</figure>");
+        }
+    }
+    if !document.rows.is_empty() {
+        out.push_str("<details><summary>All rows</summary>\n");
+        table(&mut out, &document.rows);
+        out.push_str("</details>\n");
+    }
+    out.push_str("</body>\n</html>\n");
+    out
+}
+
+fn table(out: &mut String, table: &Table) {
+    if table.is_empty() {
+        return;
+    }
+    out.push_str("<div class=\"wide\"><table>\n");
+    let class = |align: Align| if align == Align::Right { " class=\"n\"" } else { "" };
+    let mut row = |tag: &str, cells: &[String]| {
+        out.push_str("<tr>");
+        for (cell, (_, align)) in cells.iter().zip(table.columns()) {
+            let _ = write!(out, "<{tag}{}>{}</{tag}>", class(*align), escape(cell));
+        }
+        out.push_str("</tr>\n");
+    };
+    let names: Vec<String> = table.columns().iter().map(|(name, _)| name.clone()).collect();
+    row("th", &names);
+    table.rows().iter().for_each(|cells| row("td", cells));
+    out.push_str("</table></div>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{BarChart, Chart, Section};
+    use super::*;
+
+    const EVIL: &str = "</td><script src=\"https://example.org/x.js\">alert('&')</script>";
+
+    #[test]
+    fn no_name_breaks_out_of_the_page_and_nothing_is_loaded() {
+        let mut table = Table::new([(EVIL, Align::Left), ("error", Align::Right)]);
+        table.row([EVIL, "1"]);
+        let chart = Chart { title: EVIL.to_owned(), ..Chart::default() };
+        let bars =
+            BarChart { title: EVIL.to_owned(), groups: vec![EVIL.into()], ..BarChart::default() };
+        let figures = vec![Figure::Chart(chart.clone()), Figure::Chart(chart), Figure::Bars(bars)];
+        let section = Section { title: EVIL.to_owned(), table: table.clone(), figures };
+        let document = Document {
+            title: EVIL.to_owned(),
+            notes: vec![EVIL.to_owned()],
+            sections: vec![section],
+            rows: table,
+            ..Document::default()
+        };
+        let page = document.to_html();
+        assert!(!page.contains("<script") && !page.contains("src=\""), "{page}");
+        assert_eq!(page.matches("<td").count(), 4);
+        // Clip paths are named for the whole page, so each chart needs its own.
+        for k in 1..=2 {
+            assert_eq!(page.matches(&format!("id=\"plot-{k}\"")).count(), 1);
+            assert_eq!(page.matches(&format!("url(#plot-{k})")).count(), 1);
+        }
+    }
+
+    #[test]
+    fn the_same_report_in_words() {
+        let mut table = Table::new([("tool", Align::Left), ("error", Align::Right)]);
+        table.row(["hook, long", "3.1"]).row(["say \"stick\"", "12"]);
+        let section =
+            Section { title: "Errors".into(), table: table.clone(), ..Section::default() };
+        let document = Document {
+            title: "Two tools".into(),
+            notes: vec!["Of one run.".into()],
+            sections: vec![section],
+            rows: table,
+            ..Document::default()
+        };
+        insta::assert_snapshot!(document.to_text(), @r#"
+        Two tools
+
+        Of one run.
+
+        Errors:
+
+        tool         error
+        hook, long     3.1
+        say "stick"     12
+        "#);
+        assert!(
+            document.to_markdown().starts_with("## Two tools\n\nOf one run.\n\nErrors:\n\n| tool")
+        );
+        assert_eq!(document.to_csv(), "tool,error\n\"hook, long\",3.1\n\"say \"\"stick\"\"\",12\n");
+    }
+}

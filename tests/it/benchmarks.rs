@@ -1,0 +1,141 @@
+//! Benchmarks from the command line: kept, interrupted, split, merged and shown.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+const TASKS: [&str; 4] = [
+    "tasks/pull-back.yaml",
+    "tasks/sideways-sweep.yaml",
+    "tasks/too-far.yaml",
+    "tasks/push-out-of-reach.yaml",
+];
+
+#[test]
+fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
+    let folder = TempDir::new().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (whole, first, second, merged) =
+        (path("whole"), path("first"), path("second"), path("merged"));
+    let printed = tasks(&["--out", &whole, "--json", "--threads", "1"]);
+    tasks(&["--out", &second, "--shard", "2/2"]);
+    let output = pushplan(&["bench", "merge", &merged, &second]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("missing: 1"), "{}", stderr(&output));
+    tasks(&["--out", &first, "--shard", "1/2"]);
+    let output = pushplan(&["bench", "merge", &merged, &second, &first, "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(compared(Path::new(&merged)), compared(Path::new(&whole)));
+
+    let timeless = |text: &[u8]| {
+        let mut json: Json = serde_json::from_slice(text).expect("JSON alone");
+        for task in json["tasks"].as_array_mut().expect("tasks") {
+            assert!(task["seconds"]["total"].as_f64() > Some(0.0), "{task}");
+            task["seconds"] = Json::Null;
+        }
+        json
+    };
+    let json = timeless(&printed);
+    assert_eq!(json, timeless(&output.stdout));
+    assert_eq!(json["schema_version"], 1);
+    let status: Vec<&str> =
+        (0..TASKS.len()).filter_map(|k| json["tasks"][k]["status"].as_str()).collect();
+    assert_eq!(status, ["solved", "solved", "no_plan", "solved"]);
+
+    let page = fs::read_to_string(Path::new(&merged).join("report.html")).expect("a page");
+    assert!(page.contains("pull-back") && page.contains("</svg>"), "{page}");
+    let rows = fs::read_to_string(Path::new(&merged).join("tasks.csv")).expect("rows");
+    assert_eq!(rows.lines().count(), TASKS.len() + 1, "{rows}");
+
+    let output = pushplan(&["bench", "report", &merged]);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("3 of 4 tasks solved with planar"), "{text}{}", stderr(&output));
+}
+
+#[test]
+fn a_folder_with_another_run_is_refused() {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    tasks(&["--out", out]);
+    let before = compared(folder.path());
+    let output = bench_tasks(&["--out", out, "--seed", "3"]);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("seed is 0 there, 3 was asked for"), "{}", stderr(&output));
+    assert_eq!(compared(folder.path()), before);
+
+    let output = bench_tasks(&["--shard", "1/2"]);
+    assert_eq!(output.status.code(), Some(2), "a shard that is kept nowhere");
+    let empty = TempDir::new().expect("a folder");
+    let output = pushplan(&["bench", "report", empty.path().to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
+    let folder = TempDir::new().expect("a folder");
+    let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+    tasks(&["--out", whole.to_str().expect("UTF-8")]);
+    let out = broken.to_str().expect("UTF-8");
+    let mut child = command(&["--out", out])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let begun = std::time::Instant::now();
+    let kept = || fs::read_to_string(broken.join("records.jsonl")).unwrap_or_default();
+    while kept().is_empty() && child.try_wait().expect("a child").is_none() {
+        assert!(begun.elapsed().as_secs() < 60, "no task after a minute");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let pid = child.id().to_string();
+    Command::new("kill").args(["-INT", &pid]).status().expect("a signal is sent");
+    let output = child.wait_with_output().expect("the command ends");
+    // On a fast machine it may be done before the signal comes.
+    match output.status.code() {
+        Some(130) => {
+            assert!(stderr(&output).contains("the same command goes on"), "{}", stderr(&output));
+        }
+        code => assert_eq!(code, Some(0), "{}", stderr(&output)),
+    }
+    let before = kept();
+    assert!(!before.is_empty());
+    tasks(&["--out", out]);
+    assert!(kept().starts_with(&before), "finished work was lost");
+    assert_eq!(compared(&broken), compared(&whole));
+}
+
+/// The files that are the same for every way to the same run.
+fn compared(dir: &Path) -> [String; 2] {
+    ["manifest.json", "records.jsonl"]
+        .map(|name| fs::read_to_string(dir.join(name)).expect("a file of the run"))
+}
+
+/// What the benchmark of some tasks prints, without the network, which is not looked at here.
+fn tasks(options: &[&str]) -> Vec<u8> {
+    let output = bench_tasks(options);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    output.stdout
+}
+
+fn bench_tasks(options: &[&str]) -> Output {
+    command(options).output().expect("the command runs")
+}
+
+fn command(options: &[&str]) -> Command {
+    let fixed = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pushplan"));
+    command.args(fixed).args(TASKS).args(options).current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
+}
+
+fn pushplan(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pushplan")).args(arguments).output().expect("it runs")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
