@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     brdpn::{Engine, Weights, Workspace},
-    rollout::{RollSettings, roll},
+    rollout::{RollSettings, Roller},
     scene::{FRAME_TRAVEL, Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
@@ -59,6 +59,14 @@ impl Learned {
         Self { name, ..self }
     }
 
+    /// The same model with every body looked at in every frame, whether it can matter or not:
+    /// the same results, to see what leaving them out saves.
+    pub fn unpruned(mut self) -> Self {
+        self.settings.pruned = false;
+        self.name += ", unpruned";
+        self
+    }
+
     /// What the weights are.
     pub fn weights(&self) -> &Weights {
         &self.weights
@@ -68,8 +76,9 @@ impl Learned {
     /// went to the network; the rest is geometry, prior, features and integration.
     pub fn timed_rollout(&self, scene: &Scene, jobs: &[Job]) -> (Vec<Trajectory>, Duration) {
         let (mut workspace, mut network) = (Workspace::default(), Duration::ZERO);
+        let mut roller = Roller::new(self.settings);
         let trajectories = jobs.chunks(CHUNK).flat_map(|chunk| {
-            roll(scene, chunk, Record::Outcome, self.settings, &mut |batch, corrections| {
+            roller.roll(scene, chunk, Record::Outcome, &mut |batch, corrections| {
                 let began = Instant::now();
                 self.engine.forward(batch, &mut workspace, corrections);
                 network += began.elapsed();
@@ -95,11 +104,14 @@ impl EffectModel for Learned {
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
-            .map_init(Workspace::default, |workspace, chunk| {
-                roll(scene, chunk, record, self.settings, &mut |batch, corrections| {
-                    self.engine.forward(batch, workspace, corrections);
-                })
-            })
+            .map_init(
+                || (Roller::new(self.settings), Workspace::default()),
+                |(roller, workspace), chunk| {
+                    roller.roll(scene, chunk, record, &mut |batch, corrections| {
+                        self.engine.forward(batch, workspace, corrections);
+                    })
+                },
+            )
             .flatten_iter()
             .collect()
     }
@@ -142,12 +154,15 @@ impl EffectModel for QuasiStatic {
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
-            .map(|chunk| {
-                roll(scene, chunk, record, self.settings, &mut |batch, corrections| {
-                    corrections.clear();
-                    corrections.resize(batch.node_count(), [0.0; 6]);
-                })
-            })
+            .map_init(
+                || Roller::new(self.settings),
+                |roller, chunk| {
+                    roller.roll(scene, chunk, record, &mut |batch, corrections| {
+                        corrections.clear();
+                        corrections.resize(batch.node_count(), [0.0; 6]);
+                    })
+                },
+            )
             .flatten_iter()
             .collect()
     }

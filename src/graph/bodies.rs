@@ -99,7 +99,7 @@ impl Groups {
 }
 
 /// All bodies of a scene with a tool in it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Bodies {
     /// Objects, in the order of the scene.
     pub objects: Vec<Movable>,

@@ -6,6 +6,7 @@ use crate::{
 };
 
 use super::{
+    awake::{Awake, View},
     batch::{Batch, KINEMATIC, Touch},
     bodies::{Bodies, Motion},
     coast::coast,
@@ -21,8 +22,7 @@ use super::{
 pub(super) struct Scratch {
     contacts: Vec<Contact>,
     prior: Prior,
-    awake: Vec<bool>,
-    index: Vec<u32>,
+    awake: Awake,
     relations: Vec<Relation>,
 }
 
@@ -49,30 +49,26 @@ pub fn add_graph(
             .map(|(body, velocity)| coast(body, velocity, step.duration)),
     );
     let mut scratch = std::mem::take(&mut batch.scratch);
-    let Scratch { contacts, prior, awake, index, relations } = &mut scratch;
+    let Scratch { contacts, prior, awake, relations } = &mut scratch;
     find_contacts(bodies, state, step, motions, contacts);
-    find_awake(bodies, contacts, motions, step, awake);
-    if awake.contains(&true) {
-        contacts.retain(|contact| awake[contact.object]);
-        prior.solve(bodies, state, step, axis, motions, contacts);
+    awake.find(bodies, contacts, motions, step);
+    if !awake.is_empty() {
+        let view = awake.view(bodies, state, motions, contacts);
+        let View { bodies, state, coasts, .. } = view;
+        prior.solve(bodies, state, step, axis, coasts, contacts);
         relations.clear();
         for (k, contact) in contacts.iter().enumerate() {
-            relations.extend(
-                of_contact(bodies, state, motions, prior, k, contact).into_iter().flatten(),
-            );
+            relations
+                .extend(of_contact(bodies, state, coasts, prior, k, contact).into_iter().flatten());
         }
         for k in 0..bodies.joints.len() {
-            if awake[bodies.joints[k].between[0]] {
-                relations.extend(of_joint(bodies, state, motions, prior, k));
-            }
+            relations.extend(of_joint(bodies, state, coasts, prior, k));
         }
-        index.clear();
-        index.resize(bodies.objects.len(), KINEMATIC);
-        for (object, body) in bodies.objects.iter().enumerate().filter(|(k, _)| awake[*k]) {
-            index[object] = batch.node_count() as u32;
+        let first = batch.node_count();
+        for (object, body) in bodies.objects.iter().enumerate() {
             let mut node = Node {
                 graph,
-                object: object as u32,
+                object: view.number(object) as u32,
                 axis,
                 duration: step.duration,
                 support: body.support,
@@ -81,19 +77,19 @@ pub fn add_graph(
             node.prior = node.encode(&prior.motions[object]);
             let pressed: f64 =
                 relations.iter().filter(|r| r.receiver == object).map(overlap).sum::<f64>() / UNIT;
-            let (even, odd) = node_features(&node, body, &motions[object], pressed);
+            let (even, odd) = node_features(&node, body, &coasts[object], pressed);
             batch.push_node(node, even, odd);
         }
         for relation in relations.iter() {
-            let receiver = index[relation.receiver];
-            let sender = match relation.sender {
-                Body::Object(sender) => index[sender],
-                _ => KINEMATIC,
+            let receiver = first + relation.receiver;
+            let (sender, with) = match relation.sender {
+                Body::Object(k) => ((first + k) as u32, Body::Object(view.number(k))),
+                given => (KINEMATIC, given),
             };
-            let (even, odd) = relation_features(&batch.nodes[receiver as usize], relation);
-            batch.push_relation(receiver, sender, even, odd);
+            let (even, odd) = relation_features(&batch.nodes[receiver], relation);
+            batch.push_relation(receiver as u32, sender, even, odd);
             if overlap(relation) > 0.0 {
-                let (object, with) = (relation.receiver, relation.sender);
+                let object = view.number(relation.receiver);
                 batch.touches.push(Touch { graph, object, with });
             }
         }
@@ -105,54 +101,5 @@ fn overlap(relation: &Relation) -> f64 {
     match relation.tie {
         Tie::Contact { overlap, .. } => overlap,
         Tie::Joint { .. } => 0.0,
-    }
-}
-
-/// Which objects may do anything but coast: those near a moving part, those that move near
-/// anything or in a joint, and those in touch or jointed with such an object.
-fn find_awake(
-    bodies: &Bodies,
-    contacts: &[Contact],
-    coasts: &[Motion],
-    step: &FrameStep,
-    awake: &mut Vec<bool>,
-) {
-    let tool_moves = step.from != step.to;
-    let moving = |object: usize| coasts[object] != Motion::default();
-    awake.clear();
-    awake.resize(coasts.len(), false);
-    for contact in contacts {
-        let pushed = matches!(contact.with, Body::Part(_)) && tool_moves;
-        if pushed || moving(contact.object) {
-            awake[contact.object] = true;
-        }
-        if let Body::Object(other) = contact.with
-            && moving(other)
-        {
-            awake[other] = true;
-        }
-    }
-    for joint in &bodies.joints {
-        for object in joint.between {
-            awake[object] |= moving(object);
-        }
-    }
-    let contacts = contacts.iter().filter_map(|contact| match contact.with {
-        Body::Object(other) => Some([contact.object, other]),
-        _ => None,
-    });
-    let pairs: Vec<[usize; 2]> =
-        contacts.chain(bodies.joints.iter().map(|joint| joint.between)).collect();
-    loop {
-        let mut changed = false;
-        for &[a, b] in &pairs {
-            if awake[a] != awake[b] {
-                (awake[a], awake[b]) = (true, true);
-                changed = true;
-            }
-        }
-        if !changed {
-            return;
-        }
     }
 }

@@ -9,7 +9,7 @@ use super::bodies::{Bodies, Motion};
 
 /// Pairs count as related when their gap is at most this beyond what both could travel in the
 /// frame, metres: room for the turning of long bodies.
-const MARGIN: f64 = 0.008;
+pub const MARGIN: f64 = 0.008;
 
 /// A contact point of an object with another body. World axes, metres.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,7 @@
 //! Only what moves is in the graph: objects that nothing can push in a frame coast in closed
 //! form or stay, exactly. Nothing is learned here.
 
+mod awake;
 mod batch;
 mod bodies;
 mod build;
@@ -15,11 +16,14 @@ mod joint;
 mod node;
 mod prior;
 mod relation;
+mod subset;
 mod system;
 
 pub use batch::{Batch, KINEMATIC, Touch};
-pub use bodies::{Bodies, Jointed, Motion};
+pub use bodies::{Bodies, Jointed, Motion, Movable};
 pub use build::add_graph;
 pub use coast::coast;
+pub use contact::MARGIN;
 pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
 pub use node::Node;
+pub use subset::Subset;

@@ -27,7 +27,7 @@ const OUT_OF_OVERLAP: f64 = 0.005;
 pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &FrameStep) {
     let coasting = step.from == step.to;
     let before = if coasting { kinetic_energy(bodies, state) } else { f64::INFINITY };
-    let limit = fastest(bodies, state, step);
+    let limit = fastest(bodies, state, motions, step);
     for (k, motion) in motions.iter().enumerate() {
         let body = &bodies.objects[k];
         let pose = &mut state.poses[k];
@@ -52,14 +52,16 @@ pub fn integrate(bodies: &Bodies, state: &mut State, motions: &[Motion], step: &
     }
 }
 
-/// The larger of [`FASTER`] (or [`LEVER`]) times the speed of the tool's fastest part and the speed of the
-/// fastest object, m/s.
-fn fastest(bodies: &Bodies, state: &State, step: &FrameStep) -> f64 {
+/// The larger of [`FASTER`] (or [`LEVER`], if anything in a joint moves) times the speed of the
+/// tool's fastest part and the speed of the fastest object, m/s.
+fn fastest(bodies: &Bodies, state: &State, motions: &[Motion], step: &FrameStep) -> f64 {
     let turn = (step.to.heading - step.from.heading).abs();
     let reach = bodies.parts.iter().map(|p| p.pose.position.norm() + p.footprint.bounding_radius());
     let travel = (step.to.position - step.from.position).norm()
         + if turn > 0.0 { turn * reach.fold(0.0, f64::max) } else { 0.0 };
-    let factor = if bodies.joints.is_empty() { FASTER } else { LEVER };
+    let moves = |&k: &usize| motions[k] != Motion::default();
+    let levers = bodies.joints.iter().any(|joint| joint.between.iter().any(moves));
+    let factor = if levers { LEVER } else { FASTER };
     bodies
         .objects
         .iter()

@@ -13,6 +13,7 @@ mod evaluation;
 mod jointed;
 mod network;
 mod planning;
+mod pruning;
 mod readme;
 mod simulation;
 mod solving;

@@ -1,0 +1,128 @@
+//! Which objects a frame's equations are about: those that may do anything but coast.
+
+use crate::scene::{Body, FrameStep, State};
+
+use super::{
+    bodies::{Bodies, Motion},
+    contact::Contact,
+    subset::Subset,
+};
+
+/// The objects that are awake in a frame, and memory to look at them by themselves.
+///
+/// Nothing else enters the equations, so that a prediction cannot depend, not even in its last
+/// bit, on what stands elsewhere.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Awake {
+    flags: Vec<bool>,
+    pairs: Vec<[usize; 2]>,
+    subset: Subset,
+    state: State,
+    coasts: Vec<Motion>,
+}
+
+/// Bodies under numbers of their own, with their state and how they would coast.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View<'a> {
+    pub bodies: &'a Bodies,
+    pub state: &'a State,
+    pub coasts: &'a [Motion],
+    /// Number of each object in the scene; `None` where it is the same.
+    numbers: Option<&'a [usize]>,
+}
+
+impl View<'_> {
+    /// The number in the scene of object `index`.
+    pub fn number(&self, index: usize) -> usize {
+        self.numbers.map_or(index, |numbers| numbers[index])
+    }
+}
+
+impl Awake {
+    /// Finds those near a moving part, those that move near anything or in a joint, and those in
+    /// touch or jointed with such an object.
+    pub fn find(
+        &mut self,
+        bodies: &Bodies,
+        contacts: &[Contact],
+        coasts: &[Motion],
+        step: &FrameStep,
+    ) {
+        let Self { flags: awake, pairs, .. } = self;
+        let tool_moves = step.from != step.to;
+        let moving = |object: usize| coasts[object] != Motion::default();
+        awake.clear();
+        awake.resize(coasts.len(), false);
+        for contact in contacts {
+            let pushed = matches!(contact.with, Body::Part(_)) && tool_moves;
+            if pushed || moving(contact.object) {
+                awake[contact.object] = true;
+            }
+            if let Body::Object(other) = contact.with
+                && moving(other)
+            {
+                awake[other] = true;
+            }
+        }
+        for joint in &bodies.joints {
+            for object in joint.between {
+                awake[object] |= moving(object);
+            }
+        }
+        pairs.clear();
+        pairs.extend(contacts.iter().filter_map(|contact| match contact.with {
+            Body::Object(other) => Some([contact.object, other]),
+            _ => None,
+        }));
+        pairs.extend(bodies.joints.iter().map(|joint| joint.between));
+        loop {
+            let mut changed = false;
+            for &[a, b] in pairs.iter() {
+                if awake[a] != awake[b] {
+                    (awake[a], awake[b]) = (true, true);
+                    changed = true;
+                }
+            }
+            if !changed {
+                return;
+            }
+        }
+    }
+
+    /// Whether nothing is awake.
+    pub fn is_empty(&self) -> bool {
+        !self.flags.contains(&true)
+    }
+
+    /// The objects that are awake by themselves; `contacts` are reduced to theirs.
+    pub fn view<'a>(
+        &'a mut self,
+        bodies: &'a Bodies,
+        state: &'a State,
+        coasts: &'a [Motion],
+        contacts: &mut Vec<Contact>,
+    ) -> View<'a> {
+        let Self { flags, subset, state: own, coasts: own_coasts, .. } = self;
+        if !flags.contains(&false) {
+            return View { bodies, state, coasts, numbers: None };
+        }
+        contacts.retain(|contact| flags[contact.object]);
+        subset.objects.clear();
+        subset.objects.extend((0..flags.len()).filter(|&k| flags[k]));
+        subset.gather(bodies);
+        for contact in contacts {
+            contact.object = subset.number(contact.object);
+            if let Body::Object(other) = &mut contact.with {
+                *other = subset.number(*other);
+            }
+        }
+        own.poses.clear();
+        own.poses.extend(subset.objects.iter().map(|&k| state.poses[k]));
+        own.velocities.clear();
+        own.velocities.extend(subset.objects.iter().map(|&k| state.velocities[k]));
+        own_coasts.clear();
+        own_coasts.extend(subset.objects.iter().map(|&k| coasts[k]));
+        let numbers = Some(&subset.objects[..]);
+        View { bodies: &subset.bodies, state: own, coasts: own_coasts, numbers }
+    }
+}

@@ -1,0 +1,239 @@
+//! What a stroke can set in motion: the only bodies that its frames need to look at.
+//!
+//! Objects that the tool's swept area comes near, those that move, and whatever is near those or
+//! jointed with them, and so on. *Near* allows for some motion; when an object has used that up,
+//! or the stroke ends, the list is made anew. So it never leaves out anything that a frame of
+//! the whole scene would relate, however far the network throws things: the neighbour list of
+//! molecular dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
+
+use crate::{
+    geometry::{Footprint, Pose, Vector, perpendicular},
+    graph::{Bodies, MARGIN, Subset},
+    scene::{State, Stroke},
+};
+
+/// How far an object may move before the list is made anew, metres. A push of 20 cm then makes
+/// four lists, and a list holds little more than what stands within a hand's breadth.
+const SKIN: f64 = 0.05;
+
+/// Allowance for rounding, metres.
+const ROUNDING: f64 = 1e-7;
+
+/// Which bodies matter, and for how long.
+#[derive(Clone, Debug, Default)]
+pub struct Reach {
+    /// Where the listed objects were when the list was made.
+    positions: Vec<Vector>,
+    /// How far each of them may move, metres.
+    skin: f64,
+    sweeps: Vec<Sweep>,
+    /// Gap below which a pair that does not move is related, metres.
+    near: f64,
+    listed: Vec<bool>,
+}
+
+/// What the tool has before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<'a> {
+    pub stroke: &'a Stroke,
+    /// Frames of it that are done.
+    pub frame: usize,
+    /// Frames that are predicted as one.
+    pub stride: usize,
+}
+
+/// The area that a part sweeps, as a rectangle along the stroke.
+#[derive(Clone, Copy, Debug)]
+struct Sweep {
+    axis: Vector,
+    /// Extent at the stroke's start along the axis and across it, metres.
+    along: (f64, f64),
+    across: (f64, f64),
+    /// Travels of the tool between which it is swept, metres from the stroke's start.
+    travel: (f64, f64),
+    /// Height of the part's underside, metres.
+    underside: f64,
+}
+
+impl Reach {
+    /// Lists in `subset` what the rest of a stroke can set in motion, and gathers it. The coming
+    /// frame lasts `duration` seconds.
+    pub fn list(
+        &mut self,
+        whole: &Bodies,
+        state: &State,
+        Course { stroke, frame, stride }: Course<'_>,
+        duration: f64,
+        subset: &mut Subset,
+    ) {
+        let advance = stroke.travel() / stroke.frames() as f64;
+        self.near = MARGIN + advance * stride as f64 + ROUNDING;
+        self.sweep(whole, stroke, advance * frame.min(stroke.frames()) as f64);
+        let count = whole.objects.len();
+        let Self { listed, sweeps, near, .. } = self;
+        let Subset { objects, parts, obstacles, .. } = subset;
+        listed.clear();
+        listed.resize(count, false);
+        objects.clear();
+        self.skin = SKIN;
+        for (k, body) in whole.objects.iter().enumerate() {
+            let way = way(state, k, body.radius, duration);
+            let swept = |sweep: &Sweep| {
+                sweep.underside < body.height
+                    && sweep.gap(state.poses[k].position) <= body.radius + *near
+            };
+            // A position that is no number is near everything.
+            let lost = !state.poses[k].is_finite();
+            if way > 0.0 || lost || sweeps.iter().any(swept) {
+                listed[k] = true;
+                objects.push(k);
+                self.skin = self.skin.max(SKIN + way);
+            }
+        }
+        // Neighbours of neighbours: the list grows while it is read.
+        let near = *near + self.skin;
+        let mut next = 0;
+        while let Some(&object) = objects.get(next) {
+            next += 1;
+            let (centre, radius) = (state.poses[object].position, whole.objects[object].radius);
+            let mechanism = whole.mechanisms[object];
+            for (other, taken) in listed.iter_mut().enumerate().filter(|(_, taken)| !**taken) {
+                let room = radius + whole.objects[other].radius + near;
+                let square = (state.poses[other].position - centre).norm_squared();
+                if whole.mechanisms[other] == mechanism || square <= room * room {
+                    *taken = true;
+                    objects.push(other);
+                }
+            }
+        }
+        objects.sort_unstable();
+        let turns = stroke.from.heading != stroke.to.heading;
+        parts.clear();
+        parts.extend((0..whole.parts.len()).filter(|&part| {
+            turns
+                || objects.iter().any(|&k| {
+                    let (sweep, body) = (&sweeps[part], &whole.objects[k]);
+                    sweep.underside < body.height
+                        && sweep.gap(state.poses[k].position) <= body.radius + near
+                })
+        }));
+        obstacles.clear();
+        obstacles.extend((0..whole.obstacles.len()).filter(|&index| {
+            let obstacle = &whole.obstacles[index];
+            objects.iter().any(|&k| {
+                let gap = gap(&obstacle.footprint, &obstacle.pose, state.poses[k].position);
+                gap <= whole.objects[k].radius + near
+            })
+        }));
+        subset.gather(whole);
+        self.positions.clear();
+        self.positions.extend(subset.objects.iter().map(|&k| state.poses[k].position));
+    }
+
+    /// Whether the list still holds everything that a frame of `duration` seconds can relate;
+    /// `state` is that of the listed objects.
+    pub fn holds(&self, bodies: &Bodies, state: &State, duration: f64) -> bool {
+        self.positions.iter().enumerate().all(|(k, position)| {
+            let moved = (state.poses[k].position - position).norm();
+            moved + way(state, k, bodies.objects[k].radius, duration) <= self.skin
+        })
+    }
+
+    /// The first frame of the stroke from `frame` on in which the tool comes near a listed
+    /// object, if none of them moves; beyond the last one if it never does.
+    pub fn first_contact(
+        &self,
+        subset: &Subset,
+        state: &State,
+        stroke: &Stroke,
+        frame: usize,
+    ) -> usize {
+        let advance = stroke.travel() / stroke.frames() as f64;
+        let mut first = usize::MAX;
+        for &part in &subset.parts {
+            let sweep = &self.sweeps[part];
+            for (body, pose) in subset.bodies.objects.iter().zip(&state.poses) {
+                if sweep.underside >= body.height {
+                    continue;
+                }
+                let room = body.radius + self.near;
+                let Some((enter, leave)) = sweep.window(pose.position, room) else { continue };
+                let now = advance * frame as f64;
+                if now > leave {
+                    continue;
+                }
+                let at = if enter > now { (enter / advance).ceil() as usize } else { frame };
+                first = first.min(at);
+            }
+        }
+        first
+    }
+
+    /// The sweeps of all parts from the `done`-th metre of the stroke on.
+    fn sweep(&mut self, whole: &Bodies, stroke: &Stroke, done: f64) {
+        let travel = stroke.to.position - stroke.from.position;
+        let length = travel.norm();
+        let axis = if length > 0.0 { travel / length } else { Vector::x() };
+        let side = perpendicular(axis);
+        let turns = stroke.from.heading != stroke.to.heading;
+        self.sweeps.clear();
+        self.sweeps.extend(whole.parts.iter().map(|part| {
+            // A tool that turns stays in a circle about its frame.
+            let (centre, half) = if turns {
+                let reach = part.pose.position.norm() + part.footprint.bounding_radius();
+                (stroke.from.position, [reach; 2])
+            } else {
+                let pose = stroke.from * part.pose;
+                let extent = |v| part.footprint.extent(pose.local_vector(v)) + ROUNDING;
+                (pose.position, [axis, side].map(extent))
+            };
+            let (x, y) = (centre.dot(&axis), centre.dot(&side));
+            Sweep {
+                axis,
+                along: (x - half[0], x + half[0]),
+                across: (y - half[1], y + half[1]),
+                travel: (done, length),
+                underside: part.span.0,
+            }
+        }));
+    }
+}
+
+impl Sweep {
+    /// Distance of a point from the swept area, metres.
+    fn gap(&self, point: Vector) -> f64 {
+        let (x, y) = (point.dot(&self.axis), point.dot(&perpendicular(self.axis)));
+        let beyond = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
+        let along = beyond(x, self.along.0 + self.travel.0, self.along.1 + self.travel.1);
+        along.hypot(beyond(y, self.across.0, self.across.1))
+    }
+
+    /// Between which travels of the tool the part is at most `room` metres from a point.
+    fn window(&self, point: Vector, room: f64) -> Option<(f64, f64)> {
+        let (x, y) = (point.dot(&self.axis), point.dot(&perpendicular(self.axis)));
+        let aside = (self.across.0 - y).max(y - self.across.1).max(0.0);
+        let half = room * room - aside * aside;
+        if half < 0.0 {
+            return None;
+        }
+        let half = half.sqrt();
+        Some((x - half - self.along.1, x + half - self.along.0))
+    }
+}
+
+/// Most that any point of object `k` can travel in `duration` seconds by itself, metres.
+fn way(state: &State, k: usize, radius: f64, duration: f64) -> f64 {
+    let velocity = &state.velocities[k];
+    (velocity.linear.norm() + velocity.angular.abs() * radius) * duration
+}
+
+/// Distance of a point from a body, metres; zero inside.
+fn gap(footprint: &Footprint, pose: &Pose, point: Vector) -> f64 {
+    match *footprint {
+        Footprint::Disc { radius } => ((point - pose.position).norm() - radius).max(0.0),
+        Footprint::Rectangle { half } => {
+            let local = pose.local_point(point);
+            (local.abs() - half).sup(&Vector::zeros()).norm()
+        }
+    }
+}

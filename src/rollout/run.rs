@@ -1,0 +1,299 @@
+//! One job on its way through a rollout.
+
+use crate::{
+    geometry::{Pose, Vector},
+    graph::{Batch, Bodies, Motion, Movable, Subset, add_graph},
+    scene::{
+        Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
+        State, Stroke, Trajectory, Velocity, Warning,
+    },
+};
+
+use super::{
+    integrate::integrate,
+    reach::{Course, Reach},
+    roll::RollSettings,
+    work::Work,
+};
+
+/// Memory of one job, reused for the next.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory {
+    subset: Subset,
+    reach: Reach,
+    /// State of the listed objects, under their numbers in `subset`.
+    state: State,
+    before: State,
+}
+
+/// One job on its way.
+pub(super) struct Run<'a> {
+    job: &'a Job,
+    /// All bodies, and which of them matter now.
+    whole: &'a Bodies,
+    memory: &'a mut Memory,
+    settings: RollSettings,
+    record: Record,
+    /// State of all objects. Those on the list are up to date whenever a frame is done.
+    state: State,
+    /// Whether the list must be made before the next frame.
+    stale: bool,
+    /// Whether the last frame had no graph, so that it pays to look ahead.
+    idle: bool,
+    /// The first frame of the stroke in which the tool comes near anything, if nothing moves
+    /// before; not known yet if nothing.
+    apart_until: Option<usize>,
+    stroke: usize,
+    /// Frames done of the stroke, coasting ones included.
+    frame: usize,
+    time: f64,
+    axis: Vector,
+    /// The frame to compute now; `None` when the job is done.
+    step: Option<FrameStep>,
+    /// How many of the stroke's frames it stands for.
+    span: usize,
+    trajectory: Trajectory,
+}
+
+impl<'a> Run<'a> {
+    pub fn new(
+        job: &'a Job,
+        whole: &'a Bodies,
+        memory: &'a mut Memory,
+        settings: RollSettings,
+        record: Record,
+    ) -> Self {
+        let mut run = Self {
+            job,
+            whole,
+            memory,
+            settings,
+            record,
+            state: job.start.clone(),
+            stale: true,
+            idle: true,
+            apart_until: None,
+            stroke: 0,
+            frame: 0,
+            time: 0.0,
+            axis: Vector::x(),
+            step: None,
+            span: 1,
+            trajectory: Trajectory::default(),
+        };
+        if record == Record::Frames {
+            let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+            run.keep_frame(tool);
+        }
+        run
+    }
+
+    /// Decides what the tool does in the next frame that can change anything, and adds its
+    /// graph to `batch`; returns whether there is such a frame.
+    pub fn next(
+        &mut self,
+        graph: u32,
+        batch: &mut Batch,
+        motions: &mut Vec<Motion>,
+        work: &mut Work,
+    ) -> bool {
+        self.next_step(work);
+        let Some(step) = &self.step else { return false };
+        let (nodes, relations) = (batch.node_count(), batch.relation_count());
+        let Memory { subset, state, .. } = &*self.memory;
+        add_graph(&subset.bodies, state, step, self.axis, graph, batch, motions);
+        self.idle = batch.node_count() == nodes;
+        if !self.idle {
+            self.apart_until = None;
+        }
+        work.graphs += u64::from(!self.idle);
+        work.nodes += (batch.node_count() - nodes) as u64;
+        work.relations += (batch.relation_count() - relations) as u64;
+        true
+    }
+
+    fn next_step(&mut self, work: &mut Work) {
+        self.step = None;
+        while let Some(stroke) = self.job.motion.strokes.get(self.stroke) {
+            let moving = stroke.frames();
+            if self.frame < moving {
+                self.axis = direction(stroke).unwrap_or(self.axis);
+                self.span = self.settings.stride.clamp(1, moving - self.frame);
+                let step = stroke.frames_from(self.frame, self.span);
+                self.look(stroke, step.duration, work);
+                work.moving += 1;
+                if self.idle && self.settings.pruned && self.is_still() && self.is_apart(stroke) {
+                    work.skipped += 1;
+                    self.pass(&step);
+                    continue;
+                }
+                self.step = Some(step);
+                return;
+            }
+            self.span = 1;
+            if stroke.settle && !self.is_resting() {
+                if self.frame < moving + MAX_COAST_FRAMES {
+                    let duration = COAST_FRAME;
+                    self.look(stroke, duration, work);
+                    self.step = Some(FrameStep { from: stroke.to, to: stroke.to, duration });
+                    work.coasting += 1;
+                    return;
+                }
+                let waited = MAX_COAST_FRAMES as f64 * COAST_FRAME;
+                self.trajectory.warnings.push(Warning::NotAtRest { waited });
+            }
+            self.stroke += 1;
+            self.frame = 0;
+            self.stale = true;
+        }
+    }
+
+    /// Sees to it that the list holds all that the coming frame of `stroke` can relate.
+    fn look(&mut self, stroke: &Stroke, duration: f64, work: &mut Work) {
+        let Memory { subset, reach, state, .. } = &mut *self.memory;
+        if self.settings.pruned {
+            if !self.stale && reach.holds(&subset.bodies, state, duration) {
+                return;
+            }
+            let course = Course { stroke, frame: self.frame, stride: self.settings.stride };
+            reach.list(self.whole, &self.state, course, duration, subset);
+        } else {
+            if self.stroke > 0 || self.frame > 0 {
+                return;
+            }
+            subset.list_all(self.whole);
+            subset.gather(self.whole);
+        }
+        self.stale = false;
+        self.apart_until = None;
+        work.lists += 1;
+        work.listed += subset.objects.len() as u64;
+        state.poses.clear();
+        state.poses.extend(subset.objects.iter().map(|&k| self.state.poses[k]));
+        state.velocities.clear();
+        state.velocities.extend(subset.objects.iter().map(|&k| self.state.velocities[k]));
+    }
+
+    /// Whether nothing moves at all.
+    fn is_still(&self) -> bool {
+        self.memory.state.velocities.iter().all(|v| *v == Velocity::default())
+    }
+
+    /// Whether everything is slow enough to count as resting, see
+    /// [`crate::scene::Scene::is_resting`]; what is not listed does not move.
+    fn is_resting(&self) -> bool {
+        let slow = |(body, v): (&Movable, &Velocity)| {
+            v.linear.norm() < REST_SPEED && v.angular.abs() * body.radius < REST_SPEED
+        };
+        let Memory { subset, state, .. } = &*self.memory;
+        subset.bodies.objects.iter().zip(&state.velocities).all(slow)
+    }
+
+    /// Whether the tool is still out of reach in the coming frame, nothing moving.
+    fn is_apart(&mut self, stroke: &Stroke) -> bool {
+        let Memory { subset, reach, state, .. } = &*self.memory;
+        let first = || reach.first_contact(subset, state, stroke, self.frame);
+        // Known once: nothing moves before the first contact.
+        let until = *self.apart_until.get_or_insert_with(first);
+        self.frame < until
+    }
+
+    /// Lets the frame of `step` pass, in which nothing moves.
+    fn pass(&mut self, step: &FrameStep) {
+        self.memory.before.clone_from(&self.memory.state);
+        self.end_frame(step);
+    }
+
+    /// Applies the frame's motions; a state that is not finite ends the job at the last good
+    /// one, with a warning.
+    pub fn advance(&mut self, motions: &[Motion]) {
+        let Some(step) = self.step else { return };
+        let Memory { subset, state, before, .. } = &mut *self.memory;
+        before.clone_from(state);
+        integrate(&subset.bodies, state, motions, &step);
+        if !state.is_finite() {
+            std::mem::swap(state, before);
+            self.trajectory.warnings.push(Warning::NotFinite);
+            self.stroke = self.job.motion.strokes.len();
+            return;
+        }
+        for (own, &object) in subset.objects.iter().enumerate() {
+            self.state.poses[object] = state.poses[own];
+            self.state.velocities[object] = state.velocities[own];
+        }
+        self.end_frame(&step);
+    }
+
+    /// Counts the frame of `step` as done and records it.
+    fn end_frame(&mut self, step: &FrameStep) {
+        self.frame += self.span;
+        if self.record == Record::Frames && self.span > 1 {
+            self.keep_between(step);
+        }
+        self.time += step.duration;
+        if self.record == Record::Frames {
+            self.keep_frame(step.to);
+        }
+    }
+
+    /// Records the frames that a longer step leaves out, with objects on straight ways.
+    fn keep_between(&mut self, step: &FrameStep) {
+        let began = self.time;
+        for k in 1..=self.span {
+            let share = k as f64 / self.span as f64;
+            let Memory { subset, state, before, .. } = &*self.memory;
+            for (own, &object) in subset.objects.iter().enumerate() {
+                let (from, to) = (before.poses[own], state.poses[own]);
+                // The last one puts things where they really are.
+                self.state.poses[object] =
+                    if k < self.span { from.towards(&to, share) } else { to };
+            }
+            if k < self.span {
+                self.time = began + share * step.duration;
+                self.keep_frame(step.from.towards(&step.to, share));
+            }
+        }
+        self.time = began;
+    }
+
+    fn keep_frame(&mut self, tool: Pose) {
+        self.trajectory.frames.push(Frame {
+            time: self.time,
+            stroke: self.stroke,
+            tool,
+            state: self.state.clone(),
+        });
+    }
+
+    /// Notes a contact; bodies under their numbers in the subset, parts in theirs.
+    pub fn touch(&mut self, object: usize, with: Body) {
+        let Subset { objects, parts, obstacles, .. } = &self.memory.subset;
+        let object = objects[object];
+        let with = match with {
+            Body::Object(k) => Body::Object(objects[k]),
+            Body::Part(k) => Body::Part(parts[k]),
+            Body::Obstacle(k) => Body::Obstacle(obstacles[k]),
+        };
+        let known = self.trajectory.contacts.iter().any(|c| c.object == object && c.with == with);
+        if !known {
+            let frame = self.trajectory.frames.len();
+            self.trajectory.contacts.push(Contact { frame, object, with });
+        }
+    }
+
+    pub fn finish(mut self) -> Trajectory {
+        if self.trajectory.frames.is_empty() {
+            self.stroke = self.job.motion.strokes.len().saturating_sub(1);
+            let tool = self.job.motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default();
+            self.keep_frame(tool);
+        }
+        self.trajectory
+    }
+}
+
+/// Unit vector of a stroke's travel, if it has any.
+fn direction(stroke: &Stroke) -> Option<Vector> {
+    let travel = stroke.to.position - stroke.from.position;
+    let length = travel.norm();
+    (length > 1e-9).then(|| travel / length)
+}

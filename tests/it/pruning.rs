@@ -1,0 +1,197 @@
+//! Leaving out what a motion cannot reach, and frames in which nothing can touch, changes no
+//! bit of a prediction.
+
+use std::sync::Arc;
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use pushplan::{
+    brdpn::{Engine, Weights, Workspace},
+    dataset::{Dataset, DatasetConfig, Preset, Unwatched},
+    effect::EffectModels,
+    geometry::{Pose, Shape, Vector},
+    rollout::{RollSettings, Roller, Work},
+    scene::{Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity},
+};
+
+/// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
+/// at a time: in a batch, a matrix product rounds a row differently according to what stands
+/// beside it, and that changes with the frames that are skipped.
+fn compare(engine: &Engine, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
+    let run = |pruned, record| {
+        let mut roller = Roller::new(RollSettings { stride, pruned });
+        let mut workspace = Workspace::default();
+        let rolled =
+            roller.roll(scene, std::slice::from_ref(job), record, &mut |batch, corrections| {
+                engine.forward(batch, &mut workspace, corrections);
+            });
+        (rolled, *roller.work())
+    };
+    let (pruned, work) = run(true, Record::Frames);
+    let (whole, all) = run(false, Record::Frames);
+    assert_eq!(pruned[0].frames.len(), whole[0].frames.len());
+    for (k, (p, q)) in pruned[0].frames.iter().zip(&whole[0].frames).enumerate() {
+        assert_eq!(p, q, "frame {k}");
+    }
+    assert_eq!(pruned, whole);
+    let (ends, _) = run(true, Record::Outcome);
+    assert_eq!(ends[0].outcome(), pruned[0].outcome());
+    assert_eq!((work.graphs, work.nodes, work.relations), (all.graphs, all.nodes, all.relations));
+    assert_eq!(work.moving, all.moving);
+    (work, all)
+}
+
+fn shipped() -> Weights {
+    EffectModels::weights().expect("the shipped weights")
+}
+
+/// Weights whose corrections are far too large: nothing here may rest on a good network.
+fn wild() -> Weights {
+    let mut weights = shipped();
+    for name in ["motion.even", "motion.odd"] {
+        let values = weights.parameters.values.get_mut(name).expect("the last layer");
+        values.iter_mut().for_each(|value| *value *= 5.0);
+    }
+    weights
+}
+
+#[test]
+fn crowds_pushed_again_and_again() {
+    for (preset, seed) in [(Preset::Sparse, 5), (Preset::Dense, 6), (Preset::Mixed, 7)] {
+        let config = DatasetConfig { seed, preset, episodes: 12, ..DatasetConfig::default() };
+        let data = Dataset::in_memory(&config, &Unwatched).expect("data");
+        for weights in [shipped(), wild()] {
+            let engine = Engine::new(&weights);
+            for episode in data.episodes() {
+                let scene = &episode.scene;
+                // From the start, and from the middle of the motion, where things move.
+                let middle = &episode.frames[episode.frames.len() / 3];
+                for frame in [&episode.frames[0], middle] {
+                    let job = Job {
+                        start: frame.state.clone(),
+                        motion: episode.motion.clone(),
+                        hypothesis: None,
+                    };
+                    compare(&engine, scene, &job, 1);
+                }
+            }
+        }
+    }
+}
+
+/// A table with a few objects near the tool's way, some of them touching, jointed or moving, and
+/// others far off; tools with parts that hang over everything.
+fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
+    let mut objects: Vec<Object> = Vec::new();
+    let mut scene = Scene { table_friction: rng.random_range(0.2..0.8), ..Scene::default() };
+    while objects.len() < 9 {
+        let spread = if objects.len() < 6 { 0.45 } else { 1.5 };
+        let cylinder = rng.random_bool(0.5);
+        let (a, b): (f64, f64) = (rng.random_range(0.02..0.05), rng.random_range(0.02..0.05));
+        let shape = if cylinder {
+            Shape::Cylinder { radius: a, height: 0.1 }
+        } else {
+            Shape::Cuboid { size: [2.0 * a, 2.0 * b, rng.random_range(0.03..0.1)] }
+        };
+        let radius = shape.footprint().bounding_radius();
+        let pose = Pose::new(
+            rng.random_range(-spread..spread),
+            rng.random_range(-spread..spread),
+            rng.random_range(-3.0..3.0),
+        );
+        let free = objects.iter().all(|other| {
+            let apart = (other.pose.position - pose.position).norm();
+            apart > other.shape.footprint().bounding_radius() + radius
+        });
+        if free {
+            let name = format!("o{}", objects.len());
+            let (mass, friction) = (rng.random_range(0.1..1.0), rng.random_range(0.1..0.8));
+            objects.push(Object { name, shape, mass, friction, pose });
+        }
+    }
+    scene.objects = objects;
+    if rng.random_bool(0.5) {
+        // What nearly touches is jointed: a wide reach makes chains.
+        scene = scene.with_contacts_fixed();
+        let kinds = [
+            pushplan::scene::JointKind::Fixed,
+            pushplan::scene::JointKind::Prismatic { axis: Vector::y(), limits: None },
+        ];
+        for between in [[0, 1], [1, 2], [6, 7]] {
+            let middle = 0.5
+                * (scene.objects[between[0]].pose.position
+                    + scene.objects[between[1]].pose.position);
+            let kind = match rng.random_range(0..3) {
+                2 => pushplan::scene::JointKind::Revolute { at: middle, limits: None },
+                other => kinds[other],
+            };
+            scene.joints.retain(|joint| joint.between != between);
+            scene.joints.push(pushplan::scene::Joint { between, kind, guessed: false });
+        }
+    }
+    for k in 0..rng.random_range(0..3) {
+        scene.obstacles.push(Obstacle {
+            name: format!("w{k}"),
+            size: [0.02, 0.4, 0.1],
+            pose: Pose::new(
+                rng.random_range(-0.6..0.6),
+                rng.random_range(-0.6..0.6),
+                rng.random_range(-3.0..3.0),
+            ),
+            friction: 0.4,
+        });
+    }
+    let parts = vec![
+        Part::cuboid("bar", [0.04, 0.16, 0.05], Pose::default()),
+        Part::cuboid("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
+        Part::cuboid("handle", [0.3, 0.03, 0.05], Pose::new(-0.17, 0.0, 0.0)),
+    ];
+    let tool = Tool::assemble("t".into(), String::new(), Pose::default(), 0.6, parts, &[]);
+    let tool = Arc::new(tool.expect("one piece"));
+    let placed = rng.random_bool(0.5);
+    let yaw = if rng.random_bool(0.5) { 0.0 } else { rng.random_range(-3.0..3.0) };
+    let mut from = Pose::new(rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.5), yaw);
+    let mut strokes = Vec::new();
+    for k in 0..3 {
+        let (direction, length): (f64, f64) =
+            (rng.random_range(-3.0..3.0), rng.random_range(0.05..0.4));
+        let turn = if rng.random_bool(0.15) { 0.5 } else { 0.0 };
+        let to = from.position + length * Vector::new(direction.cos(), direction.sin());
+        let to = Pose { position: to, heading: from.heading + turn };
+        let speed = rng.random_range(0.03..0.6);
+        strokes.push(Stroke { from, to, duration: length / speed, settle: placed || k == 2 });
+        from = if placed {
+            Pose::new(rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.5), yaw)
+        } else {
+            to
+        };
+    }
+    let lift = if rng.random_bool(0.3) { 0.06 } else { 0.002 };
+    let mut start = scene.start();
+    if rng.random_bool(0.4) {
+        for velocity in start.velocities.iter_mut().skip(rng.random_range(0..8)).take(2) {
+            let linear = Vector::new(rng.random_range(-0.6..0.6), rng.random_range(-0.6..0.6));
+            *velocity = Velocity { linear, angular: rng.random_range(-4.0..4.0) };
+        }
+    }
+    let job = Job { start, motion: ToolMotion { tool, lift, strokes }, hypothesis: None };
+    (scene, job)
+}
+
+#[test]
+fn random_tables_chained_and_placed_jointed_and_moving() {
+    let mut rng = Pcg64::seed_from_u64(3);
+    let engines = [shipped(), wild()].map(|weights| Engine::new(&weights));
+    let (mut some, mut every) = (Work::default(), Work::default());
+    for round in 0..300 {
+        let (scene, job) = random_job(&mut rng);
+        let (work, all) = compare(&engines[round % 2], &scene, &job, 1 + round % 3);
+        some.add(&work);
+        every.add(&all);
+    }
+    // What was left out must be a good part, or these tables show nothing.
+    assert!(some.skipped * 4 > some.moving, "{some:?}");
+    assert!(some.listed * 3 < some.lists * 9 * 2, "{some:?}");
+    assert!(some.graphs > 3000 && every.skipped == 0, "{some:?} {every:?}");
+}
