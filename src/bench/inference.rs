@@ -121,7 +121,7 @@ fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
 }
 
 /// Matrix-product rate of one thread, floating-point operations per second.
-fn peak() -> f64 {
+pub(super) fn peak() -> f64 {
     let n = PEAK_SIDE;
     let (a, b) = (vec![0.5; n * n], vec![0.25; n * n]);
     let mut c = vec![0.0; n * n];

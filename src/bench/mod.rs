@@ -14,6 +14,7 @@ mod statistics;
 mod store;
 mod suite;
 mod timing;
+mod tradeoff;
 
 pub use crowd::{
     CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Drift, Moment, Phases,
@@ -31,3 +32,8 @@ pub use store::{
 };
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
+pub use tradeoff::{
+    EffortChoice, Level, Noise, ObjectCost, PlanLevel, PlanOutcome, PlanRow, Point, PredictorRow,
+    SuiteErrors, TradeOff, TradeOffReport, TradeOffSettings, Unit, dominates, levels, on_front,
+    plan_levels,
+};

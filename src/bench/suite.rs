@@ -87,10 +87,20 @@ impl Suite {
 /// Scenes of `objects` objects, scattered and dense in turn, with mixed joints, and the first
 /// stroke of the hand in each: what the network is timed on. `objects` is from 2 to 12.
 pub fn crowd_cases(objects: usize, seed: u64, count: usize) -> Vec<Case> {
+    jointed_crowd_cases(objects, JointRule::Mixed, seed, count)
+}
+
+/// The same with other joints.
+pub(super) fn jointed_crowd_cases(
+    objects: usize,
+    joints: JointRule,
+    seed: u64,
+    count: usize,
+) -> Vec<Case> {
     let config = |preset| DatasetConfig {
         seed,
         preset,
-        constraints: Constraints::test(objects.clamp(2, 12), JointRule::Mixed, Solids::Any),
+        constraints: Constraints::test(objects.clamp(2, 12), joints, Solids::Any),
         ..DatasetConfig::default()
     };
     let families = [Preset::Sparse, Preset::Dense].map(config);

@@ -12,7 +12,10 @@ use crate::{
     sim::Simulator,
 };
 
-use super::{cpu_clock::processor_time, suite::Suite};
+use super::{
+    cpu_clock::processor_time,
+    suite::{Case, Suite},
+};
 
 /// A search is timed this often and the shortest counts: other work on the machine can only
 /// lengthen it.
@@ -72,8 +75,27 @@ pub fn push_costs(
 }
 
 fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
-    let work: Vec<(&Scene, Vec<Job>)> = suite
-        .cases
+    let seconds = push_seconds(model, &suite.cases, batch, ENOUGH);
+    let strokes = suite.cases.iter().flat_map(|case| &case.motion.strokes);
+    let frames = strokes.map(|stroke| stroke.frames()).sum::<usize>();
+    let pushes = suite.cases.len();
+    PushCost {
+        model: model.name().to_owned(),
+        batch,
+        seconds,
+        seconds_per_frame: seconds * pushes as f64 / frames.max(1) as f64,
+    }
+}
+
+/// Processor time of one push on this thread, seconds: the mean over `cases`, `batch` times the
+/// same push at a time, all repeated until that took `enough` seconds.
+pub(super) fn push_seconds(
+    model: &dyn EffectModel,
+    cases: &[Case],
+    batch: usize,
+    enough: f64,
+) -> f64 {
+    let work: Vec<(&Scene, Vec<Job>)> = cases
         .iter()
         .map(|case| {
             let motion = case.motion.clone();
@@ -83,7 +105,7 @@ fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
         .collect();
     let (mut seconds, mut runs) = (0.0, 0u32);
     // Bounded, should the clock stand still.
-    while seconds < ENOUGH && runs < 10_000 && !work.is_empty() {
+    while seconds < enough && runs < 10_000 && !work.is_empty() {
         runs += 1;
         seconds += processor_time(|| {
             for (scene, jobs) in &work {
@@ -92,16 +114,7 @@ fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
         })
         .as_secs_f64();
     }
-    let seconds = seconds / f64::from(runs.max(1));
-    let pushes = (work.len() * batch).max(1) as f64;
-    let strokes = suite.cases.iter().flat_map(|case| &case.motion.strokes);
-    let frames = strokes.map(|stroke| stroke.frames()).sum::<usize>() * batch;
-    PushCost {
-        model: model.name().to_owned(),
-        batch,
-        seconds: seconds / pushes,
-        seconds_per_frame: seconds / frames.max(1) as f64,
-    }
+    seconds / f64::from(runs.max(1)) / (work.len() * batch).max(1) as f64
 }
 
 /// Times the search of at most `candidates` one-push candidates for `task` with each model, one

@@ -11,7 +11,7 @@ use super::{
     error::CliError,
     evaluate, exit_code, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session},
-    simulate, solve, train, verify,
+    simulate, solve, tradeoff, train, verify,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -36,6 +36,7 @@ enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Bench(bench::BenchArgs),
+    Tradeoff(tradeoff::TradeOffArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
@@ -73,6 +74,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Train(args) => train::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Bench(args) => bench::run(args, &session),
+        Command::Tradeoff(args) => tradeoff::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),
         Command::Completions(args) => completions::run(args, &session),
     }

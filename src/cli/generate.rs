@@ -110,6 +110,11 @@ impl<'a> Following<'a> {
         Self { session, bar: session.bar(what) }
     }
 
+    /// Says beside the bar what is being done.
+    pub fn say(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }

@@ -21,6 +21,7 @@ mod schema;
 mod session;
 mod simulate;
 mod solve;
+mod tradeoff;
 mod train;
 mod verify;
 

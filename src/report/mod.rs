@@ -15,6 +15,7 @@ mod solution;
 mod solved;
 mod svg;
 mod table;
+mod tradeoff;
 mod training;
 
 pub use bars::{BarChart, Bars};
@@ -31,4 +32,8 @@ pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};
+pub use tradeoff::{
+    tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
+    tradeoff_push_chart, tradeoff_task_chart,
+};
 pub use training::training_chart;

@@ -2,8 +2,13 @@
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::{Suite, SuiteKind},
+    bench::{
+        Level, Seconds, Store, StoreError, Suite, SuiteKind, TradeOff, TradeOffReport,
+        TradeOffSettings, Unit, levels, plan_levels,
+    },
+    dataset::Watch,
     effect::{EffectModel, EffectModels, Job, Learned, QuasiStatic},
+    report::{tradeoff_push_chart, tradeoff_task_chart},
     scene::Record,
 };
 
@@ -53,5 +58,71 @@ fn the_timed_rollout_is_the_rollout() {
         let (timed, network) = model.timed_rollout(&case.scene, &jobs);
         assert_eq!(timed, model.rollout(&case.scene, &jobs, Record::Outcome));
         assert!(network.as_nanos() > 0);
+    }
+}
+
+/// A tiny run: two networks' levels, the prior and an engine.
+fn tiny(library: &ToolLibrary) -> TradeOff<'_> {
+    let weights = EffectModels::weights().unwrap();
+    let mut levels = levels(&weights, &[("again".into(), weights.clone())]);
+    let wanted = ["brdpn-128", "brdpn-128 (again)", "quasi-static", "planar", "still"];
+    levels.retain(|level| wanted.contains(&level.name()));
+    assert_eq!(levels.iter().map(Level::name).collect::<Vec<_>>(), wanted);
+    let mut plans = plan_levels(&levels);
+    plans.retain(|plan| plan.name.contains("coarse search, light refinement, 4 verified"));
+    let counts = TradeOffSettings { pushes: 12, timed: 1, rounds: 2, tasks: 2, seed: 5 };
+    TradeOff::new(library, levels, plans, counts).unwrap()
+}
+
+#[test]
+fn every_level_is_measured_and_an_interrupted_run_goes_on() {
+    struct Quiet;
+    impl Watch for Quiet {}
+    let library = ToolLibrary::embedded().unwrap();
+    let run = tiny(&library);
+    let folder = tempfile::TempDir::new().unwrap();
+    let manifest = || run.manifest(&["one".into(), "two".into()]);
+    let total = manifest().tasks;
+    assert_eq!(total, 1 + 5 + 2 + 2);
+    let mut store: Store<Unit> = Store::open(folder.path(), manifest(), &Quiet).unwrap();
+    let stopped = store.run(&Quiet, |index| match index {
+        7 => Err(StoreError::Missing { path: "stopped".into() }),
+        index => Ok(run.measure(index)),
+    });
+    assert!(stopped.is_err());
+    drop(store);
+    let mut store: Store<Unit> = Store::open(folder.path(), manifest(), &Quiet).unwrap();
+    assert_eq!(store.finished().len(), 7);
+    store.run::<StoreError>(&Quiet, |index| Ok(run.measure(index))).unwrap();
+    let units: Vec<(Unit, Seconds)> =
+        store.finished().iter().map(|one| (one.record.clone(), one.seconds.clone())).collect();
+    // All but times is the same when measured again.
+    for index in [0, 1, 3, total - 1] {
+        assert_eq!(run.measure(index).record, units[index].0, "{}", run.title(index));
+    }
+
+    let report = run.report(&units);
+    let named = |name: &str| report.predictors.iter().find(|row| row.model == name).unwrap();
+    let mean = |name: &str| named(name).suites[0].position.as_ref().unwrap().mean;
+    assert_eq!(mean("planar"), 0.0);
+    assert_eq!(mean("brdpn-128"), mean("brdpn-128 (again)"));
+    assert!(mean("brdpn-128") < mean("still"));
+    for name in ["planar", "still"] {
+        assert!(named(name).on_front, "{name} is the most accurate, or the cheapest");
+    }
+    let network = named("brdpn-128");
+    assert!(network.network_seconds.is_some_and(|part| part > 0.0 && part < network.seconds));
+    assert!(report.objects.iter().all(|cost| cost.seconds > 0.0 && cost.planar_ratio > 0.0));
+    assert_eq!(report.plans.len(), 4);
+    assert!(report.plans.iter().all(|plan| plan.seconds > 0.0 && plan.rollouts > 100.0));
+    assert!(report.plans.iter().any(|plan| plan.on_front));
+    for choice in report.efforts.values() {
+        let row = report.plans.iter().find(|row| row.level.name == choice.level).unwrap();
+        assert!(row.on_front && row.level.settings == choice.settings);
+    }
+    let text = serde_json::to_string_pretty(&report).unwrap();
+    assert_eq!(serde_json::from_str::<TradeOffReport>(&text).unwrap(), report);
+    for chart in [tradeoff_push_chart(&report), tradeoff_task_chart(&report)] {
+        assert!(!chart.to_svg().contains("NaN"));
     }
 }

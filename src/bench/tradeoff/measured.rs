@@ -1,0 +1,296 @@
+//! What a run measured: the numbers of every level and which of them are on the front.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    asset::SCHEMA_VERSION,
+    bench::{Seconds, SuiteKind, Summary, mean, percentile},
+    solve::Effort,
+};
+
+use super::{
+    choice::{EffortChoice, choose_efforts},
+    cost::{OBJECTS, YARDSTICK, alone_key, key, network_key},
+    front::{Noise, Point, on_front},
+    levels::{Level, PlanLevel},
+    run::{CONTROL, PlanOutcome, TradeOffSettings, Unit},
+};
+
+/// Costs of tasks that differ by less are never told apart, relative.
+const LEAST_COST_NOISE: f64 = 0.02;
+
+/// Name of the model whose cost the others are compared with.
+const RIVAL: &str = "planar";
+
+/// Errors of one predictor on one kind of held-out pushes; objects that moved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SuiteErrors {
+    /// Which pushes.
+    pub suite: SuiteKind,
+    /// Distance from the planar truth's final positions, metres.
+    pub position: Option<Summary>,
+    /// Distance from the 3-D engine's, metres.
+    pub position_3d: Option<Summary>,
+    /// Objects without a finite prediction.
+    pub failed: usize,
+}
+
+/// A predictor with its errors and its cost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PredictorRow {
+    /// Its name.
+    pub model: String,
+    /// Its errors.
+    pub suites: Vec<SuiteErrors>,
+    /// Processor time of a push with one object, seconds; of models that gain by it, many
+    /// predicted together.
+    pub seconds: f64,
+    /// The same for one push at a time, where that differs.
+    pub seconds_alone: Option<f64>,
+    /// The network's part of `seconds`; the rest is geometry, prior, features and integration.
+    pub network_seconds: Option<f64>,
+    /// Whether no other predictor is both cheaper and more accurate (mean over one object).
+    pub on_front: bool,
+}
+
+/// What a push costs with several objects on the table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObjectCost {
+    /// Number of objects.
+    pub objects: usize,
+    /// Name of the predictor.
+    pub model: String,
+    /// Processor time of a push, seconds.
+    pub seconds: f64,
+    /// The network's part.
+    pub network_seconds: Option<f64>,
+    /// How many times as long the planar engine takes at its default step.
+    pub planar_ratio: f64,
+}
+
+/// A level of planning with what it brought and cost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanRow {
+    /// The level.
+    #[serde(flatten)]
+    pub level: PlanLevel,
+    /// Share of the tasks whose goal the effect model says is reached.
+    pub predicted: f64,
+    /// Share reached when replayed in the planar engine.
+    pub planar: f64,
+    /// Share reached when replayed in the 3-D engine: the success that counts.
+    pub success: f64,
+    /// Final error in 3-D, metres.
+    pub error: Option<Summary>,
+    /// Final error as predicted, metres.
+    pub predicted_error: Option<Summary>,
+    /// Rollouts of the effect model a task.
+    pub rollouts: f64,
+    /// Plans verified a task.
+    pub verified: f64,
+    /// Processor time of a task on one thread, verification included, seconds.
+    pub seconds: f64,
+    /// Whether no other level is both cheaper and more successful, beyond the noise.
+    pub on_front: bool,
+}
+
+impl PlanRow {
+    /// Cost and share of failures.
+    pub fn point(&self) -> Point {
+        Point { cost: self.seconds, error: 1.0 - self.success }
+    }
+}
+
+/// A finished run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TradeOffReport {
+    /// Version of the form of saved files.
+    pub schema_version: u32,
+    /// How much was measured.
+    pub counts: TradeOffSettings,
+    /// What one thread reached in matrix products in the same run, 1e9 operations a second.
+    pub gigaflops: f64,
+    /// Relative differences of a push's cost that mean nothing: how far the median round is
+    /// from the fastest, which is the one given.
+    pub push_noise: f64,
+    /// Differences between levels of planning that mean nothing: the cost of one level measured
+    /// twice, and one standard error of the best level's success.
+    pub noise: Noise,
+    /// The planar truth against itself with the start off by 0.1 mm.
+    pub spread: Vec<SuiteErrors>,
+    /// Predictors.
+    pub predictors: Vec<PredictorRow>,
+    /// Costs by number of objects.
+    pub objects: Vec<ObjectCost>,
+    /// Levels of planning.
+    pub plans: Vec<PlanRow>,
+    /// The level that each effort stands for.
+    pub efforts: BTreeMap<Effort, EffortChoice>,
+}
+
+impl TradeOffReport {
+    pub(super) fn of(
+        counts: TradeOffSettings,
+        levels: &[Level],
+        plans: &[PlanLevel],
+        units: &[(Unit, Seconds)],
+    ) -> Self {
+        let rounds: Vec<&Seconds> =
+            units.iter().filter(|(unit, _)| *unit == Unit::Round).map(|(_, times)| times).collect();
+        let fastest = |key: &str| least(&rounds, key);
+        let mut errors = units.iter().filter_map(|(unit, _)| match unit {
+            Unit::Predictor { suites, .. } => Some(suites.clone()),
+            _ => None,
+        });
+        let spread = errors.next().unwrap_or_default();
+        let names = levels.iter().map(Level::name);
+        let predictors = predictor_rows(names.zip(errors), &fastest);
+        let noise = task_noise(units, plans, counts.tasks);
+        let plans = plan_rows(plans, units, noise);
+        Self {
+            schema_version: SCHEMA_VERSION,
+            counts,
+            gigaflops: fastest(YARDSTICK).map_or(f64::INFINITY, f64::recip).min(f64::MAX),
+            push_noise: round_noise(&rounds),
+            noise,
+            spread,
+            objects: object_costs(
+                levels.iter().filter(|level| level.is_plain()).map(Level::name),
+                &fastest,
+            ),
+            predictors,
+            efforts: choose_efforts(&plans, noise),
+            plans,
+        }
+    }
+}
+
+fn least(rounds: &[&Seconds], key: &str) -> Option<f64> {
+    rounds.iter().filter_map(|round| round.get(key)).copied().min_by(f64::total_cmp)
+}
+
+fn predictor_rows<'a>(
+    rows: impl Iterator<Item = (&'a str, Vec<SuiteErrors>)>,
+    fastest: &dyn Fn(&str) -> Option<f64>,
+) -> Vec<PredictorRow> {
+    let mut rows: Vec<PredictorRow> = rows
+        .map(|(model, suites)| PredictorRow {
+            model: model.to_owned(),
+            suites,
+            seconds: fastest(&key(1, model)).unwrap_or_default(),
+            seconds_alone: fastest(&alone_key(model)),
+            network_seconds: fastest(&network_key(1, model)),
+            on_front: false,
+        })
+        .collect();
+    let points: Vec<Point> = rows
+        .iter()
+        .map(|row| {
+            let errors = row.suites.first().and_then(|errors| errors.position.as_ref());
+            Point { cost: row.seconds, error: errors.map_or(f64::INFINITY, |errors| errors.mean) }
+        })
+        .collect();
+    let front = on_front(&points, Noise::default());
+    rows.iter_mut().zip(front).for_each(|(row, front)| row.on_front = front);
+    rows
+}
+
+fn object_costs<'a>(
+    models: impl Iterator<Item = &'a str> + Clone,
+    fastest: &dyn Fn(&str) -> Option<f64>,
+) -> Vec<ObjectCost> {
+    OBJECTS
+        .into_iter()
+        .flat_map(|objects| models.clone().map(move |model| (objects, model)))
+        .filter_map(|(objects, model)| {
+            let seconds = fastest(&key(objects, model))?;
+            let planar = fastest(&key(objects, RIVAL))?;
+            Some(ObjectCost {
+                objects,
+                model: model.to_owned(),
+                seconds,
+                network_seconds: fastest(&network_key(objects, model)),
+                planar_ratio: planar / seconds.max(f64::MIN_POSITIVE),
+            })
+        })
+        .collect()
+}
+
+/// The tasks with the outcomes of all levels.
+fn tasks(units: &[(Unit, Seconds)]) -> impl Iterator<Item = (&[PlanOutcome], &Seconds)> {
+    units.iter().filter_map(|(unit, times)| match unit {
+        Unit::Task { plans, .. } => Some((plans.as_slice(), times)),
+        _ => None,
+    })
+}
+
+fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Vec<PlanRow> {
+    let mut rows: Vec<PlanRow> = plans
+        .iter()
+        .enumerate()
+        .map(|(k, level)| {
+            let outcomes: Vec<&PlanOutcome> =
+                tasks(units).filter_map(|(plans, _)| plans.get(k)).collect();
+            let over = |value: &dyn Fn(&PlanOutcome) -> Option<f64>| -> Vec<f64> {
+                outcomes.iter().filter_map(|outcome| value(outcome)).collect()
+            };
+            let share = |how: usize| {
+                mean(&over(&|outcome| Some(f64::from(u8::from(outcome.reached[how])))))
+            };
+            let seconds: Vec<f64> =
+                tasks(units).filter_map(|(_, times)| times.get(&level.name).copied()).collect();
+            PlanRow {
+                predicted: share(0),
+                planar: share(1),
+                success: share(2),
+                error: Summary::of(&over(&|outcome| outcome.spatial)),
+                predicted_error: Summary::of(&over(&|outcome| outcome.predicted)),
+                rollouts: mean(&over(&|outcome| Some(outcome.rollouts as f64))),
+                verified: mean(&over(&|outcome| Some(outcome.verified as f64))),
+                seconds: mean(&seconds),
+                level: level.clone(),
+                on_front: false,
+            }
+        })
+        .collect();
+    let points: Vec<Point> = rows.iter().map(PlanRow::point).collect();
+    let front = on_front(&points, noise);
+    rows.iter_mut().zip(front).for_each(|(row, front)| row.on_front = front);
+    rows
+}
+
+fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel], count: usize) -> Noise {
+    let sum = |name: &str| tasks(units).filter_map(|(_, times)| times.get(name)).sum::<f64>();
+    let first = plans.first().map_or(0.0, |plan| sum(&plan.name));
+    let again = sum(CONTROL);
+    let cost = if first > 0.0 { (again / first - 1.0).abs() } else { 0.0 };
+    let reached = |k: usize| {
+        let all = tasks(units).filter_map(|(plans, _)| plans.get(k));
+        all.filter(|outcome| outcome.reached[2]).count()
+    };
+    let best = (0..plans.len()).map(reached).max().unwrap_or(0) as f64;
+    // One more of either kind (Laplace), so that a perfect score is not taken for certainty.
+    let (count, share) = (count as f64, (best + 1.0) / (count as f64 + 2.0));
+    Noise {
+        cost: cost.max(LEAST_COST_NOISE),
+        error: (share * (1.0 - share) / count.max(1.0)).sqrt(),
+    }
+}
+
+/// Median over all figures of how much longer than the fastest the median round is.
+fn round_noise(rounds: &[&Seconds]) -> f64 {
+    let keys = rounds.first().map(|round| round.keys()).into_iter().flatten();
+    let mut excess: Vec<f64> = keys
+        .filter_map(|key| {
+            let mut values: Vec<f64> =
+                rounds.iter().filter_map(|round| round.get(key)).copied().collect();
+            values.sort_by(f64::total_cmp);
+            let least = values.first().copied().filter(|least| *least > 0.0)?;
+            Some(percentile(&values, 50.0) / least - 1.0)
+        })
+        .collect();
+    excess.sort_by(f64::total_cmp);
+    percentile(&excess, 50.0)
+}

@@ -1,0 +1,180 @@
+//! `pushplan tradeoff`: every level of the ladder on the same pushes and tasks.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::bench::{
+    RunManifest, Seconds, Store, StoreError, TradeOff, TradeOffReport, TradeOffSettings, Unit,
+    digest, levels, plan_levels,
+};
+use crate::brdpn::Weights;
+use crate::effect::EffectModels;
+use crate::report::{
+    Table, tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
+    tradeoff_push_chart, tradeoff_task_chart,
+};
+
+use super::{
+    action::LibraryArgs, error::CliError, exit_code, generate::Following, interrupt,
+    model::ModelName, output, session::Session,
+};
+
+/// Measure speed against accuracy: every predictor and every budget of planning
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Errors are measured on held-out pushes, success on random tasks, replayed in 3-D; costs are
+processor time of one thread, all levels in turn. With --out every finished unit is kept: the same
+command goes on after an interruption. The folder then holds tradeoff.json, tradeoff.md,
+tradeoff-push.svg and tradeoff-task.svg.
+
+Examples:
+  pushplan tradeoff --quick
+  pushplan tradeoff --out runs/tradeoff --weights runs/w64/best.safetensors"
+)]
+pub struct TradeOffArgs {
+    /// Other networks to measure beside the shipped one
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    weights: Vec<PathBuf>,
+    /// Held-out pushes of each kind [default: 2000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pushes: Option<u32>,
+    /// Random tasks [default: 200]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tasks: Option<u32>,
+    /// Rounds of timing; the fastest counts [default: 7]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: Option<u32>,
+    /// A first look: 200 pushes, 5 tasks and 2 rounds where no number is given
+    #[arg(long)]
+    quick: bool,
+    /// Only levels of planning whose name contains one of these
+    #[arg(long, value_name = "WORDS", num_args = 1..)]
+    plans: Vec<String>,
+    /// Seed of pushes and tasks
+    #[arg(long, value_name = "N", default_value_t = USUAL.seed)]
+    seed: u64,
+    /// Folder that keeps every finished unit and the results
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Print JSON instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Print Markdown tables
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+}
+
+/// What is measured where no number is given. Two hundred tasks tell success to
+/// 1.5 %; seven rounds find an undisturbed one even on a busy machine.
+const USUAL: TradeOffSettings =
+    TradeOffSettings { pushes: 2000, timed: 32, rounds: 7, tasks: 200, seed: 7 };
+
+/// The same with `--quick`.
+const QUICK: TradeOffSettings =
+    TradeOffSettings { pushes: 200, timed: 8, rounds: 2, tasks: 5, seed: 7 };
+
+pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.library.load()?;
+    let shipped = EffectModels::weights()
+        .map_err(|error| CliError::unexpected("the shipped weights are broken", &error))?;
+    let others = args.weights.iter().map(|path| named(path)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(out) = &args.out {
+        output::prepare(out)?;
+    }
+    let levels = levels(&shipped, &others);
+    let mut plans = plan_levels(&levels);
+    plans.retain(|plan| {
+        args.plans.is_empty() || args.plans.iter().any(|words| plan.name.contains(words))
+    });
+    let run = TradeOff::new(&library, levels, plans, args.settings())
+        .map_err(|error| CliError::unexpected("cannot start a thread", &error))?;
+    let cards = std::iter::once(&shipped).chain(others.iter().map(|(_, weights)| weights));
+    let digests = cards.map(|weights| weights.to_bytes().map(|bytes| digest(&bytes)));
+    let digests = digests
+        .collect::<Result<Vec<String>, _>>()
+        .map_err(|error| CliError::unexpected("cannot read the weights", &error))?;
+    let manifest = run.manifest(&digests);
+    let report = measure(args, session, &run, manifest)?;
+    let json = serde_json::to_string_pretty(&report)
+        .map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
+    if let Some(out) = &args.out {
+        output::write(out, "tradeoff.json", format!("{json}\n").as_bytes())?;
+        output::write(out, "tradeoff.md", text(&report, Table::to_markdown).as_bytes())?;
+        let charts = [
+            ("tradeoff-push.svg", tradeoff_push_chart(&report)),
+            ("tradeoff-task.svg", tradeoff_task_chart(&report)),
+        ];
+        for (name, chart) in charts {
+            output::write(out, name, chart.to_svg().as_bytes())?;
+        }
+    }
+    if args.json {
+        session.print(&format!("{json}\n"))?;
+    } else {
+        let show = if args.markdown { Table::to_markdown } else { Table::to_text };
+        session.print(&text(&report, show))?;
+    }
+    Ok(exit_code::DONE)
+}
+
+impl TradeOffArgs {
+    fn settings(&self) -> TradeOffSettings {
+        let usual = if self.quick { QUICK } else { USUAL };
+        let or = |given: Option<u32>, usual| given.map_or(usual, |given| given as usize);
+        TradeOffSettings {
+            pushes: or(self.pushes, usual.pushes),
+            timed: usual.timed,
+            rounds: or(self.rounds, usual.rounds),
+            tasks: or(self.tasks, usual.tasks),
+            seed: self.seed,
+        }
+    }
+}
+
+fn measure(
+    args: &TradeOffArgs,
+    session: &Session,
+    run: &TradeOff,
+    manifest: RunManifest,
+) -> Result<TradeOffReport, CliError> {
+    interrupt::watch();
+    let following = Following::new(session, "units");
+    let mut store: Store<Unit> = match &args.out {
+        Some(folder) => Store::open(folder, manifest, &following)?,
+        None => Store::in_memory(manifest),
+    };
+    let done = session.compute(|| {
+        store.run::<StoreError>(&following, |index| {
+            following.say(&run.title(index));
+            Ok(run.measure(index))
+        })
+    });
+    following.finish();
+    done?;
+    let finished = store.finished().iter();
+    let units: Vec<(Unit, Seconds)> =
+        finished.map(|unit| (unit.record.clone(), unit.seconds.clone())).collect();
+    Ok(run.report(&units))
+}
+
+fn text(report: &TradeOffReport, show: impl Fn(&Table) -> String) -> String {
+    let tables = [
+        tradeoff_predictors(report),
+        tradeoff_objects(report),
+        tradeoff_plans(report),
+        tradeoff_efforts(report),
+    ];
+    let tables: Vec<String> = tables.iter().map(show).collect();
+    format!("{}\n\n{}", tradeoff_line(report), tables.join("\n"))
+}
+
+/// The weights in a file and the file's name.
+fn named(path: &Path) -> Result<(String, Weights), CliError> {
+    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
+    let weights = ModelName::Weights(path.to_owned()).weights()?;
+    let none = || CliError::File(format!("{}: no weights", path.display()));
+    Ok((name, weights.ok_or_else(none)?))
+}
