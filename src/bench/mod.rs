@@ -7,7 +7,7 @@ mod cpu_clock;
 mod crowd;
 mod heldout;
 mod inference;
-mod random_task;
+mod random;
 mod refinement;
 mod solved;
 mod statistics;
@@ -22,7 +22,9 @@ pub use crowd::{
 };
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
 pub use inference::{InferenceCost, inference_costs};
-pub use random_task::random_task;
+pub use random::{
+    Choice, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind, random_task,
+};
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};
 pub use statistics::{Summary, mean, percentile};

@@ -18,7 +18,7 @@ use crate::{
     solve::Settings,
 };
 
-use super::{random_task::random_task, statistics::Summary};
+use super::{random::random_task, statistics::Summary};
 
 /// Final errors of plans, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

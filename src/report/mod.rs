@@ -11,6 +11,7 @@ mod measured;
 mod number;
 mod picture;
 mod plan_text;
+mod random;
 mod solution;
 mod solved;
 mod svg;
@@ -29,6 +30,7 @@ pub use measured::{
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
+pub use random::{RandomRun, random_document};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};

@@ -14,6 +14,7 @@ mod jointed;
 mod network;
 mod planning;
 mod pruning;
+mod random_tasks;
 mod readme;
 mod simulation;
 mod solving;

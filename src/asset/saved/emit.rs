@@ -9,7 +9,7 @@ use crate::scene::{
 };
 
 /// A task as in a task file.
-pub(super) fn task(task: &Task) -> Json {
+pub(in crate::asset) fn task(task: &Task) -> Json {
     json!({
         "name": task.name,
         "description": task.description,

@@ -1,6 +1,7 @@
 //! Task files: what they may hold, their reading, and the rules that span several keys.
 
 mod build;
+mod emit;
 mod joints;
 mod load;
 mod rules;

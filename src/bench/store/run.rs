@@ -139,6 +139,11 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         &self.finished
     }
 
+    /// What is measured and the finished tasks; gives the folder free.
+    pub fn into_parts(self) -> (RunManifest, Vec<Finished<R>>) {
+        (self.manifest, self.finished)
+    }
+
     /// Whether nothing is left to measure.
     pub fn is_complete(&self) -> bool {
         self.finished.len() == self.manifest.indices().len()

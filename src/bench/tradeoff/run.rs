@@ -10,7 +10,7 @@ use crate::{
     asset::ToolLibrary,
     bench::{
         HeldOut, HeldOutErrors, Measured, RunManifest, Seconds, SuiteKind,
-        cpu_clock::processor_time, random_task::random_task,
+        cpu_clock::processor_time, random::random_task,
     },
     scene::{Engine, Outcome, Task},
     solve::{Planner, Solution},

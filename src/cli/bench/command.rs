@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, refinement, saved, tasks};
+use super::{cost, random, refinement, saved, tasks};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -16,6 +16,7 @@ pub struct BenchArgs {
 #[derive(Debug, Subcommand)]
 enum What {
     Tasks(tasks::TasksArgs),
+    Random(random::RandomArgs),
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
     Merge(saved::MergeArgs),
@@ -25,6 +26,7 @@ enum What {
 pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
     match &args.what {
         What::Tasks(args) => tasks::run(args, session)?,
+        What::Random(args) => random::run(args, session)?,
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,

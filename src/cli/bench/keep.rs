@@ -34,6 +34,11 @@ pub struct KeepArgs {
 }
 
 impl KeepArgs {
+    /// Indices of the tasks that this part of a run measures, of `count`.
+    pub fn indices(&self, count: usize) -> impl ExactSizeIterator<Item = usize> {
+        self.shard.unwrap_or(Shard::WHOLE).indices(count)
+    }
+
     /// Measures what is left of a run, following it on stderr.
     ///
     /// # Errors

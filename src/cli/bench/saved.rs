@@ -4,18 +4,18 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bench::{RunManifest, SolvedTask, Store, StoreError, merge_runs};
+use crate::bench::{RandomRecord, RunManifest, SolvedTask, Store, StoreError, merge_runs};
 use crate::cli::{error::CliError, output, session::Session};
-use crate::report::{Document, solved_document};
+use crate::report::{Document, RandomRun, random_document, solved_document};
 
 use super::common::Form;
-use super::tasks;
+use super::{random, tasks};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
-  pushplan bench tasks tasks/*.yaml --out part-1 --shard 1/2      # here
-  pushplan bench tasks tasks/*.yaml --out part-2 --shard 2/2      # there
+  pushplan bench random --out part-1 --shard 1/2      # here
+  pushplan bench random --out part-2 --shard 2/2      # there
   pushplan bench merge whole part-1 part-2")]
 pub struct MergeArgs {
     /// Folder for the merged run; must hold none
@@ -84,9 +84,36 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),
+        (random::SUITE, runs) => {
+            let runs: Vec<RandomRun> = runs
+                .iter()
+                .map(|dir| Ok(Store::<RandomRecord>::load(dir)?.into_parts()))
+                .collect::<Result<_, StoreError>>()?;
+            same_tasks(&runs)?;
+            Ok(random_document(&runs))
+        }
         _ => Err(CliError::File(format!(
             "{} holds a suite that this program does not know: `{suite}`",
             runs[0].display()
         ))),
+    }
+}
+
+/// Methods are compared on the same tasks only.
+fn same_tasks(runs: &[RandomRun]) -> Result<(), CliError> {
+    let tasks = |run: &RunManifest| {
+        let decides = ["kinds", "tasks_version", "tools"].map(|key| run.settings[key].to_string());
+        (run.seed, run.tasks, run.shard, decides)
+    };
+    let Some((first, others)) = runs.split_first() else { return Ok(()) };
+    match others.iter().find(|(run, _)| tasks(run) != tasks(&first.0)) {
+        Some((other, _)) => Err(CliError::usage(
+            format!(
+                "the runs are of different tasks: seed {}, {} tasks beside seed {}, {} tasks",
+                first.0.seed, first.0.tasks, other.seed, other.tasks
+            ),
+            "compare runs with the same --seed, --count, --kind, --shard and --tools",
+        )),
+        None => Ok(()),
     }
 }

@@ -1,5 +1,5 @@
-//! Random tasks that are known to be solvable: the goal is where a random allowed push of a
-//! shipped tool really ends, by the planar engine.
+//! One object, one push: the goal is where a random allowed push of a shipped tool really ends, by
+//! the planar engine.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8, TAU};
 use std::sync::Arc;
@@ -31,11 +31,11 @@ const FARTHEST_TRIVIAL: f64 = 0.05;
 const TOLERANCE: f64 = 0.03;
 
 /// Travel of the pushes that make goals, metres. Refinement may go to 0.30.
-const TRAVEL: Span = Span::new(0.08, 0.28);
+pub(super) const TRAVEL: Span = Span::new(0.08, 0.28);
 
 /// Ways round the circle that the search tries; refinement turns them by more than half their
 /// spacing, so every direction is within reach.
-const WAYS: usize = 8;
+pub(super) const WAYS: usize = 8;
 
 /// The `index`-th random one-object, one-push task under `seed`, for the tools of `library`,
 /// which must hold at least one.
@@ -64,7 +64,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
 }
 
 /// Objects of a size and weight that one hand pushes: the middle of the trained ranges.
-fn moderate() -> Ranges {
+pub(super) fn moderate() -> Ranges {
     Ranges {
         mass: Span::new(0.1, 2.0),
         friction: Span::new(0.2, 0.8),

@@ -1,0 +1,18 @@
+//! Random tasks that are known to be solvable.
+//!
+//! The goal of each is where a plan that the task allows really ends: by the planar engine in
+//! [`random_task`] (one object, one push; what refinement is measured on), and by both engines in
+//! [`RandomSuite`] (several kinds, up to three pushes), so that the plan that made a task passes
+//! its verification.
+
+mod kind;
+mod layout;
+mod making;
+mod measure;
+mod one_push;
+mod suite;
+
+pub use kind::TaskKind;
+pub use measure::{Choice, Maker, RandomError, RandomRecord};
+pub use one_push::random_task;
+pub use suite::{NoTask, RandomSuite, SuiteTask};

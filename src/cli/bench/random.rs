@@ -1,0 +1,148 @@
+//! `pushplan bench random`: random tasks of several kinds.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use crate::bench::{RandomError, RandomSuite, RunManifest, TaskKind};
+use crate::cli::{
+    error::CliError,
+    interrupt, output,
+    session::Session,
+    solve::{EffortName, solve_error},
+};
+use crate::report::random_document;
+use crate::solve::{Effort, Planner};
+
+use super::common::Common;
+use super::keep::{self, KeepArgs, value_digest, weights_digest};
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "random";
+
+/// Solve random tasks of several kinds, each known to be solvable
+#[derive(Args, Debug)]
+#[command(after_help = format!("Examples:
+  pushplan bench random --count 200 --out runs/network
+  pushplan bench random --count 200 --model planar --out runs/planar
+  pushplan bench report runs/network runs/planar --out runs/both
+  pushplan bench random --kind pull --count 5 --save-tasks my-tasks
+
+{}", keep::HELP))]
+pub struct RandomArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Number of tasks
+    #[arg(long, value_name = "N", default_value_t = 1000,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    count: u32,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Only tasks of this kind; may be given several times [default: all, in turn]
+    #[arg(long = "kind", value_enum, value_name = "KIND")]
+    kinds: Vec<KindName>,
+    /// How hard to try
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortName,
+    /// Also write the tasks to this folder, for `pushplan solve`
+    #[arg(long, value_name = "DIR")]
+    save_tasks: Option<PathBuf>,
+    #[command(flatten)]
+    keep: KeepArgs,
+}
+
+/// [`TaskKind`] with words for `--help`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum KindName {
+    /// Farther out than the end effector can go
+    Reach,
+    /// Towards the robot
+    Pull,
+    /// Sideways
+    Sweep,
+    /// Around an obstacle
+    Obstacle,
+    /// A cuboid, to a place and a heading
+    Heading,
+    /// One of two joined objects
+    Pair,
+}
+
+impl From<KindName> for TaskKind {
+    fn from(name: KindName) -> Self {
+        match name {
+            KindName::Reach => TaskKind::Reach,
+            KindName::Pull => TaskKind::Pull,
+            KindName::Sweep => TaskKind::Sweep,
+            KindName::Obstacle => TaskKind::Obstacle,
+            KindName::Heading => TaskKind::Heading,
+            KindName::Pair => TaskKind::Pair,
+        }
+    }
+}
+
+pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let mut kinds: Vec<TaskKind> = args.kinds.iter().map(|kind| (*kind).into()).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let suite = RandomSuite::new(&library, args.seed, &kinds);
+    let effort = Effort::from(args.effort);
+    let planner = Planner::builder(args.common.model.load()?).effort(effort).build();
+    let count = args.count as usize;
+    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+    let settings = json!({
+        "effort": effort,
+        "budget": planner.settings(),
+        "kinds": suite.kinds(),
+        "tasks_version": RandomSuite::VERSION,
+        "tools": value_digest(&tools)?,
+    });
+    let manifest = RunManifest::new(SUITE, count, args.seed, planner.model().name())
+        .with_weights(weights_digest(&args.common.model)?)
+        .with_settings(settings);
+    if let Some(folder) = &args.save_tasks {
+        save_tasks(folder, &suite, args.keep.indices(count), session)?;
+    }
+    let store = args.keep.measure(session, manifest, |index| {
+        session.compute(|| suite.measure(&planner, &library, index)).map_err(random_error)
+    })?;
+    let document = random_document(&[store.into_parts()]);
+    args.common.form.show(session, &document, args.keep.out.as_deref())
+}
+
+/// Writes the tasks of a run as files.
+fn save_tasks(
+    folder: &Path,
+    suite: &RandomSuite,
+    indices: impl ExactSizeIterator<Item = usize>,
+    session: &Session,
+) -> Result<(), CliError> {
+    output::prepare(folder)?;
+    interrupt::watch();
+    let bar = session.bar("saving tasks");
+    bar.set_length(indices.len() as u64);
+    for index in indices {
+        if interrupt::requested() {
+            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
+        }
+        let task = session.compute(|| suite.task(index));
+        let task = task.map_err(|error| random_error(error.into()))?.task;
+        let text = task.to_yaml().map_err(CliError::Output)?;
+        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+fn random_error(error: RandomError) -> CliError {
+    match error {
+        RandomError::NoTask(_) => {
+            CliError::usage(error.to_string(), "choose other kinds with --kind, or other tools")
+        }
+        RandomError::Solve(error) => solve_error(error),
+    }
+}
