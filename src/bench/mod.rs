@@ -14,6 +14,7 @@ mod statistics;
 mod store;
 mod suite;
 mod timing;
+mod tools;
 mod tradeoff;
 
 pub use crowd::{
@@ -34,6 +35,10 @@ pub use store::{
 };
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
+pub use tools::{
+    EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, ReferenceSetup, SinglePushes,
+    StartGoals, ToolBench, ToolPose, ToolRecord, ToolRow, ToolTrial, single_pushes, summarise,
+};
 pub use tradeoff::{
     EffortChoice, Level, Noise, ObjectCost, PlanLevel, PlanOutcome, PlanRow, Point, PredictorRow,
     SuiteErrors, TradeOff, TradeOffReport, TradeOffSettings, Unit, dominates, levels, on_front,

@@ -1,7 +1,7 @@
 //! Fused inference: the predictor on preallocated buffers, `gemm` called directly.
 //!
 //! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
-//! tensors or allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
+//! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 
 use crate::graph::{
@@ -259,9 +259,31 @@ pub fn matrix_product(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, o
     multiply(x, matrix, m, k, n, out, false);
 }
 
-/// Row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread.
-#[allow(unsafe_code)] // gemm's interface takes pointers
+/// Row-major `out [m, n] (+)= x [m, k] matrix [k, n]` on one thread; a row has the same bits
+/// whatever other rows there are.
 fn multiply(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [f32], add: bool) {
+    if m != 1 {
+        return multiply_rows(x, matrix, m, k, n, out, add);
+    }
+    // gemm takes another way for a single row, which rounds otherwise: give it a second one.
+    let mut rows = x.to_vec();
+    rows.resize(2 * k, 0.0);
+    let mut both = out.to_vec();
+    both.resize(2 * n, 0.0);
+    multiply_rows(&rows, matrix, 2, k, n, &mut both, add);
+    out.copy_from_slice(&both[..n]);
+}
+
+#[allow(unsafe_code)] // gemm's interface takes pointers
+fn multiply_rows(
+    x: &[f32],
+    matrix: &[f32],
+    m: usize,
+    k: usize,
+    n: usize,
+    out: &mut [f32],
+    add: bool,
+) {
     assert!(x.len() == m * k && matrix.len() == k * n && out.len() == m * n);
     // SAFETY: the three lengths are checked above and the strides are those of dense row-major
     // matrices, so every access lies inside its slice; `out` is borrowed mutably and so does

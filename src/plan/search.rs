@@ -77,6 +77,15 @@ impl<'a> Search<'a> {
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
+        Self::with_grips(workspace, grips, settings)
+    }
+
+    /// The same with these tools and grip yaws only (index of the tool, radians).
+    pub fn with_grips(
+        workspace: Workspace<'a>,
+        grips: Vec<(usize, f64)>,
+        settings: SearchSettings,
+    ) -> Self {
         let start = Node { candidate: None, state: workspace.task.scene.start(), end: None };
         Self {
             workspace,

@@ -16,6 +16,7 @@ mod solution;
 mod solved;
 mod svg;
 mod table;
+mod tools;
 mod tradeoff;
 mod training;
 
@@ -34,6 +35,7 @@ pub use random::{RandomRun, random_document};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};
+pub use tools::{single_table, tools_document};
 pub use tradeoff::{
     tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
     tradeoff_push_chart, tradeoff_task_chart,

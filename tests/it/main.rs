@@ -18,6 +18,7 @@ mod random_tasks;
 mod readme;
 mod simulation;
 mod solving;
+mod tool_choice;
 mod tradeoff;
 mod training;
 mod verification;

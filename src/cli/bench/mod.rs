@@ -8,5 +8,6 @@ mod random;
 mod refinement;
 mod saved;
 mod tasks;
+mod tools;
 
 pub use command::{BenchArgs, run};

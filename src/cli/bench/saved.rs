@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bench::{RandomRecord, RunManifest, SolvedTask, Store, StoreError, merge_runs};
+use crate::bench::{
+    RandomRecord, RunManifest, SolvedTask, Store, StoreError, ToolRecord, merge_runs,
+};
 use crate::cli::{error::CliError, output, session::Session};
-use crate::report::{Document, RandomRun, random_document, solved_document};
+use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
 
 use super::common::Form;
-use super::{random, tasks};
+use super::{random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -80,7 +82,11 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let store = Store::<SolvedTask>::load(dir)?;
             Ok(solved_document(store.manifest(), store.finished()))
         }
-        (tasks::SUITE, _) => Err(CliError::usage(
+        (tools::SUITE, [dir]) => {
+            let store = Store::<ToolRecord>::load(dir)?;
+            Ok(tools_document(store.manifest(), store.finished()))
+        }
+        (tasks::SUITE | tools::SUITE, _) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),

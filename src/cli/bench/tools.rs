@@ -1,0 +1,127 @@
+//! `pushplan bench tools`: the reference tool benchmark.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use crate::asset::write_atomic;
+use crate::bench::{GoalSet, Layout, ReferenceSetup, RunManifest, ToolBench, single_pushes};
+use crate::cli::{
+    error::CliError,
+    model::{self, ModelName},
+    session::Session,
+};
+use crate::report::{single_table, tools_document};
+
+use super::common::Form;
+use super::keep::{self, KeepArgs, value_digest, weights_digest};
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "tools";
+
+/// The reference tool benchmark: choose a tool, pushes and a stop for a goal
+#[derive(Args, Debug)]
+#[command(after_help = keep::HELP)]
+pub struct ToolsArgs {
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    model: ModelName,
+    /// Where the cylinder starts
+    #[arg(long, value_enum, default_value_t)]
+    layout: LayoutName,
+    /// The pushes
+    #[arg(long, value_enum, default_value_t)]
+    form: FormName,
+    /// Number of tasks of single pushes
+    #[arg(long, value_name = "N", default_value_t = 10_000,
+          value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    tasks: u32,
+    /// Seed of the random choices, and of the tasks of single pushes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Make the goals of the layout again, write them to this file, and end
+    #[arg(long, value_name = "FILE")]
+    make_goals: Option<PathBuf>,
+    #[command(flatten)]
+    shown: Form,
+    #[command(flatten)]
+    keep: KeepArgs,
+}
+
+/// Where the cylinder starts.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum LayoutName {
+    /// On the grid of the reference, where flat faces meet it nearly always
+    #[default]
+    Grid,
+    /// Anywhere within its cell of that grid
+    Scattered,
+}
+
+/// The pushes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum FormName {
+    /// Three one after another from a fixed home
+    #[default]
+    Chained,
+    /// One, start and goal at random (the earlier form)
+    Single,
+}
+
+impl From<LayoutName> for Layout {
+    fn from(name: LayoutName) -> Self {
+        match name {
+            LayoutName::Grid => Layout::Grid,
+            LayoutName::Scattered => Layout::Scattered,
+        }
+    }
+}
+
+pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
+    let layout = args.layout.into();
+    let setup = ReferenceSetup::new(layout);
+    if let Some(file) = &args.make_goals {
+        let spinner = session.spinner("simulating");
+        let goals = session.compute(|| GoalSet::make(&setup));
+        spinner.finish_and_clear();
+        write_atomic(file, goals.to_text().as_bytes()).map_err(CliError::Output)?;
+        return session.print(&format!("{} goals in {}\n", goals.len(), file.display()));
+    }
+    if args.form == FormName::Single {
+        return single(args, session);
+    }
+    let goals = GoalSet::shipped(layout)
+        .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
+    let model = args.model.load()?;
+    let settings = json!({"layout": layout, "goals": value_digest(&goals)?});
+    let manifest = RunManifest::new(SUITE, goals.len(), args.seed, model.name())
+        .with_weights(weights_digest(&args.model)?)
+        .with_settings(settings);
+    let mut bench = ToolBench::new(setup, goals, &model, args.seed);
+    let store = args.keep.measure(session, manifest, |index| {
+        session
+            .compute(|| bench.measure(index))
+            .ok_or_else(|| CliError::Unexpected(format!("there is no task {index}")))
+    })?;
+    let document = tools_document(store.manifest(), store.finished());
+    args.shown.show(session, &document, args.keep.out.as_deref())
+}
+
+fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
+    if args.keep.out.is_some() {
+        return Err(CliError::usage(
+            "single pushes are quick and not kept",
+            "leave --out out, or --form single",
+        ));
+    }
+    let model = args.model.load()?;
+    let spinner = session.spinner("pushing");
+    let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
+    spinner.finish_and_clear();
+    let head = format!(
+        "{} tasks of seed {}, one push of 20 cm each, solved within 10 cm; {} of the goals are \
+         near enough for a push to matter\n\n",
+        report.tasks, report.seed, report.near
+    );
+    args.shown.print(session, "single", &report, &head, &[single_table(&report)])
+}

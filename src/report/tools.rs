@@ -1,0 +1,227 @@
+//! The reference tool benchmark as tables, charts and rows for CSV.
+
+use serde_json::json;
+
+use crate::bench::{
+    EngineErrors, Executed, Finished, Layout, Method, ReferenceSetup, RunManifest, SinglePushes,
+    Summary, ToolRecord, ToolRow, ToolTrial, summarise,
+};
+
+use super::document::{Document, Section};
+use super::number::{millimetres, seconds};
+use super::solved::{error_chart, flat, progress_note};
+use super::table::{Align, NONE, Table};
+
+/// What the reader must know, a paragraph each.
+const NOTES: [&str; 3] = [
+    "First choice: the best of all chained sequences of up to three pushes and their stops every \
+     5 mm, by prediction alone; not pushing is one of them. Refined: the six best sequences, \
+     their directions and lengths refined. Placed: pushes that start anywhere in contact, in \
+     eight directions, searched and refined by prediction alone. Tried: the best of at most \
+     eight placed plans, tried in the planar engine for its column and in 3-D for the other; \
+     trying ends at 2 mm. Oracle: all sequences played in the planar engine.",
+    "When the tool stops, it stands where it is while the cylinder glides to rest, in every model \
+     and engine alike. The tool has no hand that could touch the cylinder.",
+    "For a tool pose alone all tasks count, those too that it cannot solve, and where it cannot \
+     be set down because the cylinder is in its way.",
+];
+
+/// Methods shown for each tool pose alone.
+const ALONE: [Method; 5] =
+    [Method::Oracle, Method::First, Method::Refined, Method::Placed, Method::Verified];
+
+/// Names of the columns of a trial in CSV; lengths in metres.
+const COLUMNS: [(&str, Align); 16] = [
+    ("index", Align::Right),
+    ("start", Align::Right),
+    ("goal_x_m", Align::Right),
+    ("goal_y_m", Align::Right),
+    ("tools", Align::Left),
+    ("choice", Align::Left),
+    ("taken", Align::Left),
+    ("pushes", Align::Right),
+    ("travel_m", Align::Right),
+    ("predicted_m", Align::Right),
+    ("planar_m", Align::Right),
+    ("spatial_m", Align::Right),
+    ("planar_sound", Align::Left),
+    ("spatial_sound", Align::Left),
+    ("planar_tried", Align::Right),
+    ("spatial_tried", Align::Right),
+];
+
+/// The benchmark in every form.
+pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Document {
+    let setup = ReferenceSetup::new(Layout::Grid);
+    let records: Vec<&ToolRecord> = tasks.iter().map(|task| &task.record).collect();
+    let summary = summarise(&setup, &records);
+    let (alone, together): (Vec<&ToolRow>, Vec<&ToolRow>) =
+        summary.iter().partition(|row| row.pose.is_some());
+    let alone: Vec<&ToolRow> =
+        alone.into_iter().filter(|row| ALONE.contains(&row.method)).collect();
+    let mut rows = Table::new(COLUMNS);
+    for task in tasks {
+        for trial in &task.record.trials {
+            rows.row(cells(&setup, task.index, &task.record, trial));
+        }
+    }
+    let layout = run.settings["layout"].as_str().unwrap_or("unknown");
+    Document {
+        title: format!("{} tasks on the {layout} layout, {}", tasks.len(), run.model),
+        notes: progress_note(run, tasks.len())
+            .into_iter()
+            .chain(NOTES.map(str::to_owned))
+            .collect(),
+        sections: vec![
+            Section {
+                title: "All tool poses together".into(),
+                table: row_table(&together, "choice", |row| title(row.method).to_owned()),
+                figures: vec![error_chart("Final errors in 3-D", &errors(&records))],
+            },
+            Section {
+                title: "Each tool pose alone".into(),
+                table: row_table(&alone, "tool, choice", |row| {
+                    let pose = row.pose.as_deref().unwrap_or_default();
+                    format!("{pose}, {}", title(row.method))
+                }),
+                figures: Vec::new(),
+            },
+            Section {
+                title: "Wall time of a task with all tool poses".into(),
+                table: time_table(tasks),
+                figures: Vec::new(),
+            },
+        ],
+        rows,
+        json: json!({
+            "run": run,
+            "summary": summary,
+            "tasks": tasks.iter().map(flat).collect::<Vec<_>>(),
+        }),
+    }
+}
+
+/// The earlier form: how many tasks can be solved, and how many are.
+pub fn single_table(report: &SinglePushes) -> Table {
+    let mut table = Table::new([("choice", Align::Left), ("solved", Align::Right)]);
+    for (choice, solved) in [
+        ("no push".to_owned(), report.nothing),
+        ("oracle (planar)".to_owned(), report.solvable),
+        (format!("{}, predicted", report.model), report.predicted),
+        (format!("{}, in the planar engine", report.model), report.planar),
+        (format!("{}, in 3-D", report.model), report.spatial),
+    ] {
+        table.row([choice, solved.to_string()]);
+    }
+    table
+}
+
+fn title(method: Method) -> &'static str {
+    match method {
+        Method::Nothing => "no push",
+        Method::Random => "random",
+        Method::Oracle => "oracle",
+        Method::Planar => "first choice, planar engine",
+        Method::First => "first choice",
+        Method::Refined => "refined",
+        Method::Placed => "placed",
+        Method::Verified => "tried",
+    }
+}
+
+fn row_table(rows: &[&ToolRow], first: &str, name: impl Fn(&ToolRow) -> String) -> Table {
+    let mut table = Table::new([
+        (first, Align::Left),
+        ("predicted", Align::Right),
+        ("planar", Align::Right),
+        ("\u{2264} 5 cm", Align::Right),
+        ("\u{2264} 10 cm", Align::Right),
+        ("3-D", Align::Right),
+        ("largest", Align::Right),
+        ("\u{2264} 5 cm", Align::Right),
+        ("\u{2264} 10 cm", Align::Right),
+        ("pushes", Align::Right),
+        ("tried", Align::Right),
+    ]);
+    for row in rows {
+        let mean = |errors: &Option<Summary>| {
+            errors.as_ref().map_or(NONE.to_owned(), |errors| millimetres(errors.mean))
+        };
+        let share = |count: usize| format!("{:.1} %", 100.0 * count as f64 / row.tasks as f64);
+        let EngineErrors { errors, fine, coarse, attempts } = &row.spatial;
+        table.row([
+            name(row),
+            mean(&row.predicted),
+            mean(&row.planar.errors),
+            share(row.planar.fine),
+            share(row.planar.coarse),
+            mean(errors),
+            errors.as_ref().map_or(NONE.to_owned(), |errors| millimetres(errors.max)),
+            share(*fine),
+            share(*coarse),
+            format!("{:.2}", row.pushes),
+            attempts.map_or(NONE.to_owned(), |attempts| format!("{attempts:.2}")),
+        ]);
+    }
+    table
+}
+
+fn time_table(tasks: &[Finished<ToolRecord>]) -> Table {
+    let mut table = Table::new([
+        ("choice", Align::Left),
+        ("mean", Align::Right),
+        ("median", Align::Right),
+        ("largest", Align::Right),
+    ]);
+    for (method, key) in ToolRecord::TIMED {
+        let times: Vec<f64> =
+            tasks.iter().filter_map(|task| task.seconds.get(key).copied()).collect();
+        if let Some(times) = Summary::of(&times) {
+            let numbers = [times.mean, times.median, times.max].map(seconds);
+            table.row(std::iter::once(title(method).to_owned()).chain(numbers));
+        }
+    }
+    table
+}
+
+/// Errors in 3-D with all tool poses, method by method.
+fn errors(records: &[&ToolRecord]) -> Vec<(String, Vec<f64>)> {
+    Method::ALL
+        .into_iter()
+        .map(|method| {
+            let trials = records.iter().flat_map(|record| &record.trials);
+            let own = trials.filter(|trial| trial.method == method && trial.pose.is_none());
+            (title(method).to_owned(), own.map(|trial| trial.spatial.error).collect())
+        })
+        .collect()
+}
+
+fn cells(
+    setup: &ReferenceSetup,
+    index: usize,
+    record: &ToolRecord,
+    trial: &ToolTrial,
+) -> Vec<String> {
+    let pose = |pose: Option<usize>, none: &str| {
+        pose.map_or(none.to_owned(), |pose| setup.poses[pose].name.clone())
+    };
+    let tried = |executed: &Executed| executed.attempts.map_or(String::new(), |n| n.to_string());
+    vec![
+        index.to_string(),
+        record.start.to_string(),
+        record.goal[0].to_string(),
+        record.goal[1].to_string(),
+        pose(trial.pose, "all"),
+        title(trial.method).to_owned(),
+        pose(trial.taken, ""),
+        trial.pushes.to_string(),
+        trial.travel.to_string(),
+        trial.predicted.map_or(String::new(), |error| error.to_string()),
+        trial.planar.error.to_string(),
+        trial.spatial.error.to_string(),
+        trial.planar.sound.to_string(),
+        trial.spatial.sound.to_string(),
+        tried(&trial.planar),
+        tried(&trial.spatial),
+    ]
+}
