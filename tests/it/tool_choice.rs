@@ -1,9 +1,12 @@
 //! The reference tool benchmark: shared beginnings change nothing, the shipped goals can be made
 //! again, and what is chosen is what is scored.
 
-use std::sync::OnceLock;
+use std::process::Command;
+use std::sync::{Arc, OnceLock};
 
-use pushplan::bench::{GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord};
+use pushplan::bench::{
+    GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
+};
 use pushplan::effect::{EffectModel, EffectModels, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::plan::{Rollouts, SequenceTree, evaluate};
@@ -177,7 +180,49 @@ fn measure(threads: usize) -> ToolRecord {
     let setup = ReferenceSetup::new(Layout::Scattered);
     let goals = GoalSet::shipped(Layout::Scattered).expect("a sound file");
     let index = goals.starts[..=START].iter().map(|start| start.goals.len()).sum::<usize>() - 1;
-    let model: std::sync::Arc<dyn EffectModel> = EffectModels::shipped().expect("weights");
+    let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("weights");
     let mut bench = ToolBench::new(setup, goals, &model, 7);
     pool.install(|| bench.measure(index)).expect("a task").record
+}
+
+#[test]
+fn single_pushes_are_solved_where_they_can_be_whatever_the_number_of_threads() {
+    let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("the shipped weights");
+    let pushed = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| single_pushes(&model, 7, 2000))
+    };
+    let report = pushed(2);
+    assert_eq!(report, pushed(1));
+    // A square of 4 m against a circle of 35 cm, and of 10 cm.
+    assert!((20..80).contains(&report.near), "{report:?}");
+    assert!((1..12).contains(&report.nothing), "{report:?}");
+    assert!(report.solvable >= report.nothing && report.solvable < report.near, "{report:?}");
+    assert_eq!(report.solvable - report.missed, report.planar, "{report:?}");
+    assert!(report.missed <= 1, "{report:?}");
+}
+
+#[test]
+fn a_part_of_the_benchmark_is_kept_and_shown_again() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let run = |args: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).args(args).output();
+        let output = output.expect("the command starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let json = run(&["bench", "tools", "--shard", "118/118", "--out", out, "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON alone");
+    assert_eq!(json["run"]["suite"], "tools");
+    assert_eq!(json["tasks"].as_array().map(Vec::len), Some(1));
+    assert!(json["tasks"][0]["seconds"]["first"].as_f64() > Some(0.0), "{json}");
+    assert_eq!(json["summary"].as_array().map(Vec::len), Some(8 * 8));
+    let text = run(&["bench", "report", out]);
+    assert!(text.contains("1 tasks on the grid layout, brdpn-128"), "{text}");
+    assert!(text.contains("stick -90, first choice"), "{text}");
+    let rows = std::fs::read_to_string(folder.path().join("tasks.csv")).expect("rows");
+    assert_eq!(rows.lines().count(), 1 + 8 * 8, "{rows}");
+    let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a page");
+    assert!(page.contains("</svg>"));
 }

@@ -17,8 +17,8 @@ use super::{execute::Action, setup::ReferenceSetup};
 pub struct Choice {
     /// What to do.
     pub action: Action,
-    /// Predicted distance from the goal, metres.
-    pub predicted: f64,
+    /// Predicted distance from the goal, metres; nothing where nobody predicted.
+    pub predicted: Option<f64>,
 }
 
 /// Stops that are rolled out to rest before the first choice is made: free sliding estimates
@@ -43,11 +43,11 @@ const WAYS: usize = 8;
 pub fn nothing(setup: &ReferenceSetup, task: &Task) -> Choice {
     let action = Action { grip: setup.poses[0].grip, form: task.pushes.form, pushes: Vec::new() };
     let start = task.scene.objects[task.goal.object].pose.position;
-    Choice { action, predicted: (start - task.goal.position).norm() }
+    Choice { action, predicted: Some((start - task.goal.position).norm()) }
 }
 
-/// The best candidates of `tree` for the goal of `workspace`, rolled out to rest, best first;
-/// the last resort, not pushing, is among them.
+/// The best candidates of `tree` for the goal of `workspace`, rolled out to rest, best first, at
+/// most `count`. Not pushing is one of them, here and below, so that there is always a choice.
 pub fn first_choices(
     setup: &ReferenceSetup,
     workspace: &Workspace,
@@ -140,10 +140,11 @@ fn ranked(
                 form: task.pushes.form,
                 pushes: one.pushes,
             };
-            Choice { action, predicted: task.goal.error(&one.outcome) }
+            Choice { action, predicted: Some(task.goal.error(&one.outcome)) }
         },
     ));
-    choices.sort_by(|a, b| a.predicted.total_cmp(&b.predicted));
+    let miss = |choice: &Choice| choice.predicted.unwrap_or(f64::INFINITY);
+    choices.sort_by(|a, b| miss(a).total_cmp(&miss(b)));
     choices.truncate(count);
     choices
 }

@@ -9,6 +9,7 @@ mod record;
 mod setup;
 mod single;
 mod summary;
+mod trials;
 
 pub use goals::{GoalMade, GoalSet, StartGoals};
 pub use measure::ToolBench;

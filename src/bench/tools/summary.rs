@@ -89,3 +89,46 @@ fn engine<'a>(executed: impl Iterator<Item = &'a Executed> + Clone) -> EngineErr
             .then(|| attempts.iter().sum::<f64>() / attempts.len() as f64),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A record with one choice of one method, which ends `error` metres from the goal.
+    fn record(error: f64, sound: bool, attempts: Option<usize>) -> ToolRecord {
+        let executed = Executed { error, sound, attempts };
+        let trial = ToolTrial {
+            method: Method::First,
+            pose: None,
+            taken: Some(2),
+            predicted: Some(0.5 * error),
+            planar: executed,
+            spatial: executed,
+            pushes: 3,
+            travel: 0.5,
+        };
+        ToolRecord { start: 0, goal: [0.0, 0.0], trials: vec![trial] }
+    }
+
+    #[test]
+    fn what_does_not_stand_is_no_success_and_still_an_error() {
+        let records = [
+            record(0.01, true, Some(1)),
+            record(0.05, true, Some(3)),
+            record(0.09, true, None),
+            record(0.02, false, None),
+            record(0.13, true, None),
+        ];
+        let setup = ReferenceSetup::new(super::super::setup::Layout::Grid);
+        let rows = summarise(&setup, &records.iter().collect::<Vec<_>>());
+        assert_eq!(rows.len(), 1);
+        let row = &rows[0];
+        assert_eq!((row.method, row.pose.as_deref(), row.tasks), (Method::First, None, 5));
+        assert_eq!((row.planar.fine, row.planar.coarse), (2, 3));
+        assert_eq!(row.spatial.attempts, Some(2.0));
+        let mean = |summary: &Option<Summary>| summary.as_ref().map(|summary| summary.mean);
+        assert!((mean(&row.spatial.errors).unwrap_or(0.0) - 0.06).abs() < 1e-12);
+        assert!((mean(&row.predicted).unwrap_or(0.0) - 0.03).abs() < 1e-12);
+        assert!((row.pushes - 3.0).abs() < 1e-12 && (row.travel - 0.5).abs() < 1e-12);
+    }
+}

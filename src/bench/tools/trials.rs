@@ -162,8 +162,7 @@ impl<'a> Trials<'a> {
         // Another stream for every set of poses.
         let stream = self.poses.iter().fold(0u64, |bits, pose| bits | 1 << pose);
         let mut random = generator(seed ^ SALT ^ (stream << 32), index);
-        let (tool, grip_yaw) =
-            *self.grips.get(random.random_range(0..self.grips.len().max(1)))?;
+        let (tool, grip_yaw) = *self.grips.get(random.random_range(0..self.grips.len().max(1)))?;
         let ways = self.task.pushes.directions.headings();
         let mut pushes: Vec<CandidatePush> = (0..PUSHES)
             .map(|_| {
