@@ -5,6 +5,7 @@
 
 mod cpu_clock;
 mod crowd;
+mod extremes;
 mod heldout;
 mod inference;
 mod random;
@@ -20,6 +21,10 @@ mod tradeoff;
 pub use crowd::{
     CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Drift, Moment, Phases,
     Trial, When, evaluate_crowd,
+};
+pub use extremes::{
+    ExtremeCell, ExtremeKind, ExtremeYardstick, ExtremesReport, ExtremesSettings, ProgrammeCell,
+    TaskCell, Verdict as ExtremeVerdict, extremes,
 };
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
 pub use inference::{InferenceCost, inference_costs};

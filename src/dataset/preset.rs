@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Ranges, Span};
+use crate::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 
 use super::{chance::weighted, hand::HAND_RADIUS};
 
@@ -103,6 +103,8 @@ fn tools() -> Ranges {
         part_width: Span::new(0.015, 0.15),
         part_radius: Span::new(0.01, 0.06),
         speed: Span::new(0.03, 0.3),
+        slide: TRAINED_SLIDE,
+        turn: TRAINED_TURN,
         travel: Span::new(0.05, 0.30),
         pushes: Span::new(1.0, 3.0),
     }
@@ -122,6 +124,8 @@ fn crowd(travel: Span, pushes: Span) -> Ranges {
         part_width: Span::NOTHING,
         part_radius: Span::new(HAND_RADIUS, HAND_RADIUS),
         speed: Span::new(0.05, 0.25),
+        slide: TRAINED_SLIDE,
+        turn: TRAINED_TURN,
         travel,
         pushes,
     }

@@ -4,6 +4,10 @@
 //! One solver is kept as long as the shape stays the same, and its numbers are replaced in
 //! place; every entry is stored, zeros too, so that the sparsity pattern never changes.
 //! Nothing here panics on bad numbers: what is no answer is a [`QpStatus`].
+//!
+//! The solver's tolerances are absolute, so the objective and every constraint are first divided
+//! by their largest entry, which changes no minimiser: a goal far away, tiny columns or rows of
+//! another unit are then as good as any.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -79,7 +83,7 @@ impl QpSolver {
             let status = if holds { QpStatus::Solved } else { QpStatus::Infeasible };
             return QpSolution::none(status);
         }
-        let Some(solver) = self.load(problem, n, m) else {
+        let Some(solver) = self.load(&problem.scaled(), n, m) else {
             return QpSolution::none(QpStatus::BadProblem);
         };
         solver.solve();
@@ -144,6 +148,32 @@ impl QpProblem {
         let numbers = self.p.iter().chain(&self.a).flatten().chain(&self.q).chain(&self.b);
         (square && matching && numbers.into_iter().all(sane)).then_some((n, m))
     }
+}
+
+impl QpProblem {
+    /// The same problem with its objective and every constraint divided by their largest entry.
+    fn scaled(&self) -> Self {
+        let objective = largest(self.p.iter().flatten().chain(&self.q));
+        let over = |row: &[f64], size: f64| row.iter().map(|v| v / size).collect::<Vec<f64>>();
+        let (a, b) = (self.a.iter().zip(&self.b))
+            .map(|(row, bound)| {
+                let size = largest(row.iter());
+                (over(row, size), bound / size)
+            })
+            .unzip();
+        Self {
+            p: self.p.iter().map(|row| over(row, objective)).collect(),
+            q: over(&self.q, objective),
+            a,
+            b,
+        }
+    }
+}
+
+/// Size of the largest number; 1 if all are zero or so small that dividing by them would not do.
+fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    let size = values.fold(0.0f64, |most, v| most.max(v.abs()));
+    if size > 1.0 / LARGEST { size } else { 1.0 }
 }
 
 /// The upper triangle by columns, with every entry stored.

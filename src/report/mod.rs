@@ -6,6 +6,7 @@ mod bars;
 mod chart;
 mod crowd;
 mod document;
+mod extremes;
 mod html;
 mod measured;
 mod number;
@@ -24,6 +25,10 @@ pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
 pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
 pub use document::{Document, Figure, Section};
+pub use extremes::{
+    EXTREMES_RULE, extreme_task_table, extremes_line, extremes_page, extremes_table,
+    programme_table, yardstick_table,
+};
 pub use measured::{
     group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
     search_cost_table,

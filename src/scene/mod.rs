@@ -26,7 +26,7 @@ pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
-pub use ranges::{Ranges, Span};
+pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 pub use state::{State, Velocity};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};

@@ -5,11 +5,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Shape;
 
-use super::{Scene, ToolMotion, Warning};
+use super::{GRAVITY, Scene, Stroke, ToolMotion, Warning};
 
 /// Values within this relative distance of a bound still count as inside, so that a bound
 /// written in decimal (0.3 m/s) does not fall out by rounding.
 const SLACK: f64 = 1e-6;
+
+/// How far an object released at the speed of the push slides on in nearly all training pushes
+/// (99.6 %: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
+/// three times those of ordinary pushes (`pushplan bench extremes`, corners).
+pub const TRAINED_SLIDE: f64 = 0.020;
+
+/// Turn of the tool for each metre of travel that a model trained on straight pushes bears,
+/// rad/m: 6 degrees in 20 cm. At 20 degrees a fifth of the pushes go wrong (`pushplan bench
+/// extremes`).
+pub const TRAINED_TURN: f64 = 0.5;
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,6 +78,13 @@ pub struct Ranges {
     pub part_radius: Span,
     /// Speed of a push, m/s.
     pub speed: Span,
+    /// Distance v^2 / (2 mu g) that an object released at the speed of the push slides on,
+    /// metres; files without it were trained like the shipped ones.
+    #[serde(default = "trained_slide")]
+    pub slide: f64,
+    /// Turn of the tool for each metre of travel, rad/m; files without it know straight pushes.
+    #[serde(default = "trained_turn")]
+    pub turn: f64,
     /// Travel of a push, metres.
     pub travel: Span,
     /// Number of pushes one after another.
@@ -90,6 +107,8 @@ impl Ranges {
             part_width: self.part_width.hull(other.part_width),
             part_radius: self.part_radius.hull(other.part_radius),
             speed: self.speed.hull(other.speed),
+            slide: self.slide.max(other.slide),
+            turn: self.turn.max(other.turn),
             travel: self.travel.hull(other.travel),
             pushes: self.pushes.hull(other.pushes),
         }
@@ -105,7 +124,8 @@ impl Ranges {
                 found.push(Warning::OutsideTraining {
                     of: of.to_owned(),
                     quantity: quantity.to_owned(),
-                    value,
+                    // Files hold no infinite numbers.
+                    value: value.min(f64::MAX),
                     low: span.low,
                     high: span.high,
                 });
@@ -150,15 +170,36 @@ impl Ranges {
                 }
             }
         }
-        let speeds = || {
-            let moving = motion.strokes.iter().filter(|s| s.duration > 0.0);
-            moving.map(|s| s.travel() / s.duration)
-        };
-        if let Some(speed) = speeds().find(|speed| !self.speed.contains(*speed)) {
+        let moving = || motion.strokes.iter().filter(|stroke| stroke.duration > 0.0);
+        let speed = |stroke: &Stroke| stroke.travel() / stroke.duration;
+        if let Some(speed) = moving().map(speed).find(|speed| !self.speed.contains(*speed)) {
             check("push", "speed (m/s)", speed, self.speed);
         }
+        let fastest = moving().map(speed).fold(0.0, f64::max);
+        let smoothest = (0..scene.objects.len()).map(|k| scene.support_friction(k));
+        let smoothest = smoothest.fold(f64::INFINITY, f64::min);
+        if fastest > 0.0 {
+            let slide = fastest * fastest / (2.0 * smoothest * GRAVITY);
+            check("push", "sliding on (m)", slide, Span::new(0.0, self.slide));
+        }
+        let turn = motion.strokes.iter().map(turn_per_travel).fold(0.0, f64::max);
+        check("push", "turn of the tool (rad/m)", turn, Span::new(0.0, self.turn));
         found
     }
+}
+
+/// Radians per metre; infinite for a turn on the spot.
+fn turn_per_travel(stroke: &Stroke) -> f64 {
+    let turn = (stroke.to.heading - stroke.from.heading).abs();
+    if turn > 0.0 { turn / stroke.travel() } else { 0.0 }
+}
+
+fn trained_slide() -> f64 {
+    TRAINED_SLIDE
+}
+
+fn trained_turn() -> f64 {
+    TRAINED_TURN
 }
 
 /// An interval that holds nothing.

@@ -23,7 +23,11 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
             return fault(format!("{name} is {value}, but must be a positive number"));
         }
     }
-    for (name, value) in [("the lift", rules.lift), ("the smallest reach", robot.reach_min)] {
+    for (name, value) in [
+        ("the lift", rules.lift),
+        ("the smallest reach", robot.reach_min),
+        ("the friction of the table", task.scene.table_friction),
+    ] {
         if !(value.is_finite() && value >= 0.0) {
             return fault(format!("{name} is {value}, but must not be negative"));
         }
@@ -54,14 +58,13 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
         let sound = object.pose.is_finite()
             && object.mass.is_finite()
             && object.mass > 0.0
-            && object.friction.is_finite()
-            && object.friction >= 0.0
+            && is_friction(object.friction)
             && object.shape.footprint().area() > 0.0
             && object.shape.height() > 0.0
             && object.shape.footprint().bounding_radius().is_finite();
         if !sound {
             return fault(format!(
-                "object `{}` needs a positive finite size and mass",
+                "object `{}` needs a positive finite size and mass, a finite place and friction",
                 object.name
             ));
         }
@@ -82,12 +85,37 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
         }
     }
     for obstacle in &task.scene.obstacles {
-        if !obstacle.pose.is_finite() || obstacle.size.iter().any(|v| !v.is_finite() || *v <= 0.0) {
-            return fault(format!("obstacle `{}` needs a positive finite size", obstacle.name));
+        let sound = obstacle.pose.is_finite()
+            && obstacle.size.iter().all(|v| v.is_finite() && *v > 0.0)
+            && is_friction(obstacle.friction);
+        if !sound {
+            return fault(format!(
+                "obstacle `{}` needs a positive finite size, a finite place and friction",
+                obstacle.name
+            ));
+        }
+    }
+    for tool in tools {
+        let sound = tool.grip.is_finite()
+            && is_friction(tool.friction)
+            && !tool.parts.is_empty()
+            && tool.parts.iter().all(|part| {
+                let (radius, area) = (part.footprint().bounding_radius(), part.footprint().area());
+                part.pose.is_finite() && radius.is_finite() && area > 0.0
+            });
+        if !sound {
+            return fault(format!(
+                "tool `{}` needs parts of positive finite size, a finite grip and friction",
+                tool.name
+            ));
         }
     }
     if tools.is_empty() {
         return fault("it allows no tool".into());
     }
     Ok(())
+}
+
+fn is_friction(value: f64) -> bool {
+    value.is_finite() && value >= 0.0
 }

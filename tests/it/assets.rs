@@ -80,7 +80,13 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
         let push = Push { start, direction: 0.0, length, speed };
         for tool in task.tools(&library).unwrap() {
             let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
-            assert_eq!(ranges.warnings(&task.scene, &motion), [], "{}", task.name);
+            let mut warnings = ranges.warnings(&task.scene, &motion);
+            if task.name == "glide" {
+                // Its point is to slide farther than nearly all training pushes do.
+                assert_eq!(warnings.len(), 1);
+                warnings.retain(|warning| !warning.to_string().contains("sliding on"));
+            }
+            assert_eq!(warnings, [], "{}", task.name);
         }
     }
 }

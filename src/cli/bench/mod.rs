@@ -3,6 +3,7 @@
 mod command;
 mod common;
 mod cost;
+mod extremes;
 mod keep;
 mod random;
 mod refinement;
