@@ -12,6 +12,21 @@ pub struct Place {
     pub column: usize,
 }
 
+impl Place {
+    /// Where serde_json means in `text`: it counts bytes, and gives column 0 of the next line for
+    /// the end of a line.
+    pub(super) fn in_json(text: &str, line: usize, column: usize) -> Self {
+        let line = line.max(1);
+        let words = |line: usize| text.split('\n').nth(line - 1).unwrap_or_default();
+        if column == 0 {
+            let line = (line - 1).max(1);
+            return Self { line, column: words(line).chars().count() + 1 };
+        }
+        let before = words(line).char_indices().take_while(|(at, _)| *at + 1 < column);
+        Self { line, column: before.count() + 1 }
+    }
+}
+
 /// One thing that is wrong with a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
@@ -150,6 +165,19 @@ mod tests {
         assert_eq!(did_you_mean("yaw", known), "use `position`, `yaw_deg` or `friction`");
         assert_eq!(edit_distance("mass", "amss"), 1);
         assert_eq!(did_you_mean("x", []), "");
+    }
+
+    #[test]
+    fn places_in_json_count_characters_and_lines_have_ends() {
+        let place = |line, column| {
+            let Place { line, column } = Place::in_json("\"\u{e9}\u{e9}x\n\"y\"", line, column);
+            (line, column)
+        };
+        // Bytes: a quote, two letters of two bytes, an x.
+        assert_eq!([place(1, 1), place(1, 6), place(2, 2)], [(1, 1), (1, 4), (2, 2)]);
+        assert_eq!(place(2, 0), (1, 5), "the end of the first line");
+        assert_eq!(place(1, 0), (1, 5), "an end without a beginning");
+        assert_eq!(place(9, 7), (9, 1), "behind the end");
     }
 
     #[test]

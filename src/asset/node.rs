@@ -71,7 +71,7 @@ impl Node {
                 if message.contains(TAGS) { "write the value without a tag" } else { advice };
             Faults(vec![Fault {
                 file: file.into(),
-                place: failure.place,
+                place: Some(failure.place.unwrap_or_else(|| second_document(text))),
                 message: format!("not valid {}: {message}", language.name()),
                 advice: advice.into(),
             }])
@@ -173,11 +173,24 @@ fn read(source: Source, stop: usize) -> Result<Node, Failure> {
             let mut json = serde_json::Deserializer::from_str(source.text);
             let read = reader.deserialize(&mut json).and_then(|node| json.end().map(|()| node));
             read.map_err(|error| {
-                let place = Place { line: error.line(), column: error.column() };
+                let place = Place::in_json(source.text, error.line(), error.column());
                 Failure { message: error.to_string(), place: Some(place) }
             })
         }
     }
+}
+
+/// Where the second document of a YAML text begins: the one thing that its parser refuses without
+/// a place.
+fn second_document(text: &str) -> Place {
+    let mut lines = text.lines().enumerate();
+    let begun = lines.by_ref().find(|(_, line)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with(['#', '%']) && line != "---"
+    });
+    let next = lines.find(|(_, line)| line.starts_with("---") || line.starts_with("..."));
+    let line = next.or(begun).map_or(1, |(index, _)| index + 1);
+    Place { line, column: 1 }
 }
 
 /// Whether a value of a JSON text is written as Python writes numbers that are not finite.

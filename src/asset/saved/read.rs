@@ -45,7 +45,7 @@ impl<'a> Opened<'a> {
             let message = message.split(" at line ").next().unwrap_or_default();
             Fault {
                 file: self.source.file.into(),
-                place: Some(Place { line: error.line(), column: error.column() }),
+                place: Some(Place::in_json(self.source.text, error.line(), error.column())),
                 message: message.into(),
                 advice: "the file is damaged or of another version; make it again".into(),
             }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     asset::ToolLibrary,
-    bench::random_task::random_task,
+    bench::random_task,
     effect::EffectModel,
     geometry::{Pose, Vector},
     scene::{Obstacle, Task},

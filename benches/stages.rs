@@ -1,0 +1,184 @@
+//! Times of every stage, one thread each: `cargo bench --bench stages`. What the numbers mean is
+//! in `benches/README.md`.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use pushplan::asset::ToolLibrary;
+use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
+use pushplan::brdpn::{Engine, Workspace as Memory};
+use pushplan::effect::{EffectModel, EffectModels, Learned, QuasiStatic, Simulated};
+use pushplan::graph::{Batch, Bodies, add_graph};
+use pushplan::plan::{
+    QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
+    Workspace, refine,
+};
+use pushplan::scene::{FrameStep, Job, Record, State, Task};
+use pushplan::sim::Simulator;
+
+/// Candidates that a search predicts together.
+const BATCH: usize = 64;
+
+/// Seed of scenes and pushes: that of the published numbers.
+const SEED: u64 = 7;
+
+/// A frame in which something is near the tool: bodies, state, step and axis.
+type Near = (Bodies, State, FrameStep, pushplan::geometry::Vector);
+
+fn library() -> ToolLibrary {
+    ToolLibrary::embedded().expect("the shipped tools are sound")
+}
+
+/// One object and a shipped tool, or ten objects and the hand.
+fn cases() -> [(&'static str, Vec<Case>); 2] {
+    let single = Suite::draw(SuiteKind::Single, &library(), SEED, 11).cases;
+    [("one object", single), ("ten objects", crowd_cases(10, SEED, 6))]
+}
+
+/// Frames of the cases that have a graph, as the planar engine passes through them.
+fn frames(cases: &[Case]) -> Vec<Near> {
+    let mut batch = Batch::default();
+    let mut motions = Vec::new();
+    let mut near = Vec::new();
+    for Case { scene, motion } in cases {
+        let bodies = Bodies::new(scene, &motion.tool, motion.lift, None);
+        let truth = Simulator::planar().run(scene, &scene.start(), None, motion, Record::Frames);
+        let stroke = &motion.strokes[0];
+        let axis = (stroke.to.position - stroke.from.position).normalize();
+        for index in 0..stroke.frames().min(truth.frames.len()) {
+            let (state, step) = (truth.frames[index].state.clone(), stroke.frame(index));
+            batch.clear();
+            add_graph(&bodies, &state, &step, axis, 0, &mut batch, &mut motions);
+            if batch.node_count() > 0 {
+                near.push((bodies.clone(), state, step, axis));
+            }
+        }
+    }
+    near
+}
+
+fn fill(batch: &mut Batch, frames: &[Near]) {
+    let mut motions = Vec::new();
+    batch.clear();
+    for (k, (bodies, state, step, axis)) in frames.iter().cycle().take(BATCH).enumerate() {
+        add_graph(bodies, state, step, *axis, k as u32, batch, &mut motions);
+    }
+}
+
+/// Contacts, prior and features; then the network on the same batch.
+fn graph_and_network(criterion: &mut Criterion) {
+    let engine = Engine::new(&EffectModels::weights().expect("the shipped weights are sound"));
+    let mut group = criterion.benchmark_group("graph of 64 candidate-steps");
+    group.throughput(Throughput::Elements(BATCH as u64));
+    for (name, cases) in cases() {
+        let frames = frames(&cases);
+        let mut batch = Batch::default();
+        group.bench_function(name, |b| b.iter(|| fill(&mut batch, black_box(&frames))));
+    }
+    group.finish();
+    let mut group = criterion.benchmark_group("network on 64 candidate-steps");
+    group.throughput(Throughput::Elements(BATCH as u64));
+    for (name, cases) in cases() {
+        let mut batch = Batch::default();
+        fill(&mut batch, &frames(&cases));
+        let (mut memory, mut corrections) = (Memory::default(), Vec::new());
+        group.bench_function(name, |b| {
+            b.iter(|| engine.forward(black_box(&batch), &mut memory, &mut corrections));
+        });
+    }
+    group.finish();
+}
+
+/// Whole pushes: a batch of the network and of its prior, one at a time in the engines.
+fn rollouts(criterion: &mut Criterion) {
+    let weights = EffectModels::weights().expect("the shipped weights are sound");
+    let models: [(Box<dyn EffectModel>, usize); 4] = [
+        (Box::new(Learned::new(weights)), BATCH),
+        (Box::new(QuasiStatic::default()), BATCH),
+        (Box::new(Simulated::new(Simulator::planar())), 1),
+        (Box::new(Simulated::new(Simulator::spatial())), 1),
+    ];
+    for (name, cases) in cases() {
+        let mut group = criterion.benchmark_group(format!("a push on {name}"));
+        for (model, batch) in &models {
+            group.throughput(Throughput::Elements((cases.len() * batch) as u64));
+            let work: Vec<(&Case, Vec<Job>)> = cases
+                .iter()
+                .map(|case| {
+                    let motion = case.motion.clone();
+                    let job = Job { start: case.scene.start(), motion, hypothesis: None };
+                    (case, vec![job; *batch])
+                })
+                .collect();
+            group.bench_function(format!("{}, {batch} at a time", model.name()), |b| {
+                b.iter(|| {
+                    for (case, jobs) in &work {
+                        black_box(model.rollout(&case.scene, jobs, Record::Outcome));
+                    }
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+/// The search of 500 one-push candidates, and the refinement of the eight best.
+fn planning(criterion: &mut Criterion) {
+    let model = EffectModels::shipped().expect("the shipped weights are sound");
+    let library = library();
+    let task: Task = random_task(&library, SEED, 0);
+    let tools = task.tools(&library).expect("its tools are shipped");
+    let workspace = Workspace { task: &task, tools: &tools, later_stand_off: 0.0 };
+    let settings = SearchSettings { offsets: 5, beam: 1, rollouts: 500, kept: 8 };
+    let search = || {
+        let mut rollouts = Rollouts::new(&model, &task.scene);
+        Search::new(workspace, settings).deepen(&mut rollouts, &mut |_, _| {})
+    };
+    criterion.bench_function("search of 500 pushes", |b| b.iter(search));
+
+    let best: Vec<_> = search().into_iter().map(|found| found.candidate).collect();
+    let settings = RefineSettings { rounds: 4, extra: 2, seed: SEED, enough: best.len() };
+    criterion.bench_function("refinement of 8 pushes", |b| {
+        b.iter(|| {
+            let mut rollouts = Rollouts::new(&model, &task.scene);
+            let mut statistics = RefineStatistics::default();
+            refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &mut |_, _| {})
+        });
+    });
+}
+
+/// A programme of the size that one push makes, by a kept solver.
+fn programme(criterion: &mut Criterion) {
+    let n = 3;
+    let unit = |i: usize, sign: f64| (0..n).map(|j| if i == j { sign } else { 0.0 }).collect();
+    let rows: Vec<Vec<f64>> = (0..n).flat_map(|i| [unit(i, 1.0), unit(i, -1.0)]).collect();
+    let problem = QpProblem {
+        p: vec![vec![2.0, 0.5, 0.1], vec![0.5, 1.0, 0.2], vec![0.1, 0.2, 0.5]],
+        q: vec![-1.0, 3.0, 0.3],
+        b: vec![2.0; rows.len()],
+        a: rows,
+    };
+    let mut solver = QpSolver::default();
+    criterion.bench_function("quadratic programme of one push", |b| {
+        b.iter_batched(|| problem.clone(), |problem| solver.solve(&problem), BatchSize::SmallInput);
+    });
+}
+
+/// One thread, so that numbers of different machines and days can be compared; seconds a
+/// stage, so that all are done within a minute.
+fn settings() -> Criterion {
+    // Were the pool there already, its threads would only make the numbers worse.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(2))
+}
+
+criterion_group! {
+    name = stages;
+    config = settings();
+    targets = graph_and_network, rollouts, planning, programme
+}
+criterion_main!(stages);

@@ -1,0 +1,126 @@
+//! The kinds of files, and what must hold for whatever is read.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile, check};
+use pushplan::brdpn::Weights;
+use pushplan::scene::{Task, Tool};
+
+use crate::survive;
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    Tool,
+    Task,
+    Plan,
+    Trajectory,
+    Recording,
+    Weights,
+}
+
+impl Target {
+    pub const ALL: [Self; 6] =
+        [Self::Tool, Self::Task, Self::Plan, Self::Trajectory, Self::Recording, Self::Weights];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tool => "tool",
+            Self::Task => "task",
+            Self::Plan => "plan",
+            Self::Trajectory => "trajectory",
+            Self::Recording => "recording",
+            Self::Weights => "weights",
+        }
+    }
+
+    /// The ending that such files have.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Tool | Self::Task => ".yaml",
+            Self::Plan | Self::Trajectory | Self::Recording => ".json",
+            Self::Weights => ".safetensors",
+        }
+    }
+
+    /// Reads `input`, and uses what it holds; whether it was accepted.
+    pub fn run(self, input: &[u8]) -> bool {
+        if self == Self::Weights {
+            return match Weights::from_bytes(input) {
+                Ok(weights) => {
+                    survive::weights(weights);
+                    true
+                }
+                Err(error) => {
+                    assert!(!error.to_string().is_empty());
+                    false
+                }
+            };
+        }
+        let Ok(text) = std::str::from_utf8(input) else {
+            refused_as_file(input, self.ending());
+            return false;
+        };
+        let file = format!("fuzz{}", self.ending());
+        match self {
+            Self::Tool => read(Tool::parse(text, &file), text, survive::tool),
+            Self::Task => read(Task::parse(text, &file), text, survive::task),
+            Self::Plan => read(PlanFile::parse(text, &file), text, survive::plan),
+            Self::Trajectory => read(TrajectoryFile::parse(text, &file), text, survive::trajectory),
+            Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
+            Self::Weights => false,
+        }
+    }
+}
+
+fn read<T>(result: Result<T, Faults>, text: &str, survive: impl FnOnce(T)) -> bool {
+    match result {
+        Ok(value) => {
+            survive(value);
+            true
+        }
+        Err(faults) => {
+            explained(&faults, text);
+            false
+        }
+    }
+}
+
+/// Every fault says what and where, within the text.
+fn explained(faults: &Faults, text: &str) {
+    assert!(!faults.0.is_empty(), "refused without a fault");
+    let lines: Vec<&str> = text.split('\n').collect();
+    for fault in &faults.0 {
+        assert!(!fault.message.trim().is_empty(), "a fault without words");
+        let Some(place) = fault.place else {
+            // What stands for many faults has no place of its own.
+            let many = fault.message.starts_with("and ") && fault.message.ends_with(" more");
+            assert!(many, "no place: {fault}");
+            continue;
+        };
+        assert!(place.line >= 1 && place.column >= 1, "{place:?}: {fault}");
+        assert!(place.line <= lines.len() + 1, "behind the last line: {fault}");
+        // YAML knows other ends of lines, too.
+        if text.contains(['\r', '\u{85}', '\u{2028}', '\u{2029}']) {
+            continue;
+        }
+        // A tab, or the end of the line, may count for one more.
+        let length = lines.get(place.line - 1).map_or(0, |line| line.chars().count());
+        assert!(place.column <= length + 2, "behind the end of the line: {fault}");
+    }
+}
+
+/// A file that is no text is refused by its path.
+fn refused_as_file(input: &[u8], ending: &str) {
+    let folder = tempfile::tempdir().expect("a folder for a moment");
+    let path = folder.path().join(format!("fuzz{ending}"));
+    std::fs::write(&path, input).expect("a file for a moment");
+    let faults = check(&path, None).expect_err("not text");
+    assert!(faults.to_string().contains("UTF-8"), "{faults}");
+    unchanged(&path, input);
+}
+
+fn unchanged(path: &Path, input: &[u8]) {
+    assert_eq!(std::fs::read(path).ok().as_deref(), Some(input), "reading changed the file");
+}
