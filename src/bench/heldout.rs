@@ -182,7 +182,8 @@ impl HeldOut {
                     hypothesis: None,
                 };
                 let rolled = model.rollout(&case.scene, &[job], Record::Outcome);
-                self.judge_case(index, rolled.first().map(|trajectory| trajectory.outcome()))
+                let given = rolled.first().filter(|t| !t.warnings.contains(&Warning::Refused));
+                self.judge_case(index, given.map(|trajectory| trajectory.outcome()))
             })
             .collect();
         HeldOutErrors { model: name.to_owned(), rows: rows(&judged) }

@@ -6,11 +6,13 @@
 mod cpu_clock;
 mod crowd;
 mod extremes;
+mod far;
 mod heldout;
 mod inference;
 mod random;
 mod refinement;
 mod solved;
+mod split;
 mod statistics;
 mod store;
 mod suite;
@@ -26,6 +28,7 @@ pub use extremes::{
     ExtremeCell, ExtremeKind, ExtremeYardstick, ExtremesReport, ExtremesSettings, ProgrammeCell,
     TaskCell, Verdict as ExtremeVerdict, extremes,
 };
+pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
 pub use inference::{InferenceCost, inference_costs};
 pub use random::{
@@ -33,6 +36,7 @@ pub use random::{
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};
+pub use split::{PushSplit, push_split};
 pub use statistics::{Summary, mean, percentile};
 pub use store::{
     Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, digest,

@@ -95,14 +95,7 @@ pub(super) fn push_seconds(
     batch: usize,
     enough: f64,
 ) -> f64 {
-    let work: Vec<(&Scene, Vec<Job>)> = cases
-        .iter()
-        .map(|case| {
-            let motion = case.motion.clone();
-            let job = Job { start: case.scene.start(), motion, hypothesis: None };
-            (&case.scene, vec![job; batch])
-        })
-        .collect();
+    let work = batches(cases, batch);
     let (mut seconds, mut runs) = (0.0, 0u32);
     // Bounded, should the clock stand still.
     while seconds < enough && runs < 10_000 && !work.is_empty() {
@@ -115,6 +108,15 @@ pub(super) fn push_seconds(
         .as_secs_f64();
     }
     seconds / f64::from(runs.max(1)) / (work.len() * batch).max(1) as f64
+}
+
+/// Every push `batch` times, with its scene.
+pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
+    let repeated = |case: &'_ Case| {
+        let motion = case.motion.clone();
+        vec![Job { start: case.scene.start(), motion, hypothesis: None }; batch]
+    };
+    cases.iter().map(|case| (&case.scene, repeated(case))).collect()
 }
 
 /// Times the search of at most `candidates` one-push candidates for `task` with each model, one

@@ -26,6 +26,11 @@ pub enum CliError {
     /// A given file or folder that is missing, damaged or of another kind.
     #[error("{0}")]
     File(String),
+    /// The model should not be trusted with what is asked, and was told to refuse then.
+    #[error(
+        "{0}\n  help: `--outside simulate` simulates instead, `--outside warn` predicts all the same"
+    )]
+    Refused(String),
     /// Stopped by a signal.
     #[error("{0}")]
     Interrupted(String),
@@ -64,6 +69,7 @@ impl CliError {
         match self {
             Self::Usage { .. } => exit_code::USAGE,
             Self::Files(_) | Self::File(_) => exit_code::INVALID_FILE,
+            Self::Refused(_) => exit_code::REFUSED,
             Self::Interrupted(_) => exit_code::INTERRUPTED,
             // `pushplan ... | head` is no failure.
             Self::Closed => exit_code::DONE,

@@ -17,7 +17,7 @@ use super::{
     error::CliError,
     evaluate_crowd::{self, CrowdArgs},
     exit_code,
-    model::{self, ModelName},
+    model::{self, ModelName, OutsideArgs},
     session::Session,
 };
 
@@ -40,6 +40,8 @@ pub struct EvaluateArgs {
     positional: Option<ModelName>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
+    #[command(flatten)]
+    outside: OutsideArgs,
     /// What to measure on, see below; several may be given
     #[arg(long, value_name = "WHAT", num_args = 1..)]
     on: Vec<On>,
@@ -131,7 +133,14 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
     }
     let sources = evaluate_crowd::Sources::load(&families, &files, &args.crowd)?;
     let suites = tools(args, name, &suites, shown, session)?;
-    let crowds = evaluate_crowd::run(&sources, name, args.seed, &args.crowd, shown, session)?;
+    let crowds = evaluate_crowd::run(
+        &sources,
+        (name, args.outside),
+        args.seed,
+        &args.crowd,
+        shown,
+        session,
+    )?;
     if args.json {
         let mut report = json!({"schema_version": SCHEMA_VERSION});
         if !suites.is_empty() {
@@ -158,9 +167,9 @@ fn tools(
     }
     let library = args.library.load()?;
     let baselines = ModelName::BASELINES.into_iter().filter(|other| other != name);
-    let models = std::iter::once(name.clone())
-        .chain(baselines)
-        .map(|name| name.load())
+    let guarded = args.outside.guard(name.load()?);
+    let models = std::iter::once(Ok(guarded))
+        .chain(baselines.map(|name| name.load()))
         .collect::<Result<Vec<_>, CliError>>()?;
     let mut reports = Vec::new();
     for kind in kinds {

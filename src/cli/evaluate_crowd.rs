@@ -12,7 +12,13 @@ use crate::dataset::{JointRule, Solids};
 use crate::effect::{Assuming, Assumption, Disturbed, EffectModel, Mistake};
 use crate::report::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
 
-use super::{error::CliError, evaluate::Shown, model::ModelName, output, session::Session};
+use super::{
+    error::CliError,
+    evaluate::Shown,
+    model::{ModelName, OutsideArgs},
+    output,
+    session::Session,
+};
 
 /// How wrong the friction is that the simulator is told, beside the truth.
 const FRICTION: [f64; 2] = [0.7, 1.3];
@@ -135,7 +141,7 @@ fn recording(file: &Path) -> Result<Recording, asset::Faults> {
 /// A model that cannot be read; results that cannot be written.
 pub fn run(
     sources: &Sources,
-    name: &ModelName,
+    asked: (&ModelName, OutsideArgs),
     seed: u64,
     args: &CrowdArgs,
     shown: Shown,
@@ -148,7 +154,7 @@ pub fn run(
     if let Some(folder) = &args.out {
         output::prepare(folder)?;
     }
-    let drawn = models(name, false, args.no_baselines)?;
+    let drawn = models(asked, false, args.no_baselines)?;
     if !shown.json {
         session.print(&format!("{CROWD_LEGEND}\n\n"))?;
     }
@@ -166,7 +172,7 @@ pub fn run(
         show_last(&reports, args, shown, session)?;
     }
     if !sources.recordings.is_empty() {
-        recordings(sources, name, args, shown, session, &mut reports)?;
+        recordings(sources, asked, args, shown, session, &mut reports)?;
     }
     if reports.len() > 1 && !shown.json {
         let head = format!("{}, share of the mean true motion\n\n", reports[0].models[0].model);
@@ -178,13 +184,13 @@ pub fn run(
 /// Every recording by itself, and all together where there are several.
 fn recordings(
     sources: &Sources,
-    name: &ModelName,
+    asked: (&ModelName, OutsideArgs),
     args: &CrowdArgs,
     shown: Shown,
     session: &Session,
     reports: &mut Vec<CrowdReport>,
 ) -> Result<(), CliError> {
-    let models = models(name, true, args.no_baselines)?;
+    let models = models(asked, true, args.no_baselines)?;
     warn(sources, &*models[0], session);
     let names = sources.recordings.iter().map(|recording| recording.name.clone());
     let trials: Vec<Trial> = sources.recordings.iter().map(Trial::of_recording).collect();
@@ -239,11 +245,11 @@ fn show_last(
 /// The model that is asked for, the same under other assumptions about joints, and what stands
 /// beside it. Of recordings the planar engine is no truth, so it is there as itself too.
 fn models(
-    name: &ModelName,
+    (name, outside): (&ModelName, OutsideArgs),
     recorded: bool,
     alone: bool,
 ) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
-    let model = name.load()?;
+    let model = outside.guard(name.load()?);
     let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(Arc::clone(&model))];
     if alone {
         return Ok(models);

@@ -13,6 +13,8 @@ pub const INVALID_FILE: u8 = 3;
 pub const NO_PLAN: u8 = 4;
 /// Plans reach the goal by prediction, but none of those tried does in the 3-D simulation.
 pub const FAILED_VERIFICATION: u8 = 5;
+/// The model should not be trusted with this, and `--outside refuse` was asked for.
+pub const REFUSED: u8 = 6;
 /// Stopped by Ctrl-C or a termination signal; what was finished is saved.
 pub const INTERRUPTED: u8 = 130;
 
@@ -25,6 +27,7 @@ Exit codes:
     3  a file is missing or invalid
     4  no plan found
     5  plans were found but failed verification
+    6  outside of what the model was trained on, and `--outside refuse` was given
   130  interrupted; finished work is saved";
 
 #[cfg(test)]
@@ -38,9 +41,17 @@ mod tests {
             .skip(1)
             .filter_map(|line| line.split_whitespace().next()?.parse().ok())
             .collect();
-        let all =
-            [DONE, UNEXPECTED, USAGE, INVALID_FILE, NO_PLAN, FAILED_VERIFICATION, INTERRUPTED];
+        let all = [
+            DONE,
+            UNEXPECTED,
+            USAGE,
+            INVALID_FILE,
+            NO_PLAN,
+            FAILED_VERIFICATION,
+            REFUSED,
+            INTERRUPTED,
+        ];
         assert_eq!(listed, all);
-        assert_eq!(all, [0, 1, 2, 3, 4, 5, 130]);
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 130]);
     }
 }

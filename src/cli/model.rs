@@ -4,9 +4,12 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use clap::{Args, ValueEnum};
+
 use crate::brdpn::Weights;
 use crate::effect::{
-    EffectModel, EffectModels, Follow, Learned, Projection, QuasiStatic, Simulated, Still,
+    EffectModel, EffectModels, Follow, Guarded, Learned, Outside, Projection, QuasiStatic,
+    Simulated, Still,
 };
 use crate::sim::Simulator;
 
@@ -118,5 +121,51 @@ impl FromStr for ModelName {
         }
         let names: Vec<&str> = Self::NAMES.iter().map(|(name, _)| *name).collect();
         Err(format!("use {}, or a file that ends in .safetensors", names.join(", ")))
+    }
+}
+
+/// What to do where the model should not be trusted.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct OutsideArgs {
+    /// What to do outside of what the model was trained on, or where its own prediction shows
+    /// that it went wrong
+    #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
+    outside: OutsideName,
+}
+
+impl OutsideArgs {
+    /// What was asked for.
+    pub fn outside(self) -> Outside {
+        self.outside.into()
+    }
+
+    /// `model`, used only where it can be trusted.
+    pub fn guard(self, model: Arc<dyn EffectModel>) -> Arc<dyn EffectModel> {
+        match self.outside() {
+            Outside::Warn => model,
+            outside => Arc::new(Guarded::new(model, outside)),
+        }
+    }
+}
+
+/// [`Outside`] with words for `--help`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum OutsideName {
+    /// Simulate in the plane instead
+    Simulate,
+    /// Predict and warn
+    #[default]
+    Warn,
+    /// Give no prediction; exit code 6
+    Refuse,
+}
+
+impl From<OutsideName> for Outside {
+    fn from(name: OutsideName) -> Self {
+        match name {
+            OutsideName::Simulate => Outside::Simulate,
+            OutsideName::Warn => Outside::Warn,
+            OutsideName::Refuse => Outside::Refuse,
+        }
     }
 }

@@ -11,13 +11,13 @@ use crate::effect::Job;
 use crate::report::{
     Align, NONE, Table, degrees, goal_line, millimetres, plan_line, point, push_table, seconds,
 };
-use crate::scene::{Record, State, Task, Trajectory};
+use crate::scene::{Record, State, Task, Trajectory, Warning};
 
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
     exit_code,
-    model::{self, ModelName},
+    model::{self, ModelName, OutsideArgs},
     push_argument::FORMS,
     session::Session,
 };
@@ -37,6 +37,8 @@ pub struct PredictArgs {
     library: LibraryArgs,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
+    #[command(flatten)]
+    outside: OutsideArgs,
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
@@ -56,7 +58,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut effects = Vec::new();
     let simulated = ModelName::SIMULATED.into_iter().filter(|name| *name != args.model);
     for name in std::iter::once(args.model.clone()).chain(simulated) {
-        let model = name.load()?;
+        let model = args.outside.guard(name.load()?);
         for warning in model.warnings(&task.scene, &motion) {
             session.warn(&format!("{}: {warning}", model.name()));
         }
@@ -67,6 +69,10 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
             let found = model.rollout(&task.scene, &jobs, Record::Outcome);
             (found, start.elapsed().as_secs_f64())
         });
+        if found.iter().any(|trajectory| trajectory.warnings.contains(&Warning::Refused)) {
+            let message = format!("{} gives no prediction for this action", model.name());
+            return Err(CliError::Refused(message));
+        }
         let name = model.name().to_owned();
         effects.extend(found.into_iter().map(|trajectory| Effect {
             model: name.clone(),

@@ -15,7 +15,7 @@ use super::{
     action::LibraryArgs,
     error::CliError,
     exit_code,
-    model::{self, ModelName},
+    model::{self, ModelName, OutsideArgs},
     output,
     session::Session,
 };
@@ -37,6 +37,8 @@ pub struct SolveArgs {
     effort: EffortName,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
+    #[command(flatten)]
+    outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -55,7 +57,11 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let task = load_task(&args.task, &library)?;
     let effects = args.model.load()?;
     output::prepare(&args.out)?;
-    let planner = Planner::builder(effects).effort(args.effort.into()).seed(args.seed).build();
+    let planner = Planner::builder(effects)
+        .effort(args.effort.into())
+        .seed(args.seed)
+        .outside(args.outside.outside())
+        .build();
     let model = planner.model().name();
     let bar = session.spinner("solving");
     let solved = session.compute(|| {
@@ -88,6 +94,7 @@ pub fn solve_error(error: SolveError) -> CliError {
     match error {
         SolveError::Tools(faults) => CliError::Files(faults),
         SolveError::BadTask { .. } => CliError::File(error.to_string()),
+        SolveError::Refused { .. } => CliError::Refused(error.to_string()),
     }
 }
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     brdpn::{Engine, Weights, Workspace},
-    rollout::{RollSettings, Roller},
+    rollout::{RollSettings, Roller, Work},
     scene::{FRAME_TRAVEL, Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
@@ -86,6 +86,17 @@ impl Learned {
         });
         let trajectories = trajectories.collect();
         (trajectories, network)
+    }
+
+    /// What rolling `jobs` out takes: frames, graphs, nodes.
+    pub fn work(&self, scene: &Scene, jobs: &[Job]) -> Work {
+        let (mut roller, mut workspace) = (Roller::new(self.settings), Workspace::default());
+        for chunk in jobs.chunks(CHUNK) {
+            roller.roll(scene, chunk, Record::Outcome, &mut |batch, corrections| {
+                self.engine.forward(batch, &mut workspace, corrections);
+            });
+        }
+        *roller.work()
     }
 }
 

@@ -40,3 +40,21 @@ impl<M: EffectModel + ?Sized> EffectModel for Arc<M> {
         (**self).rollout(scene, jobs, record)
     }
 }
+
+impl<M: EffectModel + ?Sized> EffectModel for Box<M> {
+    fn name(&self) -> &str {
+        (**self).name()
+    }
+
+    fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
+        (**self).warnings(scene, motion)
+    }
+
+    fn error_p95(&self) -> f64 {
+        (**self).error_p95()
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        (**self).rollout(scene, jobs, record)
+    }
+}

@@ -4,6 +4,7 @@
 //! Only what a motion can reach is looked at, and only from the first contact until rest.
 //! Which network corrects the prior is the caller's business, and so is which motions to try.
 
+mod doubt;
 mod hold;
 mod integrate;
 mod reach;

@@ -74,7 +74,9 @@ impl Roller {
             .iter()
             .zip(memories)
             .zip(&cast)
-            .map(|((job, memory), &cast)| Run::new(job, &casts[cast], memory, *settings, record))
+            .map(|((job, memory), &cast)| {
+                Run::new(scene, job, &casts[cast], memory, *settings, record)
+            })
             .collect();
         work.rollouts += jobs.len() as u64;
         loop {

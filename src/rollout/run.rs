@@ -5,11 +5,12 @@ use crate::{
     graph::{Batch, Bodies, Motion, Movable, Subset, add_graph},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
-        State, Stroke, Trajectory, Velocity, Warning,
+        Scene, State, Stroke, Trajectory, Velocity, Warning,
     },
 };
 
 use super::{
+    doubt::{deepest_overlap, loosest_joint, set_down_on},
     integrate::integrate,
     reach::{Course, Reach},
     roll::RollSettings,
@@ -28,6 +29,7 @@ pub(super) struct Memory {
 
 /// One job on its way.
 pub(super) struct Run<'a> {
+    scene: &'a Scene,
     job: &'a Job,
     /// All bodies, and which of them matter now.
     whole: &'a Bodies,
@@ -57,6 +59,7 @@ pub(super) struct Run<'a> {
 
 impl<'a> Run<'a> {
     pub fn new(
+        scene: &'a Scene,
         job: &'a Job,
         whole: &'a Bodies,
         memory: &'a mut Memory,
@@ -64,6 +67,7 @@ impl<'a> Run<'a> {
         record: Record,
     ) -> Self {
         let mut run = Self {
+            scene,
             job,
             whole,
             memory,
@@ -121,6 +125,9 @@ impl<'a> Run<'a> {
                 self.span = self.settings.stride.clamp(1, moving - self.frame);
                 let step = stroke.frames_from(self.frame, self.span);
                 self.look(stroke, step.duration, work);
+                if self.frame == 0 {
+                    self.set_down(stroke);
+                }
                 work.moving += 1;
                 if self.idle && self.settings.pruned && self.is_still() && self.is_apart(stroke) {
                     work.skipped += 1;
@@ -172,6 +179,47 @@ impl<'a> Run<'a> {
         state.poses.extend(subset.objects.iter().map(|&k| self.state.poses[k]));
         state.velocities.clear();
         state.velocities.extend(subset.objects.iter().map(|&k| self.state.velocities[k]));
+    }
+
+    /// Notes on what the tool is set down at the start of `stroke`, if it is.
+    fn set_down(&mut self, stroke: &Stroke) {
+        let before = self.stroke.checked_sub(1).map(|before| &self.job.motion.strokes[before]);
+        if before.is_some_and(|before| !before.settle) {
+            return;
+        }
+        let Memory { subset, state, .. } = &*self.memory;
+        for object in set_down_on(&subset.bodies, state, &stroke.from) {
+            let object = self.scene.objects[subset.objects[object]].name.clone();
+            let stroke = self.stroke;
+            self.trajectory.warnings.push(Warning::SetDownOn { object, stroke });
+        }
+    }
+
+    /// Notes what the end shows that no real table does.
+    fn doubt(&mut self) {
+        let Some(stroke) = self.job.motion.strokes.last() else { return };
+        let Scene { objects, obstacles, .. } = self.scene;
+        let moved = |k: usize| self.state.poses[k] != self.job.start.poses[k];
+        let name = |body: Body| match body {
+            Body::Object(k) => objects[k].name.clone(),
+            Body::Obstacle(k) => obstacles[k].name.clone(),
+            Body::Part(k) => {
+                let tool = &self.job.motion.tool;
+                format!("{}/{}", tool.name, tool.parts[k].name)
+            }
+        };
+        let overlap = deepest_overlap(self.whole, &self.state, &stroke.to, moved);
+        let overlap = overlap.map(|(object, with, depth)| Warning::Overlap {
+            between: [name(Body::Object(object)), name(with)],
+            depth,
+        });
+        let loose = loosest_joint(self.whole, &self.state, moved);
+        let loose = loose.map(|(between, distance)| Warning::LooseJoint {
+            between: between.map(|k| name(Body::Object(k))),
+            distance,
+        });
+        self.trajectory.warnings.extend(overlap);
+        self.trajectory.warnings.extend(loose);
     }
 
     /// Whether nothing moves at all.
@@ -281,7 +329,9 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// What became of the job.
     pub fn finish(mut self) -> Trajectory {
+        self.doubt();
         if self.trajectory.frames.is_empty() {
             self.stroke = self.job.motion.strokes.len().saturating_sub(1);
             let tool = self.job.motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default();

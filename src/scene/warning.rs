@@ -40,22 +40,110 @@ pub enum Warning {
         /// Index of the stroke that the tool came down for.
         stroke: usize,
     },
+    /// Two bodies ended inside each other, which the model could not undo.
+    Overlap {
+        /// Their names.
+        between: [String; 2],
+        /// How deep, metres.
+        depth: f64,
+    },
+    /// A joint ended away from what it allows.
+    LooseJoint {
+        /// The names of its two objects.
+        between: [String; 2],
+        /// How far, metres (a turn at 5 cm).
+        distance: f64,
+    },
+    /// What is predicted and what the planar engine makes of the same motion differ: the measured
+    /// consequence of another warning.
+    Differs {
+        /// The object on which they differ most.
+        object: String,
+        /// How far its final positions are apart, metres.
+        distance: f64,
+    },
+    /// The planar engine took the model's place.
+    Simulated {
+        /// Why.
+        reason: Box<Warning>,
+    },
+    /// No prediction was made, because of the other warnings.
+    Refused,
 }
 
 impl Warning {
     /// Whether an outcome with this warning cannot count as success.
     pub fn forbids_success(&self) -> bool {
-        !matches!(self, Warning::OutsideTraining { .. })
+        match self {
+            Warning::OutsideTraining { .. }
+            | Warning::Overlap { .. }
+            | Warning::LooseJoint { .. }
+            | Warning::Differs { .. }
+            | Warning::Simulated { .. } => false,
+            Warning::NotAtRest { .. }
+            | Warning::NotFinite
+            | Warning::Toppled { .. }
+            | Warning::SetDownOn { .. }
+            | Warning::Refused => true,
+        }
+    }
+
+    /// Whether this is about the model, so that simulating instead would help.
+    pub fn questions_model(&self) -> bool {
+        matches!(
+            self,
+            Warning::OutsideTraining { .. }
+                | Warning::Overlap { .. }
+                | Warning::LooseJoint { .. }
+                | Warning::NotFinite
+        )
+    }
+
+    /// What is the matter, without what it means or helps.
+    fn fact(&self) -> String {
+        match self {
+            Warning::OutsideTraining { of, quantity, value, low, high } => format!(
+                "{of}: {quantity} = {value:.4} is outside the trained range {low:.4} to {high:.4}"
+            ),
+            Warning::Overlap { between: [a, b], depth } => {
+                format!("{a} and {b} are predicted {:.1} mm inside each other", depth * 1e3)
+            }
+            Warning::LooseJoint { between: [a, b], distance } => {
+                let millimetres = distance * 1e3;
+                format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
+            }
+            Warning::NotFinite => "the prediction left the finite numbers".to_owned(),
+            other => other.to_string(),
+        }
     }
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Warning::OutsideTraining { of, quantity, value, low, high } => write!(
+            Warning::OutsideTraining { .. } => write!(
                 f,
-                "{of}: {quantity} = {value:.4} is outside the trained range {low:.4} to {high:.4}; \
-                 predictions may be wrong, `--model planar` simulates instead"
+                "{}; predictions may be wrong, `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
+                f,
+                "{}, which no table shows; `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Differs { object, distance } => write!(
+                f,
+                "the planar simulation of this motion puts {object} {:.1} mm from where it is \
+                 predicted",
+                distance * 1e3
+            ),
+            Warning::Simulated { reason } => {
+                write!(f, "{}; simulated in the plane instead", reason.fact())
+            }
+            Warning::Refused => write!(
+                f,
+                "no prediction was made; `--outside simulate` simulates instead, `--outside warn` \
+                 predicts all the same"
             ),
             Warning::NotAtRest { waited } => write!(
                 f,
@@ -72,11 +160,9 @@ impl fmt::Display for Warning {
                 f,
                 "{object} toppled; its pose on the table means little, push lower or slower"
             ),
-            Warning::NotFinite => write!(
-                f,
-                "the prediction left the finite numbers and was stopped; `--model planar` \
-                 simulates instead"
-            ),
+            Warning::NotFinite => {
+                write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::asset::Faults;
+use crate::scene::Warning;
 
 /// Why a task cannot even be tried. Not finding a plan is no error.
 #[derive(Debug, Error)]
@@ -19,4 +20,17 @@ pub enum SolveError {
         /// What is wrong with it.
         what: String,
     },
+    /// The effect model should not be trusted with this task, and was told to refuse then.
+    #[error("task `{task}`: {}", list(warnings))]
+    Refused {
+        /// Name of the task.
+        task: String,
+        /// What puts it outside of what the model was trained on.
+        warnings: Vec<Warning>,
+    },
+}
+
+fn list(warnings: &[Warning]) -> String {
+    let lines: Vec<String> = warnings.iter().map(Warning::to_string).collect();
+    lines.join("\n")
 }

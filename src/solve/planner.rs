@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
-use crate::effect::{EffectModel, Job};
+use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
-use crate::scene::{Frame, Outcome, Plan, Record, Task, Tool, Trajectory, Warning};
+use crate::geometry::Vector;
+use crate::scene::{
+    Frame, Outcome, Plan, Push, Record, Task, Tool, ToolMotion, Trajectory, Warning,
+};
 
 use super::check::check;
 use super::solving::Solving;
@@ -30,13 +33,19 @@ use super::{Effort, Progress, Settings, Solution, SolveError};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Planner {
-    model: Box<dyn EffectModel>,
+    model: Guarded<Box<dyn EffectModel>>,
+    outside: Outside,
     settings: Settings,
     seed: u64,
 }
 
 /// Builds a [`Planner`].
-pub struct PlannerBuilder(Planner);
+pub struct PlannerBuilder {
+    model: Box<dyn EffectModel>,
+    outside: Outside,
+    settings: Settings,
+    seed: u64,
+}
 
 /// What an effect model says about a plan.
 #[derive(Clone, Debug)]
@@ -57,19 +66,27 @@ impl PlannerBuilder {
 
     /// Budgets one by one.
     pub fn settings(mut self, settings: Settings) -> Self {
-        self.0.settings = settings;
+        self.settings = settings;
         self
     }
 
     /// Seed of the samples of refinement and of the disturbances; 0 unless said otherwise.
     pub fn seed(mut self, seed: u64) -> Self {
-        self.0.seed = seed;
+        self.seed = seed;
+        self
+    }
+
+    /// What to do where the model should not be trusted; [`Outside::Warn`] unless said
+    /// otherwise.
+    pub fn outside(mut self, outside: Outside) -> Self {
+        self.outside = outside;
         self
     }
 
     /// The planner.
     pub fn build(self) -> Planner {
-        self.0
+        let Self { model, outside, settings, seed } = self;
+        Planner { model: Guarded::new(model, outside), outside, settings, seed }
     }
 }
 
@@ -77,12 +94,12 @@ impl Planner {
     /// Starts building a planner that predicts with `model`.
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
-        PlannerBuilder(Planner { model: Box::new(model), settings, seed: 0 })
+        PlannerBuilder { model: Box::new(model), outside: Outside::default(), settings, seed: 0 }
     }
 
     /// The effect model.
     pub fn model(&self) -> &dyn EffectModel {
-        &*self.model
+        &self.model
     }
 
     /// The budgets.
@@ -111,6 +128,16 @@ impl Planner {
     ) -> Result<Solution, SolveError> {
         let tools = task.tools(library)?;
         check(task, &tools)?;
+        let rules = &task.pushes;
+        let push = Push {
+            start: Vector::zeros(),
+            direction: 0.0,
+            length: rules.length,
+            speed: rules.speed,
+        };
+        let motion =
+            |tool: &Arc<Tool>| ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true);
+        self.refuse(task, tools.iter().map(motion))?;
         Ok(Solving::new(self, task, &tools, progress).run())
     }
 
@@ -125,7 +152,30 @@ impl Planner {
         plan: &Plan,
     ) -> Result<Prediction, SolveError> {
         check(task, std::slice::from_ref(tool))?;
+        self.refuse(task, std::iter::once(plan.motion(tool)))?;
         Ok(self.predict_all(task, &[(plan, tool)]).remove(0))
+    }
+
+    /// Refuses what the model should not be trusted with, if that is asked for.
+    fn refuse(
+        &self,
+        task: &Task,
+        motions: impl Iterator<Item = ToolMotion>,
+    ) -> Result<(), SolveError> {
+        if self.outside != Outside::Refuse {
+            return Ok(());
+        }
+        let mut warnings = Vec::new();
+        for warning in motions.flat_map(|motion| self.model.warnings(&task.scene, &motion)) {
+            // What the scene is to blame for comes with every tool.
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+        match warnings.is_empty() {
+            true => Ok(()),
+            false => Err(SolveError::Refused { task: task.name.clone(), warnings }),
+        }
     }
 
     /// The seed.
@@ -164,6 +214,10 @@ impl Planner {
                     if !warnings.contains(warning) {
                         warnings.push(warning.clone());
                     }
+                }
+                if warnings.iter().any(Warning::questions_model) {
+                    // Once simulated the doubt has a number.
+                    warnings.extend(consequence(&task.scene, job, trajectory.outcome()));
                 }
                 let outcome = Outcome::judge(&task.goal, &trajectory);
                 Prediction { trajectory, outcome, warnings }

@@ -13,6 +13,7 @@ mod evaluation;
 mod extremes;
 mod jointed;
 mod network;
+mod outside;
 mod planning;
 mod pruning;
 mod random_tasks;

@@ -83,7 +83,8 @@ fn judge(model: &dyn EffectModel, trial: &Trial) -> Judged {
     let job = Job { start: start.clone(), motion: trial.motion.clone(), hypothesis: None };
     let predicted = model.rollout(&trial.scene, &[job], Record::Frames);
     let predicted = predicted.into_iter().next().unwrap_or_default();
-    let failed = predicted.frames.is_empty() || predicted.warnings.contains(&Warning::NotFinite);
+    let gave_up = |warning: &Warning| matches!(warning, Warning::NotFinite | Warning::Refused);
+    let failed = predicted.frames.is_empty() || predicted.warnings.iter().any(gave_up);
     let states = match predicted.frames.is_empty() {
         // Saying nothing is predicting that nothing moves.
         true => vec![&start; trial.truth.len()],

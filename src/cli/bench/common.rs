@@ -1,6 +1,7 @@
 //! What every benchmark takes, and how its numbers are shown.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use clap::Args;
 use serde::Serialize;
@@ -10,9 +11,10 @@ use crate::asset::SCHEMA_VERSION;
 use crate::cli::{
     action::LibraryArgs,
     error::CliError,
-    model::{self, ModelName},
+    model::{self, ModelName, OutsideArgs},
     session::Session,
 };
+use crate::effect::EffectModel;
 use crate::report::{Document, Table};
 
 use super::keep::write_report;
@@ -23,9 +25,21 @@ pub struct Common {
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     pub model: ModelName,
     #[command(flatten)]
+    pub outside: OutsideArgs,
+    #[command(flatten)]
     pub library: LibraryArgs,
     #[command(flatten)]
     pub form: Form,
+}
+
+impl Common {
+    /// The model, used only where it can be trusted.
+    ///
+    /// # Errors
+    /// Those of [`ModelName::load`].
+    pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
+        Ok(self.outside.guard(self.model.load()?))
+    }
 }
 
 /// How numbers are printed.

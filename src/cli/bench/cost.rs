@@ -6,10 +6,15 @@ use clap::Args;
 use serde_json::json;
 
 use crate::asset::load_task;
-use crate::bench::{Suite, SuiteKind, crowd_cases, inference_costs, push_costs, search_costs};
-use crate::cli::{error::CliError, model::ModelName, session::Session};
-use crate::effect::EffectModel;
-use crate::report::{inference_table, push_cost_table, search_cost_table};
+use crate::bench::{
+    FAR_COUNTS, PushSplit, Suite, SuiteKind, crowd_cases, far_costs, inference_costs, push_costs,
+    push_split, search_costs,
+};
+use crate::cli::{error::CliError, model::ModelName, output, session::Session};
+use crate::effect::{EffectModel, Learned};
+use crate::report::{
+    far_chart, far_table, inference_table, push_cost_table, search_cost_table, split_table,
+};
 use crate::solve::Effort;
 
 use super::common::Common;
@@ -20,12 +25,18 @@ pub struct CostArgs {
     #[command(flatten)]
     common: Common,
     /// The task that is searched
-    #[arg(value_name = "TASK", required_unless_present = "crowd")]
+    #[arg(value_name = "TASK", required_unless_present_any = ["crowd", "far"])]
     task: Option<PathBuf>,
     /// Time the network alone, on scenes of this many objects, some joined
     #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
           conflicts_with = "task", value_parser = clap::value_parser!(u16).range(2..=12))]
     crowd: Option<u16>,
+    /// Time pushes beside up to 100 objects that they cannot touch, and draw the curves
+    #[arg(long, conflicts_with_all = ["task", "crowd"])]
+    far: bool,
+    /// Folder for far.svg, the curves of --far
+    #[arg(long, value_name = "DIR", requires = "far")]
+    out: Option<PathBuf>,
     /// Most candidates of the search
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -50,11 +61,13 @@ pub struct CostArgs {
 const NETWORK_BATCHES: [usize; 3] = [1, 64, 512];
 
 pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
-    let Some(task) = &args.task else { return crowd_cost(args, session) };
+    let Some(task) = &args.task else {
+        return if args.far { far_cost(args, session) } else { crowd_cost(args, session) };
+    };
     let library = args.common.library.load()?;
     let task = load_task(task, &library)?;
     let tools = task.tools(&library)?;
-    let model = args.common.model.load()?;
+    let model = args.common.load_model()?;
     let planar = ModelName::Planar.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
     let spinner = session.spinner("timing");
@@ -65,6 +78,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
             .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
         None => Vec::new(),
     };
+    let split = split(args, &suite, usize::from(args.batch), session)?;
     let models: [&dyn EffectModel; 2] = [&*model, &*planar];
     let standard = Effort::Standard.settings().offsets;
     let offsets = args.offsets.map_or(standard, usize::from);
@@ -75,7 +89,10 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     if !networks.is_empty() {
         tables.insert(0, inference_table(&networks));
     }
-    let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
+    tables.extend(split.as_ref().map(split_table));
+    let report = json!({
+        "networks": networks, "pushes": pushes, "split": split, "searches": searches,
+    });
     args.common.form.print(session, "cost", &report, "", &tables)
 }
 
@@ -92,4 +109,41 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let report = json!({"objects": objects, "networks": networks});
     let head = format!("{objects} objects, sparse and dense, mixed joints; times a graph-step\n\n");
     args.common.form.print(session, "cost", &report, &head, &[inference_table(&networks)])
+}
+
+/// What the time of a push goes into, where the model is a network.
+fn split(
+    args: &CostArgs,
+    suite: &Suite,
+    batch: usize,
+    session: &Session,
+) -> Result<Option<PushSplit>, CliError> {
+    let weights = args.common.model.weights()?;
+    Ok(weights.map(|weights| {
+        let model = Learned::new(weights);
+        session.compute(|| push_split(&model, suite, batch))
+    }))
+}
+
+fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let weights = args.common.model.weights()?.ok_or_else(|| {
+        CliError::usage("only a network leaves out what it cannot touch", "leave --model out")
+    })?;
+    if let Some(out) = &args.out {
+        output::prepare(out)?;
+    }
+    let library = args.common.library.load()?;
+    let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
+    let (pruned, whole) = (Learned::new(weights.clone()), Learned::new(weights).unpruned());
+    let planar = ModelName::Planar.load()?;
+    let batch = usize::from(args.batch);
+    let models: [(&dyn EffectModel, usize); 3] = [(&pruned, batch), (&whole, batch), (&planar, 1)];
+    let spinner = session.spinner("timing");
+    let costs = far_costs(&models, &suite, &FAR_COUNTS)
+        .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
+    spinner.finish_and_clear();
+    if let Some(out) = &args.out {
+        output::write(out, "far.svg", far_chart(&costs).to_svg().as_bytes())?;
+    }
+    args.common.form.print(session, "far", &costs, "", &[far_table(&costs)])
 }

@@ -25,7 +25,7 @@ pub struct RefinementArgs {
 
 pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
-    let model = args.common.model.load()?;
+    let model = args.common.load_model()?;
     let settings = Effort::Standard.settings();
     let spinner = session.spinner("refining");
     let report = session

@@ -48,11 +48,16 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         .iter()
         .map(|file| Ok(load_task(file, &library)?))
         .collect::<Result<Vec<Task>, CliError>>()?;
-    let model = args.common.model.load()?;
-    let planner = Planner::builder(model).effort(args.effort.into()).seed(args.seed).build();
+    let outside = args.common.outside.outside();
+    let planner = Planner::builder(args.common.model.load()?)
+        .effort(args.effort.into())
+        .seed(args.seed)
+        .outside(outside)
+        .build();
     let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
     let settings = json!({
         "budget": planner.settings(),
+        "outside": outside,
         "tools": value_digest(&tools)?,
         "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
         "content": value_digest(&tasks)?,

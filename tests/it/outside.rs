@@ -1,0 +1,146 @@
+//! What happens where the network should not be trusted: simulated instead, said, or refused.
+
+use std::sync::Arc;
+
+use pushplan::{
+    asset::{ToolLibrary, load_task},
+    effect::{EffectModel, EffectModels, Guarded, Learned, Outside},
+    scene::{Job, Obstacle, Record, Scene, Task, Trajectory, Warning},
+    sim::Simulator,
+    solve::{Effort, Planner, SolveError},
+};
+
+use super::network::{object, stroke, tool};
+use pushplan::geometry::{Pose, Shape};
+use pushplan::scene::ToolMotion;
+
+fn network() -> Learned {
+    Learned::new(EffectModels::weights().expect("the shipped weights"))
+}
+
+/// A box before the tool, of this mass.
+fn scene(mass: f64) -> Scene {
+    let mut body = object(Shape::Cuboid { size: [0.06, 0.06, 0.1] }, 0.06, 0.01, 0.0);
+    body.mass = mass;
+    Scene { table_friction: 0.4, objects: vec![body], ..Scene::default() }
+}
+
+fn job(scene: &Scene) -> Job {
+    let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke()] };
+    Job { start: scene.start(), motion, hypothesis: None }
+}
+
+fn run(outside: Outside, scene: &Scene) -> Trajectory {
+    Guarded::new(network(), outside).rollout(scene, &[job(scene)], Record::Frames).remove(0)
+}
+
+#[test]
+fn inside_its_range_the_network_predicts_whatever_is_asked_for() {
+    let scene = scene(0.5);
+    let plain = network().rollout(&scene, &[job(&scene)], Record::Frames).remove(0);
+    assert!(plain.warnings.is_empty(), "{:?}", plain.warnings);
+    for outside in [Outside::Simulate, Outside::Warn, Outside::Refuse] {
+        assert_eq!(run(outside, &scene), plain, "{outside}");
+    }
+}
+
+#[test]
+fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
+    let scene = scene(500.0);
+    let motion = job(&scene).motion;
+    let planar = Simulator::planar().run(&scene, &scene.start(), None, &motion, Record::Frames);
+    assert_eq!(run(Outside::Simulate, &scene).frames, planar.frames);
+    let guarded = Guarded::new(network(), Outside::Simulate);
+    let said = guarded.warnings(&scene, &motion);
+    assert!(said.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !said.is_empty());
+    assert!(said[0].to_string().contains("simulated in the plane instead"), "{}", said[0]);
+
+    let refused = run(Outside::Refuse, &scene);
+    assert_eq!(refused.outcome(), &scene.start());
+    assert!(refused.warnings.contains(&Warning::Refused));
+    assert!(refused.warnings.iter().any(Warning::forbids_success));
+
+    let plain = network().rollout(&scene, &[job(&scene)], Record::Frames).remove(0);
+    assert_eq!(run(Outside::Warn, &scene), plain);
+}
+
+#[test]
+fn jobs_keep_their_order_when_some_are_simulated() {
+    let scene = scene(0.5);
+    let fast = |k: usize| if k.is_multiple_of(2) { 1.0 } else { 0.05 };
+    let jobs: Vec<Job> = (0..6)
+        .map(|k| {
+            let mut job = job(&scene);
+            job.motion.strokes[0].duration = fast(k);
+            job
+        })
+        .collect();
+    let rolled = Guarded::new(network(), Outside::Simulate).rollout(&scene, &jobs, Record::Frames);
+    for (k, (job, trajectory)) in jobs.iter().zip(&rolled).enumerate() {
+        let duration = trajectory.frames[10].time;
+        assert!((duration - fast(k)).abs() < 0.02, "{k}: {duration}");
+        let planar = Simulator::planar().run(&scene, &job.start, None, &job.motion, Record::Frames);
+        assert_eq!(trajectory.frames == planar.frames, k % 2 == 1, "{k}");
+    }
+}
+
+#[test]
+fn a_box_crushed_against_a_wall_is_said_to_overlap_and_is_simulated_when_asked() {
+    let mut scene = scene(0.5);
+    scene.obstacles.push(Obstacle {
+        name: "wall".into(),
+        size: [0.1, 0.4, 0.1],
+        pose: Pose::new(0.16, 0.0, 0.0),
+        friction: 0.4,
+    });
+    let found = run(Outside::Warn, &scene).warnings;
+    let depth = found.iter().find_map(|warning| match warning {
+        Warning::Overlap { depth, .. } => Some(*depth),
+        _ => None,
+    });
+    // The tool ends 10 cm on; box and wall leave it 2 cm.
+    assert!(depth.is_some_and(|depth| depth > 0.01 && depth < 0.1), "{found:?}");
+    let instead = run(Outside::Simulate, &scene);
+    assert!(instead.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
+    let refused = run(Outside::Refuse, &scene);
+    assert!(refused.warnings.contains(&Warning::Refused));
+}
+
+#[test]
+fn a_tool_set_down_on_an_object_is_said() {
+    let mut scene = scene(0.5);
+    scene.objects[0].pose = Pose::new(0.02, 0.0, 0.0);
+    let name = scene.objects[0].name.clone();
+    let found = run(Outside::Warn, &scene).warnings;
+    assert!(found.contains(&Warning::SetDownOn { object: name, stroke: 0 }), "{found:?}");
+}
+
+#[test]
+fn a_planner_refuses_warns_with_a_number_or_simulates() {
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/pull-back.yaml");
+    let mut task: Task = load_task(&path, &library).expect("a shipped task");
+    task.scene.objects[0].mass = 500.0;
+    let planner = |outside| {
+        let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("the shipped weights");
+        Planner::builder(model).effort(Effort::Draft).outside(outside).build()
+    };
+    match planner(Outside::Refuse).solve(&task, &library) {
+        Err(SolveError::Refused { warnings, .. }) => {
+            assert_eq!(warnings.len(), 1, "said once, not with every tool: {warnings:?}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let warned = planner(Outside::Warn).solve(&task, &library).expect("a sound task");
+    assert!(warned.warnings.iter().any(|w| matches!(w, Warning::OutsideTraining { .. })));
+    assert!(warned.warnings.iter().any(|w| matches!(w, Warning::Differs { .. })));
+    let simulated = planner(Outside::Simulate).solve(&task, &library).expect("a sound task");
+    assert!(simulated.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
+    let planar = Planner::builder(EffectModels::planar()).effort(Effort::Draft).build();
+    let planar = planar.solve(&task, &library).expect("a sound task");
+    let ends = [&simulated, &planar].map(|solution| {
+        let best = solution.best().expect("a plan");
+        (best.plan.clone(), best.outcome.clone())
+    });
+    assert_eq!(ends[0].0.tool, ends[1].0.tool);
+}
