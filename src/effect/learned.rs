@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     brdpn::{Engine, Weights, Workspace},
-    rollout::{RollSettings, Roller, Work},
+    rollout::{RollSettings, Roller, Work, reachable},
     scene::{FRAME_TRAVEL, Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
@@ -106,7 +106,13 @@ impl EffectModel for Learned {
     }
 
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        self.weights.card.ranges.warnings(scene, motion)
+        let ranges = &self.weights.card.ranges;
+        let found = ranges.warnings(scene, motion);
+        if found.is_empty() {
+            return found;
+        }
+        // What the motion cannot reach is never shown to the network.
+        ranges.warnings(&scene.only(&reachable(scene, motion)), motion)
     }
 
     fn error_p95(&self) -> f64 {

@@ -14,5 +14,6 @@ mod work;
 
 pub use hold::hold;
 pub use integrate::integrate;
+pub use reach::reachable;
 pub use roll::{Corrector, RollSettings, Roller, apply, roll};
 pub use work::Work;

@@ -9,7 +9,7 @@
 use crate::{
     geometry::{Footprint, Pose, Vector, perpendicular},
     graph::{Bodies, MARGIN, Subset},
-    scene::{State, Stroke},
+    scene::{Scene, State, Stroke, ToolMotion, Velocity},
 };
 
 /// How far an object may move before the list is made anew, metres. A push of 20 cm then makes
@@ -40,6 +40,24 @@ pub struct Course<'a> {
     pub frame: usize,
     /// Frames that are predicted as one.
     pub stride: usize,
+}
+
+/// The objects of `scene` that `motion` can set in motion from their start, stroke by stroke and
+/// as far as one stroke can tell, in order; all of them where the tool makes no stroke.
+pub fn reachable(scene: &Scene, motion: &ToolMotion) -> Vec<usize> {
+    let count = scene.objects.len();
+    if motion.strokes.is_empty() {
+        return (0..count).collect();
+    }
+    let whole = Bodies::new(scene, &motion.tool, motion.lift, None);
+    let (mut reach, mut subset) = (Reach::default(), Subset::default());
+    let mut reached = vec![false; count];
+    for stroke in &motion.strokes {
+        let course = Course { stroke, frame: 0, stride: 1 };
+        reach.list(&whole, &scene.start(), course, 0.0, &mut subset);
+        subset.objects.iter().for_each(|&object| reached[object] = true);
+    }
+    (0..count).filter(|&object| reached[object]).collect()
 }
 
 /// The area that a part sweeps, as a rectangle along the stroke.
@@ -76,18 +94,24 @@ impl Reach {
         listed.resize(count, false);
         objects.clear();
         self.skin = SKIN;
+        let hull = Sweep::hull(sweeps);
         for (k, body) in whole.objects.iter().enumerate() {
-            let way = way(state, k, body.radius, duration);
-            let swept = |sweep: &Sweep| {
-                sweep.underside < body.height
-                    && sweep.gap(state.poses[k].position) <= body.radius + *near
-            };
+            let (pose, velocity) = (&state.poses[k], &state.velocities[k]);
+            let moves = *velocity != Velocity::default();
+            let room = body.radius + *near;
             // A position that is no number is near everything.
-            let lost = !state.poses[k].is_finite();
-            if way > 0.0 || lost || sweeps.iter().any(swept) {
+            let apart = hull.is_some_and(|hull| hull.square_gap(pose.position) > room * room);
+            if !moves && apart {
+                continue;
+            }
+            let swept = |sweep: &Sweep| {
+                sweep.underside < body.height && sweep.square_gap(pose.position) <= room * room
+            };
+            let lost = !pose.is_finite();
+            if moves || lost || sweeps.iter().any(swept) {
                 listed[k] = true;
                 objects.push(k);
-                self.skin = self.skin.max(SKIN + way);
+                self.skin = self.skin.max(SKIN + way(velocity, body.radius, duration));
             }
         }
         // Neighbours of neighbours: the list grows while it is read.
@@ -113,8 +137,9 @@ impl Reach {
             turns
                 || objects.iter().any(|&k| {
                     let (sweep, body) = (&sweeps[part], &whole.objects[k]);
+                    let room = body.radius + near;
                     sweep.underside < body.height
-                        && sweep.gap(state.poses[k].position) <= body.radius + near
+                        && sweep.square_gap(state.poses[k].position) <= room * room
                 })
         }));
         obstacles.clear();
@@ -135,7 +160,7 @@ impl Reach {
     pub fn holds(&self, bodies: &Bodies, state: &State, duration: f64) -> bool {
         self.positions.iter().enumerate().all(|(k, position)| {
             let moved = (state.poses[k].position - position).norm();
-            moved + way(state, k, bodies.objects[k].radius, duration) <= self.skin
+            moved + way(&state.velocities[k], bodies.objects[k].radius, duration) <= self.skin
         })
     }
 
@@ -200,12 +225,24 @@ impl Reach {
 }
 
 impl Sweep {
-    /// Distance of a point from the swept area, metres.
-    fn gap(&self, point: Vector) -> f64 {
+    /// An area that holds all those of `sweeps`, which lie along the same axis.
+    fn hull(sweeps: &[Sweep]) -> Option<Sweep> {
+        let join = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
+        sweeps.iter().copied().reduce(|a, b| Sweep {
+            along: join(a.along, b.along),
+            across: join(a.across, b.across),
+            underside: a.underside.min(b.underside),
+            ..a
+        })
+    }
+
+    /// Square of the distance of a point from the swept area, square metres.
+    fn square_gap(&self, point: Vector) -> f64 {
         let (x, y) = (point.dot(&self.axis), point.dot(&perpendicular(self.axis)));
         let beyond = |value: f64, low: f64, high: f64| (low - value).max(value - high).max(0.0);
         let along = beyond(x, self.along.0 + self.travel.0, self.along.1 + self.travel.1);
-        along.hypot(beyond(y, self.across.0, self.across.1))
+        let across = beyond(y, self.across.0, self.across.1);
+        along * along + across * across
     }
 
     /// Between which travels of the tool the part is at most `room` metres from a point.
@@ -221,9 +258,8 @@ impl Sweep {
     }
 }
 
-/// Most that any point of object `k` can travel in `duration` seconds by itself, metres.
-fn way(state: &State, k: usize, radius: f64, duration: f64) -> f64 {
-    let velocity = &state.velocities[k];
+/// Most that any point of a body can travel in `duration` seconds by itself, metres.
+fn way(velocity: &Velocity, radius: f64, duration: f64) -> f64 {
     (velocity.linear.norm() + velocity.angular.abs() * radius) * duration
 }
 

@@ -131,7 +131,9 @@ impl Ranges {
                 });
             }
         };
-        check("scene", "number of objects", scene.objects.len() as f64, self.objects);
+        if !scene.objects.is_empty() {
+            check("scene", "number of objects", scene.objects.len() as f64, self.objects);
+        }
         check("table", "friction", scene.table_friction, self.friction);
         for object in &scene.objects {
             check(&object.name, "mass (kg)", object.mass, self.mass);

@@ -68,6 +68,20 @@ impl Scene {
         })
     }
 
+    /// The scene with these objects alone (indices in order) and the joints among them.
+    pub fn only(&self, objects: &[usize]) -> Self {
+        let place = |object: usize| objects.iter().position(|&kept| kept == object);
+        let joints = self.joints.iter().filter_map(|joint| {
+            let [a, b] = joint.between;
+            Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
+        });
+        Self {
+            objects: objects.iter().map(|&k| self.objects[k].clone()).collect(),
+            joints: joints.collect(),
+            ..self.clone()
+        }
+    }
+
     /// The index of the object called `name`.
     pub fn object(&self, name: &str) -> Option<usize> {
         self.objects.iter().position(|object| object.name == name)

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
-use crate::geometry::Vector;
 use crate::scene::{
     Frame, Outcome, Plan, Push, Record, Task, Tool, ToolMotion, Trajectory, Warning,
 };
@@ -128,15 +127,7 @@ impl Planner {
     ) -> Result<Solution, SolveError> {
         let tools = task.tools(library)?;
         check(task, &tools)?;
-        let rules = &task.pushes;
-        let push = Push {
-            start: Vector::zeros(),
-            direction: 0.0,
-            length: rules.length,
-            speed: rules.speed,
-        };
-        let motion =
-            |tool: &Arc<Tool>| ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true);
+        let motion = |tool: &Arc<Tool>| typical(task, tool);
         self.refuse(task, tools.iter().map(motion))?;
         Ok(Solving::new(self, task, &tools, progress).run())
     }
@@ -224,6 +215,22 @@ impl Planner {
             })
             .collect()
     }
+}
+
+/// A push of the goal's object towards the goal by the tool's first part: what a model would be
+/// used for, as far as it can be known before.
+fn typical(task: &Task, tool: &Arc<Tool>) -> ToolMotion {
+    let (rules, goal) = (&task.pushes, &task.goal);
+    let object = task.scene.objects[goal.object].pose.position;
+    let way = goal.position - object;
+    let part = tool.part_pose(0, &tool.pose(Pose::default()));
+    let push = Push {
+        start: object - part.position,
+        direction: way.y.atan2(way.x),
+        length: rules.length,
+        speed: rules.speed,
+    };
+    ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
 }
 
 /// The trajectory of doing nothing.
