@@ -139,6 +139,14 @@ impl OutsideArgs {
         self.outside.into()
     }
 
+    /// Notes what was asked for among the settings of a kept run, unless it is the default: a
+    /// run that began without this option goes on.
+    pub fn note(self, settings: &mut serde_json::Value) {
+        if self.outside() != Outside::default() {
+            settings["outside"] = serde_json::json!(self.outside());
+        }
+    }
+
     /// `model`, used only where it can be trusted.
     pub fn guard(self, model: Arc<dyn EffectModel>) -> Arc<dyn EffectModel> {
         match self.outside() {

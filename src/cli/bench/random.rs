@@ -90,16 +90,20 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
     kinds.dedup();
     let suite = RandomSuite::new(&library, args.seed, &kinds);
     let effort = Effort::from(args.effort);
-    let planner = Planner::builder(args.common.model.load()?).effort(effort).build();
+    let planner = Planner::builder(args.common.model.load()?)
+        .effort(effort)
+        .outside(args.common.outside.outside())
+        .build();
     let count = args.count as usize;
     let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-    let settings = json!({
+    let mut settings = json!({
         "effort": effort,
         "budget": planner.settings(),
         "kinds": suite.kinds(),
         "tasks_version": RandomSuite::VERSION,
         "tools": value_digest(&tools)?,
     });
+    args.common.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, count, args.seed, planner.model().name())
         .with_weights(weights_digest(&args.common.model)?)
         .with_settings(settings);

@@ -55,13 +55,13 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         .outside(outside)
         .build();
     let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-    let settings = json!({
+    let mut settings = json!({
         "budget": planner.settings(),
-        "outside": outside,
         "tools": value_digest(&tools)?,
         "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
         "content": value_digest(&tasks)?,
     });
+    args.common.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, tasks.len(), args.seed, planner.model().name())
         .with_weights(weights_digest(&args.common.model)?)
         .with_settings(settings);

@@ -9,7 +9,7 @@ use crate::asset::write_atomic;
 use crate::bench::{GoalSet, Layout, ReferenceSetup, RunManifest, ToolBench, single_pushes};
 use crate::cli::{
     error::CliError,
-    model::{self, ModelName},
+    model::{self, ModelName, OutsideArgs},
     session::Session,
 };
 use crate::report::{single_table, tools_document};
@@ -26,6 +26,8 @@ pub const SUITE: &str = "tools";
 pub struct ToolsArgs {
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelName,
+    #[command(flatten)]
+    outside: OutsideArgs,
     /// Where the cylinder starts
     #[arg(long, value_enum, default_value_t)]
     layout: LayoutName,
@@ -92,8 +94,9 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     }
     let goals = GoalSet::shipped(layout)
         .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
-    let model = args.model.load()?;
-    let settings = json!({"layout": layout, "goals": value_digest(&goals)?});
+    let model = args.outside.guard(args.model.load()?);
+    let mut settings = json!({"layout": layout, "goals": value_digest(&goals)?});
+    args.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, goals.len(), args.seed, model.name())
         .with_weights(weights_digest(&args.model)?)
         .with_settings(settings);
@@ -114,7 +117,7 @@ fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
             "leave --out out, or --form single",
         ));
     }
-    let model = args.model.load()?;
+    let model = args.outside.guard(args.model.load()?);
     let spinner = session.spinner("pushing");
     let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
     spinner.finish_and_clear();
