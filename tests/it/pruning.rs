@@ -11,8 +11,11 @@ use pushplan::{
     dataset::{Dataset, DatasetConfig, Preset, Unwatched},
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
+    graph::Batch,
     rollout::{RollSettings, Roller, Work},
-    scene::{Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity},
+    scene::{
+        Hypothesis, Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
+    },
 };
 
 /// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
@@ -194,4 +197,36 @@ fn random_tables_chained_and_placed_jointed_and_moving() {
     assert!(some.skipped * 4 > some.moving, "{some:?}");
     assert!(some.listed * 3 < some.lists * 9 * 2, "{some:?}");
     assert!(some.graphs > 3000 && every.skipped == 0, "{some:?} {every:?}");
+}
+
+#[test]
+fn every_job_of_a_batch_has_its_own_tool_and_physics() {
+    let mut rng = Pcg64::seed_from_u64(8);
+    let (mut tools, mut physics) = (0, 0);
+    for _ in 0..20 {
+        let (scene, plain) = random_job(&mut rng);
+        let mut slippery = Hypothesis::nominal(&scene, &plain.motion.tool);
+        slippery.frictions.iter_mut().for_each(|friction| *friction *= 0.3);
+        let slippery = Job { hypothesis: Some(Arc::new(slippery)), ..plain.clone() };
+        let mut tool = (*plain.motion.tool).clone();
+        tool.parts.truncate(1);
+        let mut short = plain.clone();
+        short.motion.tool = Arc::new(tool);
+        let jobs = [plain.clone(), short, slippery.clone(), plain, slippery];
+        let roll = |jobs: &[Job]| {
+            let nothing = &mut |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+                corrections.clear();
+                corrections.resize(batch.node_count(), [0.0; 6]);
+            };
+            Roller::default().roll(&scene, jobs, Record::Frames, nothing)
+        };
+        // Without a network nothing is shared, so a batch gives the same bits.
+        let together = roll(&jobs);
+        for (job, trajectory) in jobs.iter().zip(&together) {
+            assert_eq!(&roll(std::slice::from_ref(job))[0], trajectory);
+        }
+        tools += usize::from(together[0] != together[1]);
+        physics += usize::from(together[0] != together[2]);
+    }
+    assert!(tools > 3 && physics > 3, "{tools} {physics}");
 }
