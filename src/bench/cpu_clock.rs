@@ -14,8 +14,10 @@ pub(super) fn processor_time(work: impl FnOnce()) -> Duration {
     }
 }
 
-/// Time on a processor, the first number of the kernel's `schedstat`, nanoseconds.
-fn thread_time() -> Option<Duration> {
+/// Time that this thread has spent on a processor so far, where the system tells.
+///
+/// The first number of the kernel's `schedstat`, nanoseconds.
+pub(super) fn thread_time() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }

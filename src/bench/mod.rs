@@ -45,8 +45,9 @@ pub use store::{
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
 pub use tools::{
-    EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, ReferenceSetup, SinglePushes,
-    StartGoals, ToolBench, ToolPose, ToolRecord, ToolRow, ToolTrial, single_pushes, summarise,
+    EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, PROCESSOR, ReferenceSetup,
+    SinglePushes, StartGoals, ToolBench, ToolPose, ToolRecord, ToolRow, ToolTrial, single_pushes,
+    summarise,
 };
 pub use tradeoff::{
     EffortChoice, Level, Noise, ObjectCost, PlanLevel, PlanOutcome, PlanRow, Point, PredictorRow,

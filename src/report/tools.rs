@@ -3,8 +3,8 @@
 use serde_json::json;
 
 use crate::bench::{
-    EngineErrors, Executed, Finished, Layout, Method, ReferenceSetup, RunManifest, SinglePushes,
-    Summary, ToolRecord, ToolRow, ToolTrial, summarise,
+    EngineErrors, Executed, Finished, Layout, Method, PROCESSOR, ReferenceSetup, RunManifest,
+    SinglePushes, Summary, ToolRecord, ToolRow, ToolTrial, summarise,
 };
 
 use super::document::{Document, Section};
@@ -23,7 +23,8 @@ const NOTES: [&str; 3] = [
     "When the tool stops, it stands where it is while the cylinder glides to rest, in every model \
      and engine alike. The tool has no hand that could touch the cylinder.",
     "For a tool pose alone all tasks count, those too that it cannot solve, and where it cannot \
-     be set down because the cylinder is in its way.",
+     be set down because the cylinder is in its way. Times are of one task by itself, its share \
+     of the rollouts that other tasks use too included; processor times need --threads 1.",
 ];
 
 /// Methods shown for each tool pose alone.
@@ -87,7 +88,8 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
                 figures: Vec::new(),
             },
             Section {
-                title: "Wall time of a task with all tool poses".into(),
+                title: "Time of a task with all tool poses, on the wall and on the processor"
+                    .into(),
                 table: time_table(tasks),
                 figures: Vec::new(),
             },
@@ -172,14 +174,18 @@ fn time_table(tasks: &[Finished<ToolRecord>]) -> Table {
         ("mean", Align::Right),
         ("median", Align::Right),
         ("largest", Align::Right),
+        ("processor, one thread", Align::Right),
     ]);
+    let times = |key: &str| -> Option<Summary> {
+        let times = tasks.iter().filter_map(|task| task.seconds.get(key).copied());
+        Summary::of(&times.collect::<Vec<f64>>())
+    };
     for (method, key) in ToolRecord::TIMED {
-        let times: Vec<f64> =
-            tasks.iter().filter_map(|task| task.seconds.get(key).copied()).collect();
-        if let Some(times) = Summary::of(&times) {
-            let numbers = [times.mean, times.median, times.max].map(seconds);
-            table.row(std::iter::once(title(method).to_owned()).chain(numbers));
-        }
+        let Some(wall) = times(key) else { continue };
+        let processor = times(&format!("{key}{PROCESSOR}"));
+        let numbers = [wall.mean, wall.median, wall.max].map(seconds);
+        let processor = processor.map_or(NONE.to_owned(), |times| seconds(times.mean));
+        table.row(std::iter::once(title(method).to_owned()).chain(numbers).chain([processor]));
     }
     table
 }

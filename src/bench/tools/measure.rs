@@ -1,7 +1,5 @@
 //! Measuring the tasks one by one; those of one start share its rollouts.
 
-use std::time::Instant;
-
 use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
@@ -16,6 +14,7 @@ use super::{
     goals::GoalSet,
     record::ToolRecord,
     setup::{ReferenceSetup, STEPS},
+    spent::Spent,
     trials::Trials,
 };
 
@@ -42,8 +41,8 @@ pub(super) struct Shared {
     pub played: SequenceTree,
     /// What was executed so far.
     pub executions: Executions,
-    /// Wall time of `predicted`, seconds.
-    pub seconds: f64,
+    /// What `predicted` took.
+    pub spent: Spent,
 }
 
 impl<'a> ToolBench<'a> {
@@ -90,10 +89,9 @@ impl Shared {
         let workspace = setup.workspace(task);
         let free = setup.free_poses(task.scene.objects[task.goal.object].pose.position);
         let grips = setup.grips(&free);
-        let began = Instant::now();
         let mut rollouts = Rollouts::new(model, &task.scene);
-        let predicted = SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS);
-        let seconds = began.elapsed().as_secs_f64();
+        let (predicted, spent) =
+            Spent::on(|| SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS));
         let planar = Simulated::new(Simulator::planar());
         let mut rollouts = Rollouts::new(&planar, &task.scene);
         Self {
@@ -103,7 +101,7 @@ impl Shared {
             planar: SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS),
             played: SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS),
             executions: Executions::default(),
-            seconds,
+            spent,
         }
     }
 }

@@ -8,6 +8,7 @@ mod measure;
 mod record;
 mod setup;
 mod single;
+mod spent;
 mod summary;
 mod trials;
 
@@ -16,4 +17,5 @@ pub use measure::ToolBench;
 pub use record::{Executed, Method, ToolRecord, ToolTrial};
 pub use setup::{Layout, ReferenceSetup, ToolPose};
 pub use single::{SinglePushes, single_pushes};
+pub use spent::PROCESSOR;
 pub use summary::{EngineErrors, ToolRow, summarise};

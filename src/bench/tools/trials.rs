@@ -1,8 +1,6 @@
 //! Every method on one task, with all tool poses or one alone: choose, then execute in both
 //! engines.
 
-use std::time::Instant;
-
 use rand::Rng;
 
 use crate::{
@@ -20,6 +18,7 @@ use super::{
     measure::Shared,
     record::{Executed, Method, ToolTrial},
     setup::{FINE, PUSHES, ReferenceSetup, STEPS, TRAVEL},
+    spent::{PROCESSOR, Spent},
 };
 
 /// Plans that are tried at most.
@@ -68,7 +67,7 @@ impl<'a> Trials<'a> {
     /// Every method. The random choice is the draw number `draw.1` of seed `draw.0`; wall times
     /// go to `seconds`, where they are wanted.
     pub fn run(&mut self, draw: (u64, u64), seconds: Option<&mut Seconds>) -> Vec<ToolTrial> {
-        let (setup, task, shared) = (self.setup, self.task, self.shared.seconds);
+        let (setup, task, shared) = (self.setup, self.task, self.shared.spent);
         let (workspace, grips) = (setup.workspace(task), self.grips.clone());
         let mut rollouts = Rollouts::new(self.model, &task.scene);
         let mut stopwatch = Stopwatch { seconds };
@@ -79,8 +78,9 @@ impl<'a> Trials<'a> {
         let refined = stopwatch.time("refined", shared, || {
             refined_choices(setup, &workspace, &mut rollouts, tree, &grips, 1)
         });
-        let placed = stopwatch
-            .time("placed", 0.0, || placed_choices(setup, self.model, task, &grips, TRIED));
+        let placed = stopwatch.time("placed", Spent::default(), || {
+            placed_choices(setup, self.model, task, &grips, TRIED)
+        });
         let searched = stopwatch.kept("placed");
         let (best, spatial) =
             stopwatch.time("verified", searched, || self.verify(Engine::Spatial, &placed));
@@ -209,25 +209,28 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Keeps the wall times of a task, where they are wanted.
+/// Keeps the times of a task, where they are wanted: wall time, and the processor's where a
+/// single thread does all the work.
 struct Stopwatch<'a> {
     seconds: Option<&'a mut Seconds>,
 }
 
 impl Stopwatch<'_> {
-    /// What `work` takes on top of `before` seconds.
-    fn time<T>(&mut self, what: &str, before: f64, work: impl FnOnce() -> T) -> T {
-        let began = Instant::now();
-        let done = work();
+    /// What `work` takes on top of `before`.
+    fn time<T>(&mut self, what: &str, before: Spent, work: impl FnOnce() -> T) -> T {
+        let (done, spent) = Spent::on(work);
         if let Some(seconds) = &mut self.seconds {
-            seconds.insert(what.to_owned(), before + began.elapsed().as_secs_f64());
+            let Spent { wall, processor } = spent.after(before);
+            seconds.insert(what.to_owned(), wall);
+            seconds.extend(processor.map(|time| (format!("{what}{PROCESSOR}"), time)));
         }
         done
     }
 
-    /// A time that was kept, seconds.
-    fn kept(&self, what: &str) -> f64 {
-        let kept = self.seconds.as_ref().and_then(|seconds| seconds.get(what));
-        kept.copied().unwrap_or_default()
+    /// A time that was kept.
+    fn kept(&self, what: &str) -> Spent {
+        let kept = |name: &str| self.seconds.as_ref().and_then(|times| times.get(name)).copied();
+        let processor = kept(&format!("{what}{PROCESSOR}"));
+        Spent { wall: kept(what).unwrap_or_default(), processor }
     }
 }
