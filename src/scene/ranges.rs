@@ -12,7 +12,7 @@ use super::{GRAVITY, Scene, Stroke, ToolMotion, Warning};
 const SLACK: f64 = 1e-6;
 
 /// How far an object released at the speed of the push slides on in nearly all training pushes
-/// (99.6 %: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
+/// (all but 11 of 2000: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
 /// three times those of ordinary pushes (`pushplan bench extremes`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
