@@ -9,7 +9,7 @@ use crate::solve::{PlanStatus, RankedPlan, Solution};
 use super::{
     number::{millimetres, seconds},
     picture::{ScenePicture, Source, Track},
-    plan_text::{goal_line, outcome_table, plan_line, push_table},
+    plan_text::{goal_line, outcome_table, plan_line, point, push_table},
 };
 
 /// The result for people.
@@ -22,6 +22,12 @@ pub fn solution_text(task: &Task, solution: &Solution, model: &str) -> String {
         }
         text += "\n";
         text += &outcomes_text(task, Some((model, &best.outcome)), best.verdict.as_ref());
+        if let Some(aim) = best.refinement.aimed_at {
+            text += &format!(
+                "aimed at {}, as the same plan aimed at the goal ended beside it in 3-D\n",
+                point(aim)
+            );
+        }
     }
     let statistics = &solution.statistics;
     let timing = &statistics.timing;

@@ -9,6 +9,7 @@ mod error;
 mod planner;
 mod progress;
 mod rank;
+mod reconsider;
 mod settings;
 mod solution;
 mod solving;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Vector;
 use crate::plan::{RefineStatistics, SearchStatistics};
 use crate::scene::{Outcome, Plan, Tool, Trajectory, Verdict, Warning};
 
@@ -28,6 +29,10 @@ pub struct Refinement {
     pub before: f64,
     /// Predicted error now, metres.
     pub after: f64,
+    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D had ended
+    /// beside it: the predicted error is then meant to be large.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aimed_at: Option<Vector>,
     /// Predicted score (error in units of the tolerance) after each round.
     pub rounds: Vec<f64>,
 }

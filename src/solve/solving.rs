@@ -5,11 +5,14 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use crate::plan::{Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine};
-use crate::scene::{Plan, Task, Tool, Verdict};
+use crate::plan::{
+    Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine,
+};
+use crate::scene::{Goal, Plan, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 
-use super::rank::{distinct, is_worth_verifying, sort};
+use super::rank::{is_worth_verifying, sort};
+use super::reconsider::Way;
 use super::{PlanStatus, Planner, Progress, RankedPlan, Refinement, Solution, Stage, Statistics};
 
 /// The stand-off of later pushes grows by the model's error, but by no more than this, metres:
@@ -20,23 +23,29 @@ const MOST_LATER_STAND_OFF: f64 = 0.02;
 const REPORTED: usize = 8;
 
 /// A plan that was refined, and verified where it was worth that.
-struct Tried {
-    plan: Plan,
-    tool: Arc<Tool>,
-    refinement: Refinement,
-    score: f64,
-    verdict: Option<Verdict>,
+pub(super) struct Tried {
+    pub plan: Plan,
+    pub tool: Arc<Tool>,
+    /// What the plan was made from; nothing for doing nothing.
+    pub candidate: Option<Candidate>,
+    /// What it was refined towards: the task's goal, or one beside it.
+    pub aim: Goal,
+    pub refinement: Refinement,
+    pub score: f64,
+    pub verdict: Option<Verdict>,
 }
 
 pub(super) struct Solving<'a> {
-    planner: &'a Planner,
-    task: &'a Task,
-    workspace: Workspace<'a>,
-    rollouts: Rollouts<'a>,
+    pub planner: &'a Planner,
+    pub task: &'a Task,
+    pub workspace: Workspace<'a>,
+    pub rollouts: Rollouts<'a>,
     verifier: Verifier,
     progress: &'a mut dyn FnMut(Progress),
-    statistics: Statistics,
-    tried: Vec<Tried>,
+    pub statistics: Statistics,
+    pub tried: Vec<Tried>,
+    /// What replays have shown not to work.
+    pub refuted: Vec<Way>,
 }
 
 impl<'a> Solving<'a> {
@@ -58,6 +67,7 @@ impl<'a> Solving<'a> {
             progress,
             statistics: Statistics::default(),
             tried: Vec::new(),
+            refuted: Vec::new(),
         }
     }
 
@@ -106,6 +116,47 @@ impl<'a> Solving<'a> {
         self.statistics.timing.search += began.elapsed().as_secs_f64();
 
         let began = Instant::now();
+        let candidates = self.choose(&found, settings.refined, &[]);
+        let first = self.tried.len();
+        let mut queue = self.refined(&candidates, self.task.goal, pushes);
+        self.statistics.timing.refinement += began.elapsed().as_secs_f64();
+
+        let (mut passed, mut failed) = (None, Vec::new());
+        let at_once = settings.verified_at_once.max(1);
+        for batch in 0..settings.verify_batches {
+            if batch > 0 {
+                let began = Instant::now();
+                self.reconsider(&mut queue, &failed, &found, (first, pushes));
+                self.statistics.timing.refinement += began.elapsed().as_secs_f64();
+            }
+            let indices: Vec<usize> = queue.drain(..queue.len().min(at_once)).collect();
+            if indices.is_empty() {
+                break;
+            }
+            let began = Instant::now();
+            let left = settings.verify_batches * at_once;
+            tell(self.progress, Stage::Verify, batch * at_once, left);
+            passed = self.verify(&indices);
+            self.statistics.timing.verification += began.elapsed().as_secs_f64();
+            if passed.is_some() {
+                break;
+            }
+            failed = indices;
+        }
+        passed
+    }
+
+    /// Refines candidates towards `aim`, the task's goal or one beside it, keeps what came out, and
+    /// gives the indices of what is worth verifying, best first.
+    pub(super) fn refined(
+        &mut self,
+        candidates: &[Candidate],
+        aim: Goal,
+        pushes: usize,
+    ) -> Vec<usize> {
+        let task = Task { goal: aim, ..self.task.clone() };
+        let settings = *self.planner.settings();
+        let progress = &mut *self.progress;
         let refine_settings = RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
@@ -114,41 +165,24 @@ impl<'a> Solving<'a> {
             enough: settings.verified_at_once,
         };
         let mut refined = refine(
-            &self.workspace,
+            &Workspace { task: &task, ..self.workspace },
             &mut self.rollouts,
-            &distinct(&found, settings.refined),
+            candidates,
             refine_settings,
             &mut self.statistics.refinement,
-            &mut |done, total| tell(self.progress, Stage::Refine, done, total),
+            &mut |done, total| progress(Progress { stage: Stage::Refine, pushes, done, total }),
         );
         sort(&mut refined);
-        self.statistics.timing.refinement += began.elapsed().as_secs_f64();
-
-        let began = Instant::now();
-        let first = self.tried.len();
         let error_p95 = self.planner.model().error_p95();
-        let worth: Vec<bool> = refined
-            .iter()
-            .map(|r| is_worth_verifying(&self.task.scene, &self.task.goal, &r.best, error_p95))
-            .collect();
-        let all = refined.into_iter().map(|refined| self.tried(refined));
-        let all: Vec<Tried> = all.collect();
-        self.tried.extend(all);
-        let queue: Vec<usize> =
-            worth.iter().enumerate().filter(|(_, w)| **w).map(|(k, _)| first + k).collect();
-        let most = settings.verified_at_once.saturating_mul(settings.verify_batches);
-        let queue = &queue[..queue.len().min(most)];
-        let mut passed = None;
-        for (batch, indices) in queue.chunks(settings.verified_at_once.max(1)).enumerate() {
-            let done = batch * settings.verified_at_once;
-            tell(self.progress, Stage::Verify, done, queue.len());
-            passed = self.verify(indices);
-            if passed.is_some() {
-                break;
+        let mut worth = Vec::new();
+        for refined in refined {
+            if is_worth_verifying(&task.scene, &aim, &refined.best, error_p95) {
+                worth.push(self.tried.len());
             }
+            let tried = self.tried(refined, aim);
+            self.tried.push(tried);
         }
-        self.statistics.timing.verification += began.elapsed().as_secs_f64();
-        passed
+        worth
     }
 
     /// Verifies plans in parallel; the first that passes.
@@ -165,16 +199,28 @@ impl<'a> Solving<'a> {
         passed
     }
 
-    fn tried(&self, refined: Refined) -> Tried {
+    fn tried(&self, refined: Refined, aim: Goal) -> Tried {
         let error = |evaluation: &Evaluation| self.task.goal.error(&evaluation.outcome);
         let Refined { before, best, rounds } = refined;
         let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
         Tried {
-            refinement: Refinement { before: error(&before), after: error(&best), rounds },
-            score: best.score,
+            refinement: Refinement {
+                before: error(&before),
+                after: error(&best),
+                aimed_at: (aim != self.task.goal).then_some(aim.position),
+                rounds,
+            },
+            aim,
+            // Of our goal, whatever goal it was refined towards.
+            score: if best.score.is_finite() {
+                self.task.goal.score(&best.outcome)
+            } else {
+                best.score
+            },
             verdict: None,
             plan: self.plan(&tool, &best),
             tool,
+            candidate: Some(best.candidate),
         }
     }
 
@@ -202,7 +248,14 @@ impl<'a> Solving<'a> {
                 pushes: Vec::new(),
             },
             tool,
-            refinement: Refinement { before: error, after: error, rounds: Vec::new() },
+            candidate: None,
+            aim: self.task.goal,
+            refinement: Refinement {
+                before: error,
+                after: error,
+                aimed_at: None,
+                rounds: Vec::new(),
+            },
             score: self.task.goal.score(&start),
             verdict: None,
         }

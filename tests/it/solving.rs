@@ -45,10 +45,53 @@ impl EffectModel for Wishful {
     }
 }
 
+/// The planar engine, with every push predicted to end beside its true end.
+struct Beside(Simulated, Vector);
+
+impl EffectModel for Beside {
+    fn name(&self) -> &str {
+        "beside"
+    }
+
+    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    fn error_p95(&self) -> f64 {
+        0.0
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        let mut played = self.0.rollout(scene, jobs, record);
+        for frame in played.iter_mut().flat_map(|trajectory| &mut trajectory.frames) {
+            frame.state.poses.iter_mut().for_each(|pose| pose.position += self.1);
+        }
+        played
+    }
+}
+
 fn shipped(name: &str) -> (Task, ToolLibrary) {
     let library = ToolLibrary::embedded().unwrap();
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
     (load_task(folder.join(name), &library).unwrap(), library)
+}
+
+#[test]
+fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
+    let (task, library) = shipped("pull-back.yaml");
+    let off = Vector::new(0.02, 0.025);
+    assert!(off.norm() > task.goal.tolerance, "the first plans must fail");
+    let model = Beside(Simulated::new(Simulator::planar()), off);
+    let solution = Planner::builder(model).build().solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().unwrap();
+    let aim = best.refinement.aimed_at.expect("an aim beside the goal");
+    // The two engines differ by millimetres on top of what the model is off by.
+    assert!((aim - task.goal.position - off).norm() < 0.01, "{aim:?}");
+    let verdict = best.verdict.as_ref().unwrap();
+    assert!(verdict.evidence.iter().all(|e| e.disturbance != "nominal" || e.outcome.reached));
+    // Of the first batch, or of the second.
+    assert!(solution.statistics.verified > Effort::Standard.settings().verified_at_once);
 }
 
 #[test]

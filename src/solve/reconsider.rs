@@ -1,0 +1,214 @@
+//! What failed replays teach: ways that do not work are left for others, and plans that end near
+//! the goal are aimed anew, by as much as they missed it.
+
+use crate::geometry::wrap_angle;
+use crate::plan::{Candidate, CandidatePush, Found};
+use crate::scene::{Engine, Evidence, Goal, Verdict};
+
+use super::rank::distinct;
+use super::solving::{Solving, Tried};
+
+/// A plan is refuted if its replay misses the goal by more than this many tolerances: what misses
+/// by less may do with another tool.
+const REFUTED: f64 = 1.25;
+
+/// A plan is aimed anew if its replay misses the goal by at most this many tolerances. Farther
+/// out the prediction is wrong in kind, and shifting the aim shifts something else.
+const NEAR: f64 = 4.0;
+
+/// Pushes whose directions differ by no more, radians, and lengths by no more, metres, move the
+/// object alike, whatever tool makes them.
+const SAME_DIRECTION: f64 = 0.26;
+const SAME_LENGTH: f64 = 0.02;
+
+/// Directions and lengths of the pushes of a plan.
+pub(super) struct Way(Vec<(f64, f64)>);
+
+impl Way {
+    fn of(pushes: &[CandidatePush]) -> Self {
+        Self(pushes.iter().map(|push| (push.direction, push.length)).collect())
+    }
+
+    /// Whether a candidate begins like this: its further pushes start from a prediction that
+    /// does not hold.
+    fn begins(&self, candidate: &Candidate) -> bool {
+        self.0.len() <= candidate.pushes.len()
+            && self.0.iter().zip(&candidate.pushes).all(|(&(direction, length), push)| {
+                wrap_angle(push.direction - direction).abs() <= SAME_DIRECTION
+                    && (push.length - length).abs() <= SAME_LENGTH
+            })
+    }
+}
+
+impl Solving<'_> {
+    /// Up to `count` candidates of different kinds to refine, best first, none that begins like
+    /// a refuted plan or is a variant of one of `known`, as long as there are others.
+    pub(super) fn choose(
+        &self,
+        found: &[Found],
+        count: usize,
+        known: &[&Candidate],
+    ) -> Vec<Candidate> {
+        let others: Vec<Found> = found
+            .iter()
+            .filter(|one| !self.is_refuted(&one.candidate))
+            .filter(|one| !known.iter().any(|known| one.candidate.is_variant_of(known)))
+            .cloned()
+            .collect();
+        if others.is_empty() && known.is_empty() {
+            distinct(found, count)
+        } else {
+            distinct(&others, count)
+        }
+    }
+
+    /// Puts the queue of a length of plan in a new order after the plans `failed` did: first those
+    /// of them that were near, aimed anew; then other ways, of which new ones are refined where
+    /// too few are left; then the rest. `first` is the first plan of this length.
+    pub(super) fn reconsider(
+        &mut self,
+        queue: &mut Vec<usize>,
+        failed: &[usize],
+        found: &[Found],
+        (first, pushes): (usize, usize),
+    ) {
+        for &k in failed {
+            let tried = &self.tried[k];
+            if missed(&self.task.goal, tried) > REFUTED
+                && let Some(candidate) = &tried.candidate
+            {
+                self.refuted.push(Way::of(&candidate.pushes));
+            }
+        }
+        let at_once = self.planner.settings().verified_at_once.max(1);
+        let mut next = self.aim_anew(failed, at_once.div_ceil(2), pushes);
+        let (fresh, rest): (Vec<usize>, Vec<usize>) = queue.iter().partition(|&&k| {
+            self.tried[k].candidate.as_ref().is_some_and(|candidate| !self.is_refuted(candidate))
+        });
+        next.extend(fresh);
+        let missing = at_once.saturating_sub(next.len());
+        if missing > 0 {
+            let known: Vec<&Candidate> =
+                self.tried[first..].iter().filter_map(|tried| tried.candidate.as_ref()).collect();
+            let others = self.choose(found, missing, &known);
+            let goal = self.task.goal;
+            next.extend(self.refined(&others, goal, pushes));
+        }
+        next.extend(rest);
+        *queue = next;
+    }
+
+    /// Refines the nearest of the failed plans towards goals that lie as far on the other side
+    /// of ours as their replays in 3-D ended beside it.
+    fn aim_anew(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
+        let goal = self.task.goal;
+        let mut near: Vec<(f64, usize)> = failed
+            .iter()
+            .map(|&k| (missed(&goal, &self.tried[k]), k))
+            .filter(|(missed, _)| *missed <= NEAR)
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut next = Vec::new();
+        for (_, k) in near.into_iter().take(count) {
+            let tried = &self.tried[k];
+            let (Some(candidate), Some(verdict)) = (tried.candidate.clone(), &tried.verdict) else {
+                continue;
+            };
+            if let Some(aim) = aim(&goal, &tried.aim, verdict) {
+                next.extend(self.refined(&[candidate], aim, pushes));
+            }
+        }
+        next
+    }
+
+    fn is_refuted(&self, candidate: &Candidate) -> bool {
+        self.refuted.iter().any(|way| way.begins(candidate))
+    }
+}
+
+/// By how many tolerances the 3-D replay of a failed plan misses the goal; infinite where its end
+/// does not count at all.
+fn missed(goal: &Goal, tried: &Tried) -> f64 {
+    let spatial = tried.verdict.as_ref().and_then(spatial);
+    spatial.map_or(f64::INFINITY, |evidence| {
+        let counts = evidence.warnings.iter().all(|warning| !warning.forbids_success());
+        let score = goal.score(&evidence.outcome.state);
+        if counts && score.is_finite() { score } else { f64::INFINITY }
+    })
+}
+
+/// Where to aim next, when a plan aimed at `aim` ended beside the goal: as far on the other side.
+/// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
+/// the effect model's own slopes.
+fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
+    let end = spatial(verdict)?.outcome.state.poses[goal.object];
+    let heading = match (goal.heading, aim.heading) {
+        (Some((wanted, tolerance)), Some((aimed, _))) => {
+            Some((aimed - wrap_angle(end.heading - wanted), tolerance))
+        }
+        _ => None,
+    };
+    Some(Goal { position: aim.position - (end.position - goal.position), heading, ..*goal })
+}
+
+fn spatial(verdict: &Verdict) -> Option<&Evidence> {
+    let mut evidence = verdict.evidence.iter();
+    evidence.find(|e| e.engine == Engine::Spatial && e.disturbance == "nominal")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose, Vector};
+    use crate::plan::Start;
+    use crate::scene::{Outcome, State};
+
+    fn candidate(pushes: &[(f64, f64)]) -> Candidate {
+        let push = |&(direction, length): &(f64, f64)| CandidatePush {
+            start: Start::Placed { part: 0, offset: 0.0 },
+            direction,
+            length,
+        };
+        Candidate { tool: 0, grip_yaw: 0.0, pushes: pushes.iter().map(push).collect() }
+    }
+
+    #[test]
+    fn what_begins_like_a_refuted_plan_is_known_by_directions_and_lengths_alone() {
+        let way = Way::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
+        // Directions wrap around, and further pushes do not matter.
+        assert!(way.begins(&candidate(&[(-3.1, 0.21), (1.4, 0.09), (0.0, 0.3)])));
+        assert!(!way.begins(&candidate(&[(3.1, 0.2)])));
+        assert!(!way.begins(&candidate(&[(3.1, 0.2), (1.9, 0.1)])));
+        assert!(!way.begins(&candidate(&[(3.1, 0.25), (1.5, 0.1)])));
+    }
+
+    #[test]
+    fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {
+        let goal = Goal {
+            object: 0,
+            position: Vector::new(0.5, 0.1),
+            tolerance: 0.02,
+            heading: Some((3.0, 0.1)),
+        };
+        let ended = |x: f64, y: f64, heading: f64| {
+            let state = State::at_rest(vec![Pose::new(x, y, heading)]);
+            let outcome = Outcome { error: 0.0, heading_error: None, reached: false, state };
+            let evidence = Evidence {
+                engine: Engine::Spatial,
+                disturbance: "nominal".into(),
+                outcome,
+                warnings: Vec::new(),
+            };
+            Verdict { passed: false, evidence: vec![evidence], robustness: None }
+        };
+        let first = aim(&goal, &goal, &ended(0.53, 0.09, -3.2)).expect("an aim");
+        assert!((first.position - Vector::new(0.47, 0.11)).norm() < 1e-12, "{first:?}");
+        let (heading, tolerance) = first.heading.expect("a heading");
+        let turned = wrap_angle(-3.2 - 3.0);
+        assert!((heading - (3.0 - turned)).abs() < 1e-12 && tolerance == 0.1, "{heading}");
+        // What is still missed after that is added to it.
+        let second = aim(&goal, &first, &ended(0.51, 0.1, 3.0)).expect("an aim");
+        assert!((second.position - Vector::new(0.46, 0.11)).norm() < 1e-12, "{second:?}");
+        assert_eq!(second.heading, first.heading);
+    }
+}
