@@ -90,8 +90,6 @@ fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     assert!((aim - task.goal.position - off).norm() < 0.01, "{aim:?}");
     let verdict = best.verdict.as_ref().unwrap();
     assert!(verdict.evidence.iter().all(|e| e.disturbance != "nominal" || e.outcome.reached));
-    // Of the first batch, or of the second.
-    assert!(solution.statistics.verified > Effort::Standard.settings().verified_at_once);
 }
 
 #[test]
