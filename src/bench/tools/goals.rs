@@ -32,7 +32,7 @@ const DIGITS: f64 = 1e6;
 /// All tasks of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GoalSet {
-    /// The version of how goals are made when they were made.
+    /// The version of how goals are made.
     pub version: u32,
     /// How they were made, for a reader of the file.
     pub made_by: String,
