@@ -1,40 +1,7 @@
 //! Damage that knows nothing of what it damages: bits, bytes and stretches of bytes.
 
 use crate::random::Random;
-
-/// Texts that break readers: quotes, brackets, anchors, tags, control and wide characters.
-const SNIPPETS: [&str; 30] = [
-    ".nan",
-    "-.inf",
-    "1e999",
-    "-1",
-    "0",
-    "null",
-    "~",
-    "[]",
-    "{}",
-    "[[[[[[[[",
-    "}}",
-    "\"",
-    "'",
-    ": ",
-    "- ",
-    "&a [*a]",
-    "*a",
-    "!!int x",
-    "\t",
-    "\u{0}",
-    "18446744073709551616",
-    "true",
-    "\n",
-    "<<: {a: b}",
-    "\u{feff}",
-    "\u{202e}",
-    "\u{1f600}",
-    "? ",
-    "---\n",
-    "%YAML 9.9\n---\n",
-];
+use crate::snippets::SNIPPETS;
 
 /// `input` with one to four pieces of damage.
 pub fn damaged(input: &[u8], other: &[u8], random: &mut Random) -> Vec<u8> {

@@ -6,6 +6,7 @@
 mod bytes;
 mod corpus;
 mod random;
+mod snippets;
 mod survive;
 mod targets;
 mod tree;

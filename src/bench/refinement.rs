@@ -11,7 +11,7 @@ use crate::{
     effect::EffectModel,
     plan::{
         Candidate, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search, Workspace,
-        evaluate, refine,
+        evaluate, kinds, refine,
     },
     scene::{Outcome, Record, Task, Tool, ToolMotion},
     sim::Simulator,
@@ -115,13 +115,9 @@ fn one_task(
     let workspace = Workspace { task, tools, later_stand_off: 0.0 };
     let mut rollouts = Rollouts::new(model, &task.scene);
     let mut search = Search::new(workspace, settings.search());
-    let mut chosen: Vec<Candidate> = Vec::new();
-    for found in search.deepen(&mut rollouts, &mut |_, _| {}) {
-        let known = chosen.iter().any(|other| found.candidate.is_variant_of(other));
-        if !known && chosen.len() < settings.refined {
-            chosen.push(found.candidate);
-        }
-    }
+    let found = search.deepen(&mut rollouts, &mut |_, _| {});
+    let chosen: Vec<Candidate> =
+        kinds(&found, settings.refined).into_iter().map(|k| found[k].candidate.clone()).collect();
     let best = |list: Vec<Evaluation>| {
         let feasible = list.into_iter().filter(|e| e.is_feasible() && e.score.is_finite());
         feasible.min_by(|a, b| a.score.total_cmp(&b.score))

@@ -23,38 +23,27 @@ pub trait EffectModel: Send + Sync {
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
 }
 
-impl<M: EffectModel + ?Sized> EffectModel for Arc<M> {
-    fn name(&self) -> &str {
-        (**self).name()
-    }
+/// What points to a model is one.
+macro_rules! models_behind {
+    ($($pointer:ident),*) => {$(
+        impl<M: EffectModel + ?Sized> EffectModel for $pointer<M> {
+            fn name(&self) -> &str {
+                (**self).name()
+            }
 
-    fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        (**self).warnings(scene, motion)
-    }
+            fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
+                (**self).warnings(scene, motion)
+            }
 
-    fn error_p95(&self) -> f64 {
-        (**self).error_p95()
-    }
+            fn error_p95(&self) -> f64 {
+                (**self).error_p95()
+            }
 
-    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        (**self).rollout(scene, jobs, record)
-    }
+            fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+                (**self).rollout(scene, jobs, record)
+            }
+        }
+    )*};
 }
 
-impl<M: EffectModel + ?Sized> EffectModel for Box<M> {
-    fn name(&self) -> &str {
-        (**self).name()
-    }
-
-    fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        (**self).warnings(scene, motion)
-    }
-
-    fn error_p95(&self) -> f64 {
-        (**self).error_p95()
-    }
-
-    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        (**self).rollout(scene, jobs, record)
-    }
-}
+models_behind!(Arc, Box);

@@ -65,23 +65,10 @@ pub struct Groups {
     pub places: Vec<Pose>,
 }
 
-/// For every object the lowest one that joints of the wanted kinds connect it with.
-fn connected(scene: &Scene, wanted: impl Fn(&JointKind) -> bool) -> Vec<usize> {
-    let mut lowest: Vec<usize> = (0..scene.objects.len()).collect();
-    for _ in 0..scene.joints.len() {
-        for joint in scene.joints.iter().filter(|joint| wanted(&joint.kind)) {
-            let [a, b] = joint.between;
-            let low = lowest[a].min(lowest[b]);
-            (lowest[a], lowest[b]) = (low, low);
-        }
-    }
-    lowest
-}
-
 impl Groups {
     fn new(scene: &Scene) -> Self {
         let mut groups = Self::default();
-        let lowest = connected(scene, |kind| *kind == JointKind::Fixed);
+        let lowest = scene.groups(|joint| joint.kind == JointKind::Fixed);
         for (object, first) in lowest.into_iter().enumerate() {
             if first == object {
                 groups.of.push(groups.members.len());
@@ -204,7 +191,7 @@ impl Bodies {
             })
             .collect();
         let groups = Groups::new(scene);
-        let mechanisms = connected(scene, |_| true);
+        let mechanisms = scene.groups(|_| true);
         Self { objects, parts, obstacles, joints, groups, mechanisms }
     }
 }

@@ -11,10 +11,9 @@
 //! ```
 //!
 //! with contacts (f_n >= 0, no overlap) and Coulomb friction (|f_t| <= mu f_n); joints are
-//! eliminated. A depends
-//! on s, which is taken from the last iterate (iteratively reweighted least squares). Forces
-//! follow from accelerated projected Jacobi steps, each body's mass split among its
-//! constraints (Tonge, Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov
+//! eliminated. A depends on s, which is taken from the last iterate (iteratively reweighted least
+//! squares). Forces follow from accelerated projected Jacobi steps, each body's mass split among
+//! its constraints (Tonge, Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov
 //! 1983), which unlike Gauss-Seidel do not depend on the order of anything.
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};

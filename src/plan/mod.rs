@@ -26,7 +26,7 @@ pub use field::Field;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
-pub use search::{Found, Search, SearchSettings};
+pub use search::{Found, Search, SearchSettings, kinds};
 pub use sequences::SequenceTree;
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{

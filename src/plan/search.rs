@@ -48,6 +48,22 @@ pub struct Found {
     pub score: f64,
 }
 
+/// Which of `found` are the best of different kinds, at most `count` of them: indices, in order.
+/// `found` is sorted, best first; variants of one another (see [`Candidate::is_variant_of`]) are
+/// of one kind.
+pub fn kinds(found: &[Found], count: usize) -> Vec<usize> {
+    let mut kinds: Vec<usize> = Vec::new();
+    for (k, one) in found.iter().enumerate() {
+        if kinds.len() == count {
+            break;
+        }
+        if !kinds.iter().any(|&kind| one.candidate.is_variant_of(&found[kind].candidate)) {
+            kinds.push(k);
+        }
+    }
+    kinds
+}
+
 /// A state that a sequence of pushes leads to.
 #[derive(Clone, Debug)]
 pub(super) struct Node {

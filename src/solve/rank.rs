@@ -1,19 +1,14 @@
 //! Which candidates are refined, which are worth verifying, and in what order.
 
-use crate::plan::{Candidate, Evaluation, Found, Refined};
+use crate::plan::{Candidate, Evaluation, Found, Refined, kinds};
 use crate::scene::{Goal, Scene};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the
 /// next best ones. `found` is sorted, best first, and so is the answer.
 pub(super) fn distinct(found: &[Found], count: usize) -> Vec<Candidate> {
+    let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
-    let mut kinds: Vec<&Candidate> = Vec::new();
-    for (k, one) in found.iter().enumerate() {
-        if kinds.len() < count && !kinds.iter().any(|kind| one.candidate.is_variant_of(kind)) {
-            kinds.push(&one.candidate);
-            taken[k] = true;
-        }
-    }
+    kinds.iter().for_each(|&k| taken[k] = true);
     let missing = count.saturating_sub(kinds.len());
     let spare: Vec<usize> = (0..found.len()).filter(|&k| !taken[k]).take(missing).collect();
     spare.into_iter().for_each(|k| taken[k] = true);

@@ -5,6 +5,8 @@ mod joints;
 mod recordings;
 mod robustness;
 mod saved;
+#[path = "../../fuzz/snippets.rs"]
+mod snippets;
 
 use std::path::PathBuf;
 

@@ -1,20 +1,17 @@
 //! What stands on the table of a random task. Every number is round in the units of task files,
 //! so that a saved task reads well and is the same task to the bit.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 
 use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::dataset::{Crowd, Solids, random_scene};
 use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
-use crate::scene::{
-    Directions, Goal, Joint, JointKind, Obstacle, Offsets, PushForm, PushRules, Ranges, Robot,
-    Scene, Task, ToolChoice,
-};
+use crate::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task, ToolChoice};
 
 use super::kind::TaskKind;
-use super::one_push::{WAYS, moderate};
+use super::one_push::{moderate, pushes};
 
 /// Tolerance of the goals, metres: that of most shipped tasks.
 pub(super) const TOLERANCE: f64 = 0.02;
@@ -57,16 +54,7 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task
         scene,
         robot: Robot { home: Vector::new(0.1, 0.0), reach_min: 0.1, reach_max: rules.reach },
         tools: ToolChoice::All,
-        pushes: PushRules {
-            form: PushForm::Placed,
-            directions: Directions::Count(WAYS),
-            offsets: Offsets::Effort,
-            grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
-            length: 0.20,
-            speed: 0.10,
-            max_count: rules.max_count,
-            lift: 0.002,
-        },
+        pushes: pushes(rules.max_count),
         goal: Goal {
             object: goal_object,
             position: start.position,

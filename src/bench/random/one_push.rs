@@ -63,6 +63,20 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
     }
 }
 
+/// The pushes that random tasks allow, up to `max_count` of them.
+pub(super) fn pushes(max_count: usize) -> PushRules {
+    PushRules {
+        form: PushForm::Placed,
+        directions: Directions::Count(WAYS),
+        offsets: Offsets::Effort,
+        grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
+        length: 0.20,
+        speed: 0.10,
+        max_count,
+        lift: 0.002,
+    }
+}
+
 /// Objects of a size and weight that one hand pushes: the middle of the trained ranges.
 pub(super) fn moderate() -> Ranges {
     Ranges {
@@ -91,16 +105,7 @@ fn open_task(rng: &mut Pcg64, ranges: &Ranges, index: usize) -> Task {
         scene,
         robot: Robot { home: Vector::zeros(), reach_min: 0.1, reach_max: 0.9 },
         tools: ToolChoice::All,
-        pushes: PushRules {
-            form: PushForm::Placed,
-            directions: Directions::Count(WAYS),
-            offsets: Offsets::Effort,
-            grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
-            length: 0.20,
-            speed: 0.10,
-            max_count: 1,
-            lift: 0.002,
-        },
+        pushes: pushes(1),
         goal: Goal { object: 0, position, tolerance: TOLERANCE, heading: None },
     }
 }

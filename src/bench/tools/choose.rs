@@ -5,7 +5,7 @@ use crate::{
     effect::EffectModel,
     plan::{
         Candidate, Evaluation, Found, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
-        SearchSettings, SequenceTree, Workspace, evaluate, refine,
+        SearchSettings, SequenceTree, Workspace, evaluate, kinds, refine,
     },
     scene::{Directions, PushForm, Task},
 };
@@ -110,19 +110,9 @@ fn refined(
 ) -> Vec<Refined> {
     let settings = RefineSettings { rounds: ROUNDS, extra: 2, seed, enough: 2 };
     let mut statistics = RefineStatistics::default();
-    let kinds = distinct(found, REFINED);
+    let kinds: Vec<Candidate> =
+        kinds(found, REFINED).into_iter().map(|k| found[k].candidate.clone()).collect();
     refine(workspace, rollouts, &kinds, settings, &mut statistics, &mut |_, _| {})
-}
-
-/// The best candidates of different kinds.
-fn distinct(found: &[Found], count: usize) -> Vec<Candidate> {
-    let mut kinds: Vec<Candidate> = Vec::new();
-    for one in found {
-        if kinds.len() < count && !kinds.iter().any(|kind| one.candidate.is_variant_of(kind)) {
-            kinds.push(one.candidate.clone());
-        }
-    }
-    kinds
 }
 
 /// Choices by predicted distance, not pushing among them; equal ones keep their order.

@@ -6,40 +6,13 @@ use pushplan::scene::{Task, Tool};
 
 use super::recordings;
 use super::saved::{plan_file, trajectory_file};
+use super::snippets::SNIPPETS;
 
 const TOOL: &str = include_str!("../../../tools/l-hook.yaml");
 const TASKS: [&str; 3] = [
     include_str!("../../../tasks/pull-back-behind-wall.yaml"),
     include_str!("../../../tasks/keep-heading.yaml"),
     include_str!("../../../tasks/reference-chain.yaml"),
-];
-
-/// What somebody may have written in place of something else.
-const SNIPPETS: [&str; 24] = [
-    ".nan",
-    "-.inf",
-    "1e999",
-    "-1",
-    "0",
-    "null",
-    "~",
-    "[]",
-    "{}",
-    "[[[[",
-    "}",
-    "\"",
-    "'",
-    ": ",
-    "- ",
-    "&a [*a]",
-    "*a",
-    "!!int x",
-    "\t",
-    "\u{0}",
-    "18446744073709551616",
-    "true",
-    "\n",
-    "<<: {a: b}",
 ];
 
 /// Reads `text` in every way and looks at what is said.
