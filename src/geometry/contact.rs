@@ -10,6 +10,22 @@ use super::{Footprint, Pose, Vector};
 /// Points of one pair that lie closer together than this are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
 
+/// What the normal of a contact follows when its bodies move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Follows {
+    /// A face of the first body.
+    First,
+    /// A face of the second body.
+    Second,
+    /// A face of both: they lie flush, end to end.
+    Both,
+    /// The line between two points that belong to the bodies: centres of discs, or corners.
+    /// World frame, metres.
+    Between(Vector, Vector),
+    /// Nothing: two corners, whose line may point anywhere a moment later.
+    Nothing,
+}
+
 /// A point where two bodies are close.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
@@ -21,6 +37,8 @@ pub struct ContactPoint {
     pub normal: Vector,
     /// Distance along the normal, metres; negative where the bodies overlap.
     pub gap: f64,
+    /// What the normal turns with.
+    pub follows: Follows,
 }
 
 impl ContactPoint {
@@ -31,6 +49,12 @@ impl ContactPoint {
             on_second: self.on_first,
             normal: -self.normal,
             gap: self.gap,
+            follows: match self.follows {
+                Follows::First => Follows::Second,
+                Follows::Second => Follows::First,
+                Follows::Between(first, second) => Follows::Between(second, first),
+                other => other,
+            },
         }
     }
 }
@@ -79,17 +103,22 @@ fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint
         on_second: b + normal * radius_b,
         normal,
         gap: distance - radius_a - radius_b,
+        follows: Follows::Between(a, b),
     }
 }
 
 fn disc_rectangle(centre: Vector, radius: f64, pose: &Pose, half: Vector) -> ContactPoint {
     let (boundary, normal, distance) = nearest_on_rectangle(pose.local_point(centre), half);
+    let on_second = pose.point(boundary);
+    let follows =
+        if is_corner(normal) { Follows::Between(centre, on_second) } else { Follows::Second };
     let normal = pose.vector(normal);
     ContactPoint {
         on_first: centre - normal * radius,
-        on_second: pose.point(boundary),
+        on_second,
         normal,
         gap: distance - radius,
+        follows,
     }
 }
 
@@ -113,6 +142,13 @@ fn nearest_on_rectangle(point: Vector, half: Vector) -> (Vector, Vector, f64) {
     }
 }
 
+/// Whether a unit normal, in a rectangle's frame, is that of a corner and of none of its faces.
+/// One that is within 3 degrees of a face's counts as that, so that rounding cannot decide it
+/// where faces end at the same place.
+fn is_corner(normal: Vector) -> bool {
+    normal.x.abs().min(normal.y.abs()) > 0.05
+}
+
 fn rectangle_rectangle(
     a: &Pose,
     half_a: Vector,
@@ -132,15 +168,19 @@ fn rectangle_rectangle(
     let turn_to_a = |v: Vector| Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
 
     const CORNERS: [(f64, f64); 4] = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    // Candidates in the frame of `a`: (on a, on b, normal from b into a, gap).
-    let mut found = [(Vector::zeros(), Vector::zeros(), Vector::zeros(), f64::INFINITY); 8];
+    // Candidates in the frame of `a`: (on a, on b, normal from b into a, gap, what it follows).
+    let nothing = Follows::Nothing;
+    let zero = Vector::zeros();
+    let mut found = [(zero, zero, zero, f64::INFINITY, nothing); 8];
     for (k, (x, y)) in CORNERS.into_iter().enumerate() {
         let corner = Vector::new(x * half_a.x, y * half_a.y);
         let (boundary, normal, distance) = nearest_on_rectangle(to_b(corner), half_b);
-        found[k] = (corner, to_a(boundary), turn_to_a(normal), distance);
+        let follows = if is_corner(normal) { nothing } else { Follows::Second };
+        found[k] = (corner, to_a(boundary), turn_to_a(normal), distance, follows);
         let corner = to_a(Vector::new(x * half_b.x, y * half_b.y));
         let (boundary, normal, distance) = nearest_on_rectangle(corner, half_a);
-        found[4 + k] = (boundary, corner, -normal, distance);
+        let follows = if is_corner(normal) { nothing } else { Follows::First };
+        found[4 + k] = (boundary, corner, -normal, distance, follows);
     }
     let Some(best) = found.iter().min_by(|p, q| p.3.total_cmp(&q.3)).copied() else {
         return ([None, None], 0);
@@ -154,11 +194,26 @@ fn rectangle_rectangle(
         .min_by(|p, q| p.3.total_cmp(&q.3))
         .filter(|p| p.3 <= reach)
         .copied();
-    let world = |p: (Vector, Vector, Vector, f64)| ContactPoint {
+    // Corners of both on one place: neither face alone leads.
+    let led = |p: (Vector, Vector, Vector, f64, Follows)| {
+        let meets = |q: &&(Vector, Vector, Vector, f64, Follows)| {
+            (p.0 - q.0).norm() < SAME_POINT && (p.1 - q.1).norm() < SAME_POINT
+        };
+        match p.4 {
+            Follows::First | Follows::Second
+                if found.iter().filter(meets).any(|q| q.4 != p.4 && q.4 != nothing) =>
+            {
+                Follows::Both
+            }
+            alone => alone,
+        }
+    };
+    let world = |p: (Vector, Vector, Vector, f64, Follows)| ContactPoint {
         on_first: a.point(p.0),
         on_second: a.point(p.1),
         normal: a.vector(p.2),
         gap: p.3,
+        follows: led(p),
     };
     ([Some(world(best)), next.map(world)], 1 + usize::from(next.is_some()))
 }

@@ -11,6 +11,6 @@ mod shape;
 
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
-pub use contact::{ContactPoint, contact_points};
+pub use contact::{ContactPoint, Follows, contact_points};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use shape::{Footprint, Shape};

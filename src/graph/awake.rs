@@ -109,6 +109,10 @@ impl Awake {
         contacts.retain(|contact| flags[contact.object]);
         subset.objects.clear();
         subset.objects.extend((0..flags.len()).filter(|&k| flags[k]));
+        subset.parts.clear();
+        subset.parts.extend(0..bodies.parts.len());
+        subset.obstacles.clear();
+        subset.obstacles.extend(0..bodies.obstacles.len());
         subset.gather(bodies);
         for contact in contacts {
             contact.object = subset.number(contact.object);

@@ -10,18 +10,25 @@ use super::{
     batch::{Batch, KINEMATIC, Touch},
     bodies::{Bodies, Motion},
     coast::coast,
-    contact::{Contact, find_contacts},
+    contact::{Contact, Scenery, find_contacts},
     features::{node_features, relation_features},
+    march::March,
     node::{Node, UNIT},
     prior::Prior,
     relation::{Relation, Tie, of_contact, of_joint},
 };
+
+/// Steps that a frame of several objects is solved in. What they do to each other depends on
+/// what happens first: of 60 sparse trajectories with fixed joints the mean error of a stroke is
+/// 3.4 mm with 1, 1.06 with 4 and 1.07 with 8. One object alone needs no such care.
+const PIECES: usize = 4;
 
 /// Memory that building a graph reuses.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     contacts: Vec<Contact>,
     prior: Prior,
+    march: March,
     awake: Awake,
     relations: Vec<Relation>,
 }
@@ -49,13 +56,17 @@ pub fn add_graph(
             .map(|(body, velocity)| coast(body, velocity, step.duration)),
     );
     let mut scratch = std::mem::take(&mut batch.scratch);
-    let Scratch { contacts, prior, awake, relations } = &mut scratch;
-    find_contacts(bodies, state, step, motions, contacts);
+    let Scratch { contacts, prior, march, awake, relations } = &mut scratch;
+    find_contacts(Scenery { bodies, state, step, coasts: motions }, contacts);
     awake.find(bodies, contacts, motions, step);
     if !awake.is_empty() {
         let view = awake.view(bodies, state, motions, contacts);
         let View { bodies, state, coasts, .. } = view;
         prior.solve(bodies, state, step, axis, coasts, contacts);
+        if bodies.objects.len() > 1 {
+            let scenery = Scenery { bodies, state, step, coasts };
+            march.run(scenery, contacts, axis, PIECES, &mut prior.motions);
+        }
         relations.clear();
         for (k, contact) in contacts.iter().enumerate() {
             relations

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Vector2, Vector3};
 
 use crate::geometry::{Vector, cross, perpendicular};
 
-use super::system::Unknown;
+use super::unknown::Unknown;
 
 /// Share of its own effect by which a force gives way; keeps forces finite where nothing fits.
 const GIVE: f64 = 2e-3;

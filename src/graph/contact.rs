@@ -1,7 +1,7 @@
 //! Contacts: points of two bodies close enough to matter in a frame, each pair once.
 
 use crate::{
-    geometry::{ContactPoint, Vector, contact_points},
+    geometry::{Follows, Vector, contact_points, wrap_angle},
     scene::{Body, FrameStep, Scene, State},
 };
 
@@ -29,73 +29,108 @@ pub(super) struct Contact {
     pub friction: f64,
     /// Displacement of the point on a body whose motion is given.
     pub given: Vector,
+    /// Turn of that body, radians.
+    pub given_turn: f64,
+    /// What the normal turns with.
+    pub follows: Follows,
+}
+
+/// What a frame's contacts depend on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scenery<'a> {
+    pub bodies: &'a Bodies,
+    pub state: &'a State,
+    pub step: &'a FrameStep,
+    pub coasts: &'a [Motion],
 }
 
 /// Every contact point close enough to matter in this frame. Objects of one rigid group do not
 /// touch each other.
-pub(super) fn find_contacts(
-    bodies: &Bodies,
-    state: &State,
-    step: &FrameStep,
-    coasts: &[Motion],
-    contacts: &mut Vec<Contact>,
-) {
+pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
+    let bodies = scenery.bodies;
     contacts.clear();
-    let still = step.from == step.to;
-    // While the tool turns, its far ends travel more than its frame; margins allow for that.
-    let travel = (step.to.position - step.from.position).norm();
-    let own = |object: usize| {
-        let body = &bodies.objects[object];
-        coasts[object].shift.norm() + coasts[object].turn.abs() * body.radius
-    };
     for (object, body) in bodies.objects.iter().enumerate() {
+        for (index, part) in bodies.parts.iter().enumerate() {
+            if part.span.0 < body.height {
+                scenery.meet(object, Body::Part(index), contacts);
+            }
+        }
+        for index in 0..bodies.obstacles.len() {
+            scenery.meet(object, Body::Obstacle(index), contacts);
+        }
+        for other in object + 1..bodies.objects.len() {
+            if bodies.groups.of[object] != bodies.groups.of[other] {
+                scenery.meet(object, Body::Object(other), contacts);
+            }
+        }
+    }
+}
+
+/// The contact points of those pairs alone that have some in `known`.
+pub(super) fn find_again(scenery: Scenery, known: &[Contact], contacts: &mut Vec<Contact>) {
+    contacts.clear();
+    let mut last = None;
+    for contact in known {
+        let pair = (contact.object, contact.with);
+        // The points of a pair stand together.
+        if last.replace(pair) != Some(pair) {
+            scenery.meet(pair.0, pair.1, contacts);
+        }
+    }
+}
+
+impl Scenery<'_> {
+    /// Adds the contact points of an object and another body.
+    fn meet(&self, object: usize, with: Body, contacts: &mut Vec<Contact>) {
+        let Self { bodies, state, step, coasts } = *self;
+        let travel = (step.to.position - step.from.position).norm();
+        let own = |object: usize| {
+            coasts[object].shift.norm() + coasts[object].turn.abs() * bodies.objects[object].radius
+        };
+        // While the tool turns, its far ends travel more than its frame; margins allow for that.
+        let reach = MARGIN + travel + own(object);
+        let body = &bodies.objects[object];
         let pose = &state.poses[object];
-        let mut add = |point: &ContactPoint, with, friction, given, centre: Option<Vector>| {
+        let part_pose;
+        let (other, reach, friction) = match with {
+            Body::Part(index) => {
+                let part = &bodies.parts[index];
+                part_pose = step.from * part.pose;
+                ((&part.footprint, &part_pose), reach, part.friction)
+            }
+            Body::Obstacle(index) => {
+                let obstacle = &bodies.obstacles[index];
+                ((&obstacle.footprint, &obstacle.pose), reach, obstacle.friction)
+            }
+            Body::Object(other) => {
+                let second = &bodies.objects[other];
+                let at = &state.poses[other];
+                ((&second.footprint, at), reach + own(other), second.friction)
+            }
+        };
+        for point in contact_points((&body.footprint, pose), other, reach).0.iter().flatten() {
+            let (given, given_turn) = match with {
+                Body::Part(_) if step.from != step.to => (
+                    step.to.point(step.from.local_point(point.on_second)) - point.on_second,
+                    wrap_angle(step.to.heading - step.from.heading),
+                ),
+                _ => (Vector::zeros(), 0.0),
+            };
             contacts.push(Contact {
                 object,
                 with,
                 arm: point.on_first - pose.position,
-                other_arm: centre.map_or(Vector::zeros(), |centre| point.on_second - centre),
+                other_arm: match with {
+                    Body::Object(_) => point.on_second - other.1.position,
+                    _ => Vector::zeros(),
+                },
                 normal: point.normal,
                 gap: point.gap,
                 friction: Scene::pair_friction(body.friction, friction),
                 given,
+                given_turn,
+                follows: point.follows,
             });
-        };
-        let reach = MARGIN + travel + own(object);
-        for (index, part) in bodies.parts.iter().enumerate() {
-            if part.span.0 >= body.height {
-                continue;
-            }
-            let part_pose = step.from * part.pose;
-            let other = (&part.footprint, &part_pose);
-            for point in contact_points((&body.footprint, pose), other, reach).0.iter().flatten() {
-                let given = if still {
-                    Vector::zeros()
-                } else {
-                    step.to.point(step.from.local_point(point.on_second)) - point.on_second
-                };
-                add(point, Body::Part(index), part.friction, given, None);
-            }
-        }
-        for (index, obstacle) in bodies.obstacles.iter().enumerate() {
-            let other = (&obstacle.footprint, &obstacle.pose);
-            for point in contact_points((&body.footprint, pose), other, reach).0.iter().flatten() {
-                let with = Body::Obstacle(index);
-                add(point, with, obstacle.friction, Vector::zeros(), None);
-            }
-        }
-        for other in object + 1..bodies.objects.len() {
-            if bodies.groups.of[object] == bodies.groups.of[other] {
-                continue;
-            }
-            let reach = reach + own(other);
-            let at = &state.poses[other];
-            let second = (&bodies.objects[other].footprint, at);
-            for point in contact_points((&body.footprint, pose), second, reach).0.iter().flatten() {
-                let friction = bodies.objects[other].friction;
-                add(point, Body::Object(other), friction, Vector::zeros(), Some(at.position));
-            }
         }
     }
 }

@@ -3,14 +3,14 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::{
-    geometry::{Vector, perpendicular, wrap_angle},
+    geometry::{Pose, Vector, perpendicular, wrap_angle},
     scene::{JointKind, State},
 };
 
 use super::{
     bodies::{Bodies, Jointed},
     constraint::{Constraint, Law, Tie, along},
-    system::System,
+    unknown::Unknown,
 };
 
 /// A limit this far off, or nearer, is watched: metres, or radians at [`ARM`].
@@ -19,31 +19,69 @@ const NEAR_LIMIT: f64 = 0.03;
 /// What turns a row of angles into metres.
 const ARM: f64 = 0.05;
 
-/// The constraints of a joint between different groups: of the second against the first.
-pub(super) fn constrain(
+/// Two rows of a joint between two groups: of the second against the first.
+pub(super) struct Rows {
+    between: [usize; 2],
+    to: [Vector3<f64>; 2],
+    from: [Vector3<f64>; 2],
+    target: [f64; 2],
+    /// Whether they are a limit, of one row, and not the joint itself.
+    pub limit: bool,
+}
+
+impl Rows {
+    pub fn tie(&self) -> Tie {
+        let [a, b] = self.between;
+        let Self { to, from, target, .. } = *self;
+        Tie { a, b, to, from, target, force: Vector2::zeros() }
+    }
+
+    pub fn constraint(&self) -> Constraint {
+        let [a, b] = self.between;
+        Constraint::new((b, self.to), (a, self.from), self.target, Law::AtLeast)
+    }
+
+    pub fn turn_tie(&self, tie: &mut Tie) {
+        (tie.to, tie.from, tie.target) = (self.to, self.from, self.target);
+    }
+
+    pub fn turn_constraint(&self, constraint: &mut Constraint) {
+        (constraint.to, constraint.from) = (self.to, self.from);
+        constraint.target = self.target;
+    }
+}
+
+/// The rows of a joint between different groups when `share` of their present motion is done:
+/// first its own, then its limits. How many there are depends on the start of the frame alone.
+pub(super) fn rows(
     bodies: &Bodies,
     state: &State,
     joint: &Jointed,
     axis: Vector,
-    system: &mut System,
+    (unknowns, share): (&[Unknown], f64),
+    mut add: impl FnMut(Rows),
 ) {
-    let [a, b] = joint.between.map(|object| bodies.groups.of[object]);
-    if a == b {
+    let between = joint.between.map(|object| bodies.groups.of[object]);
+    if between[0] == between[1] {
         return;
     }
-    let [first, second] = joint.between.map(|object| state.poses[object]);
-    let [on_first, on_second] = [first * joint.frames[0], second * joint.frames[1]];
+    let starts = [0, 1].map(|end| state.poses[joint.between[end]] * joint.frames[end]);
     // What has opened at a guessed joint is no error of the objects but of the guess.
-    let apart =
-        if joint.guessed { Vector::zeros() } else { on_second.position - on_first.position };
-    let turned = if joint.guessed { 0.0 } else { wrap_angle(on_second.heading - on_first.heading) };
-    let [centre_a, centre_b] = [a, b].map(|group| system.unknowns[group].centre);
-    let turn = Vector3::new(0.0, 0.0, ARM);
-    let System { constraints, ties, .. } = system;
-    let mut add = |to, from, target, law| match law {
-        Some(law) => constraints.push(Constraint::new((b, to), (a, from), target, law)),
-        None => ties.push(Tie { a, b, to, from, target, force: Vector2::zeros() }),
+    let (apart, turned) = if joint.guessed {
+        (Vector::zeros(), 0.0)
+    } else {
+        let apart = starts[1].position - starts[0].position;
+        (apart, wrap_angle(starts[1].heading - starts[0].heading))
     };
+    let groups = between.map(|group| &unknowns[group]);
+    let [on_first, on_second] = [0, 1].map(|end| Pose {
+        position: groups[end].moved(starts[end].position, share),
+        heading: starts[end].heading + share * groups[end].twist.z,
+    });
+    let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre, share));
+    let turn = Vector3::new(0.0, 0.0, ARM);
+    let none = Vector3::zeros();
+    let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });
     match joint.kind {
         JointKind::Fixed => {}
         JointKind::Revolute { .. } => {
@@ -53,13 +91,13 @@ pub(super) fn constrain(
                 directions.map(|d| along(d, on_second.position - centre_b)),
                 directions.map(|d| along(d, on_first.position - centre_a)),
                 directions.map(|d| -apart.dot(&d)),
-                None,
+                false,
             );
             if let Some(limits) = joint.limits {
                 for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
                     if left * ARM < NEAR_LIMIT {
-                        let only = [sign * turn, Vector3::zeros()];
-                        add(only, only, [-left * ARM, 0.0], Some(Law::AtLeast));
+                        let only = [sign * turn, none];
+                        add(only, only, [-left * ARM, 0.0], true);
                     }
                 }
             }
@@ -69,16 +107,17 @@ pub(super) fn constrain(
             // first.
             let slide = on_first.vector(Vector::x());
             let across = perpendicular(slide);
-            let rows =
-                |direction: Vector, centre: Vector| along(direction, on_second.position - centre);
-            let target = [-apart.dot(&across), -turned * ARM];
-            add([rows(across, centre_b), turn], [rows(across, centre_a), turn], target, None);
+            let at = on_second.position;
+            let start = starts[0].vector(Vector::x());
+            let target = [-apart.dot(&perpendicular(start)), -turned * ARM];
+            let row = |centre| along(across, at - centre);
+            add([row(centre_b), turn], [row(centre_a), turn], target, false);
             if let Some(limits) = joint.limits {
-                let slid = apart.dot(&slide);
+                let slid = apart.dot(&start);
                 for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
                     if left < NEAR_LIMIT {
-                        let only = |centre| [rows(sign * slide, centre), Vector3::zeros()];
-                        add(only(centre_b), only(centre_a), [-left, 0.0], Some(Law::AtLeast));
+                        let only = |centre| [along(sign * slide, at - centre), none];
+                        add(only(centre_b), only(centre_a), [-left, 0.0], true);
                     }
                 }
             }

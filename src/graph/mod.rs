@@ -13,11 +13,14 @@ mod constraint;
 mod contact;
 mod features;
 mod joint;
+mod march;
+mod midway;
 mod node;
 mod prior;
 mod relation;
 mod subset;
 mod system;
+mod unknown;
 
 pub use batch::{Batch, KINEMATIC, Touch};
 pub use bodies::{Bodies, Jointed, Motion, Movable};

@@ -2,60 +2,46 @@
 //! table, and their solution.
 //!
 //! Implicit time stepping (Moreau 1988; Stewart and Trinkle 1996, doi:10.1002/(SICI)1097-0207
-//! (19960815)39:15<2673::AID-NME972>3.0.CO;2-I) over a whole frame T. For an object of mass m
-//! whose motion xi = (shift, c turn) has the length s = |xi|, support friction of an ellipsoidal
-//! limit surface answers with mu m g xi / s, and inertia with m / T^2 against free coasting, so
+//! (19960815)39:15<2673::AID-NME972>3.0.CO;2-I) over a whole frame: with the resistance A of
+//! every group (see [`super::unknown`]),
 //!
 //! ```text
-//! A (xi - coast) = J^T f        A = mu m g / s + m / T^2
+//! A (xi - free) = J^T f
 //! ```
 //!
 //! with contacts (f_n >= 0, no overlap) and Coulomb friction (|f_t| <= mu f_n); joints are
-//! eliminated. A depends on s, which is taken from the last iterate (iteratively reweighted least
-//! squares). Forces follow from accelerated projected Jacobi steps, each body's mass split among
-//! its constraints (Tonge, Benevolenski and Voroshilov 2012, doi:10.1145/2185520.2185601; Nesterov
-//! 1983), which unlike Gauss-Seidel do not depend on the order of anything.
+//! eliminated. A depends on the length of xi, which is taken from the last iterate (iteratively
+//! reweighted least squares). Forces follow from accelerated projected Jacobi steps, each body's
+//! mass split among its constraints (Tonge, Benevolenski and Voroshilov 2012,
+//! doi:10.1145/2185520.2185601; Nesterov 1983), which unlike Gauss-Seidel do not depend on the
+//! order of anything.
 
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
-use crate::{geometry::Vector, scene::State};
+use crate::scene::State;
 
 use super::{
-    bodies::{Bodies, Motion, Movable},
-    constraint::{Constraint, GIVEN, Tie, along, shift},
+    bodies::{Bodies, Motion},
+    constraint::{Constraint, GIVEN, Tie},
+    unknown::{Quantity, Unknown},
 };
 
 /// Iterations between two updates of the weights A, and the most of these updates.
 const ITERATIONS: usize = 10;
 const UPDATES: usize = 8;
 
-/// Smallest s, metres: what moves less in a frame counts as stuck.
-const STUCK: f64 = 1e-4;
-
 /// A change of a whole round of iterations below this ends them, metres.
-const SETTLED: f64 = 2e-6;
+const SETTLED: f64 = 1e-5;
 
 /// A contact without force counts only when it is violated by more than this, metres: rounding
 /// must not decide it.
 const OPEN: f64 = 1e-9;
 
-/// A rigid group and its motion.
-#[derive(Clone, Debug)]
-pub(super) struct Unknown {
-    /// Mean position of its members at the start of the frame.
-    pub centre: Vector,
-    /// A^-1.
-    pub inverse: Matrix3<f64>,
-    free: Vector3<f64>,
-    /// Shift of the centre, metres, and turn, radians.
-    pub twist: Vector3<f64>,
-    pressed: Vector3<f64>,
-}
-
 /// Unknowns and rows of one frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     pub unknowns: Vec<Unknown>,
+    pub quantity: Quantity,
     /// Contacts and limits, met by iteration.
     pub constraints: Vec<Constraint>,
     /// Joints, eliminated: whatever the contacts do, these hold.
@@ -84,41 +70,46 @@ impl System {
         self.ties.clear();
         self.unknowns.clear();
         for members in &bodies.groups.members {
-            let positions = members.iter().map(|&k| state.poses[k].position);
-            let centre = positions.sum::<Vector>() / members.len() as f64;
-            self.unknowns.push(Unknown {
-                centre,
-                inverse: Matrix3::identity(),
-                free: Vector3::zeros(),
-                twist: Vector3::zeros(),
-                pressed: Vector3::zeros(),
-            });
-        }
-        for group in 0..self.unknowns.len() {
-            self.weigh(bodies, state, coasts, duration, group, Some(reach));
-            let unknown = &mut self.unknowns[group];
+            let mut unknown = Unknown::new(members, state);
+            let of = (self.quantity, duration);
+            unknown.weigh((bodies, members), state, of, coasts, Some(reach));
             unknown.twist = unknown.free;
+            self.unknowns.push(unknown);
         }
     }
 
-    /// Solves for forces and twists. `retarget` may move the targets after each update of the
-    /// weights.
+    /// The same groups, contacts and joints as in `other`, which has been solved, but for another
+    /// quantity; it begins where that has ended.
+    pub fn continue_from(
+        &mut self,
+        other: &System,
+        bodies: &Bodies,
+        state: &State,
+        coasts: &[Motion],
+        duration: f64,
+    ) {
+        self.unknowns.clone_from(&other.unknowns);
+        self.constraints.clone_from(&other.constraints);
+        self.ties.clone_from(&other.ties);
+        self.weigh(bodies, state, coasts, duration);
+    }
+
+    /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
+    /// the weights, as it follows from how everything moves.
     pub fn solve(
         &mut self,
         bodies: &Bodies,
         state: &State,
         coasts: &[Motion],
         duration: f64,
-        mut retarget: impl FnMut(&mut [Constraint], &[Unknown]),
+        mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &[Unknown]),
     ) {
         self.find_mechanisms();
         for update in 0..UPDATES {
             if update > 0 {
-                for group in 0..self.unknowns.len() {
-                    self.weigh(bodies, state, coasts, duration, group, None);
-                }
+                self.weigh(bodies, state, coasts, duration);
             }
-            retarget(&mut self.constraints, &self.unknowns);
+            turn(&mut self.constraints, &mut self.ties, &self.unknowns);
             self.before.clear();
             self.before.extend(self.unknowns.iter().map(|unknown| unknown.twist));
             self.iterate();
@@ -129,6 +120,13 @@ impl System {
             if !changed && update > 0 {
                 return;
             }
+        }
+    }
+
+    fn weigh(&mut self, bodies: &Bodies, state: &State, coasts: &[Motion], duration: f64) {
+        let of = (self.quantity, duration);
+        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
+            unknown.weigh((bodies, members), state, of, coasts, None);
         }
     }
 
@@ -330,54 +328,4 @@ impl System {
         }
         settle(unknowns);
     }
-
-    /// The weights of a group at its present twist (or at `reach`), and its free motion.
-    fn weigh(
-        &mut self,
-        bodies: &Bodies,
-        state: &State,
-        coasts: &[Motion],
-        duration: f64,
-        group: usize,
-        reach: Option<f64>,
-    ) {
-        let unknown = &mut self.unknowns[group];
-        let mut weight = Matrix3::zeros();
-        let mut asked = Vector3::zeros();
-        let members = &bodies.groups.members[group];
-        for &k in members {
-            let body = &bodies.objects[k];
-            let arm = state.poses[k].position - unknown.centre;
-            let moved = match reach {
-                Some(reach) => reach,
-                None => {
-                    let shift = shift(&unknown.twist, arm);
-                    shift.norm().hypot(body.support * unknown.twist.z)
-                }
-            };
-            let (slide, turn) = weights(body, moved.max(STUCK), duration);
-            let (x, y) = (arm.x, arm.y);
-            weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y)
-                + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, turn));
-            let coast = &coasts[k];
-            asked += slide * along(coast.shift, arm) + Vector3::new(0.0, 0.0, turn * coast.turn);
-        }
-        if let [only] = members[..] {
-            let coast = &coasts[only];
-            unknown.free = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
-            unknown.inverse = Matrix3::from_diagonal(&weight.diagonal().map(|w| 1.0 / w));
-        } else {
-            unknown.inverse = weight.try_inverse().unwrap_or_else(Matrix3::identity);
-            unknown.free = unknown.inverse * asked;
-        }
-    }
-}
-
-/// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,
-/// N m.
-fn weights(body: &Movable, moved: f64, duration: f64) -> (f64, f64) {
-    let rub = body.mass * body.deceleration / moved;
-    let inertia = body.mass / (duration * duration);
-    let c2 = body.support * body.support;
-    (rub + inertia, c2 * (rub + inertia / body.spin))
 }

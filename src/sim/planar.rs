@@ -21,7 +21,6 @@ use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
-    needs_stiff_contacts,
 };
 use super::support::Support;
 
@@ -63,7 +62,7 @@ impl World for PlanarWorld {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(scene, parameters),
+            world: empty_world(scene),
             origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
@@ -259,18 +258,15 @@ impl PlanarWorld {
     }
 }
 
-fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
+fn empty_world(scene: &Scene) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
-    let articulated = is_articulated(scene);
-    if articulated {
+    if is_articulated(scene) {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    if articulated || needs_stiff_contacts(&parameters.masses) {
-        let (frequency, damping) = STIFF_CONTACT;
-        settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
-    }
+    let (frequency, damping) = STIFF_CONTACT;
+    settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world
 }
 

@@ -7,7 +7,7 @@ use pushplan::{
     scene::{Job, Joint, JointKind, Object, Record, Scene, Span, State, Stroke, ToolMotion},
 };
 
-use super::network::{assert_same, object, stroke, tool, weights};
+use super::network::{assert_same, half_stroke, object, stroke, tool, weights};
 
 /// Before the tool: a box, hinged to a cylinder that slides along a box, which is fixed to a
 /// second cylinder.
@@ -65,9 +65,10 @@ fn rollout(model: &dyn EffectModel, scene: &Scene, stroke: Stroke) -> State {
 #[test]
 fn turning_and_shifting_a_jointed_scene_turns_and_shifts_the_prediction() {
     let model = Learned::new(gentle());
-    let plain = rollout(&model, &scene(), stroke());
+    let plain = rollout(&model, &scene(), half_stroke());
     for by in [Pose::new(0.7, -1.3, 2.2), Pose::new(-4.0, 2.0, -0.4)] {
-        let turned = Stroke { from: by * stroke().from, to: by * stroke().to, ..stroke() };
+        let turned =
+            Stroke { from: by * half_stroke().from, to: by * half_stroke().to, ..half_stroke() };
         let there = rollout(&model, &moved(by), turned);
         let back = State::at_rest(there.poses.iter().map(|p| by.inverse() * *p).collect());
         assert_same(&plain, &back);

@@ -92,6 +92,12 @@ pub(super) fn stroke() -> Stroke {
     Stroke { from: Pose::default(), to, duration: 1.0, settle: true }
 }
 
+/// Half the way, before the wall is met: when things are jammed, a random network soon makes
+/// centimetres of the last bit's rounding.
+pub(super) fn half_stroke() -> Stroke {
+    Stroke { to: Pose::new(0.05, 0.01, 0.0), duration: 0.5, settle: false, ..stroke() }
+}
+
 fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
     let mut batch = Batch::default();
     let bodies = Bodies::new(scene, &tool(), 0.002, None);
@@ -165,7 +171,7 @@ fn fused_inference_equals_the_candle_graph() {
 #[test]
 fn turning_and_shifting_the_scene_turns_and_shifts_the_prediction() {
     let model = Learned::new(weights(64));
-    let (scene, stroke) = (scene(), stroke());
+    let (scene, stroke) = (scene(), half_stroke());
     let plain = rollout(&model, &scene, stroke);
     for by in [Pose::new(0.7, -1.3, 2.2), Pose::new(-4.0, 2.0, -0.4)] {
         let turned = Stroke { from: by * stroke.from, to: by * stroke.to, ..stroke };
@@ -197,9 +203,7 @@ fn mirroring_the_scene_mirrors_the_prediction() {
 #[test]
 fn the_order_of_objects_and_parts_does_not_matter() {
     let model = Learned::new(weights(64));
-    // Half the way: a random network soon makes centimetres of the last bit's rounding.
-    let to = Pose::new(0.05, 0.01, 0.0);
-    let (scene, stroke) = (scene(), Stroke { to, duration: 0.5, settle: false, ..stroke() });
+    let (scene, stroke) = (scene(), half_stroke());
     let plain = rollout(&model, &scene, stroke);
     let mut other = scene.clone();
     other.objects.reverse();

@@ -1,0 +1,69 @@
+//! A frame solved in pieces.
+//!
+//! Where several objects meet, what happens first decides what happens next; in one step for
+//! the whole frame everything happens at once.
+
+use crate::scene::{FrameStep, State};
+
+use crate::geometry::Vector;
+
+use super::{
+    bodies::Motion,
+    coast::coast,
+    contact::{Contact, Scenery, find_again},
+    prior::Prior,
+};
+
+/// Memory that marching reuses.
+#[derive(Clone, Debug, Default)]
+pub(super) struct March {
+    prior: Prior,
+    state: State,
+    coasts: Vec<Motion>,
+    contacts: Vec<Contact>,
+}
+
+impl March {
+    /// Replaces the `motions` of all bodies in the frame by those of `pieces` smaller steps.
+    ///
+    /// Only pairs that have one of the frame's `known` contacts can touch. So nothing can enter
+    /// that the frame as a whole does not know of, however fast a thing becomes within it.
+    pub fn run(
+        &mut self,
+        Scenery { bodies, state, step, .. }: Scenery,
+        known: &[Contact],
+        axis: Vector,
+        pieces: usize,
+        motions: &mut [Motion],
+    ) {
+        let Self { prior, state: now, coasts, contacts } = self;
+        now.clone_from(state);
+        let duration = step.duration / pieces as f64;
+        let at = |piece: usize| step.from.towards(&step.to, piece as f64 / pieces as f64);
+        for piece in 0..pieces {
+            let small = FrameStep { from: at(piece), to: at(piece + 1), duration };
+            coasts.clear();
+            let velocities = now.velocities.iter();
+            coasts.extend(
+                bodies.objects.iter().zip(velocities).map(|(body, v)| coast(body, v, duration)),
+            );
+            let scenery = Scenery { bodies, state: now, step: &small, coasts };
+            find_again(scenery, known, contacts);
+            prior.solve(bodies, now, &small, axis, coasts, contacts);
+            for (k, motion) in prior.motions.iter().enumerate() {
+                now.poses[k].position += motion.shift;
+                now.poses[k].heading += motion.turn;
+                now.velocities[k].linear = motion.velocity;
+                now.velocities[k].angular = motion.spin;
+            }
+        }
+        for (k, motion) in motions.iter_mut().enumerate() {
+            *motion = Motion {
+                shift: now.poses[k].position - state.poses[k].position,
+                turn: now.poses[k].heading - state.poses[k].heading,
+                velocity: now.velocities[k].linear,
+                spin: now.velocities[k].angular,
+            };
+        }
+    }
+}

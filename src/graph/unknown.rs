@@ -1,0 +1,149 @@
+//! A rigid group as the unknown of a frame's equations, and how it resists being moved.
+//!
+//! For an object of mass m whose motion xi = (shift, c turn) has the length s = |xi|, support
+//! friction of an ellipsoidal limit surface answers with mu m g xi / s. Inertia adds, with
+//! velocities v0 at the start of the frame of T seconds,
+//!
+//! ```text
+//! (mu m g / s + 2 m / T^2) xi     = 2 m v0 / T + f      for the displacement
+//! (mu m g / s +   m / T^2) (v T)  =   m v0 / T + f      for the velocity at the end
+//! ```
+//!
+//! the first because displacements are the mean of both velocities times T, which keeps their
+//! errors of second order in T. A free object must coast exactly as [`super::coast`] says, even if
+//! it comes to rest within the frame; so 2 m v0 / T is written as what makes it so.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::{geometry::Vector, scene::State};
+
+use super::{
+    bodies::{Bodies, Motion, Movable},
+    constraint::{along, shift},
+};
+
+/// What the unknowns are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Quantity {
+    /// Displacements in the frame.
+    #[default]
+    Displacement,
+    /// Velocities at its end, times its duration.
+    Velocity,
+}
+
+impl Quantity {
+    /// Smallest length s, metres: what moves less in a frame counts as stuck. Velocities need a
+    /// finer one, as what is left of them must count as rest.
+    fn stuck(self) -> f64 {
+        match self {
+            Self::Displacement => 1e-4,
+            Self::Velocity => 1e-5,
+        }
+    }
+
+    /// Inertia in units of m / T^2.
+    fn inertia(self) -> f64 {
+        match self {
+            Self::Displacement => 2.0,
+            Self::Velocity => 1.0,
+        }
+    }
+}
+
+/// A rigid group and its motion.
+#[derive(Clone, Debug)]
+pub(super) struct Unknown {
+    /// Mean position of its members at the start of the frame.
+    pub centre: Vector,
+    /// Displacement per force and torque, the inverse of the resistance.
+    pub inverse: Matrix3<f64>,
+    /// What it does without contacts and joints.
+    pub free: Vector3<f64>,
+    /// Shift of the centre, metres, and turn, radians.
+    pub twist: Vector3<f64>,
+    /// Force and torque of all contacts and joints.
+    pub pressed: Vector3<f64>,
+}
+
+impl Unknown {
+    /// The group of `members`, not yet weighed.
+    pub fn new(members: &[usize], state: &State) -> Self {
+        let positions = members.iter().map(|&k| state.poses[k].position);
+        Self {
+            centre: positions.sum::<Vector>() / members.len() as f64,
+            inverse: Matrix3::identity(),
+            free: Vector3::zeros(),
+            twist: Vector3::zeros(),
+            pressed: Vector3::zeros(),
+        }
+    }
+
+    /// Where a point of the group has come to when `share` of its motion is done.
+    pub fn moved(&self, point: Vector, share: f64) -> Vector {
+        let (sin, cos) = (share * self.twist.z).sin_cos();
+        let arm = point - self.centre;
+        self.centre
+            + share * Vector::new(self.twist.x, self.twist.y)
+            + Vector::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y)
+    }
+
+    /// Resistance and free motion when its members move as they do now, or by `reach` metres
+    /// each.
+    pub fn weigh(
+        &mut self,
+        (bodies, members): (&Bodies, &[usize]),
+        state: &State,
+        (quantity, duration): (Quantity, f64),
+        coasts: &[Motion],
+        reach: Option<f64>,
+    ) {
+        let mut weight = Matrix3::zeros();
+        let mut asked = Vector3::zeros();
+        let stuck = quantity.stuck();
+        let inertia = |body: &Movable| quantity.inertia() * body.mass / (duration * duration);
+        for &k in members {
+            let body = &bodies.objects[k];
+            let arm = state.poses[k].position - self.centre;
+            let moved = reach.unwrap_or_else(|| {
+                shift(&self.twist, arm).norm().hypot(body.support * self.twist.z)
+            });
+            let (slide, turn) = resistance(body, inertia(body), moved.max(stuck));
+            let (x, y) = (arm.x, arm.y);
+            weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y)
+                + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, turn));
+            let (pull, spin) = match quantity {
+                Quantity::Displacement => {
+                    let coast = &coasts[k];
+                    let moved = coast.shift.norm().hypot(body.support * coast.turn).max(stuck);
+                    let (slide, turn) = resistance(body, inertia(body), moved);
+                    (slide * coast.shift, turn * coast.turn)
+                }
+                Quantity::Velocity => {
+                    let start = &state.velocities[k];
+                    let (slide, turn) = inertias(body, inertia(body));
+                    (slide * duration * start.linear, turn * duration * start.angular)
+                }
+            };
+            asked += along(pull, arm) + Vector3::new(0.0, 0.0, spin);
+        }
+        self.inverse = match members {
+            [_] => Matrix3::from_diagonal(&weight.diagonal().map(|w| 1.0 / w)),
+            _ => weight.try_inverse().unwrap_or_else(Matrix3::identity),
+        };
+        self.free = self.inverse * asked;
+    }
+}
+
+/// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,
+/// N m; `inertia` in N/m.
+fn resistance(body: &Movable, inertia: f64, moved: f64) -> (f64, f64) {
+    let rub = body.mass * body.deceleration / moved;
+    let (slide, turn) = inertias(body, inertia);
+    (slide + rub, turn + rub * body.support * body.support)
+}
+
+/// The part of it that inertia makes.
+fn inertias(body: &Movable, inertia: f64) -> (f64, f64) {
+    (inertia, inertia * body.support * body.support / body.spin)
+}
