@@ -20,7 +20,7 @@ use crate::scene::{
 use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
-    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, centre, is_articulated,
 };
 use super::support::Support;
 
@@ -265,7 +265,7 @@ fn empty_world(scene: &Scene) -> PhysicsWorld {
     if is_articulated(scene) {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    let (frequency, damping) = STIFF_CONTACT;
+    let (frequency, damping) = PLANAR_CONTACT;
     settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world
 }
