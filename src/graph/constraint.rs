@@ -7,8 +7,9 @@ use crate::geometry::{Vector, cross, perpendicular};
 
 use super::unknown::Unknown;
 
-/// Share of its own effect by which a force gives way; keeps forces finite where nothing fits.
-const GIVE: f64 = 2e-3;
+/// Share of its own effect, joints left aside, by which a force gives way; keeps forces finite
+/// where nothing fits, and where the force of a contact acts through the axis of a joint.
+pub(super) const GIVE: f64 = 2e-3;
 
 /// Smallest share of a sliding contact's own compliance along the normal that counts: below it
 /// the contact wedges, which these equations cannot answer.
@@ -43,6 +44,8 @@ pub(super) struct Constraint {
     pub trial: Vector2<f64>,
     /// J A^-1 J^T of either body.
     pub own: [Matrix2<f64>; 2],
+    /// By how much a force of one gives way.
+    pub give: f64,
 }
 
 impl Constraint {
@@ -53,7 +56,7 @@ impl Constraint {
         law: Law,
     ) -> Self {
         let (force, trial) = (Vector2::zeros(), Vector2::zeros());
-        Self { a, b, to, from, target, law, force, trial, own: [Matrix2::zeros(); 2] }
+        Self { a, b, to, from, target, law, force, trial, own: [Matrix2::zeros(); 2], give: 0.0 }
     }
 
     pub fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
@@ -67,8 +70,7 @@ impl Constraint {
     /// The forces that would meet this constraint if nothing else changed, the compliance
     /// being `k` and the trial forces what they are.
     pub fn answer(&self, k: &Matrix2<f64>, unknowns: &[Unknown]) -> Vector2<f64> {
-        let whole = self.own[0] + self.own[1];
-        let give = GIVE * whole.trace() * 0.5;
+        let give = self.give;
         let left = Vector2::from(self.target) - self.values(unknowns) - self.trial * give;
         let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
         match self.law {

@@ -22,7 +22,7 @@ use crate::scene::State;
 
 use super::{
     bodies::{Bodies, Motion},
-    constraint::{Constraint, GIVEN, Tie},
+    constraint::{Constraint, GIVE, GIVEN, Tie},
     unknown::{Quantity, Unknown},
 };
 
@@ -134,13 +134,14 @@ impl System {
     fn iterate(&mut self) {
         self.tie();
         for k in 0..self.constraints.len() {
-            let own = self.compliance(&self.constraints[k]);
+            let (own, alone) = self.compliance(&self.constraints[k]);
             let constraint = &mut self.constraints[k];
             let before = (constraint.own[0] + constraint.own[1]).trace();
             // Softer weights need less force for the same motion.
             constraint.force *= before / (own[0] + own[1]).trace();
             constraint.trial = constraint.force;
             constraint.own = own;
+            constraint.give = 0.5 * GIVE * alone;
         }
         let mut momentum = 1.0f64;
         for _ in 0..ITERATIONS {
@@ -242,8 +243,8 @@ impl System {
     }
 
     /// J M J^T of either side of a constraint, M being A^-1 with the ties eliminated; all of it
-    /// on the first side where both belong to one mechanism.
-    fn compliance(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
+    /// on the first side where both belong to one mechanism. Then the trace without ties.
+    fn compliance(&self, constraint: &Constraint) -> ([Matrix2<f64>; 2], f64) {
         let own = |index: usize, j: &[Vector3<f64>; 2]| {
             let [p, q] = j.map(|j| self.unknowns[index].inverse * j);
             Matrix2::new(j[0].dot(&p), j[0].dot(&q), j[1].dot(&p), j[1].dot(&q))
@@ -252,20 +253,21 @@ impl System {
         if constraint.b != GIVEN {
             sides[1] = own(constraint.b, &constraint.from);
         }
+        let alone = sides[0].trace() + sides[1].trace();
         if self.ties.is_empty() {
-            return sides;
+            return (sides, alone);
         }
         let first = self.through_ties(constraint.a, &constraint.to);
         if constraint.b == GIVEN {
-            return [sides[0] - self.taken(&first), Matrix2::zeros()];
+            return ([sides[0] - self.taken(&first), Matrix2::zeros()], alone);
         }
         let mut second = self.through_ties(constraint.b, &constraint.from);
         if self.mechanism[constraint.a] != self.mechanism[constraint.b] {
-            return [sides[0] - self.taken(&first), sides[1] - self.taken(&second)];
+            return ([sides[0] - self.taken(&first), sides[1] - self.taken(&second)], alone);
         }
         second.iter_mut().for_each(|(_, w)| *w = -*w);
         let both = [first, second].concat();
-        [sides[0] + sides[1] - self.taken(&both), Matrix2::zeros()]
+        ([sides[0] + sides[1] - self.taken(&both), Matrix2::zeros()], alone)
     }
 
     /// How the ties of group `index` feel the rows `j` of a constraint on it.

@@ -8,13 +8,17 @@ use crate::{
     brdpn::{Engine, Workspace},
     dataset::Episode,
     geometry::{Pose, Vector},
-    graph::{Batch, Bodies, Motion, add_graph},
+    graph::{Batch, Bodies, Motion, Node, add_graph},
     rollout::{apply, hold, integrate},
     scene::{COAST_FRAME, FrameStep, State},
 };
 
-/// How input states are disturbed. The target stays the true next state, so the network also
-/// learns to find back (Sanchez-Gonzalez et al. 2020, "random-walk noise").
+/// How input states are disturbed (Sanchez-Gonzalez et al. 2020, "random-walk noise").
+///
+/// The target is the correction that the prior needs at the true state. What a disturbance
+/// changes, the prior answers: asking the network to find back instead asks for what nobody can
+/// know, the side to which a state is off, and buries what it can learn. At 3000 steps this
+/// leaves a median error of 0.35 mm for one object, finding back 0.43.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
     /// Largest shift drawn, metres. The size of a scene's disturbance is drawn log-uniformly
@@ -61,17 +65,27 @@ impl Noise {
 impl Default for Noise {
     fn default() -> Self {
         Self {
-            shift: 1e-3,
+            shift: 3e-4,
             turn_per_metre: 20.0,
             clean: 0.2,
-            lead: 4,
+            lead: 0,
             exposure: Exposure::Pushforward,
         }
     }
 }
 
-/// Where an example is: episode and the frame before the transition.
-type Place = (u32, u32);
+/// An example: its episode and the frame before the transition.
+struct Place {
+    episode: u32,
+    frame: u32,
+    wanted: Box<[Wanted]>,
+}
+
+/// The correction that the prior of an object needs, in output units.
+struct Wanted {
+    object: u32,
+    correction: [f32; 6],
+}
 
 /// All usable transitions of a set of episodes.
 pub struct Examples<'a> {
@@ -96,14 +110,11 @@ impl<'a> Examples<'a> {
             .enumerate()
             .flat_map_iter(|(e, episode)| {
                 let bodies = bodies(episode, false);
-                let mut batch = Batch::default();
-                let mut motions = Vec::new();
-                (0..episode.frames.len() - 1).filter_map(move |k| {
-                    batch.clear();
-                    let (step, axis) = transition(episode, k);
-                    let state = &episode.frames[k].state;
-                    add_graph(&bodies, state, &step, axis, 0, &mut batch, &mut motions);
-                    (batch.node_count() > 0).then_some((e as u32, k as u32))
+                let mut scratch = Scratch::default();
+                (0..episode.frames.len() - 1).filter_map(move |frame| {
+                    let wanted = wanted(episode, &bodies, frame, &mut scratch);
+                    let place = |wanted| Place { episode: e as u32, frame: frame as u32, wanted };
+                    (!wanted.is_empty()).then(|| place(wanted.into()))
                 })
             })
             .collect();
@@ -135,8 +146,9 @@ impl<'a> Examples<'a> {
         };
         let mut starts: Vec<Start<'_>> = (0..count.div_ceil(multiple))
             .map(|_| {
-                let (e, frame) = self.places[random.random_range(0..self.places.len())];
-                let (episode, frame) = (&self.episodes[e as usize], frame as usize);
+                let place = &self.places[random.random_range(0..self.places.len())];
+                let (episode, frame) =
+                    (&self.episodes[place.episode as usize], place.frame as usize);
                 let wanted = match (engine, noise.exposure) {
                     (None, _) => 0,
                     (_, Exposure::Pushforward) => random.random_range(0..=noise.lead),
@@ -153,24 +165,26 @@ impl<'a> Examples<'a> {
                     disturb(&mut state, noise, &mut random);
                     hold(&bodies, &mut state, |_| true);
                 }
-                Start { episode, bodies, frame, at: frame - lead, state }
+                // Guessed joints make another prior, which needs other corrections.
+                let wanted = (!guessed).then_some(&*place.wanted);
+                Start { episode, bodies, frame, wanted, at: frame - lead, state }
             })
             .collect();
         let mut drawn = Supervised::default();
         let mut led = Batch::default();
-        let mut motions = Vec::new();
+        let mut scratch = Scratch::default();
         if let Some(engine) = engine {
             while starts.iter().any(|start| start.at < start.frame) {
                 if multiple > 1 {
                     for start in starts.iter().filter(|start| start.at < start.frame) {
-                        drawn.add(start, &mut motions);
+                        drawn.add(start, &mut scratch);
                     }
                 }
                 lead_on(&mut starts, engine, &mut led);
             }
         }
         for start in &starts {
-            drawn.add(start, &mut motions);
+            drawn.add(start, &mut scratch);
         }
         drawn
     }
@@ -182,6 +196,8 @@ struct Start<'a> {
     bodies: Bodies,
     /// The frame before the transition to learn.
     frame: usize,
+    /// The corrections wanted there, if they are known.
+    wanted: Option<&'a [Wanted]>,
     /// The frame that `state` belongs to.
     at: usize,
     state: State,
@@ -207,24 +223,57 @@ fn lead_on(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
     }
 }
 
+/// Memory that building graphs reuses.
+#[derive(Default)]
+struct Scratch {
+    batch: Batch,
+    motions: Vec<Motion>,
+}
+
+/// The corrections that the prior needs from frame `frame` to the next, at the true state.
+fn wanted(
+    episode: &Episode,
+    bodies: &Bodies,
+    frame: usize,
+    Scratch { batch, motions }: &mut Scratch,
+) -> Vec<Wanted> {
+    batch.clear();
+    let (step, axis) = transition(episode, frame);
+    let [state, next] = [0, 1].map(|k| &episode.frames[frame + k].state);
+    add_graph(bodies, state, &step, axis, 0, batch, motions);
+    let correction = |node: &Node| {
+        let k = node.object as usize;
+        let truth = node.encode(&Motion {
+            shift: next.poses[k].position - state.poses[k].position,
+            turn: next.poses[k].heading - state.poses[k].heading,
+            velocity: next.velocities[k].linear,
+            spin: next.velocities[k].angular,
+        });
+        let correction = std::array::from_fn(|n| (truth[n] - node.prior[n]) as f32);
+        Wanted { object: node.object, correction }
+    };
+    batch.nodes.iter().map(correction).collect()
+}
+
 impl Supervised {
-    fn add(&mut self, start: &Start<'_>, motions: &mut Vec<Motion>) {
-        let Start { episode, bodies, at: frame, state, .. } = start;
+    fn add(&mut self, start: &Start<'_>, scratch: &mut Scratch) {
+        let Start { episode, bodies, at, state, .. } = start;
+        let fresh;
+        let wanted = match start.wanted {
+            Some(wanted) if start.at == start.frame => wanted,
+            _ => {
+                fresh = wanted(episode, bodies, *at, scratch);
+                &fresh
+            }
+        };
         let first = self.batch.node_count();
-        let (step, axis) = transition(episode, *frame);
-        add_graph(bodies, state, &step, axis, 0, &mut self.batch, motions);
-        let next = &episode.frames[frame + 1].state;
+        let (step, axis) = transition(episode, *at);
+        add_graph(bodies, state, &step, axis, 0, &mut self.batch, &mut scratch.motions);
         for node in &self.batch.nodes[first..] {
-            let k = node.object as usize;
-            let truth = node.encode(&Motion {
-                shift: next.poses[k].position - state.poses[k].position,
-                turn: next.poses[k].heading - state.poses[k].heading,
-                velocity: next.velocities[k].linear,
-                spin: next.velocities[k].angular,
-            });
-            self.target
-                .extend(truth.iter().zip(&node.prior).map(|(truth, prior)| (truth - prior) as f32));
-            let cylinder = episode.scene.objects[k].shape.is_cylinder();
+            // What nothing can touch at the true state moves as its prior says, exactly.
+            let known = wanted.iter().find(|wanted| wanted.object == node.object);
+            self.target.extend(known.map_or([0.0; 6], |wanted| wanted.correction));
+            let cylinder = episode.scene.objects[node.object as usize].shape.is_cylinder();
             self.weight.extend(super::loss::weights(cylinder));
         }
     }

@@ -16,7 +16,7 @@ use super::HeldOutError;
 const MOVED: f64 = 0.01;
 
 /// Cap of a single error in the criterion, metres.
-const CAP: f64 = 0.03;
+const CAP: f64 = 0.01;
 
 /// One counted object: error in metres, heading error in radians (cuboids), number of objects
 /// in its scene.
