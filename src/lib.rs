@@ -14,14 +14,13 @@
 //!
 //! ```
 //! use pushplan::asset::ToolLibrary;
-//! use pushplan::effect::EffectModels;
 //! use pushplan::scene::Task;
 //! use pushplan::solve::{Effort, PlanStatus, Planner};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let library = ToolLibrary::embedded()?;
 //! let task = Task::load("tasks/pull-back.yaml")?;
-//! let planner = Planner::builder(EffectModels::shipped()?).effort(Effort::Standard).build();
+//! let planner = Planner::for_effort(Effort::Standard)?.build();
 //! let solution = planner.solve(&task, &library)?;
 //! assert_eq!(solution.status, PlanStatus::Solved);
 //! println!("use the {}", solution.plans[0].plan.tool);

@@ -5,13 +5,19 @@ use std::time::{Duration, Instant};
 /// Runs `work` and says how much processor time this thread spent on it, so that other work on
 /// the machine does not count. Where the system does not tell (outside Linux), wall-clock time.
 pub(super) fn processor_time(work: impl FnOnce()) -> Duration {
+    timed(work).1
+}
+
+/// The same with what the work gives.
+pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let (before, began) = (thread_time(), Instant::now());
-    work();
+    let done = work();
     let wall = began.elapsed();
-    match (before, thread_time()) {
+    let spent = match (before, thread_time()) {
         (Some(before), Some(after)) => after.saturating_sub(before),
         _ => wall,
-    }
+    };
+    (done, spent)
 }
 
 /// Time that this thread has spent on a processor so far, where the system tells.

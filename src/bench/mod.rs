@@ -50,7 +50,6 @@ pub use tools::{
     summarise,
 };
 pub use tradeoff::{
-    EffortChoice, Level, Noise, ObjectCost, PlanLevel, PlanOutcome, PlanRow, Point, PredictorRow,
-    SuiteErrors, TradeOff, TradeOffReport, TradeOffSettings, Unit, dominates, levels, on_front,
-    plan_levels,
+    Level, Noise, ObjectCost, PlanLevel, PlanRow, Point, PredictorRow, SuiteErrors, TradeOff,
+    TradeOffReport, TradeOffSettings, Unit, dominates, levels, on_front, plan_levels,
 };

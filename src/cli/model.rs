@@ -6,19 +6,32 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use crate::brdpn::Weights;
+use crate::brdpn::{Weights, WeightsError};
 use crate::effect::{
     EffectModel, EffectModels, Follow, Guarded, Learned, Outside, Projection, QuasiStatic,
     Simulated, Still,
 };
 use crate::sim::Simulator;
+use crate::solve::Effort;
 
 use super::error::CliError;
 
+macro_rules! help {
+    ($end:literal) => {
+        concat!(
+            "What predicts the effect of pushes: brdpn is the network; planar and 3d simulate; \
+             quasi-static is the network's prior alone; projection, follow and still are trivial; \
+             or a file of weights",
+            $end
+        )
+    };
+}
+
 /// The line for `--help`.
-pub const HELP: &str = "What predicts the effect of pushes: brdpn is the network; planar and 3d simulate; \
-    quasi-static is the network's prior alone; projection, follow and still are trivial; or a \
-    file of weights";
+pub const HELP: &str = help!("");
+
+/// The same where the effort decides unless a model is named.
+pub const HELP_WITH_EFFORT: &str = help!(" [default: that of the effort]");
 
 /// The name of the model that is used unless another is asked for.
 pub const DEFAULT: &str = "brdpn";
@@ -42,6 +55,8 @@ pub enum ModelName {
     Projection,
     /// A network with these weights.
     Weights(PathBuf),
+    /// That of the measured level which the effort stands for.
+    OfEffort(Effort),
 }
 
 impl ModelName {
@@ -73,6 +88,9 @@ impl ModelName {
     /// # Errors
     /// A weights file that is missing, damaged or of someone else.
     pub fn load(&self) -> Result<Arc<dyn EffectModel>, CliError> {
+        if let Self::OfEffort(effort) = self {
+            return effort.model().map_err(broken);
+        }
         if let Some(weights) = self.weights()? {
             return Ok(Arc::new(Learned::new(weights)));
         }
@@ -82,8 +100,10 @@ impl ModelName {
             Self::Still => Arc::new(Still),
             Self::Follow => Arc::new(Follow),
             Self::Projection => Arc::new(Projection),
-            // Networks have returned above.
-            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) => Arc::new(QuasiStatic::default()),
+            // Networks and efforts have returned above.
+            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) | Self::OfEffort(_) => {
+                Arc::new(QuasiStatic::default())
+            }
         })
     }
 
@@ -93,9 +113,12 @@ impl ModelName {
     /// A weights file that is missing, damaged or of someone else.
     pub fn weights(&self) -> Result<Option<Weights>, CliError> {
         match self {
-            Self::Brdpn => EffectModels::weights()
-                .map(Some)
-                .map_err(|error| CliError::unexpected("the shipped weights are broken", &error)),
+            Self::Brdpn => EffectModels::weights().map(Some).map_err(broken),
+            Self::OfEffort(effort) => {
+                let network = Learned::new(EffectModels::weights().map_err(broken)?);
+                let same = effort.model().map_err(broken)?.name() == network.name();
+                Ok(same.then(|| network.weights().clone()))
+            }
             Self::Weights(path) => {
                 let wrong = |why: String| CliError::File(format!("{}: {why}", path.display()));
                 let bytes = std::fs::read(path)
@@ -107,6 +130,10 @@ impl ModelName {
             _ => Ok(None),
         }
     }
+}
+
+fn broken(error: WeightsError) -> CliError {
+    CliError::unexpected("the shipped weights are broken", &error)
 }
 
 impl FromStr for ModelName {

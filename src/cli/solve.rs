@@ -35,8 +35,8 @@ pub struct SolveArgs {
     /// How hard to try
     #[arg(long, value_enum, default_value_t)]
     effort: EffortName,
-    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    model: ModelName,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
+    model: Option<ModelName>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
@@ -55,10 +55,11 @@ pub struct SolveArgs {
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
-    let effects = args.model.load()?;
+    let effort = Effort::from(args.effort);
+    let effects = args.model.clone().unwrap_or(ModelName::OfEffort(effort)).load()?;
     output::prepare(&args.out)?;
     let planner = Planner::builder(effects)
-        .effort(args.effort.into())
+        .effort(effort)
         .seed(args.seed)
         .outside(args.outside.outside())
         .build();

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use crate::{
     brdpn::{Weights, WeightsError},
-    sim::Simulator,
+    sim::{DEFAULT_STEP, Simulator},
 };
 
-use super::{EffectModel, Learned, Simulated};
+use super::{EffectModel, Follow, Learned, Projection, QuasiStatic, Simulated, Still};
 
 /// The trained weights that are part of the library; `models/brdpn.md` says what they are.
 const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn.safetensors");
@@ -30,6 +30,28 @@ impl EffectModels {
     /// [`WeightsError`] if the library was built around a damaged weights file.
     pub fn shipped() -> Result<Arc<dyn EffectModel>, WeightsError> {
         Ok(Arc::new(Learned::new(Self::weights()?)))
+    }
+
+    /// The model of this name, as [`EffectModel::name`] gives it: the shipped network, its prior,
+    /// an engine at any step, or one without physics.
+    ///
+    /// # Errors
+    /// [`WeightsError`] if the library was built around a damaged weights file.
+    pub fn named(name: &str) -> Result<Option<Arc<dyn EffectModel>>, WeightsError> {
+        let (plain, rate) = match name.strip_suffix(" s").and_then(|name| name.split_once(", 1/")) {
+            Some((plain, rate)) => (plain, rate.parse().ok()),
+            None => (name, None),
+        };
+        let step = rate.map_or(DEFAULT_STEP, |rate: f64| 1.0 / rate);
+        Ok(Some(match plain {
+            "planar" => Arc::new(Simulated::new(Simulator::planar_with_step(step))),
+            "3d" => Arc::new(Simulated::new(Simulator::spatial_with_step(step))),
+            "quasi-static" => Arc::new(QuasiStatic::default()),
+            "projection" => Arc::new(Projection),
+            "follow" => Arc::new(Follow),
+            "still" => Arc::new(Still),
+            _ => return Ok(Some(Self::shipped()?).filter(|shipped| shipped.name() == name)),
+        }))
     }
 
     /// The planar engine: the learned model's truth, several times slower.

@@ -24,7 +24,7 @@ const FRONT: &str = "yes";
 pub fn tradeoff_line(report: &TradeOffReport) -> String {
     let counts = &report.counts;
     format!(
-        "{} held-out pushes of each kind, {} tasks, seed {}; processor time of one thread, which \
+        "{} held-out pushes of each kind, {} tasks of seed {}; processor time of one thread, which \
          reaches {:.0} GFLOP/s in matrix products; the median round of {} is {:.0} % slower than \
          the fastest, which counts",
         counts.pushes,
@@ -98,8 +98,8 @@ pub fn tradeoff_objects(report: &TradeOffReport) -> Table {
 pub fn tradeoff_plans(report: &TradeOffReport) -> Table {
     let mut table = Table::new([
         ("level", Align::Left),
-        ("says solved", Align::Right),
-        ("solved, planar", Align::Right),
+        ("reached, predicted", Align::Right),
+        ("reached, planar", Align::Right),
         ("solved, 3-D", Align::Right),
         ("error in 3-D, mean", Align::Right),
         ("median", Align::Right),
@@ -107,6 +107,7 @@ pub fn tradeoff_plans(report: &TradeOffReport) -> Table {
         ("rollouts", Align::Right),
         ("verified", Align::Right),
         ("a task", Align::Right),
+        ("verification", Align::Right),
         ("front", Align::Left),
     ]);
     let mut rows: Vec<&PlanRow> = report.plans.iter().collect();
@@ -123,6 +124,7 @@ pub fn tradeoff_plans(report: &TradeOffReport) -> Table {
             format!("{:.0}", row.rollouts),
             format!("{:.1}", row.verified),
             seconds(row.seconds),
+            seconds(row.verification),
             if row.on_front { FRONT.to_owned() } else { String::new() },
         ]);
     }

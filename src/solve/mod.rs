@@ -5,6 +5,7 @@
 //! Not finding one is a [`PlanStatus`], not an error.
 
 mod check;
+mod efforts;
 mod error;
 mod planner;
 mod progress;
@@ -14,6 +15,7 @@ mod settings;
 mod solution;
 mod solving;
 
+pub use efforts::EffortLevel;
 pub use error::SolveError;
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use progress::{Progress, Stage};

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
+use crate::brdpn::WeightsError;
 use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
 use crate::scene::{
@@ -94,6 +95,14 @@ impl Planner {
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
         PlannerBuilder { model: Box::new(model), outside: Outside::default(), settings, seed: 0 }
+    }
+
+    /// Starts building the planner that an effort stands for, effect model included.
+    ///
+    /// # Errors
+    /// [`WeightsError`] if the library was built around a damaged weights file.
+    pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, WeightsError> {
+        Ok(Self::builder(effort.model()?).effort(effort))
     }
 
     /// The effect model.

@@ -1,4 +1,4 @@
-//! How hard to try: four efforts and what each means in numbers.
+//! How hard to try: four efforts, and the budgets that a planner has.
 
 use std::fmt;
 
@@ -27,56 +27,6 @@ impl Effort {
     /// All of them, cheapest first.
     pub const ALL: [Effort; 4] =
         [Effort::Draft, Effort::Standard, Effort::Thorough, Effort::Exhaustive];
-
-    /// What it means in numbers.
-    pub fn settings(self) -> Settings {
-        match self {
-            Effort::Draft => Settings {
-                offsets: 3,
-                beam: 8,
-                search_rollouts: 500,
-                refined: 3,
-                refine_rounds: 2,
-                refine_extra: 0,
-                verified_at_once: 1,
-                verify_batches: 1,
-                disturbed: 0,
-            },
-            Effort::Standard => Settings {
-                offsets: 5,
-                beam: 24,
-                search_rollouts: 2000,
-                refined: 8,
-                refine_rounds: 4,
-                refine_extra: 2,
-                verified_at_once: 4,
-                verify_batches: 2,
-                disturbed: 8,
-            },
-            Effort::Thorough => Settings {
-                offsets: 9,
-                beam: 64,
-                search_rollouts: 8000,
-                refined: 24,
-                refine_rounds: 8,
-                refine_extra: 4,
-                verified_at_once: 8,
-                verify_batches: 3,
-                disturbed: 16,
-            },
-            Effort::Exhaustive => Settings {
-                offsets: 15,
-                beam: 192,
-                search_rollouts: 40_000,
-                refined: 64,
-                refine_rounds: 16,
-                refine_extra: 8,
-                verified_at_once: 16,
-                verify_batches: 4,
-                disturbed: 64,
-            },
-        }
-    }
 }
 
 impl fmt::Display for Effort {
@@ -119,6 +69,19 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// The least that still searches, refines and verifies.
+    pub const FIRST_LOOK: Settings = Settings {
+        offsets: 3,
+        beam: 8,
+        search_rollouts: 500,
+        refined: 3,
+        refine_rounds: 2,
+        refine_extra: 0,
+        verified_at_once: 1,
+        verify_batches: 1,
+        disturbed: 0,
+    };
+
     /// The part that the search takes.
     pub fn search(&self) -> SearchSettings {
         SearchSettings {

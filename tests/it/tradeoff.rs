@@ -3,13 +3,14 @@
 use pushplan::{
     asset::ToolLibrary,
     bench::{
-        Level, Seconds, Store, StoreError, Suite, SuiteKind, TradeOff, TradeOffReport,
-        TradeOffSettings, Unit, levels, plan_levels,
+        Level, PlanRow, Seconds, Store, StoreError, Suite, SuiteKind, TradeOff, TradeOffReport,
+        TradeOffSettings, Unit, dominates, levels, plan_levels,
     },
     dataset::Watch,
     effect::{EffectModel, EffectModels, Job, Learned, QuasiStatic},
-    report::{tradeoff_push_chart, tradeoff_task_chart},
+    report::{tradeoff_efforts, tradeoff_push_chart, tradeoff_task_chart},
     scene::Record,
+    solve::{Effort, Settings},
 };
 
 fn learned() -> Learned {
@@ -69,8 +70,9 @@ fn tiny(library: &ToolLibrary) -> TradeOff<'_> {
     levels.retain(|level| wanted.contains(&level.name()));
     assert_eq!(levels.iter().map(Level::name).collect::<Vec<_>>(), wanted);
     let mut plans = plan_levels(&levels);
-    plans.retain(|plan| plan.name.contains("coarse search, light refinement, 4 verified"));
-    let counts = TradeOffSettings { pushes: 12, timed: 1, rounds: 2, tasks: 2, seed: 5 };
+    plans.retain(|plan| plan.name.contains("coarse search, light refinement, up to 4 verified"));
+    let counts =
+        TradeOffSettings { pushes: 12, timed: 1, rounds: 2, tasks: 2, tolerance: 1.0, seed: 5 };
     TradeOff::new(library, levels, plans, counts).unwrap()
 }
 
@@ -87,18 +89,18 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     let mut store: Store<Unit> = Store::open(folder.path(), manifest(), &Quiet).unwrap();
     let stopped = store.run(&Quiet, |index| match index {
         7 => Err(StoreError::Missing { path: "stopped".into() }),
-        index => Ok(run.measure(index)),
+        index => Ok(run.measure(index).unwrap()),
     });
     assert!(stopped.is_err());
     drop(store);
     let mut store: Store<Unit> = Store::open(folder.path(), manifest(), &Quiet).unwrap();
     assert_eq!(store.finished().len(), 7);
-    store.run::<StoreError>(&Quiet, |index| Ok(run.measure(index))).unwrap();
+    store.run::<StoreError>(&Quiet, |index| Ok(run.measure(index).unwrap())).unwrap();
     let units: Vec<(Unit, Seconds)> =
         store.finished().iter().map(|one| (one.record.clone(), one.seconds.clone())).collect();
     // All but times is the same when measured again.
     for index in [0, 1, 3, total - 1] {
-        assert_eq!(run.measure(index).record, units[index].0, "{}", run.title(index));
+        assert_eq!(run.measure(index).unwrap().record, units[index].0, "{}", run.title(index));
     }
 
     let report = run.report(&units);
@@ -125,4 +127,47 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     for chart in [tradeoff_push_chart(&report), tradeoff_task_chart(&report)] {
         assert!(!chart.to_svg().contains("NaN"));
     }
+}
+
+/// What `pushplan tradeoff` measured, as shipped.
+const MEASURED: &str = include_str!("../../models/tradeoff.json");
+
+#[test]
+fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
+    let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
+    let row = |name: &str| report.plans.iter().find(|row| row.level.name == name).unwrap();
+    let chosen: Vec<&PlanRow> = Effort::ALL
+        .iter()
+        .map(|effort| {
+            let level = effort.level().expect("the library knows every effort");
+            assert_eq!(Some(level), report.efforts.get(effort));
+            let row = row(&level.level);
+            assert_eq!((&row.level.model, row.level.settings), (&level.model, level.settings));
+            let settings = effort.settings();
+            assert_eq!(Settings { disturbed: 0, ..settings }, level.settings);
+            assert_eq!(effort.model().unwrap().name(), level.model);
+            row
+        })
+        .collect();
+    for (effort, row) in Effort::ALL.iter().zip(&chosen) {
+        assert!(row.on_front, "{effort} is not on the front");
+        for other in &report.plans {
+            assert!(
+                !dominates(other.point(), row.point(), report.noise),
+                "{effort}, {}, is dominated by {}",
+                row.level.name,
+                other.level.name
+            );
+        }
+    }
+    for pair in chosen.windows(2) {
+        assert!(pair[0].seconds <= pair[1].seconds && pair[0].success <= pair[1].success);
+    }
+}
+
+#[test]
+fn the_readme_says_what_each_effort_costs_and_gives() {
+    let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
+    let table = tradeoff_efforts(&report).to_markdown();
+    assert!(include_str!("../../README.md").contains(&table), "the README has not\n{table}");
 }

@@ -2,46 +2,35 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use crate::effect::EffectModels;
+use crate::solve::{Effort, EffortLevel};
 
-use crate::solve::{Effort, Settings};
+use super::measured::PlanRow;
 
-use super::{front::Noise, measured::PlanRow};
+/// How much more often than the best level each effort may fail, as a share of the tasks.
+const LOSSES: [(Effort, f64); 4] = [
+    (Effort::Draft, 0.10),
+    (Effort::Standard, 0.02),
+    (Effort::Thorough, 0.005),
+    (Effort::Exhaustive, 0.0),
+];
 
-/// Draft may fail this much more often than the best level, as a share.
-const DRAFT_LOSS: f64 = 0.10;
-
-/// A level of planning by name, with what it is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EffortChoice {
-    /// Name of the level.
-    pub level: String,
-    /// Name of its effect model.
-    pub model: String,
-    /// Its budgets.
-    pub settings: Settings,
-}
-
-/// The efforts among the levels on the front. Exhaustive is the most successful one; thorough the
-/// cheapest that is as good within the noise, standard within twice the noise, draft within ten
-/// per cent.
-pub fn choose_efforts(plans: &[PlanRow], noise: Noise) -> BTreeMap<Effort, EffortChoice> {
-    let front = || plans.iter().filter(|row| row.on_front);
+/// The efforts among the levels on the front whose models are part of the library: each is the
+/// cheapest that fails no more often than it may. Where a cheap level is as successful as any,
+/// efforts are the same.
+pub fn choose_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, EffortLevel> {
+    let shipped = |name: &str| matches!(EffectModels::named(name), Ok(Some(_)));
+    let front = || plans.iter().filter(|row| row.on_front && shipped(&row.level.model));
     let best = front().map(|row| row.success).fold(0.0, f64::max);
-    let losses = [
-        (Effort::Draft, DRAFT_LOSS.max(2.0 * noise.error)),
-        (Effort::Standard, 2.0 * noise.error),
-        (Effort::Thorough, noise.error),
-        (Effort::Exhaustive, 0.0),
-    ];
-    losses
+    LOSSES
         .into_iter()
         .filter_map(|(effort, loss)| {
-            let good = front().filter(|row| row.success >= best - loss);
+            // Shares are counts divided by one number; the small part is their rounding.
+            let good = front().filter(|row| row.success >= best - loss - 1e-9);
             let cheapest = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
             let level = &cheapest.level;
             let (model, settings) = (level.model.clone(), level.settings);
-            Some((effort, EffortChoice { level: level.name.clone(), model, settings }))
+            Some((effort, EffortLevel { level: level.name.clone(), model, settings }))
         })
         .collect()
 }

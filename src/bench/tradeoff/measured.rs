@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     asset::SCHEMA_VERSION,
-    bench::{Seconds, SuiteKind, Summary, mean, percentile},
-    solve::Effort,
+    bench::{End, Seconds, SolvedTask, SuiteKind, Summary, mean, percentile},
+    solve::{Effort, EffortLevel, PlanStatus},
 };
 
 use super::{
-    choice::{EffortChoice, choose_efforts},
+    choice::choose_efforts,
     cost::{OBJECTS, YARDSTICK, alone_key, key, network_key},
     front::{Noise, Point, on_front},
     levels::{Level, PlanLevel},
-    run::{CONTROL, PlanOutcome, TradeOffSettings, Unit},
+    run::{CONTROL, TradeOffSettings, Unit, verification_key},
 };
 
 /// Costs of tasks that differ by less are never told apart, relative.
@@ -80,7 +80,7 @@ pub struct PlanRow {
     pub predicted: f64,
     /// Share reached when replayed in the planar engine.
     pub planar: f64,
-    /// Share reached when replayed in the 3-D engine: the success that counts.
+    /// Share solved: the plan passed verification in the 3-D engine.
     pub success: f64,
     /// Final error in 3-D, metres.
     pub error: Option<Summary>,
@@ -92,6 +92,8 @@ pub struct PlanRow {
     pub verified: f64,
     /// Processor time of a task on one thread, verification included, seconds.
     pub seconds: f64,
+    /// The part of it that went to replays.
+    pub verification: f64,
     /// Whether no other level is both cheaper and more successful, beyond the noise.
     pub on_front: bool,
 }
@@ -127,7 +129,7 @@ pub struct TradeOffReport {
     /// Levels of planning.
     pub plans: Vec<PlanRow>,
     /// The level that each effort stands for.
-    pub efforts: BTreeMap<Effort, EffortChoice>,
+    pub efforts: BTreeMap<Effort, EffortLevel>,
 }
 
 impl TradeOffReport {
@@ -161,7 +163,7 @@ impl TradeOffReport {
                 &fastest,
             ),
             predictors,
-            efforts: choose_efforts(&plans, noise),
+            efforts: choose_efforts(&plans),
             plans,
         }
     }
@@ -219,7 +221,7 @@ fn object_costs<'a>(
 }
 
 /// The tasks with the outcomes of all levels.
-fn tasks(units: &[(Unit, Seconds)]) -> impl Iterator<Item = (&[PlanOutcome], &Seconds)> {
+fn tasks(units: &[(Unit, Seconds)]) -> impl Iterator<Item = (&[SolvedTask], &Seconds)> {
     units.iter().filter_map(|(unit, times)| match unit {
         Unit::Task { plans, .. } => Some((plans.as_slice(), times)),
         _ => None,
@@ -231,25 +233,30 @@ fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Ve
         .iter()
         .enumerate()
         .map(|(k, level)| {
-            let outcomes: Vec<&PlanOutcome> =
+            let outcomes: Vec<&SolvedTask> =
                 tasks(units).filter_map(|(plans, _)| plans.get(k)).collect();
-            let over = |value: &dyn Fn(&PlanOutcome) -> Option<f64>| -> Vec<f64> {
+            let over = |value: &dyn Fn(&SolvedTask) -> Option<f64>| -> Vec<f64> {
                 outcomes.iter().filter_map(|outcome| value(outcome)).collect()
             };
-            let share = |how: usize| {
-                mean(&over(&|outcome| Some(f64::from(u8::from(outcome.reached[how])))))
+            let share = |is: &dyn Fn(&SolvedTask) -> bool| {
+                mean(&over(&|outcome| Some(f64::from(u8::from(is(outcome))))))
             };
-            let seconds: Vec<f64> =
-                tasks(units).filter_map(|(_, times)| times.get(&level.name).copied()).collect();
+            let seconds = |key: &str| {
+                let times = tasks(units).filter_map(|(_, times)| times.get(key).copied());
+                mean(&times.collect::<Vec<f64>>())
+            };
             PlanRow {
-                predicted: share(0),
-                planar: share(1),
-                success: share(2),
-                error: Summary::of(&over(&|outcome| outcome.spatial)),
-                predicted_error: Summary::of(&over(&|outcome| outcome.predicted)),
+                predicted: share(&|outcome| reached(&outcome.predicted)),
+                planar: share(&|outcome| reached(&outcome.planar)),
+                success: share(&is_solved),
+                error: Summary::of(&over(&|outcome| outcome.spatial.map(|end| end.error))),
+                predicted_error: Summary::of(&over(&|outcome| {
+                    outcome.predicted.map(|end| end.error)
+                })),
                 rollouts: mean(&over(&|outcome| Some(outcome.rollouts as f64))),
-                verified: mean(&over(&|outcome| Some(outcome.verified as f64))),
-                seconds: mean(&seconds),
+                verified: mean(&over(&|outcome| Some(outcome.attempts as f64))),
+                seconds: seconds(&level.name),
+                verification: seconds(&verification_key(&level.name)),
                 level: level.clone(),
                 on_front: false,
             }
@@ -261,16 +268,24 @@ fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Ve
     rows
 }
 
+fn is_solved(task: &SolvedTask) -> bool {
+    task.status == PlanStatus::Solved
+}
+
+fn reached(end: &Option<End>) -> bool {
+    end.is_some_and(|end| end.reached)
+}
+
 fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel], count: usize) -> Noise {
     let sum = |name: &str| tasks(units).filter_map(|(_, times)| times.get(name)).sum::<f64>();
     let first = plans.first().map_or(0.0, |plan| sum(&plan.name));
     let again = sum(CONTROL);
     let cost = if first > 0.0 { (again / first - 1.0).abs() } else { 0.0 };
-    let reached = |k: usize| {
+    let solved = |k: usize| {
         let all = tasks(units).filter_map(|(plans, _)| plans.get(k));
-        all.filter(|outcome| outcome.reached[2]).count()
+        all.filter(|outcome| is_solved(outcome)).count()
     };
-    let best = (0..plans.len()).map(reached).max().unwrap_or(0) as f64;
+    let best = (0..plans.len()).map(solved).max().unwrap_or(0) as f64;
     // One more of either kind (Laplace), so that a perfect score is not taken for certainty.
     let (count, share) = (count as f64, (best + 1.0) / (count as f64 + 2.0));
     Noise {

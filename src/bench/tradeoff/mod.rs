@@ -14,8 +14,7 @@ mod levels;
 mod measured;
 mod run;
 
-pub use choice::EffortChoice;
 pub use front::{Noise, Point, dominates, on_front};
 pub use levels::{Level, PlanLevel, levels, plan_levels};
 pub use measured::{ObjectCost, PlanRow, PredictorRow, SuiteErrors, TradeOffReport};
-pub use run::{PlanOutcome, TradeOff, TradeOffSettings, Unit};
+pub use run::{TradeOff, TradeOffSettings, Unit};

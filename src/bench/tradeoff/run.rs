@@ -9,12 +9,11 @@ use serde_json::json;
 use crate::{
     asset::ToolLibrary,
     bench::{
-        HeldOut, HeldOutErrors, Measured, RunManifest, Seconds, SuiteKind,
-        cpu_clock::processor_time, random::random_task,
+        HeldOut, HeldOutErrors, Measured, RandomError, RandomSuite, RunManifest, Seconds,
+        SolvedTask, SuiteKind, TaskKind, cpu_clock::timed,
     },
-    scene::{Engine, Outcome, Task},
-    solve::{Planner, Solution},
-    verify::{Verifier, VerifySettings},
+    scene::Task,
+    solve::{Planner, Solution, SolveError},
 };
 
 use super::{
@@ -30,7 +29,7 @@ const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];
 pub(super) const CONTROL: &str = "control";
 
 /// How much is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TradeOffSettings {
     /// Held-out pushes of each kind.
     pub pushes: usize,
@@ -40,6 +39,9 @@ pub struct TradeOffSettings {
     pub rounds: usize,
     /// Tasks solved.
     pub tasks: usize,
+    /// Their tolerances, as a share of those with which the suite makes them: the smaller, the
+    /// more a level must try.
+    pub tolerance: f64,
     /// Seed of all of them.
     pub seed: u64,
 }
@@ -59,28 +61,11 @@ pub enum Unit {
     Round,
     /// A task at all levels of planning.
     Task {
-        /// Its name.
-        task: String,
+        /// Its kind.
+        kind: TaskKind,
         /// In the order of the levels.
-        plans: Vec<PlanOutcome>,
+        plans: Vec<SolvedTask>,
     },
-}
-
-/// How one task ended at one level.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PlanOutcome {
-    /// Final error as the effect model predicts it, metres; nothing without a plan.
-    pub predicted: Option<f64>,
-    /// Final error in the planar engine, metres.
-    pub planar: Option<f64>,
-    /// Final error in the 3-D engine, metres.
-    pub spatial: Option<f64>,
-    /// Whether the goal is reached: predicted, planar, 3-D.
-    pub reached: [bool; 3],
-    /// Rollouts of the effect model.
-    pub rollouts: usize,
-    /// Plans verified on the way.
-    pub verified: usize,
 }
 
 /// A run of the trade-off.
@@ -91,6 +76,7 @@ pub struct TradeOff<'a> {
     planners: Vec<Planner>,
     settings: TradeOffSettings,
     single: ThreadPool,
+    suite: RandomSuite,
     held_out: OnceLock<Vec<HeldOut>>,
     timed: OnceLock<Timed>,
 }
@@ -123,6 +109,7 @@ impl<'a> TradeOff<'a> {
             planners,
             settings,
             single: ThreadPoolBuilder::new().num_threads(1).build()?,
+            suite: RandomSuite::new(library, settings.seed, &[]),
             held_out: OnceLock::new(),
             timed: OnceLock::new(),
         })
@@ -156,10 +143,13 @@ impl<'a> TradeOff<'a> {
 
     /// Measures unit `index`. Errors are computed on the current rayon pool; what is timed runs
     /// on one thread.
-    pub fn measure(&self, index: usize) -> Measured<Unit> {
+    ///
+    /// # Errors
+    /// If a task cannot be made with these tools.
+    pub fn measure(&self, index: usize) -> Result<Measured<Unit>, RandomError> {
         let rounds = self.levels.len() + 1;
         let tasks = rounds + self.settings.rounds;
-        match index {
+        Ok(match index {
             0 => self.errors(|truth| truth.spread()),
             k if k < rounds => self.errors(|truth| truth.evaluate(&self.levels[k - 1].model())),
             k if k < tasks => {
@@ -169,8 +159,12 @@ impl<'a> TradeOff<'a> {
                 let seconds = self.single.install(|| timed.round(&self.levels));
                 Measured { record: Unit::Round, seconds }
             }
-            k => self.task(&random_task(self.library, self.settings.seed, k - tasks)),
-        }
+            k => {
+                let mut made = self.suite.task(k - tasks)?;
+                made.task.goal.tolerance *= self.settings.tolerance;
+                self.task(made.kind, &made.task)?
+            }
+        })
     }
 
     /// The numbers of a finished run.
@@ -199,49 +193,30 @@ impl<'a> TradeOff<'a> {
         Measured { record: Unit::Predictor { model, suites }, seconds: Seconds::new() }
     }
 
-    fn task(&self, task: &Task) -> Measured<Unit> {
+    fn task(&self, kind: TaskKind, task: &Task) -> Result<Measured<Unit>, SolveError> {
         let mut seconds = Seconds::new();
-        let mut solve = |planner: &Planner, name: &str| {
-            let mut solution = None;
-            let spent = self
-                .single
-                .install(|| processor_time(|| solution = planner.solve(task, self.library).ok()));
+        let mut solve = |planner: &Planner, name: &str| -> Result<Solution, SolveError> {
+            let (solution, spent) =
+                self.single.install(|| timed(|| planner.solve(task, self.library)));
+            let solution = solution?;
+            let timing = &solution.statistics.timing;
+            let share = timing.verification / timing.total.max(f64::MIN_POSITIVE);
             seconds.insert(name.to_owned(), spent.as_secs_f64());
-            solution
+            seconds.insert(verification_key(name), spent.as_secs_f64() * share);
+            Ok(solution)
         };
-        let plans = self.plans.iter().zip(&self.planners);
-        let plans =
-            plans.map(|(plan, planner)| judge(task, solve(planner, &plan.name).as_ref())).collect();
-        if let Some(planner) = self.planners.first() {
-            solve(planner, CONTROL);
+        let mut plans = Vec::new();
+        for (plan, planner) in self.plans.iter().zip(&self.planners) {
+            plans.push(SolvedTask::of(task, &solve(planner, &plan.name)?));
         }
-        Measured { record: Unit::Task { task: task.name.clone(), plans }, seconds }
+        if let Some(planner) = self.planners.first() {
+            solve(planner, CONTROL)?;
+        }
+        Ok(Measured { record: Unit::Task { kind, plans }, seconds })
     }
 }
 
-/// How the first plan of a solution ends, replayed in both engines.
-fn judge(task: &Task, solution: Option<&Solution>) -> PlanOutcome {
-    let best = solution.and_then(Solution::best);
-    let verdict = best.map(|best| {
-        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        verifier.nominal(task, &best.tool, &best.plan)
-    });
-    let replayed = |engine: Engine| {
-        let evidence = verdict.iter().flat_map(|verdict| &verdict.evidence);
-        evidence.into_iter().find(|one| one.engine == engine).map(|one| &one.outcome)
-    };
-    let outcomes: [Option<&Outcome>; 3] =
-        [best.map(|best| &best.outcome), replayed(Engine::Planar), replayed(Engine::Spatial)];
-    let [predicted, planar, spatial] = outcomes.map(|outcome| {
-        let error = outcome.map(|outcome| outcome.error);
-        error.filter(|error| error.is_finite())
-    });
-    PlanOutcome {
-        predicted,
-        planar,
-        spatial,
-        reached: outcomes.map(|outcome| outcome.is_some_and(|outcome| outcome.reached)),
-        rollouts: solution.map_or(0, |solution| solution.statistics.rollouts),
-        verified: solution.map_or(0, |solution| solution.statistics.verified),
-    }
+/// What the time of a level's replays is called.
+pub(super) fn verification_key(level: &str) -> String {
+    format!("{level}, verification")
 }

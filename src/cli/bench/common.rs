@@ -16,14 +16,15 @@ use crate::cli::{
 };
 use crate::effect::EffectModel;
 use crate::report::{Document, Table};
+use crate::solve::Effort;
 
 use super::keep::write_report;
 
 /// What every benchmark takes.
 #[derive(Args, Debug)]
 pub struct Common {
-    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    pub model: ModelName,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
+    model: Option<ModelName>,
     #[command(flatten)]
     pub outside: OutsideArgs,
     #[command(flatten)]
@@ -33,12 +34,22 @@ pub struct Common {
 }
 
 impl Common {
-    /// The model, used only where it can be trusted.
+    /// The model that is asked for, or else that of the effort.
+    pub fn model(&self, effort: Effort) -> ModelName {
+        self.model.clone().unwrap_or(ModelName::OfEffort(effort))
+    }
+
+    /// The model that is asked for, or else the network, used only where it can be trusted.
     ///
     /// # Errors
     /// Those of [`ModelName::load`].
     pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
-        Ok(self.outside.guard(self.model.load()?))
+        Ok(self.outside.guard(self.model_or_network().load()?))
+    }
+
+    /// The model that is asked for, or else the network: where there is no effort.
+    pub fn model_or_network(&self) -> ModelName {
+        self.model.clone().unwrap_or(ModelName::Brdpn)
     }
 }
 

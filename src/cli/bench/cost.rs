@@ -73,7 +73,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let spinner = session.spinner("timing");
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
-    let networks = match args.common.model.weights()? {
+    let networks = match args.common.model_or_network().weights()? {
         Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES)
             .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
         None => Vec::new(),
@@ -98,7 +98,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
 
 fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let objects = args.crowd.map_or(10, usize::from);
-    let weights = args.common.model.weights()?.ok_or_else(|| {
+    let weights = args.common.model_or_network().weights()?.ok_or_else(|| {
         CliError::usage("only a network can be timed on a crowd", "leave --model out")
     })?;
     let spinner = session.spinner("timing");
@@ -118,7 +118,7 @@ fn split(
     batch: usize,
     session: &Session,
 ) -> Result<Option<PushSplit>, CliError> {
-    let weights = args.common.model.weights()?;
+    let weights = args.common.model_or_network().weights()?;
     Ok(weights.map(|weights| {
         let model = Learned::new(weights);
         session.compute(|| push_split(&model, suite, batch))
@@ -126,7 +126,7 @@ fn split(
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
-    let weights = args.common.model.weights()?.ok_or_else(|| {
+    let weights = args.common.model_or_network().weights()?.ok_or_else(|| {
         CliError::usage("only a network leaves out what it cannot touch", "leave --model out")
     })?;
     if let Some(out) = &args.out {

@@ -42,7 +42,7 @@ pub fn run(args: &ExtremesArgs, session: &Session) -> Result<(), CliError> {
         output::prepare(folder)?;
     }
     let library = args.common.library.load()?;
-    let model = args.common.model.load()?;
+    let model = args.common.model_or_network().load()?;
     let settings = ExtremesSettings {
         seed: args.seed,
         pushes: usize::from(args.pushes),

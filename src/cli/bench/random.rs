@@ -90,7 +90,8 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
     kinds.dedup();
     let suite = RandomSuite::new(&library, args.seed, &kinds);
     let effort = Effort::from(args.effort);
-    let planner = Planner::builder(args.common.model.load()?)
+    let name = args.common.model(effort);
+    let planner = Planner::builder(name.load()?)
         .effort(effort)
         .outside(args.common.outside.outside())
         .build();
@@ -105,7 +106,7 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
     });
     args.common.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, count, args.seed, planner.model().name())
-        .with_weights(weights_digest(&args.common.model)?)
+        .with_weights(weights_digest(&name)?)
         .with_settings(settings);
     if let Some(folder) = &args.save_tasks {
         save_tasks(folder, &suite, args.keep.indices(count), session)?;

@@ -48,11 +48,11 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         .iter()
         .map(|file| Ok(load_task(file, &library)?))
         .collect::<Result<Vec<Task>, CliError>>()?;
-    let outside = args.common.outside.outside();
-    let planner = Planner::builder(args.common.model.load()?)
+    let name = args.common.model(args.effort.into());
+    let planner = Planner::builder(name.load()?)
         .effort(args.effort.into())
         .seed(args.seed)
-        .outside(outside)
+        .outside(args.common.outside.outside())
         .build();
     let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
     let mut settings = json!({
@@ -63,7 +63,7 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
     });
     args.common.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, tasks.len(), args.seed, planner.model().name())
-        .with_weights(weights_digest(&args.common.model)?)
+        .with_weights(weights_digest(&name)?)
         .with_settings(settings);
     let store = args.keep.measure(session, manifest, |index| {
         let task = &tasks[index];
