@@ -20,6 +20,9 @@ pub struct Touch {
     pub object: usize,
     /// What it touches.
     pub with: Body,
+    /// How deep they are inside each other as the frame begins, metres; negative before they
+    /// touch.
+    pub depth: f64,
 }
 
 /// Feature tables of a batch of graphs. N nodes, R relations.

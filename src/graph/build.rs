@@ -99,9 +99,11 @@ pub fn add_graph(
             };
             let (even, odd) = relation_features(&batch.nodes[receiver], relation);
             batch.push_relation(receiver as u32, sender, even, odd);
-            if overlap(relation) > 0.0 {
+            if let Tie::Contact { overlap, gap, .. } = relation.tie
+                && overlap > 0.0
+            {
                 let object = view.number(relation.receiver);
-                batch.touches.push(Touch { graph, object, with });
+                batch.touches.push(Touch { graph, object, with, depth: -gap });
             }
         }
     }

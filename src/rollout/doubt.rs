@@ -6,9 +6,9 @@ use crate::{
     scene::{Body, JointKind, State},
 };
 
-/// Bodies that end deeper inside each other than this are worth a word, metres. What the network
+/// Bodies deeper inside each other than this are worth a word, metres. What the network
 /// leaves of an overlap in sound predictions is mostly below half a millimetre.
-const DEEP: f64 = 0.002;
+pub(super) const DEEP: f64 = 0.002;
 
 /// Joints that end farther from what they allow are worth a word, metres: a thousand times what
 /// the projection leaves where it converges.

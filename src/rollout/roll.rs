@@ -90,10 +90,8 @@ impl Roller {
             }
             correct(batch, corrections);
             apply(batch, corrections, motions);
-            if record == Record::Frames {
-                for touch in &batch.touches {
-                    runs[touch.graph as usize].touch(touch.object, touch.with);
-                }
+            for touch in &batch.touches {
+                runs[touch.graph as usize].touch(touch);
             }
             for (run, motions) in runs.iter_mut().zip(&*motions) {
                 run.advance(motions);

@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{Pose, Vector},
-    graph::{Batch, Bodies, Motion, Movable, Subset, add_graph},
+    graph::{Batch, Bodies, Motion, Movable, Subset, Touch, add_graph},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
         Scene, State, Stroke, Trajectory, Velocity, Warning,
@@ -10,7 +10,7 @@ use crate::{
 };
 
 use super::{
-    doubt::{deepest_overlap, loosest_joint, set_down_on},
+    doubt::{DEEP, deepest_overlap, loosest_joint, set_down_on},
     integrate::integrate,
     reach::{Course, Reach},
     roll::RollSettings,
@@ -54,6 +54,8 @@ pub(super) struct Run<'a> {
     step: Option<FrameStep>,
     /// How many of the stroke's frames it stands for.
     span: usize,
+    /// The deepest overlap met on the way, see [`deepest_overlap`].
+    deepest: Option<(usize, Body, f64)>,
     trajectory: Trajectory,
 }
 
@@ -83,6 +85,7 @@ impl<'a> Run<'a> {
             axis: Vector::x(),
             step: None,
             span: 1,
+            deepest: None,
             trajectory: Trajectory::default(),
         };
         if record == Record::Frames {
@@ -195,7 +198,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Notes what the end shows that no real table does.
+    /// Notes what the way and its end show that no real table does.
     fn doubt(&mut self) {
         let Some(stroke) = self.job.motion.strokes.last() else { return };
         let Scene { objects, obstacles, .. } = self.scene;
@@ -208,8 +211,9 @@ impl<'a> Run<'a> {
                 format!("{}/{}", tool.name, tool.parts[k].name)
             }
         };
-        let overlap = deepest_overlap(self.whole, &self.state, &stroke.to, moved);
-        let overlap = overlap.map(|(object, with, depth)| Warning::Overlap {
+        let end = deepest_overlap(self.whole, &self.state, &stroke.to, moved);
+        let deepest = [self.deepest, end].into_iter().flatten().max_by(|a, b| a.2.total_cmp(&b.2));
+        let overlap = deepest.map(|(object, with, depth)| Warning::Overlap {
             between: [name(Body::Object(object)), name(with)],
             depth,
         });
@@ -314,14 +318,25 @@ impl<'a> Run<'a> {
     }
 
     /// Notes a contact; bodies under their numbers in the subset, parts in theirs.
-    pub fn touch(&mut self, object: usize, with: Body) {
+    pub fn touch(&mut self, touch: &Touch) {
+        // What the tool is set down on, or what overlaps at the start, is no fault of the model.
+        let deep = self.frame > 0 && touch.depth > self.deepest.map_or(DEEP, |(_, _, most)| most);
+        if !deep && self.record != Record::Frames {
+            return;
+        }
         let Subset { objects, parts, obstacles, .. } = &self.memory.subset;
-        let object = objects[object];
-        let with = match with {
+        let object = objects[touch.object];
+        let with = match touch.with {
             Body::Object(k) => Body::Object(objects[k]),
             Body::Part(k) => Body::Part(parts[k]),
             Body::Obstacle(k) => Body::Obstacle(obstacles[k]),
         };
+        if deep {
+            self.deepest = Some((object, with, touch.depth));
+        }
+        if self.record != Record::Frames {
+            return;
+        }
         let known = self.trajectory.contacts.iter().any(|c| c.object == object && c.with == with);
         if !known {
             let frame = self.trajectory.frames.len();

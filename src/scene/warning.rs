@@ -40,7 +40,8 @@ pub enum Warning {
         /// Index of the stroke that the tool came down for.
         stroke: usize,
     },
-    /// Two bodies ended inside each other, which the model could not undo.
+    /// Two bodies came inside each other: pressed together by what does not give way, or left
+    /// so by the model.
     Overlap {
         /// Their names.
         between: [String; 2],
