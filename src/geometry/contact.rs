@@ -5,7 +5,7 @@
 //! because the graph needs both points also at a distance, with the same numbers in either
 //! argument order, and a batch of them for every step of every rollout.
 
-use super::{Footprint, Pose, Vector};
+use super::{Footprint, Pose, Turn, Vector};
 
 /// Points of one pair that lie closer together than this are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
@@ -108,11 +108,13 @@ fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint
 }
 
 fn disc_rectangle(centre: Vector, radius: f64, pose: &Pose, half: Vector) -> ContactPoint {
-    let (boundary, normal, distance) = nearest_on_rectangle(pose.local_point(centre), half);
-    let on_second = pose.point(boundary);
+    let turn = pose.turn();
+    let local = turn.back(centre - pose.position);
+    let (boundary, normal, distance) = nearest_on_rectangle(local, half);
+    let on_second = pose.position + turn.of(boundary);
     let follows =
         if is_corner(normal) { Follows::Between(centre, on_second) } else { Follows::Second };
-    let normal = pose.vector(normal);
+    let normal = turn.of(normal);
     ContactPoint {
         on_first: centre - normal * radius,
         on_second,
@@ -157,15 +159,10 @@ fn rectangle_rectangle(
     reach: f64,
 ) -> ([Option<ContactPoint>; 2], usize) {
     // The relative pose once, so that eight corners cost no further sine.
-    let b_in_a = a.inverse() * *b;
-    let (sin, cos) = b_in_a.heading.sin_cos();
-    let to_a =
-        |p: Vector| b_in_a.position + Vector::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
-    let to_b = |p: Vector| {
-        let q = p - b_in_a.position;
-        Vector::new(cos * q.x + sin * q.y, -sin * q.x + cos * q.y)
-    };
-    let turn_to_a = |v: Vector| Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+    let turn = a.turn();
+    let (b_from_a, b_turn) = (turn.back(b.position - a.position), Turn::by(b.heading - a.heading));
+    let to_a = |p: Vector| b_from_a + b_turn.of(p);
+    let to_b = |p: Vector| b_turn.back(p - b_from_a);
 
     const CORNERS: [(f64, f64); 4] = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
     // Candidates in the frame of `a`: (on a, on b, normal from b into a, gap, what it follows).
@@ -176,7 +173,7 @@ fn rectangle_rectangle(
         let corner = Vector::new(x * half_a.x, y * half_a.y);
         let (boundary, normal, distance) = nearest_on_rectangle(to_b(corner), half_b);
         let follows = if is_corner(normal) { nothing } else { Follows::Second };
-        found[k] = (corner, to_a(boundary), turn_to_a(normal), distance, follows);
+        found[k] = (corner, to_a(boundary), b_turn.of(normal), distance, follows);
         let corner = to_a(Vector::new(x * half_b.x, y * half_b.y));
         let (boundary, normal, distance) = nearest_on_rectangle(corner, half_a);
         let follows = if is_corner(normal) { nothing } else { Follows::First };
@@ -209,9 +206,9 @@ fn rectangle_rectangle(
         }
     };
     let world = |p: (Vector, Vector, Vector, f64, Follows)| ContactPoint {
-        on_first: a.point(p.0),
-        on_second: a.point(p.1),
-        normal: a.vector(p.2),
+        on_first: a.position + turn.of(p.0),
+        on_second: a.position + turn.of(p.1),
+        normal: turn.of(p.2),
         gap: p.3,
         follows: led(p),
     };

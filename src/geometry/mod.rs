@@ -8,9 +8,11 @@ mod clearance;
 mod contact;
 mod pose;
 mod shape;
+mod turn;
 
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, Follows, contact_points};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use shape::{Footprint, Shape};
+pub use turn::Turn;

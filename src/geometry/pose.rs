@@ -4,6 +4,8 @@ use std::ops::Mul;
 
 use serde::{Deserialize, Serialize};
 
+use super::Turn;
+
 /// A planar vector or position, metres.
 pub type Vector = nalgebra::Vector2<f64>;
 
@@ -25,6 +27,11 @@ impl Pose {
         Self { position: Vector::new(x, y), heading }
     }
 
+    /// The turn by its heading.
+    pub fn turn(&self) -> Turn {
+        Turn::by(self.heading)
+    }
+
     /// Maps a point of this pose's frame into the parent frame, metres.
     pub fn point(&self, local: Vector) -> Vector {
         self.position + self.vector(local)
@@ -32,8 +39,7 @@ impl Pose {
 
     /// Turns a vector of this pose's frame into the parent frame, without shifting it.
     pub fn vector(&self, local: Vector) -> Vector {
-        let (sin, cos) = self.heading.sin_cos();
-        Vector::new(cos * local.x - sin * local.y, sin * local.x + cos * local.y)
+        self.turn().of(local)
     }
 
     /// Maps a point of the parent frame into this pose's frame, metres.
@@ -43,8 +49,7 @@ impl Pose {
 
     /// Turns a vector of the parent frame into this pose's frame, without shifting it.
     pub fn local_vector(&self, vector: Vector) -> Vector {
-        let (sin, cos) = self.heading.sin_cos();
-        Vector::new(cos * vector.x + sin * vector.y, -sin * vector.x + cos * vector.y)
+        self.turn().back(vector)
     }
 
     /// The pose that undoes this one.

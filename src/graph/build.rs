@@ -62,8 +62,11 @@ pub fn add_graph(
     if !awake.is_empty() {
         let view = awake.view(bodies, state, motions, contacts);
         let View { bodies, state, coasts, .. } = view;
-        prior.solve(bodies, state, step, axis, coasts, contacts);
-        if bodies.objects.len() > 1 {
+        if let [_] = bodies.objects[..] {
+            prior.solve(bodies, state, step, axis, coasts, contacts);
+        } else {
+            // The forces of the frame as a whole are what relations tell the network.
+            prior.press(bodies, state, step, axis, coasts, contacts);
             let scenery = Scenery { bodies, state, step, coasts };
             march.run(scenery, contacts, axis, PIECES, &mut prior.motions);
         }

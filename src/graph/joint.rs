@@ -51,14 +51,13 @@ impl Rows {
     }
 }
 
-/// The rows of a joint between different groups when `share` of their present motion is done:
-/// first its own, then its limits. How many there are depends on the start of the frame alone.
+/// The rows of a joint between different groups where these have come to: first its own, then its limits. How many there are depends on the start of the frame alone.
 pub(super) fn rows(
     bodies: &Bodies,
     state: &State,
     joint: &Jointed,
     axis: Vector,
-    (unknowns, share): (&[Unknown], f64),
+    unknowns: &[Unknown],
     mut add: impl FnMut(Rows),
 ) {
     let between = joint.between.map(|object| bodies.groups.of[object]);
@@ -75,10 +74,10 @@ pub(super) fn rows(
     };
     let groups = between.map(|group| &unknowns[group]);
     let [on_first, on_second] = [0, 1].map(|end| Pose {
-        position: groups[end].moved(starts[end].position, share),
-        heading: starts[end].heading + share * groups[end].twist.z,
+        position: groups[end].moved(starts[end].position),
+        heading: starts[end].heading + groups[end].share * groups[end].twist.z,
     });
-    let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre, share));
+    let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre));
     let turn = Vector3::new(0.0, 0.0, ARM);
     let none = Vector3::zeros();
     let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });

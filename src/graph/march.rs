@@ -24,7 +24,7 @@ pub(super) struct March {
 }
 
 impl March {
-    /// Replaces the `motions` of all bodies in the frame by those of `pieces` smaller steps.
+    /// The `motions` of all objects in the frame, by `pieces` smaller steps.
     ///
     /// Only pairs that have one of the frame's `known` contacts can touch. So nothing can enter
     /// that the frame as a whole does not know of, however fast a thing becomes within it.
@@ -34,7 +34,7 @@ impl March {
         known: &[Contact],
         axis: Vector,
         pieces: usize,
-        motions: &mut [Motion],
+        motions: &mut Vec<Motion>,
     ) {
         let Self { prior, state: now, coasts, contacts } = self;
         now.clone_from(state);
@@ -57,13 +57,12 @@ impl March {
                 now.velocities[k].angular = motion.spin;
             }
         }
-        for (k, motion) in motions.iter_mut().enumerate() {
-            *motion = Motion {
-                shift: now.poses[k].position - state.poses[k].position,
-                turn: now.poses[k].heading - state.poses[k].heading,
-                velocity: now.velocities[k].linear,
-                spin: now.velocities[k].angular,
-            };
-        }
+        motions.clear();
+        motions.extend((0..now.poses.len()).map(|k| Motion {
+            shift: now.poses[k].position - state.poses[k].position,
+            turn: now.poses[k].heading - state.poses[k].heading,
+            velocity: now.velocities[k].linear,
+            spin: now.velocities[k].angular,
+        }));
     }
 }

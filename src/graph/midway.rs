@@ -6,7 +6,7 @@
 //! (|q| - |p|) = (q - p) . (p + q) / (|p| + |q|) and the last factor is the direction half-way.
 
 use crate::{
-    geometry::{Follows, Footprint, Vector},
+    geometry::{Follows, Footprint, Turn, Vector},
     scene::{Body, State},
 };
 
@@ -27,7 +27,7 @@ pub(super) struct Midway {
     pub other_arm: Vector,
 }
 
-/// `contact` when `share` of the groups' present twists is done.
+/// `contact` where the groups have come to, when `share` of the frame is done.
 pub(super) fn midway(
     bodies: &Bodies,
     state: &State,
@@ -52,19 +52,21 @@ pub(super) fn midway(
                 _ => Footprint::Rectangle { half: Vector::zeros() },
             };
             let radius = if let Footprint::Disc { radius } = footprint { radius } else { 0.0 };
-            let moves = Moves::Given { about: point, by: contact.given, turn: contact.given_turn };
+            let turn = Turn::by(share * contact.given_turn);
+            let moves = Moves::Given { about: point, by: share * contact.given, turn };
             Side::new(footprint, moves, point, point - radius * normal)
         }
     };
     let normal = match contact.follows {
         Follows::Nothing => contact.normal,
-        Follows::First => turned(contact.normal, share * first.moves.turn()),
-        Follows::Second => turned(contact.normal, share * second.moves.turn()),
+        Follows::First => first.moves.turn().of(contact.normal),
+        Follows::Second => second.moves.turn().of(contact.normal),
         Follows::Both => {
-            turned(contact.normal, share * 0.5 * (first.moves.turn() + second.moves.turn()))
+            let [first, second] = [first, second].map(|side| side.moves.turn().of(contact.normal));
+            (first + second).normalize()
         }
         Follows::Between(p, q) => {
-            let between = first.moves.moved(p, share) - second.moves.moved(q, share);
+            let between = first.moves.moved(p) - second.moves.moved(q);
             let (before, now) = ((p - q).norm(), between.norm());
             let usable = before.min(now) > NEAR && between.dot(&contact.normal) > 0.5 * now;
             if usable { between / now } else { contact.normal }
@@ -72,48 +74,46 @@ pub(super) fn midway(
     };
     // A face is met wherever the other's point has come to.
     let (p, q) = match contact.follows {
-        Follows::First => (second.point(share, normal), second.point(share, normal)),
-        Follows::Second => (first.point(share, -normal), first.point(share, -normal)),
-        _ => (first.point(share, -normal), second.point(share, normal)),
+        Follows::First => (second.point(normal), second.point(normal)),
+        Follows::Second => (first.point(-normal), first.point(-normal)),
+        _ => (first.point(-normal), second.point(normal)),
     };
-    Midway { normal, arm: p - first.moves.centre(share), other_arm: q - second.moves.centre(share) }
+    Midway { normal, arm: p - first.moves.centre(), other_arm: q - second.moves.centre() }
 }
 
 /// How one of the two bodies moves.
 #[derive(Clone, Copy)]
 enum Moves<'a> {
     With(&'a Unknown),
-    /// By itself: a point of it, the displacement of that, and the turn in the frame.
+    /// By itself: a point of it, how far that has come, and the turn.
     Given {
         about: Vector,
         by: Vector,
-        turn: f64,
+        turn: Turn,
     },
 }
 
 impl Moves<'_> {
-    fn turn(&self) -> f64 {
+    fn turn(&self) -> Turn {
         match self {
-            Self::With(unknown) => unknown.twist.z,
+            Self::With(unknown) => unknown.turn,
             Self::Given { turn, .. } => *turn,
         }
     }
 
     /// Where a point of the body has come to.
-    fn moved(&self, point: Vector, share: f64) -> Vector {
+    fn moved(&self, point: Vector) -> Vector {
         match self {
-            Self::With(unknown) => unknown.moved(point, share),
-            Self::Given { about, by, turn } => {
-                about + share * by + turned(point - about, share * turn)
-            }
+            Self::With(unknown) => unknown.moved(point),
+            Self::Given { about, by, turn } => about + by + turn.of(point - about),
         }
     }
 
     /// Where the point has come to that arms are counted from.
-    fn centre(&self, share: f64) -> Vector {
+    fn centre(&self) -> Vector {
         match self {
-            Self::With(unknown) => unknown.moved(unknown.centre, share),
-            Self::Given { about, by, .. } => about + share * by,
+            Self::With(unknown) => unknown.moved(unknown.centre),
+            Self::Given { about, by, .. } => about + by,
         }
     }
 }
@@ -139,15 +139,10 @@ impl<'a> Side<'a> {
 
     /// The contact point on the body: a disc rolls beneath its own, `outward` being the
     /// direction from its centre; a corner takes it along.
-    fn point(&self, share: f64, outward: Vector) -> Vector {
+    fn point(&self, outward: Vector) -> Vector {
         match self.round {
-            Some((centre, radius)) => self.moves.moved(centre, share) + radius * outward,
-            None => self.moves.moved(self.point, share),
+            Some((centre, radius)) => self.moves.moved(centre) + radius * outward,
+            None => self.moves.moved(self.point),
         }
     }
-}
-
-fn turned(v: Vector, angle: f64) -> Vector {
-    let (sin, cos) = angle.sin_cos();
-    Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
 }

@@ -49,7 +49,22 @@ impl Prior {
         coasts: &[Motion],
         contacts: &[Contact],
     ) {
-        let Self { system, joints, velocities, .. } = self;
+        self.press(bodies, state, step, axis, coasts, contacts);
+        self.release(bodies, state, step.duration, axis, coasts, contacts);
+        self.collect(bodies, state, coasts, step.duration);
+    }
+
+    /// The displacements and what forces make them; the motions are not touched.
+    pub fn press(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        step: &FrameStep,
+        axis: Vector,
+        coasts: &[Motion],
+        contacts: &[Contact],
+    ) {
+        let Self { system, joints, .. } = self;
         let duration = step.duration;
         let travel = (step.to.position - step.from.position).norm();
         let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
@@ -71,13 +86,14 @@ impl Prior {
         let System { unknowns, constraints, ties, .. } = &mut *system;
         for joint in &bodies.joints {
             let before = ties.len();
-            rows(bodies, state, joint, axis, (unknowns, HALF), |rows| match rows.limit {
+            rows(bodies, state, joint, axis, unknowns, |rows| match rows.limit {
                 true => constraints.push(rows.constraint()),
                 false => ties.push(rows.tie()),
             });
             joints.push((ties.len() > before).then_some(before));
         }
         system.solve(bodies, state, coasts, duration, |constraints, ties, unknowns| {
+            unknowns.iter_mut().for_each(|unknown| unknown.part(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
                 let at = midway(bodies, state, contact, unknowns, HALF);
                 face(contact, &at, constraint);
@@ -87,12 +103,25 @@ impl Prior {
                 ];
             }
             let limits = &mut constraints[contacts.len()..];
-            turn_joints(bodies, state, axis, (unknowns, HALF), ties, limits);
+            turn_joints(bodies, state, axis, unknowns, ties, limits);
         });
-        // The velocities at the frame's end: the same equations for v T, with everything where
-        // it has come to, in which what has come into contact stays there.
+    }
+
+    /// The velocities at the frame's end: the same equations for v T, with everything where it
+    /// has come to, in which what has come into contact stays there.
+    fn release(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        duration: f64,
+        axis: Vector,
+        coasts: &[Motion],
+        contacts: &[Contact],
+    ) {
+        let Self { system, velocities, .. } = self;
         velocities.quantity = Quantity::Velocity;
         velocities.continue_from(system, bodies, state, coasts, duration);
+        system.unknowns.iter_mut().for_each(|unknown| unknown.part(WHOLE));
         let ended = &system.unknowns;
         for (contact, constraint) in contacts.iter().zip(&mut velocities.constraints) {
             let end = midway(bodies, state, contact, ended, WHOLE);
@@ -102,7 +131,7 @@ impl Prior {
         }
         let System { constraints, ties, .. } = &mut *velocities;
         let limits = &mut constraints[contacts.len()..];
-        turn_joints(bodies, state, axis, (ended, WHOLE), ties, limits);
+        turn_joints(bodies, state, axis, ended, ties, limits);
         limits.iter_mut().for_each(|limit| limit.target = [0.0; 2]);
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         for constraint in constraints {
@@ -111,7 +140,6 @@ impl Prior {
             }
         }
         velocities.solve(bodies, state, coasts, duration, |_, _, _| {});
-        self.collect(bodies, state, coasts, duration);
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is
@@ -128,8 +156,7 @@ impl Prior {
             }
             let arm = state.poses[k].position - unknown.centre;
             let twist = &unknown.twist;
-            let (sin, cos) = twist.z.sin_cos();
-            let turned = Vector::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
+            let turned = unknown.turn.of(arm);
             let end = &self.velocities.unknowns[group].twist;
             self.motions.push(Motion {
                 shift: Vector::new(twist.x, twist.y) + turned - arm,
@@ -172,19 +199,18 @@ impl Prior {
     }
 }
 
-/// Turns the rows of all joints, and of their limits, to where they are when `share` of the
-/// groups' motion is done.
+/// Turns the rows of all joints, and of their limits, to where the groups have come to.
 fn turn_joints(
     bodies: &Bodies,
     state: &State,
     axis: Vector,
-    (unknowns, share): (&[Unknown], f64),
+    unknowns: &[Unknown],
     ties: &mut [Tie],
     limits: &mut [Constraint],
 ) {
     let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
     for joint in &bodies.joints {
-        rows(bodies, state, joint, axis, (unknowns, share), |rows| {
+        rows(bodies, state, joint, axis, unknowns, |rows| {
             if rows.limit {
                 limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
             } else {

@@ -102,14 +102,14 @@ impl System {
         state: &State,
         coasts: &[Motion],
         duration: f64,
-        mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &[Unknown]),
+        mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
         self.find_mechanisms();
         for update in 0..UPDATES {
             if update > 0 {
                 self.weigh(bodies, state, coasts, duration);
             }
-            turn(&mut self.constraints, &mut self.ties, &self.unknowns);
+            turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
             self.before.extend(self.unknowns.iter().map(|unknown| unknown.twist));
             self.iterate();

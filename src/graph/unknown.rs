@@ -15,7 +15,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::{geometry::Vector, scene::State};
+use crate::{
+    geometry::{Turn, Vector},
+    scene::State,
+};
 
 use super::{
     bodies::{Bodies, Motion, Movable},
@@ -64,6 +67,9 @@ pub(super) struct Unknown {
     pub twist: Vector3<f64>,
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
+    /// The share of its motion that is looked at, see [`Self::part`], and the turn then.
+    pub share: f64,
+    pub turn: Turn,
 }
 
 impl Unknown {
@@ -76,16 +82,20 @@ impl Unknown {
             free: Vector3::zeros(),
             twist: Vector3::zeros(),
             pressed: Vector3::zeros(),
+            share: 0.0,
+            turn: Turn::NONE,
         }
     }
 
-    /// Where a point of the group has come to when `share` of its motion is done.
-    pub fn moved(&self, point: Vector, share: f64) -> Vector {
-        let (sin, cos) = (share * self.twist.z).sin_cos();
-        let arm = point - self.centre;
-        self.centre
-            + share * Vector::new(self.twist.x, self.twist.y)
-            + Vector::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y)
+    /// Looks at the group when `share` of its present motion is done.
+    pub fn part(&mut self, share: f64) {
+        self.share = share;
+        self.turn = Turn::by(share * self.twist.z);
+    }
+
+    /// Where a point of the group has come to then.
+    pub fn moved(&self, point: Vector) -> Vector {
+        self.centre + self.share * self.twist.xy() + self.turn.of(point - self.centre)
     }
 
     /// Resistance and free motion when its members move as they do now, or by `reach` metres
