@@ -23,7 +23,8 @@ use super::{
 #[derive(Args, Debug)]
 #[command(
     after_help = "The folder holds the run: checkpoint.safetensors to go on from, metrics.jsonl, curves.svg, and
-best.safetensors, the weights with the lowest held-out error. Ctrl-C saves and stops; the same
+best.safetensors, the weights with the lowest held-out error, and last.safetensors, those of the
+last evaluation: often the better ones once the schedule is through. Ctrl-C saves and stops; the same
 command then goes on, to the same bits as a run that never stopped.
 
 Examples:
@@ -79,7 +80,8 @@ pub struct TrainArgs {
     /// Largest shift of noisy inputs, metres
     #[arg(long, value_name = "X", default_value_t = Settings::default().noise.shift)]
     noise: f64,
-    /// Largest number of frames that the network's own rollout leads up to an example
+    /// Largest number of frames that the network's own rollout leads up to an example; none by
+    /// default, as the corrections wanted are those at the true state either way
     #[arg(long, value_name = "N", default_value_t = Settings::default().noise.lead)]
     lead: usize,
     /// How that number is drawn

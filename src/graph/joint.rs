@@ -123,3 +123,24 @@ pub(super) fn rows(
         }
     }
 }
+
+/// Turns the rows of all joints, and of their limits, to where the groups have come to.
+pub(super) fn turn_joints(
+    bodies: &Bodies,
+    state: &State,
+    axis: Vector,
+    unknowns: &[Unknown],
+    ties: &mut [Tie],
+    limits: &mut [Constraint],
+) {
+    let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
+    for joint in &bodies.joints {
+        rows(bodies, state, joint, axis, unknowns, |rows| {
+            if rows.limit {
+                limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
+            } else {
+                ties.next().into_iter().for_each(|tie| rows.turn_tie(tie));
+            }
+        });
+    }
+}

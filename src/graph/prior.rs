@@ -10,9 +10,9 @@ use crate::{
 
 use super::{
     bodies::{Bodies, Motion},
-    constraint::{Constraint, GIVEN, Law, Tie, along, shift},
+    constraint::{Constraint, GIVEN, Law, along, shift},
     contact::Contact,
-    joint::rows,
+    joint::{rows, turn_joints},
     midway::{Midway, midway},
     system::System,
     unknown::{Quantity, Unknown},
@@ -196,27 +196,6 @@ impl Prior {
         let unknown = &self.system.unknowns[group];
         let twist = unknown.inverse * pressed;
         (shift(&twist, position - unknown.centre), twist.z)
-    }
-}
-
-/// Turns the rows of all joints, and of their limits, to where the groups have come to.
-fn turn_joints(
-    bodies: &Bodies,
-    state: &State,
-    axis: Vector,
-    unknowns: &[Unknown],
-    ties: &mut [Tie],
-    limits: &mut [Constraint],
-) {
-    let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
-    for joint in &bodies.joints {
-        rows(bodies, state, joint, axis, unknowns, |rows| {
-            if rows.limit {
-                limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
-            } else {
-                ties.next().into_iter().for_each(|tie| rows.turn_tie(tie));
-            }
-        });
     }
 }
 

@@ -20,7 +20,8 @@ use crate::scene::{
 use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
-    ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, centre, is_articulated,
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, STIFF_CONTACT, centre, is_articulated,
+    needs_stiff_contacts,
 };
 use super::support::Support;
 
@@ -62,7 +63,7 @@ impl World for PlanarWorld {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(scene),
+            world: empty_world(scene, parameters),
             origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
@@ -258,14 +259,16 @@ impl PlanarWorld {
     }
 }
 
-fn empty_world(scene: &Scene) -> PhysicsWorld {
+fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
-    if is_articulated(scene) {
+    let articulated = is_articulated(scene);
+    if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    let (frequency, damping) = PLANAR_CONTACT;
+    let stiff = articulated || needs_stiff_contacts(&parameters.masses);
+    let (frequency, damping) = if stiff { STIFF_CONTACT } else { PLANAR_CONTACT };
     settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world
 }

@@ -16,7 +16,7 @@ pub struct HeldOutError {
     pub median: f64,
     /// 95th percentile, metres.
     pub p95: f64,
-    /// Mean with every error capped at 30 mm, metres: what decides which weights are best,
+    /// Mean with every error capped at 10 mm, metres: what decides which weights are best,
     /// because a handful of pushes that end differently by chance otherwise would.
     pub capped: f64,
     /// Mean heading error of cuboids, radians.

@@ -130,10 +130,11 @@ pub fn train(
                 seconds: started.elapsed().as_secs_f64(),
                 held_out: error.clone(),
             };
+            let bytes = weights(&run, data, Some(&error)).to_bytes()?;
+            write_atomic(folder.join("last.safetensors"), &bytes)?;
             if run.best.as_ref().is_none_or(|best| error.capped < best.capped) {
-                run.best = Some(error.clone());
-                let best = weights(&run, data, Some(&error));
-                write_atomic(folder.join("best.safetensors"), &best.to_bytes()?)?;
+                run.best = Some(error);
+                write_atomic(folder.join("best.safetensors"), &bytes)?;
             }
             log.write(&line)?;
             save(&run, &path)?;
