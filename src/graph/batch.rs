@@ -1,6 +1,6 @@
 //! Many graphs side by side, as flat feature tables: what the network reads.
 
-use crate::scene::Body;
+use crate::{geometry::Vector, scene::Body};
 
 use super::{
     build::Scratch,
@@ -23,6 +23,8 @@ pub struct Touch {
     /// How deep they are inside each other as the frame begins, metres; negative before they
     /// touch.
     pub depth: f64,
+    /// Unit, into the object.
+    pub normal: Vector,
 }
 
 /// Feature tables of a batch of graphs. N nodes, R relations.

@@ -102,11 +102,11 @@ pub fn add_graph(
             };
             let (even, odd) = relation_features(&batch.nodes[receiver], relation);
             batch.push_relation(receiver as u32, sender, even, odd);
-            if let Tie::Contact { overlap, gap, .. } = relation.tie
+            if let Tie::Contact { overlap, gap, normal, .. } = relation.tie
                 && overlap > 0.0
             {
                 let object = view.number(relation.receiver);
-                batch.touches.push(Touch { graph, object, with, depth: -gap });
+                batch.touches.push(Touch { graph, object, with, depth: -gap, normal });
             }
         }
     }

@@ -22,7 +22,8 @@ Ordinary pushes break the rule now and then, too (last column of the first table
 wrong when more than a tenth of its pushes are. Flagged is a push that the model warned of, before
 the rollout or during it. A cell is a DEFECT if more than a tenth of its pushes are wrong and not
 flagged, if an answer is not finite, or if an object ends farther away than the tool could send it.
-Where the engine itself is known to be wrong (\u{2020}) every push must be flagged.
+Where the engine itself is known to be wrong (\u{2020}) every push must be flagged; in front of a wall
+that is where the object truly touches both tool and wall.
 ";
 
 /// What the cells are measured by.

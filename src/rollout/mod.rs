@@ -7,6 +7,7 @@
 mod doubt;
 mod hold;
 mod integrate;
+mod pressing;
 mod reach;
 mod roll;
 mod run;

@@ -12,6 +12,7 @@ use crate::{
 use super::{
     doubt::{DEEP, deepest_overlap, loosest_joint, set_down_on},
     integrate::integrate,
+    pressing::Pressing,
     reach::{Course, Reach},
     roll::RollSettings,
     work::Work,
@@ -56,6 +57,7 @@ pub(super) struct Run<'a> {
     span: usize,
     /// The deepest overlap met on the way, see [`deepest_overlap`].
     deepest: Option<(usize, Body, f64)>,
+    pressing: Pressing,
     trajectory: Trajectory,
 }
 
@@ -86,6 +88,7 @@ impl<'a> Run<'a> {
             step: None,
             span: 1,
             deepest: None,
+            pressing: Pressing::default(),
             trajectory: Trajectory::default(),
         };
         if record == Record::Frames {
@@ -222,6 +225,11 @@ impl<'a> Run<'a> {
             between: between.map(|k| name(Body::Object(k))),
             distance,
         });
+        let pressed = self.pressing.found.map(|(object, between)| Warning::Pressed {
+            object: objects[object].name.clone(),
+            between: between.map(name),
+        });
+        self.trajectory.warnings.extend(pressed);
         self.trajectory.warnings.extend(overlap);
         self.trajectory.warnings.extend(loose);
     }
@@ -260,6 +268,7 @@ impl<'a> Run<'a> {
     /// one, with a warning.
     pub fn advance(&mut self, motions: &[Motion]) {
         let Some(step) = self.step else { return };
+        self.pressing.begin();
         let Memory { subset, state, before, .. } = &mut *self.memory;
         before.clone_from(state);
         integrate(&subset.bodies, state, motions, &step);
@@ -321,9 +330,6 @@ impl<'a> Run<'a> {
     pub fn touch(&mut self, touch: &Touch) {
         // What the tool is set down on, or what overlaps at the start, is no fault of the model.
         let deep = self.frame > 0 && touch.depth > self.deepest.map_or(DEEP, |(_, _, most)| most);
-        if !deep && self.record != Record::Frames {
-            return;
-        }
         let Subset { objects, parts, obstacles, .. } = &self.memory.subset;
         let object = objects[touch.object];
         let with = match touch.with {
@@ -331,6 +337,10 @@ impl<'a> Run<'a> {
             Body::Part(k) => Body::Part(parts[k]),
             Body::Obstacle(k) => Body::Obstacle(obstacles[k]),
         };
+        if let Some(step) = &self.step {
+            let travel = step.to.position - step.from.position;
+            self.pressing.touch(object, with, touch.depth, touch.normal, travel);
+        }
         if deep {
             self.deepest = Some((object, with, touch.depth));
         }

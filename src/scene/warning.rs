@@ -40,6 +40,13 @@ pub enum Warning {
         /// Index of the stroke that the tool came down for.
         stroke: usize,
     },
+    /// An object was pressed between the tool and an obstacle.
+    Pressed {
+        /// Its name.
+        object: String,
+        /// The names of the part and the obstacle.
+        between: [String; 2],
+    },
     /// Two bodies came inside each other: pressed together by what does not give way, or left
     /// so by the model.
     Overlap {
@@ -77,6 +84,7 @@ impl Warning {
     pub fn forbids_success(&self) -> bool {
         match self {
             Warning::OutsideTraining { .. }
+            | Warning::Pressed { .. }
             | Warning::Overlap { .. }
             | Warning::LooseJoint { .. }
             | Warning::Differs { .. }
@@ -94,6 +102,7 @@ impl Warning {
         matches!(
             self,
             Warning::OutsideTraining { .. }
+                | Warning::Pressed { .. }
                 | Warning::Overlap { .. }
                 | Warning::LooseJoint { .. }
                 | Warning::NotFinite
@@ -106,6 +115,9 @@ impl Warning {
             Warning::OutsideTraining { of, quantity, value, low, high } => format!(
                 "{of}: {quantity} = {value:.4} is outside the trained range {low:.4} to {high:.4}"
             ),
+            Warning::Pressed { object, between: [a, b] } => {
+                format!("{object} is pressed between {a} and {b}")
+            }
             Warning::Overlap { between: [a, b], depth } => {
                 format!("{a} and {b} are predicted {:.1} mm inside each other", depth * 1e3)
             }
@@ -125,6 +137,11 @@ impl fmt::Display for Warning {
             Warning::OutsideTraining { .. } => write!(
                 f,
                 "{}; predictions may be wrong, `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Pressed { .. } => write!(
+                f,
+                "{}; where it goes then nobody can tell, `--outside simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(

@@ -15,7 +15,15 @@ pub(super) struct Cell {
     /// The pushes.
     pub cases: Vec<Case>,
     /// Why the planar engine cannot be trusted here either, where that is known.
-    pub doubt: Option<&'static str>,
+    pub doubt: Option<Doubt>,
+}
+
+/// Why, and in which pushes, the planar engine is not to be trusted.
+#[derive(Clone, Copy)]
+pub(super) struct Doubt {
+    pub why: &'static str,
+    /// Only where an object touches the tool and an obstacle.
+    pub crushed: bool,
 }
 
 impl Cell {
@@ -30,6 +38,12 @@ impl Cell {
 
     /// The same cell with a truth that is not to be trusted.
     pub fn doubted(self, why: &'static str) -> Self {
-        Self { doubt: Some(why), ..self }
+        Self { doubt: Some(Doubt { why, crushed: false }), ..self }
+    }
+
+    /// The same cell with a truth that is not to be trusted where an object touches the tool and
+    /// an obstacle.
+    pub fn doubted_if_crushed(self, why: &'static str) -> Self {
+        Self { doubt: Some(Doubt { why, crushed: true }), ..self }
     }
 }

@@ -125,7 +125,7 @@ fn walls(draw: &Draw, cells: &mut Vec<Cell>) {
                 Solid::Cuboid => ExtremeKind::Cuboid,
             };
             let cell = Cell::new("a wall ahead", name, kind, cases);
-            cells.push(if gap < 0.18 { cell.doubted(CRUSHED) } else { cell });
+            cells.push(if gap < 0.18 { cell.doubted_if_crushed(CRUSHED) } else { cell });
         }
     }
 }

@@ -17,7 +17,8 @@ use crate::{
     effect::EffectModel,
     geometry::{Vector, wrap_angle},
     scene::{
-        COAST_FRAME, Job, MAX_COAST_FRAMES, Record, Scene, State, ToolMotion, Trajectory, Warning,
+        Body, COAST_FRAME, Job, MAX_COAST_FRAMES, Record, Scene, State, ToolMotion, Trajectory,
+        Warning,
     },
     sim::Simulator,
 };
@@ -50,6 +51,8 @@ pub(super) struct Measured {
     motion: f64,
     error: f64,
     own: f64,
+    /// Whether an object truly touches the tool and an obstacle.
+    crushed: bool,
     warnings: Vec<Warning>,
 }
 
@@ -80,8 +83,10 @@ pub(super) fn judge(model: &dyn EffectModel, cell: &Cell, p95: f64) -> ExtremeCe
     let many = |count: usize| count as f64 > PUSHES * pushes as f64;
     let verdict = if finite_ones < pushes || bounded < pushes || many(silent) {
         Verdict::Defect
-    } else if cell.doubt.is_some() {
-        if flagged < pushes { Verdict::Defect } else { Verdict::Undecided }
+    } else if let Some(doubt) = cell.doubt {
+        let needs = |one: &Measured| one.crushed || !doubt.crushed;
+        let unsaid = count(&|one| needs(one) && !one.is_flagged());
+        if unsaid > 0 { Verdict::Defect } else { Verdict::Undecided }
     } else if many(wrong) {
         Verdict::WrongFlagged
     } else if many(undecided) {
@@ -110,7 +115,7 @@ pub(super) fn judge(model: &dyn EffectModel, cell: &Cell, p95: f64) -> ExtremeCe
         flagged,
         silent,
         warnings,
-        doubt: cell.doubt.map(str::to_owned),
+        doubt: cell.doubt.map(|doubt| doubt.why.to_owned()),
         verdict,
     }
 }
@@ -153,6 +158,17 @@ fn measure(model: &dyn EffectModel, case: &Case, index: usize) -> Measured {
         simulator.run(scene, start, None, motion, Record::Outcome)
     };
     let truth = run(Simulator::planar(), &start);
+    let touches = |object: usize, obstacle: bool| {
+        truth.contacts.iter().any(|contact| {
+            contact.object == object
+                && match contact.with {
+                    Body::Part(_) => !obstacle,
+                    Body::Obstacle(_) => obstacle,
+                    Body::Object(_) => false,
+                }
+        })
+    };
+    let crushed = (0..scene.objects.len()).any(|k| touches(k, false) && touches(k, true));
     let finer = run(Simulator::planar_with_step(0.5 * Simulator::planar().step()), &start);
     let beside = run(Simulator::planar(), &disturbed(&start, index));
     let own = apart(scene, truth.outcome(), finer.outcome());
@@ -179,6 +195,7 @@ fn measure(model: &dyn EffectModel, case: &Case, index: usize) -> Measured {
         motion: apart(scene, &start, truth.outcome()),
         error,
         own,
+        crushed,
         warnings,
     }
 }
