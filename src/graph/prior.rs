@@ -1,5 +1,5 @@
 //! The prior of every object in a frame: what contacts, joints, friction and inertia make of it
-//! to first order, for the network to correct.
+//! to second order in time, for the network to correct.
 
 use nalgebra::Vector3;
 
