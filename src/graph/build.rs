@@ -62,12 +62,12 @@ pub fn add_graph(
     if !awake.is_empty() {
         let view = awake.view(bodies, state, motions, contacts);
         let View { bodies, state, coasts, .. } = view;
+        let scenery = Scenery { bodies, state, step, coasts };
         if let [_] = bodies.objects[..] {
-            prior.solve(bodies, state, step, axis, coasts, contacts);
+            prior.solve(scenery, axis, contacts);
         } else {
             // The forces of the frame as a whole are what relations tell the network.
-            prior.press(bodies, state, step, axis, coasts, contacts);
-            let scenery = Scenery { bodies, state, step, coasts };
+            prior.press(scenery, axis, contacts);
             march.run(scenery, contacts, axis, PIECES, &mut prior.motions);
         }
         relations.clear();

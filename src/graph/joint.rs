@@ -51,7 +51,8 @@ impl Rows {
     }
 }
 
-/// The rows of a joint between different groups where these have come to: first its own, then its limits. How many there are depends on the start of the frame alone.
+/// The rows of a joint between different groups where these have come to: first its own, then
+/// its limits. How many there are depends on the start of the frame alone.
 pub(super) fn rows(
     bodies: &Bodies,
     state: &State,

@@ -3,9 +3,10 @@
 //! Where several objects meet, what happens first decides what happens next; in one step for
 //! the whole frame everything happens at once.
 
-use crate::scene::{FrameStep, State};
-
-use crate::geometry::Vector;
+use crate::{
+    geometry::Vector,
+    scene::{FrameStep, State},
+};
 
 use super::{
     bodies::Motion,
@@ -49,7 +50,7 @@ impl March {
             );
             let scenery = Scenery { bodies, state: now, step: &small, coasts };
             find_again(scenery, known, contacts);
-            prior.solve(bodies, now, &small, axis, coasts, contacts);
+            prior.solve(scenery, axis, contacts);
             for (k, motion) in prior.motions.iter().enumerate() {
                 now.poses[k].position += motion.shift;
                 now.poses[k].heading += motion.turn;

@@ -5,13 +5,13 @@ use nalgebra::Vector3;
 
 use crate::{
     geometry::{Vector, perpendicular},
-    scene::{Body, FrameStep, State},
+    scene::Body,
 };
 
 use super::{
-    bodies::{Bodies, Motion},
+    bodies::Motion,
     constraint::{Constraint, GIVEN, Law, along, shift},
-    contact::Contact,
+    contact::{Contact, Scenery},
     joint::{rows, turn_joints},
     midway::{Midway, midway},
     system::System,
@@ -40,30 +40,15 @@ pub(super) struct Prior {
 impl Prior {
     /// Solves the frame. Constraint k of the system is contact k, along its normal and its
     /// tangent; those of the joints follow.
-    pub fn solve(
-        &mut self,
-        bodies: &Bodies,
-        state: &State,
-        step: &FrameStep,
-        axis: Vector,
-        coasts: &[Motion],
-        contacts: &[Contact],
-    ) {
-        self.press(bodies, state, step, axis, coasts, contacts);
-        self.release(bodies, state, step.duration, axis, coasts, contacts);
-        self.collect(bodies, state, coasts, step.duration);
+    pub fn solve(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
+        self.press(scenery, axis, contacts);
+        self.release(scenery, axis, contacts);
+        self.collect(scenery);
     }
 
     /// The displacements and what forces make them; the motions are not touched.
-    pub fn press(
-        &mut self,
-        bodies: &Bodies,
-        state: &State,
-        step: &FrameStep,
-        axis: Vector,
-        coasts: &[Motion],
-        contacts: &[Contact],
-    ) {
+    pub fn press(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
+        let Scenery { bodies, state, step, coasts } = scenery;
         let Self { system, joints, .. } = self;
         let duration = step.duration;
         let travel = (step.to.position - step.from.position).norm();
@@ -93,7 +78,7 @@ impl Prior {
             joints.push((ties.len() > before).then_some(before));
         }
         system.solve(bodies, state, coasts, duration, |constraints, ties, unknowns| {
-            unknowns.iter_mut().for_each(|unknown| unknown.part(HALF));
+            unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
                 let at = midway(bodies, state, contact, unknowns, HALF);
                 face(contact, &at, constraint);
@@ -109,19 +94,13 @@ impl Prior {
 
     /// The velocities at the frame's end: the same equations for v T, with everything where it
     /// has come to, in which what has come into contact stays there.
-    fn release(
-        &mut self,
-        bodies: &Bodies,
-        state: &State,
-        duration: f64,
-        axis: Vector,
-        coasts: &[Motion],
-        contacts: &[Contact],
-    ) {
+    fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
+        let Scenery { bodies, state, step, coasts } = scenery;
+        let duration = step.duration;
         let Self { system, velocities, .. } = self;
         velocities.quantity = Quantity::Velocity;
         velocities.continue_from(system, bodies, state, coasts, duration);
-        system.unknowns.iter_mut().for_each(|unknown| unknown.part(WHOLE));
+        system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
         let ended = &system.unknowns;
         for (contact, constraint) in contacts.iter().zip(&mut velocities.constraints) {
             let end = midway(bodies, state, contact, ended, WHOLE);
@@ -144,7 +123,7 @@ impl Prior {
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is
     /// fixed stays so.
-    fn collect(&mut self, bodies: &Bodies, state: &State, coasts: &[Motion], duration: f64) {
+    fn collect(&mut self, Scenery { bodies, state, step, coasts }: Scenery) {
         self.motions.clear();
         for (k, &group) in bodies.groups.of.iter().enumerate() {
             let unknown = &self.system.unknowns[group];
@@ -161,8 +140,8 @@ impl Prior {
             self.motions.push(Motion {
                 shift: Vector::new(twist.x, twist.y) + turned - arm,
                 turn: twist.z,
-                velocity: shift(end, arm) / duration,
-                spin: end.z / duration,
+                velocity: shift(end, arm) / step.duration,
+                spin: end.z / step.duration,
             });
         }
     }
@@ -242,11 +221,8 @@ mod tests {
     use super::*;
     use crate::{
         geometry::{Pose, Shape},
-        graph::{
-            coast,
-            contact::{Scenery, find_contacts},
-        },
-        scene::{Joint, JointKind, Object, Obstacle, Part, Scene, Tool},
+        graph::{bodies::Bodies, coast, contact::find_contacts},
+        scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Scene, Tool},
     };
 
     fn cuboid(x: f64, y: f64) -> Object {
@@ -289,7 +265,7 @@ mod tests {
         let scenery = Scenery { bodies: &bodies, state: &state, step: &step, coasts: &coasts };
         find_contacts(scenery, &mut contacts);
         let mut prior = Prior::default();
-        prior.solve(&bodies, &state, &step, Vector::x(), &coasts, &contacts);
+        prior.solve(scenery, Vector::x(), &contacts);
         prior.motions
     }
 

@@ -67,7 +67,7 @@ pub(super) struct Unknown {
     pub twist: Vector3<f64>,
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
-    /// The share of its motion that is looked at, see [`Self::part`], and the turn then.
+    /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
     pub share: f64,
     pub turn: Turn,
 }
@@ -88,7 +88,7 @@ impl Unknown {
     }
 
     /// Looks at the group when `share` of its present motion is done.
-    pub fn part(&mut self, share: f64) {
+    pub fn look(&mut self, share: f64) {
         self.share = share;
         self.turn = Turn::by(share * self.twist.z);
     }
