@@ -78,11 +78,16 @@ impl Learned {
         let (mut workspace, mut network) = (Workspace::default(), Duration::ZERO);
         let mut roller = Roller::new(self.settings);
         let trajectories = jobs.chunks(CHUNK).flat_map(|chunk| {
-            roller.roll(scene, chunk, Record::Outcome, &mut |batch, corrections| {
-                let began = Instant::now();
-                self.engine.forward(batch, &mut workspace, corrections);
-                network += began.elapsed();
-            })
+            roller.roll(
+                scene,
+                chunk,
+                Record::Outcome,
+                Some(&mut |batch, corrections| {
+                    let began = Instant::now();
+                    self.engine.forward(batch, &mut workspace, corrections);
+                    network += began.elapsed();
+                }),
+            )
         });
         let trajectories = trajectories.collect();
         (trajectories, network)
@@ -92,9 +97,14 @@ impl Learned {
     pub fn work(&self, scene: &Scene, jobs: &[Job]) -> Work {
         let (mut roller, mut workspace) = (Roller::new(self.settings), Workspace::default());
         for chunk in jobs.chunks(CHUNK) {
-            roller.roll(scene, chunk, Record::Outcome, &mut |batch, corrections| {
-                self.engine.forward(batch, &mut workspace, corrections);
-            });
+            roller.roll(
+                scene,
+                chunk,
+                Record::Outcome,
+                Some(&mut |batch, corrections| {
+                    self.engine.forward(batch, &mut workspace, corrections);
+                }),
+            );
         }
         *roller.work()
     }
@@ -124,9 +134,14 @@ impl EffectModel for Learned {
             .map_init(
                 || (Roller::new(self.settings), Workspace::default()),
                 |(roller, workspace), chunk| {
-                    roller.roll(scene, chunk, record, &mut |batch, corrections| {
-                        self.engine.forward(batch, workspace, corrections);
-                    })
+                    roller.roll(
+                        scene,
+                        chunk,
+                        record,
+                        Some(&mut |batch, corrections| {
+                            self.engine.forward(batch, workspace, corrections);
+                        }),
+                    )
                 },
             )
             .flatten_iter()
@@ -173,12 +188,7 @@ impl EffectModel for QuasiStatic {
         jobs.par_chunks(CHUNK)
             .map_init(
                 || Roller::new(self.settings),
-                |roller, chunk| {
-                    roller.roll(scene, chunk, record, &mut |batch, corrections| {
-                        corrections.clear();
-                        corrections.resize(batch.node_count(), [0.0; 6]);
-                    })
-                },
+                |roller, chunk| roller.roll(scene, chunk, record, None),
             )
             .flatten_iter()
             .collect()

@@ -27,15 +27,6 @@ pub(super) struct View<'a> {
     pub bodies: &'a Bodies,
     pub state: &'a State,
     pub coasts: &'a [Motion],
-    /// Number of each object in the scene; `None` where it is the same.
-    numbers: Option<&'a [usize]>,
-}
-
-impl View<'_> {
-    /// The number in the scene of object `index`.
-    pub fn number(&self, index: usize) -> usize {
-        self.numbers.map_or(index, |numbers| numbers[index])
-    }
 }
 
 impl Awake {
@@ -94,17 +85,17 @@ impl Awake {
         !self.flags.contains(&true)
     }
 
-    /// The objects that are awake by themselves; `contacts` are reduced to theirs.
-    pub fn view<'a>(
-        &'a mut self,
-        bodies: &'a Bodies,
-        state: &'a State,
-        coasts: &'a [Motion],
+    /// Takes the objects that are awake by themselves; `contacts` are reduced to theirs.
+    pub fn gather(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        coasts: &[Motion],
         contacts: &mut Vec<Contact>,
-    ) -> View<'a> {
+    ) {
         let Self { flags, subset, state: own, coasts: own_coasts, .. } = self;
         if !flags.contains(&false) {
-            return View { bodies, state, coasts, numbers: None };
+            return;
         }
         contacts.retain(|contact| flags[contact.object]);
         subset.objects.clear();
@@ -126,7 +117,23 @@ impl Awake {
         own.velocities.extend(subset.objects.iter().map(|&k| state.velocities[k]));
         own_coasts.clear();
         own_coasts.extend(subset.objects.iter().map(|&k| coasts[k]));
-        let numbers = Some(&subset.objects[..]);
-        View { bodies: &subset.bodies, state: own, coasts: own_coasts, numbers }
+    }
+
+    /// Those of the given objects that were gathered.
+    pub fn view<'a>(
+        &'a self,
+        bodies: &'a Bodies,
+        state: &'a State,
+        coasts: &'a [Motion],
+    ) -> View<'a> {
+        match self.flags.contains(&false) {
+            true => View { bodies: &self.subset.bodies, state: &self.state, coasts: &self.coasts },
+            false => View { bodies, state, coasts },
+        }
+    }
+
+    /// The number in the scene of the gathered object `index`.
+    pub fn number(&self, index: usize) -> usize {
+        if self.flags.contains(&false) { self.subset.objects[index] } else { index }
     }
 }

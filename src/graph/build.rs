@@ -15,7 +15,7 @@ use super::{
     march::March,
     node::{Node, UNIT},
     prior::Prior,
-    relation::{Relation, Tie, of_contact, of_joint},
+    relation::{Relation, Tie, of_contact, of_joint, sights},
 };
 
 /// Steps that a frame of several objects is solved in. What they do to each other depends on
@@ -35,7 +35,8 @@ pub(super) struct Scratch {
 
 /// Adds the graph of one frame to `batch` under the number `graph`, and fills `motions` with
 /// what every object of the scene does if it is left alone. Those that the network decides
-/// have a node; the others keep their entry in `motions`, which for them is exact.
+/// have a node; the others keep their entry in `motions`, which for them is exact. Returns the
+/// number of nodes.
 ///
 /// `axis` is the unit vector of the tool's motion, the last one while it stands still.
 pub fn add_graph(
@@ -46,22 +47,12 @@ pub fn add_graph(
     graph: u32,
     batch: &mut Batch,
     motions: &mut Vec<Motion>,
-) {
-    motions.clear();
-    motions.extend(
-        bodies
-            .objects
-            .iter()
-            .zip(&state.velocities)
-            .map(|(body, velocity)| coast(body, velocity, step.duration)),
-    );
+) -> usize {
     let mut scratch = std::mem::take(&mut batch.scratch);
-    let Scratch { contacts, prior, march, awake, relations } = &mut scratch;
-    find_contacts(Scenery { bodies, state, step, coasts: motions }, contacts);
-    awake.find(bodies, contacts, motions, step);
-    if !awake.is_empty() {
-        let view = awake.view(bodies, state, motions, contacts);
-        let View { bodies, state, coasts, .. } = view;
+    let before = batch.node_count();
+    if scratch.wake(bodies, state, step, motions) {
+        let Scratch { contacts, prior, march, awake, relations } = &mut scratch;
+        let View { bodies, state, coasts } = awake.view(bodies, state, motions);
         let scenery = Scenery { bodies, state, step, coasts };
         if let [_] = bodies.objects[..] {
             prior.solve(scenery, axis, contacts);
@@ -78,11 +69,10 @@ pub fn add_graph(
         for k in 0..bodies.joints.len() {
             relations.extend(of_joint(bodies, state, coasts, prior, k));
         }
-        let first = batch.node_count();
         for (object, body) in bodies.objects.iter().enumerate() {
             let mut node = Node {
                 graph,
-                object: view.number(object) as u32,
+                object: awake.number(object) as u32,
                 axis,
                 duration: step.duration,
                 support: body.support,
@@ -95,22 +85,93 @@ pub fn add_graph(
             batch.push_node(node, even, odd);
         }
         for relation in relations.iter() {
-            let receiver = first + relation.receiver;
-            let (sender, with) = match relation.sender {
-                Body::Object(k) => ((first + k) as u32, Body::Object(view.number(k))),
-                given => (KINEMATIC, given),
+            let receiver = before + relation.receiver;
+            let sender = match relation.sender {
+                Body::Object(k) => (before + k) as u32,
+                _ => KINEMATIC,
             };
             let (even, odd) = relation_features(&batch.nodes[receiver], relation);
             batch.push_relation(receiver as u32, sender, even, odd);
-            if let Tie::Contact { overlap, gap, normal, .. } = relation.tie
-                && overlap > 0.0
-            {
-                let object = view.number(relation.receiver);
-                batch.touches.push(Touch { graph, object, with, depth: -gap, normal });
+        }
+        scratch.touch(graph, motions, &mut batch.touches);
+    }
+    batch.scratch = scratch;
+    batch.node_count() - before
+}
+
+/// Fills `motions` with the prior of one frame, for all objects of the scene, and adds what
+/// touches to `batch` under the number `graph`; returns how many objects do anything but coast.
+///
+/// The motions are those that [`add_graph`] gives the network to correct.
+pub fn add_prior(
+    bodies: &Bodies,
+    state: &State,
+    step: &FrameStep,
+    axis: Vector,
+    graph: u32,
+    batch: &mut Batch,
+    motions: &mut Vec<Motion>,
+) -> usize {
+    let scratch = &mut batch.scratch;
+    if !scratch.wake(bodies, state, step, motions) {
+        return 0;
+    }
+    let Scratch { contacts, prior, march, awake, .. } = scratch;
+    let View { bodies, state, coasts } = awake.view(bodies, state, motions);
+    let scenery = Scenery { bodies, state, step, coasts };
+    match bodies.objects[..] {
+        [_] => prior.solve(scenery, axis, contacts),
+        _ => march.run(scenery, contacts, axis, PIECES, &mut prior.motions),
+    }
+    scratch.touch(graph, motions, &mut batch.touches);
+    let Scratch { prior, awake, .. } = scratch;
+    for (object, motion) in prior.motions.iter().enumerate() {
+        motions[awake.number(object)] = *motion;
+    }
+    prior.motions.len()
+}
+
+impl Scratch {
+    /// Fills `motions` with how everything coasts, finds contacts and what is awake, and takes
+    /// that by itself; returns whether anything is.
+    fn wake(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        step: &FrameStep,
+        motions: &mut Vec<Motion>,
+    ) -> bool {
+        let Self { contacts, awake, .. } = self;
+        motions.clear();
+        let objects = bodies.objects.iter().zip(&state.velocities);
+        motions.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
+        find_contacts(Scenery { bodies, state, step, coasts: motions }, contacts);
+        awake.find(bodies, contacts, motions, step);
+        if awake.is_empty() {
+            return false;
+        }
+        awake.gather(bodies, state, motions, contacts);
+        true
+    }
+
+    /// Adds what touches: contacts with an overlap.
+    fn touch(&self, graph: u32, coasts: &[Motion], touches: &mut Vec<Touch>) {
+        let Self { contacts, prior, awake, .. } = self;
+        for contact in contacts {
+            for sight in sights(contact).into_iter().flatten() {
+                let coast = &coasts[awake.number(sight.receiver)];
+                if sight.overlap(coast, &prior.motions) > 0.0 {
+                    let with = match sight.sender {
+                        Body::Object(k) => Body::Object(awake.number(k)),
+                        given => given,
+                    };
+                    let object = awake.number(sight.receiver);
+                    let (depth, normal) = (-contact.gap, sight.normal);
+                    touches.push(Touch { graph, object, with, depth, normal });
+                }
             }
         }
     }
-    batch.scratch = scratch;
 }
 
 fn overlap(relation: &Relation) -> f64 {

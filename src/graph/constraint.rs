@@ -42,6 +42,8 @@ pub(super) struct Constraint {
     pub force: Vector2<f64>,
     /// The force that the next iteration starts from.
     pub trial: Vector2<f64>,
+    /// `to . twist(a) - from . twist(b)` under the trial forces, metres.
+    pub value: Vector2<f64>,
     /// J A^-1 J^T of either body.
     pub own: [Matrix2<f64>; 2],
     /// By how much a force of one gives way.
@@ -55,23 +57,24 @@ impl Constraint {
         target: [f64; 2],
         law: Law,
     ) -> Self {
-        let (force, trial) = (Vector2::zeros(), Vector2::zeros());
-        Self { a, b, to, from, target, law, force, trial, own: [Matrix2::zeros(); 2], give: 0.0 }
+        let none = Vector2::zeros();
+        let own = [Matrix2::zeros(); 2];
+        Self { a, b, to, from, target, law, force: none, trial: none, value: none, own, give: 0.0 }
     }
 
-    pub fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        let mut values = apply(&self.to, &unknowns[self.a].twist);
+    /// Takes its value from how the bodies move.
+    pub fn read(&mut self, unknowns: &[Unknown]) {
+        self.value = apply(&self.to, &unknowns[self.a].twist);
         if self.b != GIVEN {
-            values -= apply(&self.from, &unknowns[self.b].twist);
+            self.value -= apply(&self.from, &unknowns[self.b].twist);
         }
-        values
     }
 
     /// The forces that would meet this constraint if nothing else changed, the compliance
-    /// being `k` and the trial forces what they are.
-    pub fn answer(&self, k: &Matrix2<f64>, unknowns: &[Unknown]) -> Vector2<f64> {
+    /// being `k` and the trial forces and its value what they are.
+    pub fn answer(&self, k: &Matrix2<f64>) -> Vector2<f64> {
         let give = self.give;
-        let left = Vector2::from(self.target) - self.values(unknowns) - self.trial * give;
+        let left = Vector2::from(self.target) - self.value - self.trial * give;
         let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
         match self.law {
             Law::AtLeast => Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0),

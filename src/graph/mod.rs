@@ -24,7 +24,7 @@ mod unknown;
 
 pub use batch::{Batch, KINEMATIC, Touch};
 pub use bodies::{Bodies, Jointed, Motion, Movable};
-pub use build::add_graph;
+pub use build::{add_graph, add_prior};
 pub use coast::coast;
 pub use contact::MARGIN;
 pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};

@@ -77,7 +77,7 @@ impl Prior {
             });
             joints.push((ties.len() > before).then_some(before));
         }
-        system.solve(bodies, state, coasts, duration, |constraints, ties, unknowns| {
+        system.solve(bodies, state, duration, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
                 let at = midway(bodies, state, contact, unknowns, HALF);
@@ -118,7 +118,7 @@ impl Prior {
                 constraint.target[0] = OUT_OF_REACH;
             }
         }
-        velocities.solve(bodies, state, coasts, duration, |_, _, _| {});
+        velocities.solve(bodies, state, duration, |_, _, _| {});
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is

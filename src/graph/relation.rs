@@ -65,6 +65,57 @@ pub(super) struct Relation {
     pub tie: Tie,
 }
 
+/// A contact as one of its two bodies sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight<'a> {
+    pub receiver: usize,
+    pub sender: Body,
+    /// Unit, into the receiver.
+    pub normal: Vector,
+    arms: [Vector; 2],
+    contact: &'a Contact,
+}
+
+impl Sight<'_> {
+    /// Displacement of the sender's point in the prior, metres.
+    fn sent(&self, motions: &[Motion]) -> Vector {
+        match self.sender {
+            Body::Object(sender) => motions[sender].at(self.arms[1]),
+            _ => self.contact.given,
+        }
+    }
+
+    /// How far the bodies would overlap if the receiver only coasted while the sender moves as
+    /// in `motions`, metres.
+    pub fn overlap(&self, coast: &Motion, motions: &[Motion]) -> f64 {
+        let relative = self.sent(motions) - coast.at(self.arms[0]);
+        (relative.dot(&self.normal) - self.contact.gap).max(0.0)
+    }
+}
+
+/// Both sights of a contact: of its object, and of the other one if that can move.
+pub(super) fn sights(contact: &Contact) -> [Option<Sight<'_>>; 2] {
+    let [arm, other_arm] = [contact.arm, contact.other_arm];
+    let first = Sight {
+        receiver: contact.object,
+        sender: contact.with,
+        normal: contact.normal,
+        arms: [arm, other_arm],
+        contact,
+    };
+    let second = match contact.with {
+        Body::Object(receiver) => Some(Sight {
+            receiver,
+            sender: Body::Object(contact.object),
+            normal: -contact.normal,
+            arms: [other_arm, arm],
+            contact,
+        }),
+        _ => None,
+    };
+    [Some(first), second]
+}
+
 /// The relations of a contact: into its object, and into the other one if that can move.
 pub(super) fn of_contact(
     bodies: &Bodies,
@@ -74,12 +125,11 @@ pub(super) fn of_contact(
     index: usize,
     contact: &Contact,
 ) -> [Option<Relation>; 2] {
-    let view = |receiver: usize, sender: Body, arms: [Vector; 2], normal: Vector| {
+    sights(contact).map(|sight| {
+        let sight = sight?;
+        let Sight { receiver, sender, normal, arms, .. } = sight;
         let motion = &prior.motions;
-        let sent = match sender {
-            Body::Object(sender) => motion[sender].at(arms[1]),
-            _ => contact.given,
-        };
+        let sent = sight.sent(motion);
         let relative = sent - coasts[receiver].at(arms[0]);
         let closing = relative.dot(&normal);
         let gap = contact.gap;
@@ -90,27 +140,15 @@ pub(super) fn of_contact(
             normal,
             gap,
             friction: contact.friction,
-            overlap: (closing - gap).max(0.0),
+            overlap: sight.overlap(&coasts[receiver], motion),
             remaining: if closing > gap.max(0.0) { 1.0 - gap.max(0.0) / closing } else { 0.0 },
             left: gap - ends.dot(&normal),
             slip: ends.dot(&perpendicular(normal)),
             load: prior.system.constraints[index].force.x / weight,
         };
         let answer = prior.answer(index, bodies.groups.of[receiver], position);
-        relation(bodies, receiver, sender, arms, relative, answer, tie)
-    };
-    let first =
-        view(contact.object, contact.with, [contact.arm, contact.other_arm], contact.normal);
-    let second = match contact.with {
-        Body::Object(other) => Some(view(
-            other,
-            Body::Object(contact.object),
-            [contact.other_arm, contact.arm],
-            -contact.normal,
-        )),
-        _ => None,
-    };
-    [Some(first), second]
+        Some(relation(bodies, receiver, sender, arms, relative, answer, tie))
+    })
 }
 
 /// The two relations of joint `index`.

@@ -72,7 +72,8 @@ impl System {
         for members in &bodies.groups.members {
             let mut unknown = Unknown::new(members, state);
             let of = (self.quantity, duration);
-            unknown.weigh((bodies, members), state, of, coasts, Some(reach));
+            unknown.pull((bodies, members), state, of, coasts);
+            unknown.weigh((bodies, members), state, of, Some(reach));
             unknown.twist = unknown.free;
             self.unknowns.push(unknown);
         }
@@ -91,7 +92,11 @@ impl System {
         self.unknowns.clone_from(&other.unknowns);
         self.constraints.clone_from(&other.constraints);
         self.ties.clone_from(&other.ties);
-        self.weigh(bodies, state, coasts, duration);
+        let of = (self.quantity, duration);
+        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
+            unknown.pull((bodies, members), state, of, coasts);
+        }
+        self.weigh(bodies, state, duration);
     }
 
     /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
@@ -100,14 +105,13 @@ impl System {
         &mut self,
         bodies: &Bodies,
         state: &State,
-        coasts: &[Motion],
         duration: f64,
         mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
         self.find_mechanisms();
         for update in 0..UPDATES {
             if update > 0 {
-                self.weigh(bodies, state, coasts, duration);
+                self.weigh(bodies, state, duration);
             }
             turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
@@ -123,10 +127,10 @@ impl System {
         }
     }
 
-    fn weigh(&mut self, bodies: &Bodies, state: &State, coasts: &[Motion], duration: f64) {
+    fn weigh(&mut self, bodies: &Bodies, state: &State, duration: f64) {
         let of = (self.quantity, duration);
         for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.weigh((bodies, members), state, of, coasts, None);
+            unknown.weigh((bodies, members), state, of, None);
         }
     }
 
@@ -148,9 +152,10 @@ impl System {
             self.spread();
             let Self { unknowns, constraints, mechanism, active, .. } = self;
             active.fill(0.0);
-            for constraint in constraints.iter() {
+            for constraint in constraints.iter_mut() {
+                constraint.read(unknowns);
                 let pressed = constraint.trial.x > 0.0;
-                if pressed || constraint.target[0] > constraint.values(unknowns).x + OPEN {
+                if pressed || constraint.target[0] > constraint.value.x + OPEN {
                     active[mechanism[constraint.a]] += 1.0;
                     if constraint.b != GIVEN && mechanism[constraint.b] != mechanism[constraint.a] {
                         active[mechanism[constraint.b]] += 1.0;
@@ -166,7 +171,7 @@ impl System {
                 if constraint.b != GIVEN {
                     k += constraint.own[1] * active[mechanism[constraint.b]].max(1.0);
                 }
-                let force = constraint.answer(&k, unknowns);
+                let force = constraint.answer(&k);
                 let change = force - constraint.force;
                 let moved = k * change;
                 against += (constraint.trial - force).dot(&moved);

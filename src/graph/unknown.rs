@@ -45,11 +45,12 @@ impl Quantity {
         }
     }
 
-    /// Inertia in units of m / T^2.
-    fn inertia(self) -> f64 {
+    /// What inertia adds to the resistance of `body` in a frame of that duration, N/m.
+    fn inertia_of(self, body: &Movable, duration: f64) -> f64 {
+        let inertia = body.mass / (duration * duration);
         match self {
-            Self::Displacement => 2.0,
-            Self::Velocity => 1.0,
+            Self::Displacement => 2.0 * inertia,
+            Self::Velocity => inertia,
         }
     }
 }
@@ -61,6 +62,8 @@ pub(super) struct Unknown {
     pub centre: Vector,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
+    /// What pulls it without contacts and joints, force and torque.
+    pull: Vector3<f64>,
     /// What it does without contacts and joints.
     pub free: Vector3<f64>,
     /// Shift of the centre, metres, and turn, radians.
@@ -79,6 +82,7 @@ impl Unknown {
         Self {
             centre: positions.sum::<Vector>() / members.len() as f64,
             inverse: Matrix3::identity(),
+            pull: Vector3::zeros(),
             free: Vector3::zeros(),
             twist: Vector3::zeros(),
             pressed: Vector3::zeros(),
@@ -98,51 +102,72 @@ impl Unknown {
         self.centre + self.share * self.twist.xy() + self.turn.of(point - self.centre)
     }
 
-    /// Resistance and free motion when its members move as they do now, or by `reach` metres
-    /// each.
-    pub fn weigh(
+    /// Takes what pulls the group in a frame of this kind and duration: friction and inertia of
+    /// members that coast.
+    pub fn pull(
         &mut self,
         (bodies, members): (&Bodies, &[usize]),
         state: &State,
         (quantity, duration): (Quantity, f64),
         coasts: &[Motion],
-        reach: Option<f64>,
     ) {
-        let mut weight = Matrix3::zeros();
-        let mut asked = Vector3::zeros();
-        let stuck = quantity.stuck();
-        let inertia = |body: &Movable| quantity.inertia() * body.mass / (duration * duration);
+        self.pull = Vector3::zeros();
         for &k in members {
             let body = &bodies.objects[k];
-            let arm = state.poses[k].position - self.centre;
-            let moved = reach.unwrap_or_else(|| {
-                shift(&self.twist, arm).norm().hypot(body.support * self.twist.z)
-            });
-            let (slide, turn) = resistance(body, inertia(body), moved.max(stuck));
-            let (x, y) = (arm.x, arm.y);
-            weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y)
-                + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, turn));
+            let inertia = quantity.inertia_of(body, duration);
             let (pull, spin) = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
-                    let moved = coast.shift.norm().hypot(body.support * coast.turn).max(stuck);
-                    let (slide, turn) = resistance(body, inertia(body), moved);
+                    let moved = length(coast.shift, body.support * coast.turn);
+                    let (slide, turn) = resistance(body, inertia, moved.max(quantity.stuck()));
                     (slide * coast.shift, turn * coast.turn)
                 }
                 Quantity::Velocity => {
                     let start = &state.velocities[k];
-                    let (slide, turn) = inertias(body, inertia(body));
+                    let (slide, turn) = inertias(body, inertia);
                     (slide * duration * start.linear, turn * duration * start.angular)
                 }
             };
-            asked += along(pull, arm) + Vector3::new(0.0, 0.0, spin);
+            let arm = state.poses[k].position - self.centre;
+            self.pull += along(pull, arm) + Vector3::new(0.0, 0.0, spin);
         }
-        self.inverse = match members {
-            [_] => Matrix3::from_diagonal(&weight.diagonal().map(|w| 1.0 / w)),
-            _ => weight.try_inverse().unwrap_or_else(Matrix3::identity),
-        };
-        self.free = self.inverse * asked;
     }
+
+    /// Takes resistance and free motion when its members move as they do now, or by `reach`
+    /// metres each.
+    pub fn weigh(
+        &mut self,
+        (bodies, members): (&Bodies, &[usize]),
+        state: &State,
+        (quantity, duration): (Quantity, f64),
+        reach: Option<f64>,
+    ) {
+        let weights = |body: &Movable, arm: Vector| {
+            let moved = reach
+                .unwrap_or_else(|| length(shift(&self.twist, arm), body.support * self.twist.z));
+            resistance(body, quantity.inertia_of(body, duration), moved.max(quantity.stuck()))
+        };
+        self.inverse = if let [k] = *members {
+            let (slide, turn) = weights(&bodies.objects[k], Vector::zeros());
+            Matrix3::from_diagonal(&Vector3::new(1.0 / slide, 1.0 / slide, 1.0 / turn))
+        } else {
+            let mut weight = Matrix3::zeros();
+            for &k in members {
+                let arm = state.poses[k].position - self.centre;
+                let (slide, turn) = weights(&bodies.objects[k], arm);
+                let (x, y) = (arm.x, arm.y);
+                weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y);
+                weight.m33 += turn;
+            }
+            weight.try_inverse().unwrap_or_else(Matrix3::identity)
+        };
+        self.free = self.inverse * self.pull;
+    }
+}
+
+/// Length of a motion that shifts and turns, the turn times the support's length, metres.
+fn length(shift: Vector, turn: f64) -> f64 {
+    (shift.norm_squared() + turn * turn).sqrt()
 }
 
 /// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,

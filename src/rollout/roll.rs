@@ -1,7 +1,7 @@
 //! Rolling many jobs of one scene out side by side, frame by frame.
 
 use crate::{
-    graph::{Batch, Bodies, Motion},
+    graph::{Batch, Bodies, Motion, add_graph, add_prior},
     scene::{Job, Record, Scene, Trajectory},
 };
 
@@ -10,8 +10,8 @@ use super::{
     work::Work,
 };
 
-/// Corrects the quasi-static prior of every node of a batch: fills the vector with one entry
-/// per node, in output units (see [`crate::graph::Node::encode`]).
+/// Corrects the prior of every node of a batch: fills the vector with one entry per node, in
+/// output units (see [`crate::graph::Node::encode`]).
 pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<[f64; 6]>) + 'a;
 
 /// How finely a rollout goes, and whether it looks at everything.
@@ -56,15 +56,17 @@ impl Roller {
 
     /// Rolls out every job until everything rests.
     ///
-    /// Jobs do not influence each other; they only share the network's batches.
+    /// Jobs do not influence each other; they only share the network's batches. Without anything
+    /// to `correct` the prior it rolls out needs no graphs.
     pub fn roll(
         &mut self,
         scene: &Scene,
         jobs: &[Job],
         record: Record,
-        correct: &mut Corrector<'_>,
+        mut correct: Option<&mut Corrector<'_>>,
     ) -> Vec<Trajectory> {
         let Self { settings, memories, batch, corrections, motions, work } = self;
+        let add = if correct.is_some() { add_graph } else { add_prior };
         let (casts, cast) = casts(scene, jobs);
         if memories.len() < jobs.len() {
             memories.resize_with(jobs.len(), Memory::default);
@@ -83,13 +85,15 @@ impl Roller {
             batch.clear();
             let mut active = false;
             for (k, run) in runs.iter_mut().enumerate() {
-                active |= run.next(k as u32, batch, &mut motions[k], work);
+                active |= run.next(k as u32, add, batch, &mut motions[k], work);
             }
             if !active {
                 return runs.into_iter().map(Run::finish).collect();
             }
-            correct(batch, corrections);
-            apply(batch, corrections, motions);
+            if let Some(correct) = &mut correct {
+                correct(batch, corrections);
+                apply(batch, corrections, motions);
+            }
             for touch in &batch.touches {
                 runs[touch.graph as usize].touch(touch);
             }
@@ -106,7 +110,7 @@ pub fn roll(
     jobs: &[Job],
     record: Record,
     settings: RollSettings,
-    correct: &mut Corrector<'_>,
+    correct: Option<&mut Corrector<'_>>,
 ) -> Vec<Trajectory> {
     Roller::new(settings).roll(scene, jobs, record, correct)
 }

@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{Pose, Vector},
-    graph::{Batch, Bodies, Motion, Movable, Subset, Touch, add_graph},
+    graph::{Batch, Bodies, Motion, Movable, Subset, Touch},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
         Scene, State, Stroke, Trajectory, Velocity, Warning,
@@ -27,6 +27,10 @@ pub(super) struct Memory {
     state: State,
     before: State,
 }
+
+/// [`crate::graph::add_graph`] or [`crate::graph::add_prior`].
+pub(super) type AddFrame =
+    fn(&Bodies, &State, &FrameStep, Vector, u32, &mut Batch, &mut Vec<Motion>) -> usize;
 
 /// One job on its way.
 pub(super) struct Run<'a> {
@@ -98,26 +102,27 @@ impl<'a> Run<'a> {
         run
     }
 
-    /// Decides what the tool does in the next frame that can change anything, and adds its
-    /// graph to `batch`; returns whether there is such a frame.
+    /// Decides what the tool does in the next frame that can change anything, and lets `add`
+    /// add its graph or prior to `batch`; returns whether there is such a frame.
     pub fn next(
         &mut self,
         graph: u32,
+        add: AddFrame,
         batch: &mut Batch,
         motions: &mut Vec<Motion>,
         work: &mut Work,
     ) -> bool {
         self.next_step(work);
         let Some(step) = &self.step else { return false };
-        let (nodes, relations) = (batch.node_count(), batch.relation_count());
+        let relations = batch.relation_count();
         let Memory { subset, state, .. } = &*self.memory;
-        add_graph(&subset.bodies, state, step, self.axis, graph, batch, motions);
-        self.idle = batch.node_count() == nodes;
+        let nodes = add(&subset.bodies, state, step, self.axis, graph, batch, motions);
+        self.idle = nodes == 0;
         if !self.idle {
             self.apart_until = None;
         }
         work.graphs += u64::from(!self.idle);
-        work.nodes += (batch.node_count() - nodes) as u64;
+        work.nodes += nodes as u64;
         work.relations += (batch.relation_count() - relations) as u64;
         true
     }

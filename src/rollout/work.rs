@@ -13,9 +13,9 @@ pub struct Work {
     pub skipped: u64,
     /// Frames in which the tool stands still and objects come to rest.
     pub coasting: u64,
-    /// Frames with a graph: something is pushed, or moves near something else.
+    /// Frames with a graph, or only its prior: something is pushed, or moves near something else.
     pub graphs: u64,
-    /// Nodes of all graphs.
+    /// Objects in all of them.
     pub nodes: u64,
     /// Relations of all graphs.
     pub relations: u64,

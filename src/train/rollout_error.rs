@@ -53,9 +53,9 @@ fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec
         &[job],
         Record::Outcome,
         RollSettings::default(),
-        &mut |batch, corrections| {
+        Some(&mut |batch, corrections| {
             engine.forward(batch, workspace, corrections);
-        },
+        }),
     );
     let predicted = predicted[0].outcome();
     let mut found = Vec::new();
