@@ -9,6 +9,12 @@ pub struct Turn {
     cos: f64,
 }
 
+impl Default for Turn {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Turn {
     /// Turns nothing.
     pub const NONE: Self = Self { sin: 0.0, cos: 1.0 };

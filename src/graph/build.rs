@@ -58,7 +58,7 @@ pub fn add_graph(
             prior.solve(scenery, axis, contacts);
         } else {
             // The forces of the frame as a whole are what relations tell the network.
-            prior.press(scenery, axis, contacts);
+            prior.press(scenery, axis, contacts, None);
             march.run(scenery, contacts, axis, PIECES, &mut prior.motions);
         }
         relations.clear();

@@ -22,6 +22,7 @@ pub(super) struct March {
     state: State,
     coasts: Vec<Motion>,
     contacts: Vec<Contact>,
+    last: Vec<Contact>,
 }
 
 impl March {
@@ -37,7 +38,7 @@ impl March {
         pieces: usize,
         motions: &mut Vec<Motion>,
     ) {
-        let Self { prior, state: now, coasts, contacts } = self;
+        let Self { prior, state: now, coasts, contacts, last } = self;
         now.clone_from(state);
         let duration = step.duration / pieces as f64;
         let at = |piece: usize| step.from.towards(&step.to, piece as f64 / pieces as f64);
@@ -49,8 +50,12 @@ impl March {
                 bodies.objects.iter().zip(velocities).map(|(body, v)| coast(body, v, duration)),
             );
             let scenery = Scenery { bodies, state: now, step: &small, coasts };
+            std::mem::swap(contacts, last);
             find_again(scenery, known, contacts);
-            prior.solve(scenery, axis, contacts);
+            match piece {
+                0 => prior.solve(scenery, axis, contacts),
+                _ => prior.follow(scenery, axis, contacts, last),
+            }
             for (k, motion) in prior.motions.iter().enumerate() {
                 now.poses[k].position += motion.shift;
                 now.poses[k].heading += motion.turn;

@@ -41,20 +41,45 @@ impl Prior {
     /// Solves the frame. Constraint k of the system is contact k, along its normal and its
     /// tangent; those of the joints follow.
     pub fn solve(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
-        self.press(scenery, axis, contacts);
+        self.press(scenery, axis, contacts, None);
+        self.end(scenery, axis, contacts);
+    }
+
+    /// The same for a frame after one just solved that had the contacts `last`: forces begin as
+    /// they were there.
+    pub fn follow(
+        &mut self,
+        scenery: Scenery,
+        axis: Vector,
+        contacts: &[Contact],
+        last: &[Contact],
+    ) {
+        self.press(scenery, axis, contacts, Some(last));
+        self.end(scenery, axis, contacts);
+    }
+
+    fn end(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         self.release(scenery, axis, contacts);
         self.collect(scenery);
     }
 
     /// The displacements and what forces make them; the motions are not touched.
-    pub fn press(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
+    pub fn press(
+        &mut self,
+        scenery: Scenery,
+        axis: Vector,
+        contacts: &[Contact],
+        last: Option<&[Contact]>,
+    ) {
         let Scenery { bodies, state, step, coasts } = scenery;
         let Self { system, joints, .. } = self;
         let duration = step.duration;
+        let follows = last.is_some();
+        let last = last.unwrap_or_default();
         let travel = (step.to.position - step.from.position).norm();
         let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
         system.quantity = Quantity::Displacement;
-        system.begin(bodies, state, coasts, duration, fastest);
+        system.begin(bodies, state, coasts, duration, fastest, follows);
         for contact in contacts {
             let groups = &bodies.groups.of;
             let other = match contact.with {
@@ -66,6 +91,14 @@ impl Prior {
             let rows = [Vector3::zeros(); 2];
             let ends = ((groups[contact.object], rows), (other, rows));
             system.constraints.push(Constraint::new(ends.0, ends.1, [0.0; 2], law));
+        }
+        for (k, contact) in contacts.iter().enumerate() {
+            let far = |n: usize| (last[n].arm - contact.arm).norm_squared();
+            let same = (0..last.len())
+                .filter(|&n| (last[n].object, last[n].with) == (contact.object, contact.with));
+            if let Some(n) = same.min_by(|&a, &b| far(a).total_cmp(&far(b))) {
+                system.warm(k, n);
+            }
         }
         joints.clear();
         let System { unknowns, constraints, ties, .. } = &mut *system;

@@ -52,12 +52,17 @@ pub(super) struct System {
     /// Which groups hang together by ties: the number of the mechanism of each.
     mechanism: Vec<usize>,
     active: Vec<f64>,
+    /// The constraints of the last frame, and whether this one follows it.
+    last: Vec<Constraint>,
+    follows: bool,
     before: Vec<Vector3<f64>>,
 }
 
 impl System {
-    /// The groups of `bodies`, coasting; `reach` is how far they are first assumed to move
-    /// (metres), which only decides where the iteration begins.
+    /// The groups of `bodies`, without contacts and joints yet. They begin as they ended the last
+    /// time if the equations are those of a frame that `follows` it, else coasting; `reach` is
+    /// how far they are then first assumed to move (metres). All that only decides where the
+    /// iteration begins.
     pub fn begin(
         &mut self,
         bodies: &Bodies,
@@ -65,18 +70,29 @@ impl System {
         coasts: &[Motion],
         duration: f64,
         reach: f64,
+        follows: bool,
     ) {
+        std::mem::swap(&mut self.constraints, &mut self.last);
+        self.follows = follows;
         self.constraints.clear();
         self.ties.clear();
-        self.unknowns.clear();
-        for members in &bodies.groups.members {
-            let mut unknown = Unknown::new(members, state);
-            let of = (self.quantity, duration);
+        self.unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
+        let of = (self.quantity, duration);
+        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
+            unknown.place(members, state);
             unknown.pull((bodies, members), state, of, coasts);
-            unknown.weigh((bodies, members), state, of, Some(reach));
-            unknown.twist = unknown.free;
-            self.unknowns.push(unknown);
+            unknown.weigh((bodies, members), state, of, (!follows).then_some(reach));
+            if !follows {
+                unknown.twist = unknown.free;
+            }
         }
+    }
+
+    /// Lets constraint `index` begin with the force of the last frame's constraint `last`.
+    pub fn warm(&mut self, index: usize, last: usize) {
+        let (constraint, last) = (&mut self.constraints[index], &self.last[last]);
+        constraint.force = last.force;
+        constraint.own = last.own;
     }
 
     /// The same groups, contacts and joints as in `other`, which has been solved, but for another
@@ -121,7 +137,7 @@ impl System {
                 let change = now.twist - before;
                 change.x.abs().max(change.y.abs()).max(change.z.abs() * 0.05) > SETTLED
             });
-            if !changed && update > 0 {
+            if !changed && (update > 0 || self.follows) {
                 return;
             }
         }

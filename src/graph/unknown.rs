@@ -56,7 +56,7 @@ impl Quantity {
 }
 
 /// A rigid group and its motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Unknown {
     /// Mean position of its members at the start of the frame.
     pub centre: Vector,
@@ -76,19 +76,11 @@ pub(super) struct Unknown {
 }
 
 impl Unknown {
-    /// The group of `members`, not yet weighed.
-    pub fn new(members: &[usize], state: &State) -> Self {
+    /// Puts the group where its `members` are; it has not moved yet.
+    pub fn place(&mut self, members: &[usize], state: &State) {
         let positions = members.iter().map(|&k| state.poses[k].position);
-        Self {
-            centre: positions.sum::<Vector>() / members.len() as f64,
-            inverse: Matrix3::identity(),
-            pull: Vector3::zeros(),
-            free: Vector3::zeros(),
-            twist: Vector3::zeros(),
-            pressed: Vector3::zeros(),
-            share: 0.0,
-            turn: Turn::NONE,
-        }
+        self.centre = positions.sum::<Vector>() / members.len() as f64;
+        (self.share, self.turn) = (0.0, Turn::NONE);
     }
 
     /// Looks at the group when `share` of its present motion is done.
