@@ -15,6 +15,9 @@ pub(super) const GIVE: f64 = 2e-3;
 /// the contact wedges, which these equations cannot answer.
 const MIN_COMPLIANCE: f64 = 0.2;
 
+/// A displacement that does not count, metres: rounding must not decide anything.
+const OPEN: f64 = 1e-9;
+
 /// Index of a body whose motion is given.
 pub(super) const GIVEN: usize = usize::MAX;
 
@@ -68,6 +71,16 @@ impl Constraint {
         if self.b != GIVEN {
             self.value -= apply(&self.from, &unknowns[self.b].twist);
         }
+    }
+
+    /// Whether `force` moves its bodies by more than rounding does.
+    pub fn presses(&self, force: &Vector2<f64>) -> bool {
+        force.x * (self.own[0].m11 + self.own[1].m11) > OPEN
+    }
+
+    /// Whether it is violated by more than rounding.
+    pub fn asks(&self) -> bool {
+        self.target[0] > self.value.x + OPEN
     }
 
     /// The forces that would meet this constraint if nothing else changed, the compliance

@@ -93,7 +93,11 @@ impl Prior {
             system.constraints.push(Constraint::new(ends.0, ends.1, [0.0; 2], law));
         }
         for (k, contact) in contacts.iter().enumerate() {
-            let far = |n: usize| (last[n].arm - contact.arm).norm_squared();
+            // By the points on both, so that it does not matter which comes first.
+            let far = |n: usize| {
+                (last[n].arm - contact.arm).norm_squared()
+                    + (last[n].other_arm - contact.other_arm).norm_squared()
+            };
             let same = (0..last.len())
                 .filter(|&n| (last[n].object, last[n].with) == (contact.object, contact.with));
             if let Some(n) = same.min_by(|&a, &b| far(a).total_cmp(&far(b))) {
@@ -147,7 +151,7 @@ impl Prior {
         limits.iter_mut().for_each(|limit| limit.target = [0.0; 2]);
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         for constraint in constraints {
-            if constraint.force.x <= 0.0 {
+            if !constraint.presses(&constraint.force) {
                 constraint.target[0] = OUT_OF_REACH;
             }
         }

@@ -33,9 +33,8 @@ const UPDATES: usize = 8;
 /// A change of a whole round of iterations below this ends them, metres.
 const SETTLED: f64 = 1e-5;
 
-/// A contact without force counts only when it is violated by more than this, metres: rounding
-/// must not decide it.
-const OPEN: f64 = 1e-9;
+/// What turns a change of angle into one of length, metres.
+const ARM: f64 = 0.05;
 
 /// Unknowns and rows of one frame.
 #[derive(Clone, Debug, Default)]
@@ -135,7 +134,7 @@ impl System {
             self.iterate();
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
-                change.x.abs().max(change.y.abs()).max(change.z.abs() * 0.05) > SETTLED
+                change.xy().norm().max(change.z.abs() * ARM) > SETTLED
             });
             if !changed && (update > 0 || self.follows) {
                 return;
@@ -170,8 +169,7 @@ impl System {
             active.fill(0.0);
             for constraint in constraints.iter_mut() {
                 constraint.read(unknowns);
-                let pressed = constraint.trial.x > 0.0;
-                if pressed || constraint.target[0] > constraint.value.x + OPEN {
+                if constraint.presses(&constraint.trial) || constraint.asks() {
                     active[mechanism[constraint.a]] += 1.0;
                     if constraint.b != GIVEN && mechanism[constraint.b] != mechanism[constraint.a] {
                         active[mechanism[constraint.b]] += 1.0;
@@ -201,7 +199,8 @@ impl System {
                 momentum = 1.0;
                 constraints.iter_mut().for_each(|c| c.trial = c.force);
             }
-            if largest < 0.5 * SETTLED {
+            // The answer of a single one is exact.
+            if largest < 0.5 * SETTLED || constraints.len() < 2 {
                 break;
             }
         }

@@ -20,6 +20,7 @@ mod random_tasks;
 mod readme;
 mod simulation;
 mod solving;
+mod symmetry;
 mod tool_choice;
 mod tradeoff;
 mod training;

@@ -117,8 +117,12 @@ fn rollout(model: &Learned, scene: &Scene, stroke: Stroke) -> State {
 const SAME: f64 = 1e-5;
 
 pub(super) fn assert_same(a: &State, b: &State) {
+    assert_close(a, b, SAME);
+}
+
+fn assert_close(a: &State, b: &State, distance: f64) {
     for (p, q) in a.poses.iter().zip(&b.poses) {
-        assert!((p.position - q.position).norm() < SAME, "{p:?} {q:?}");
+        assert!((p.position - q.position).norm() < distance, "{p:?} {q:?}");
     }
 }
 
@@ -213,7 +217,10 @@ fn the_order_of_objects_and_parts_does_not_matter() {
     let job = Job { start: other.start(), motion, hypothesis: None };
     let mut there = model.rollout(&other, &[job], Record::Outcome)[0].outcome().clone();
     there.poses.reverse();
-    assert_same(&plain, &there);
+    // Sums in another order differ by a nanometre a frame, which in a squeeze decides when the
+    // prior has settled, to a hundredth of a millimetre; the prior alone, which sums in doubles,
+    // is tried far more strictly in `symmetry`.
+    assert_close(&plain, &there, 10.0 * SAME);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use pushplan::{
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,
-    rollout::{RollSettings, Roller, Work},
+    rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
         Hypothesis, Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
     },
@@ -25,10 +25,14 @@ fn compare(engine: &Engine, scene: &Scene, job: &Job, stride: usize) -> (Work, W
     let run = |pruned, record| {
         let mut roller = Roller::new(RollSettings { stride, pruned });
         let mut workspace = Workspace::default();
-        let rolled =
-            roller.roll(scene, std::slice::from_ref(job), record, &mut |batch, corrections| {
+        let rolled = roller.roll(
+            scene,
+            std::slice::from_ref(job),
+            record,
+            Some(&mut |batch, corrections| {
                 engine.forward(batch, &mut workspace, corrections);
-            });
+            }),
+        );
         (rolled, *roller.work())
     };
     let (pruned, work) = run(true, Record::Frames);
@@ -213,13 +217,7 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
         let mut short = plain.clone();
         short.motion.tool = Arc::new(tool);
         let jobs = [plain.clone(), short, slippery.clone(), plain, slippery];
-        let roll = |jobs: &[Job]| {
-            let nothing = &mut |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
-                corrections.clear();
-                corrections.resize(batch.node_count(), [0.0; 6]);
-            };
-            Roller::default().roll(&scene, jobs, Record::Frames, nothing)
-        };
+        let roll = |jobs: &[Job]| Roller::default().roll(&scene, jobs, Record::Frames, None);
         // Without a network nothing is shared, so a batch gives the same bits.
         let together = roll(&jobs);
         for (job, trajectory) in jobs.iter().zip(&together) {
@@ -229,4 +227,30 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
         physics += usize::from(together[0] != together[2]);
     }
     assert!(tools > 3 && physics > 3, "{tools} {physics}");
+}
+
+#[test]
+fn a_rollout_without_a_network_is_that_of_one_that_corrects_nothing() {
+    let mut rng = Pcg64::seed_from_u64(9);
+    let mut contacts = 0;
+    for _ in 0..20 {
+        let (scene, job) = random_job(&mut rng);
+        let jobs = std::slice::from_ref(&job);
+        let nothing = &mut |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+            corrections.clear();
+            corrections.resize(batch.node_count(), [0.0; 6]);
+        };
+        let roll = |correct: Option<&mut Corrector<'_>>| {
+            Roller::default().roll(&scene, jobs, Record::Frames, correct).remove(0)
+        };
+        let (without, with) = (roll(None), roll(Some(nothing)));
+        assert_eq!(without.contacts, with.contacts);
+        contacts += with.contacts.len();
+        // A graph keeps the prior in units of its own, which rounds.
+        for (a, b) in without.outcome().poses.iter().zip(&with.outcome().poses) {
+            assert!((a.position - b.position).norm() < 1e-6, "{a:?} {b:?}");
+            assert!((a.heading - b.heading).abs() < 1e-5, "{a:?} {b:?}");
+        }
+    }
+    assert!(contacts > 20, "{contacts}");
 }
