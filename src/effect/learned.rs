@@ -122,7 +122,7 @@ impl EffectModel for Learned {
             return found;
         }
         // What the motion cannot reach is never shown to the network.
-        ranges.warnings(&scene.only(&reachable(scene, motion)), motion)
+        ranges.warnings(&scene.only(&reachable(scene, &scene.start(), motion)), motion)
     }
 
     fn error_p95(&self) -> f64 {

@@ -4,6 +4,7 @@
 //! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
 
 mod assume;
+mod crowded;
 mod disturbed;
 mod learned;
 mod model;
@@ -14,6 +15,7 @@ mod trivial;
 
 pub use crate::scene::Job;
 pub use assume::{Assuming, Assumption};
+pub use crowded::Crowded;
 pub use disturbed::{Disturbed, Mistake};
 pub use learned::{Learned, QuasiStatic};
 pub use model::EffectModel;

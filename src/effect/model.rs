@@ -47,3 +47,23 @@ macro_rules! models_behind {
 }
 
 models_behind!(Arc, Box);
+
+/// The rollouts of those of `jobs` that `wanted` says, by `model`, into their places.
+pub(super) fn fill(
+    model: &dyn EffectModel,
+    (scene, jobs, record): (&Scene, &[Job], Record),
+    wanted: &[bool],
+    places: &mut [Trajectory],
+) {
+    let few: Vec<Job> = jobs
+        .iter()
+        .zip(wanted)
+        .filter(|(_, wanted)| **wanted)
+        .map(|(job, _)| job.clone())
+        .collect();
+    let rolled = model.rollout(scene, &few, record);
+    let places = places.iter_mut().zip(wanted).filter(|(_, wanted)| **wanted);
+    for ((place, _), trajectory) in places.zip(rolled) {
+        *place = trajectory;
+    }
+}

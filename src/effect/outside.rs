@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::{Frame, Job, Record, Scene, State, ToolMotion, Trajectory, Warning};
 use crate::sim::Simulator;
 
-use super::{EffectModel, Simulated};
+use super::{EffectModel, Simulated, model::fill};
 
 /// What to do outside of what a model was trained on, and where its own rollout shows that it
 /// went wrong (see [`Warning::questions_model`]).
@@ -44,26 +44,6 @@ impl<M: EffectModel> Guarded<M> {
     /// `model`, and what happens where it should not be trusted.
     pub fn new(model: M, outside: Outside) -> Self {
         Self { model, outside, planar: Simulated::new(Simulator::planar()) }
-    }
-
-    /// The rollouts of those of `jobs` that `wanted` says, by `model`, into their places.
-    fn fill(
-        model: &dyn EffectModel,
-        (scene, jobs, record): (&Scene, &[Job], Record),
-        wanted: &[bool],
-        places: &mut [Trajectory],
-    ) {
-        let few: Vec<Job> = jobs
-            .iter()
-            .zip(wanted)
-            .filter(|(_, wanted)| **wanted)
-            .map(|(job, _)| job.clone())
-            .collect();
-        let rolled = model.rollout(scene, &few, record);
-        let places = places.iter_mut().zip(wanted).filter(|(_, wanted)| **wanted);
-        for ((place, _), trajectory) in places.zip(rolled) {
-            *place = trajectory;
-        }
     }
 }
 
@@ -103,7 +83,7 @@ impl<M: EffectModel> EffectModel for Guarded<M> {
             jobs.iter().map(|job| self.model.warnings(scene, &job.motion)).collect();
         let inside: Vec<bool> = before.iter().map(Vec::is_empty).collect();
         let mut places = vec![Trajectory::default(); jobs.len()];
-        Self::fill(&self.model, work, &inside, &mut places);
+        fill(&self.model, work, &inside, &mut places);
         // What the model itself got wrong on the way counts as well.
         let doubts: Vec<Option<Warning>> = places
             .iter()
@@ -113,7 +93,7 @@ impl<M: EffectModel> EffectModel for Guarded<M> {
             inside.iter().zip(&doubts).map(|(inside, doubt)| !inside || doubt.is_some()).collect();
         match self.outside {
             Outside::Simulate => {
-                Self::fill(&self.planar, work, &out, &mut places);
+                fill(&self.planar, work, &out, &mut places);
                 for (place, doubt) in places.iter_mut().zip(doubts) {
                     place.warnings.extend(doubt.map(simulated));
                 }

@@ -42,9 +42,9 @@ pub struct Course<'a> {
     pub stride: usize,
 }
 
-/// The objects of `scene` that `motion` can set in motion from their start, stroke by stroke and
-/// as far as one stroke can tell, in order; all of them where the tool makes no stroke.
-pub fn reachable(scene: &Scene, motion: &ToolMotion) -> Vec<usize> {
+/// The objects of `scene` that `motion` can set in motion from `start`, stroke by stroke and as far
+/// as one stroke can tell, in order; all of them where the tool makes no stroke.
+pub fn reachable(scene: &Scene, start: &State, motion: &ToolMotion) -> Vec<usize> {
     let count = scene.objects.len();
     if motion.strokes.is_empty() {
         return (0..count).collect();
@@ -54,7 +54,7 @@ pub fn reachable(scene: &Scene, motion: &ToolMotion) -> Vec<usize> {
     let mut reached = vec![false; count];
     for stroke in &motion.strokes {
         let course = Course { stroke, frame: 0, stride: 1 };
-        reach.list(&whole, &scene.start(), course, 0.0, &mut subset);
+        reach.list(&whole, start, course, 0.0, &mut subset);
         subset.objects.iter().for_each(|&object| reached[object] = true);
     }
     (0..count).filter(|&object| reached[object]).collect()

@@ -10,7 +10,8 @@ use std::sync::{Arc, LazyLock};
 use serde::{Deserialize, Serialize};
 
 use crate::brdpn::WeightsError;
-use crate::effect::{EffectModel, EffectModels};
+use crate::effect::{Crowded, EffectModel, EffectModels, Simulated};
+use crate::sim::Simulator;
 
 use super::{Effort, Settings};
 
@@ -31,19 +32,30 @@ pub struct EffortLevel {
 #[derive(Default, Deserialize)]
 struct Measured {
     efforts: BTreeMap<Effort, EffortLevel>,
+    objects: Vec<CostRow>,
 }
 
+/// Processor time of a push by the number of objects that it reaches.
+#[derive(Clone, Debug, Deserialize)]
+struct CostRow {
+    objects: usize,
+    model: String,
+    seconds: f64,
+}
+
+/// The engine that pushes into crowds are left to: among touching objects it errs less than the
+/// prior and the network, and it costs half of what it does at its finest step.
+const CROWD_STEP: f64 = 1.0 / 120.0;
+
 /// A test sees to it that the file can be read and has all efforts.
-static LEVELS: LazyLock<BTreeMap<Effort, EffortLevel>> = LazyLock::new(|| {
-    let measured: Measured = serde_json::from_str(MEASURED).unwrap_or_default();
-    measured.efforts
-});
+static TRADE: LazyLock<Measured> =
+    LazyLock::new(|| serde_json::from_str(MEASURED).unwrap_or_default());
 
 impl Effort {
     /// The measured level that it stands for; nothing only in a library built around a damaged
     /// file.
     pub fn level(self) -> Option<&'static EffortLevel> {
-        LEVELS.get(&self)
+        TRADE.efforts.get(&self)
     }
 
     /// What it means in numbers: the budgets of its level, and the replays that tell how robust
@@ -53,7 +65,8 @@ impl Effort {
         Settings { disturbed: self.disturbed(), ..settings }
     }
 
-    /// The effect model of its level.
+    /// The effect model of its level, and the planar engine for pushes that reach so many objects
+    /// that it is the cheaper one.
     ///
     /// # Errors
     /// [`WeightsError`] if the library was built around a damaged weights file.
@@ -62,7 +75,11 @@ impl Effort {
             Some(level) => EffectModels::named(&level.model)?,
             None => None,
         };
-        named.map_or_else(EffectModels::shipped, Ok)
+        let model = named.map_or_else(EffectModels::shipped, Ok)?;
+        let planar = Simulator::planar_with_step(CROWD_STEP);
+        let most =
+            cheaper_up_to(&TRADE.objects, model.name(), Simulated::new(planar.clone()).name());
+        Ok(Arc::new(Crowded::new(model, planar, most)))
     }
 
     /// Disturbed replays of the winning plan in each engine: what a look, a usual answer, a
@@ -74,5 +91,49 @@ impl Effort {
             Effort::Thorough => 16,
             Effort::Exhaustive => 64,
         }
+    }
+}
+
+/// The most objects for which `model` is cheaper than `rival`, between measured numbers of them
+/// by straight lines in logarithms; no limit if the rival is never seen to be cheaper.
+fn cheaper_up_to(rows: &[CostRow], model: &str, rival: &str) -> usize {
+    let mut last: Option<(f64, f64)> = None;
+    for row in rows.iter().filter(|row| row.model == model) {
+        let other = rows.iter().find(|o| o.objects == row.objects && o.model == rival);
+        let Some(other) = other else { continue };
+        let (count, dearer) = ((row.objects as f64).ln(), (row.seconds / other.seconds).ln());
+        if dearer >= 0.0 {
+            let crossing = last.map_or(0.0, |(before, was)| {
+                (before + (count - before) * was / (was - dearer)).exp()
+            });
+            return crossing.floor() as usize;
+        }
+        last = Some((count, dearer));
+    }
+    usize::MAX
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_planar_engine_takes_over_where_the_measured_costs_cross() {
+        let row = |objects, model: &str, seconds| CostRow { objects, model: model.into(), seconds };
+        let rows = |costs: [f64; 3]| {
+            let counts = [1, 3, 9].into_iter().zip(costs);
+            let own = counts.map(|(n, cost)| row(n, "own", cost));
+            own.chain([1, 3, 9].map(|n| row(n, "planar", 1.0))).collect::<Vec<_>>()
+        };
+        // Cost 0.1 n^2 passes one at the square root of ten.
+        assert_eq!(cheaper_up_to(&rows([0.1, 0.9, 8.1]), "own", "planar"), 3);
+        assert_eq!(cheaper_up_to(&rows([0.01, 0.09, 0.81]), "own", "planar"), usize::MAX);
+        assert_eq!(cheaper_up_to(&rows([2.0, 3.0, 4.0]), "own", "planar"), 0);
+    }
+
+    #[test]
+    fn the_measured_file_is_read() {
+        assert_eq!(TRADE.efforts.len(), 4);
+        assert!(TRADE.objects.iter().any(|row| row.model == "planar, 1/120 s"));
     }
 }
