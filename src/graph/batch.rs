@@ -49,7 +49,8 @@ pub struct Batch {
     pub senders: Vec<u32>,
     /// Contacts with an overlap, in the order of the relations.
     pub touches: Vec<Touch>,
-    pub(super) scratch: Scratch,
+    /// Behind a pointer, as it is taken out and put back for every graph.
+    pub(super) scratch: Option<Box<Scratch>>,
 }
 
 impl Batch {

@@ -48,10 +48,10 @@ pub fn add_graph(
     batch: &mut Batch,
     motions: &mut Vec<Motion>,
 ) -> usize {
-    let mut scratch = std::mem::take(&mut batch.scratch);
+    let mut scratch = batch.scratch.take().unwrap_or_default();
     let before = batch.node_count();
     if scratch.wake(bodies, state, step, motions) {
-        let Scratch { contacts, prior, march, awake, relations } = &mut scratch;
+        let Scratch { contacts, prior, march, awake, relations } = &mut *scratch;
         let View { bodies, state, coasts } = awake.view(bodies, state, motions);
         let scenery = Scenery { bodies, state, step, coasts };
         if let [_] = bodies.objects[..] {
@@ -95,7 +95,7 @@ pub fn add_graph(
         }
         scratch.touch(graph, motions, &mut batch.touches);
     }
-    batch.scratch = scratch;
+    batch.scratch = Some(scratch);
     batch.node_count() - before
 }
 
@@ -112,7 +112,7 @@ pub fn add_prior(
     batch: &mut Batch,
     motions: &mut Vec<Motion>,
 ) -> usize {
-    let scratch = &mut batch.scratch;
+    let scratch = &mut **batch.scratch.get_or_insert_default();
     if !scratch.wake(bodies, state, step, motions) {
         return 0;
     }
