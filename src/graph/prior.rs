@@ -58,6 +58,7 @@ impl Prior {
         self.end(scenery, axis, contacts);
     }
 
+    /// From the displacements on: the velocities, and both for every object.
     fn end(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         self.release(scenery, axis, contacts);
         self.collect(scenery);
