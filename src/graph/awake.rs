@@ -15,6 +15,8 @@ use super::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Awake {
     flags: Vec<bool>,
+    /// Whether some of the objects sleep, so that the others are gathered.
+    some_sleep: bool,
     pairs: Vec<[usize; 2]>,
     subset: Subset,
     state: State,
@@ -93,8 +95,9 @@ impl Awake {
         coasts: &[Motion],
         contacts: &mut Vec<Contact>,
     ) {
-        let Self { flags, subset, state: own, coasts: own_coasts, .. } = self;
-        if !flags.contains(&false) {
+        let Self { flags, some_sleep, subset, state: own, coasts: own_coasts, .. } = self;
+        *some_sleep = flags.contains(&false);
+        if !*some_sleep {
             return;
         }
         contacts.retain(|contact| flags[contact.object]);
@@ -126,7 +129,7 @@ impl Awake {
         state: &'a State,
         coasts: &'a [Motion],
     ) -> View<'a> {
-        match self.flags.contains(&false) {
+        match self.some_sleep {
             true => View { bodies: &self.subset.bodies, state: &self.state, coasts: &self.coasts },
             false => View { bodies, state, coasts },
         }
@@ -134,6 +137,6 @@ impl Awake {
 
     /// The number in the scene of the gathered object `index`.
     pub fn number(&self, index: usize) -> usize {
-        if self.flags.contains(&false) { self.subset.objects[index] } else { index }
+        if self.some_sleep { self.subset.objects[index] } else { index }
     }
 }

@@ -16,8 +16,8 @@ use super::{
 /// A limit this far off, or nearer, is watched: metres, or radians at [`ARM`].
 const NEAR_LIMIT: f64 = 0.03;
 
-/// What turns a row of angles into metres.
-const ARM: f64 = 0.05;
+/// What turns angles into lengths, metres.
+pub(super) const ARM: f64 = 0.05;
 
 /// Two rows of a joint between two groups: of the second against the first.
 pub(super) struct Rows {

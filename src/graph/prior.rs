@@ -64,7 +64,8 @@ impl Prior {
         self.collect(scenery);
     }
 
-    /// The displacements and what forces make them; the motions are not touched.
+    /// The displacements and what forces make them, which begin as those of the contacts `last` of
+    /// the frame before, if this one follows it; the motions are not touched.
     pub fn press(
         &mut self,
         scenery: Scenery,

@@ -23,6 +23,7 @@ use crate::scene::State;
 use super::{
     bodies::{Bodies, Motion},
     constraint::{Constraint, GIVE, GIVEN, Tie},
+    joint::ARM,
     unknown::{Quantity, Unknown},
 };
 
@@ -32,9 +33,6 @@ const UPDATES: usize = 8;
 
 /// A change of a whole round of iterations below this ends them, metres.
 const SETTLED: f64 = 1e-5;
-
-/// What turns a change of angle into one of length, metres.
-const ARM: f64 = 0.05;
 
 /// Unknowns and rows of one frame.
 #[derive(Clone, Debug, Default)]
