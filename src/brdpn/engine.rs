@@ -10,7 +10,7 @@ use crate::graph::{
 
 use super::{
     Statistics, Weights,
-    parity::{rectify, sum_messages},
+    parity::{Sum, rectify_rows},
 };
 
 /// Immutable weights in the layout that the engine reads; shared between threads.
@@ -146,15 +146,16 @@ impl Engine {
             }
             w.sum.clear();
             w.sum.resize(2 * n * h, 0.0);
-            sum_messages(
-                &w.messages,
-                &w.to_receiver,
-                &w.to_sender,
-                &batch.receivers,
-                &batch.senders,
+            let messages = Sum {
+                a: &w.messages,
+                b: &w.to_receiver,
+                c: &w.to_sender,
+                receivers: &batch.receivers,
+                senders: &batch.senders,
                 h,
-                &mut w.sum,
-            );
+                sum: &mut w.sum,
+            };
+            messages.run();
             w.next.clone_from(&w.keep);
             product(&w.sum, &self.update_effect, n, h, &mut w.next, true);
             product(&w.state, &self.update_own, n, h, &mut w.next, true);
@@ -215,16 +216,6 @@ fn fold(mut matrix: Vec<f32>, statistics: &Statistics, bias: &mut [f32]) -> Vec<
         }
     }
     matrix
-}
-
-fn rectify_rows(x: &mut [f32], bias: &[f32]) {
-    let h = bias.len();
-    let (even, odd) = x.split_at_mut(x.len() / 2);
-    for (e, o) in even.chunks_exact_mut(h).zip(odd.chunks_exact_mut(h)) {
-        for k in 0..h {
-            (e[k], o[k]) = rectify(e[k] + bias[k], o[k]);
-        }
-    }
 }
 
 /// [2, M, h] times [2, h, h], half by half; added to `out` if `add`.

@@ -9,6 +9,7 @@
 use std::sync::Arc;
 
 use candle_core::{CpuStorage, CustomOp2, CustomOp3, DType, Layout, Result, Shape, Tensor, bail};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Rectifies one even and one odd number that are the two parts of a pair.
 #[inline(always)]
@@ -16,6 +17,34 @@ pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     let as_is = (even + odd).max(0.0);
     let mirrored = (even - odd).max(0.0);
     (0.5 * (as_is + mirrored), 0.5 * (as_is - mirrored))
+}
+
+/// Rectifies the rows of x [2, M, h] after adding `bias` [h] to the even half: the forward pass of
+/// [`BiasRectify`], shared with the fused engine.
+pub(super) fn rectify_rows(x: &mut [f32], bias: &[f32]) {
+    Arch::new().dispatch(Rows { x, bias });
+}
+
+struct Rows<'a> {
+    x: &'a mut [f32],
+    bias: &'a [f32],
+}
+
+// On the widest vectors that the processor has, not only those that every one has; the same bits.
+impl WithSimd for Rows<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { x, bias } = self;
+        let h = bias.len();
+        let (even, odd) = x.split_at_mut(x.len() / 2);
+        for (e, o) in even.chunks_exact_mut(h).zip(odd.chunks_exact_mut(h)) {
+            for k in 0..h {
+                (e[k], o[k]) = rectify(e[k] + bias[k], o[k]);
+            }
+        }
+    }
 }
 
 /// The gradients of [`rectify`]'s inputs from those of its outputs.
@@ -42,20 +71,8 @@ impl CustomOp2 for BiasRectify {
         bias_layout: &Layout,
     ) -> Result<(CpuStorage, Shape)> {
         let (x, bias) = (floats(x, x_layout)?, floats(bias, bias_layout)?);
-        let mut y = vec![0.0; x.len()];
-        let (x_even, x_odd) = x.split_at(x.len() / 2);
-        let (y_even, y_odd) = y.split_at_mut(x.len() / 2);
-        let h = bias.len();
-        for (((e, o), ye), yo) in x_even
-            .chunks_exact(h)
-            .zip(x_odd.chunks_exact(h))
-            .zip(y_even.chunks_exact_mut(h))
-            .zip(y_odd.chunks_exact_mut(h))
-        {
-            for k in 0..h {
-                (ye[k], yo[k]) = rectify(e[k] + bias[k], o[k]);
-            }
-        }
+        let mut y = x.to_vec();
+        rectify_rows(&mut y, bias);
         Ok((CpuStorage::F32(y), x_layout.shape().clone()))
     }
 
@@ -124,7 +141,8 @@ impl CustomOp3 for Messages {
         let (a, b, c) = (floats(a, a_layout)?, floats(b, b_layout)?, floats(c, c_layout)?);
         let h = a_layout.shape().dims()[2];
         let mut sum = vec![0.0; b.len()];
-        sum_messages(a, b, c, &self.receivers, &self.senders, h, &mut sum);
+        let (receivers, senders) = (&self.receivers, &self.senders);
+        Sum { a, b, c, receivers, senders, h, sum: &mut sum }.run();
         Ok((CpuStorage::F32(sum), b_layout.shape().clone()))
     }
 
@@ -204,39 +222,53 @@ fn add(target: &mut [f32], value: &[f32]) {
     }
 }
 
-/// The forward pass of [`Messages`] on slices, shared with the fused engine. `sum` must be
-/// zero on entry.
-pub(super) fn sum_messages(
-    a: &[f32],
-    b: &[f32],
-    c: &[f32],
-    receivers: &[u32],
-    senders: &[u32],
-    h: usize,
-    sum: &mut [f32],
-) {
-    let (relations, nodes) = (receivers.len(), b.len() / (2 * h));
-    let (a_even, a_odd) = a.split_at(relations * h);
-    let (b_even, b_odd) = b.split_at(nodes * h);
-    let (c_even, c_odd) = c.split_at(nodes * h);
-    let (sum_even, sum_odd) = sum.split_at_mut(nodes * h);
-    for k in 0..relations {
-        let (r, s) = (receivers[k] as usize * h, senders[k] as usize);
-        let (ae, ao) = (&a_even[k * h..][..h], &a_odd[k * h..][..h]);
-        let (be, bo) = (&b_even[r..][..h], &b_odd[r..][..h]);
-        let (se, so) = (&mut sum_even[r..][..h], &mut sum_odd[r..][..h]);
-        if s < nodes {
-            let (ce, co) = (&c_even[s * h..][..h], &c_odd[s * h..][..h]);
-            for i in 0..h {
-                let (e, o) = rectify(ae[i] + be[i] + ce[i], ao[i] + bo[i] + co[i]);
-                se[i] += e;
-                so[i] += o;
-            }
-        } else {
-            for i in 0..h {
-                let (e, o) = rectify(ae[i] + be[i], ao[i] + bo[i]);
-                se[i] += e;
-                so[i] += o;
+/// The forward pass of [`Messages`] on slices, shared with the fused engine; `h` is half the width.
+/// `sum` must be zero on entry.
+pub(super) struct Sum<'a> {
+    pub a: &'a [f32],
+    pub b: &'a [f32],
+    pub c: &'a [f32],
+    pub receivers: &'a [u32],
+    pub senders: &'a [u32],
+    pub h: usize,
+    pub sum: &'a mut [f32],
+}
+
+impl Sum<'_> {
+    pub fn run(self) {
+        Arch::new().dispatch(self);
+    }
+}
+
+impl WithSimd for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { a, b, c, receivers, senders, h, sum } = self;
+        let (relations, nodes) = (receivers.len(), b.len() / (2 * h));
+        let (a_even, a_odd) = a.split_at(relations * h);
+        let (b_even, b_odd) = b.split_at(nodes * h);
+        let (c_even, c_odd) = c.split_at(nodes * h);
+        let (sum_even, sum_odd) = sum.split_at_mut(nodes * h);
+        for k in 0..relations {
+            let (r, s) = (receivers[k] as usize * h, senders[k] as usize);
+            let (ae, ao) = (&a_even[k * h..][..h], &a_odd[k * h..][..h]);
+            let (be, bo) = (&b_even[r..][..h], &b_odd[r..][..h]);
+            let (se, so) = (&mut sum_even[r..][..h], &mut sum_odd[r..][..h]);
+            if s < nodes {
+                let (ce, co) = (&c_even[s * h..][..h], &c_odd[s * h..][..h]);
+                for i in 0..h {
+                    let (e, o) = rectify(ae[i] + be[i] + ce[i], ao[i] + bo[i] + co[i]);
+                    se[i] += e;
+                    so[i] += o;
+                }
+            } else {
+                for i in 0..h {
+                    let (e, o) = rectify(ae[i] + be[i], ao[i] + bo[i]);
+                    se[i] += e;
+                    so[i] += o;
+                }
             }
         }
     }

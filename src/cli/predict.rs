@@ -59,8 +59,9 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let simulated = ModelName::SIMULATED.into_iter().filter(|name| *name != args.model);
     for name in std::iter::once(args.model.clone()).chain(simulated) {
         let model = args.outside.guard(name.load()?);
+        let source = model.name_for(&task.scene, &motion);
         for warning in model.warnings(&task.scene, &motion) {
-            session.warn(&format!("{}: {warning}", model.name()));
+            session.warn(&format!("{source}: {warning}"));
         }
         let job = Job { start: task.scene.start(), motion: motion.clone(), hypothesis: None };
         let jobs = [job];
@@ -70,10 +71,10 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
             (found, start.elapsed().as_secs_f64())
         });
         if found.iter().any(|trajectory| trajectory.warnings.contains(&Warning::Refused)) {
-            let message = format!("{} gives no prediction for this action", model.name());
+            let message = format!("{source} gives no prediction for this action");
             return Err(CliError::Refused(message));
         }
-        let name = model.name().to_owned();
+        let name = source.to_owned();
         effects.extend(found.into_iter().map(|trajectory| Effect {
             model: name.clone(),
             trajectory,

@@ -63,7 +63,6 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         .seed(args.seed)
         .outside(args.outside.outside())
         .build();
-    let model = planner.model().name();
     let bar = session.spinner("solving");
     let solved = session.compute(|| {
         planner.solve_with(&task, &library, &mut |progress| {
@@ -77,6 +76,11 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     for warning in &solution.warnings {
         session.warn(&warning.to_string());
     }
+    let effects = planner.model();
+    let model = match solution.best() {
+        Some(best) => effects.name_for(&task.scene, &best.plan.motion(&best.tool)),
+        None => effects.name(),
+    };
     let (code, suffix) = match solution.status {
         PlanStatus::Solved => (exit_code::DONE, ""),
         PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),

@@ -31,6 +31,13 @@ impl<M: EffectModel> EffectModel for Crowded<M> {
         self.model.name()
     }
 
+    fn name_for(&self, scene: &Scene, motion: &ToolMotion) -> &str {
+        match self.is_for_model(scene, &scene.start(), motion) {
+            true => self.model.name_for(scene, motion),
+            false => self.planar.name(),
+        }
+    }
+
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
         match self.is_for_model(scene, &scene.start(), motion) {
             true => self.model.warnings(scene, motion),
@@ -94,8 +101,13 @@ mod tests {
         let roll = |model: &dyn EffectModel| model.rollout(&scene, &jobs, Record::Outcome);
         let [own, engine] = [roll(&prior), roll(&Simulated::new(planar.clone()))];
         assert!(own != engine);
-        let mixed = roll(&Crowded::new(prior.clone(), planar.clone(), 2));
+        let model = Crowded::new(prior.clone(), planar.clone(), 2);
+        let mixed = roll(&model);
         assert_eq!([&mixed[0], &mixed[1]], [&engine[0], &own[1]]);
+        assert_eq!(
+            [0, 1].map(|k| model.name_for(&scene, &jobs[k].motion)),
+            ["planar", "quasi-static"]
+        );
         assert_eq!(roll(&Crowded::new(prior.clone(), planar.clone(), 3)), own);
         assert_eq!(roll(&Crowded::new(prior, planar, 0)), engine);
     }

@@ -12,6 +12,12 @@ pub trait EffectModel: Send + Sync {
     /// Short name for tables, such as `brdpn-128` or `planar`.
     fn name(&self) -> &str;
 
+    /// Name of what predicts this motion from the scene's start, where that may be another model
+    /// than for others.
+    fn name_for(&self, _scene: &Scene, _motion: &ToolMotion) -> &str {
+        self.name()
+    }
+
     /// What makes this model less trustworthy for this scene and motion; empty if nothing.
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning>;
 
@@ -29,6 +35,10 @@ macro_rules! models_behind {
         impl<M: EffectModel + ?Sized> EffectModel for $pointer<M> {
             fn name(&self) -> &str {
                 (**self).name()
+            }
+
+            fn name_for(&self, scene: &Scene, motion: &ToolMotion) -> &str {
+                (**self).name_for(scene, motion)
             }
 
             fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {

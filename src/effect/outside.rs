@@ -62,6 +62,10 @@ impl<M: EffectModel> EffectModel for Guarded<M> {
         self.model.name()
     }
 
+    fn name_for(&self, scene: &Scene, motion: &ToolMotion) -> &str {
+        self.model.name_for(scene, motion)
+    }
+
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
         let found = self.model.warnings(scene, motion);
         match self.outside {

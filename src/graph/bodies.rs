@@ -5,6 +5,8 @@ use crate::{
     scene::{GRAVITY, Hypothesis, JointKind, Scene, Span, Tool},
 };
 
+use super::coast::Fall;
+
 /// A movable body as the graph sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Movable {
@@ -16,6 +18,8 @@ pub struct Movable {
     pub support: f64,
     /// (c / rho)^2, the ratio of the spin's friction deceleration (in c omega) to the slide's.
     pub spin: f64,
+    /// How its speeds fall while it slides and spins.
+    pub(super) fall: Fall,
     /// Friction deceleration mu g, m/s^2.
     pub deceleration: f64,
     /// Mass, kg.
@@ -147,11 +151,13 @@ impl Bodies {
                 let footprint = object.shape.footprint();
                 let support = footprint.mean_radius();
                 let friction = Scene::pair_friction(physics.frictions[k], physics.table_friction);
+                let spin = (support / footprint.gyration_radius()).powi(2);
                 Movable {
                     footprint,
                     radius: footprint.bounding_radius(),
                     support,
-                    spin: (support / footprint.gyration_radius()).powi(2),
+                    spin,
+                    fall: Fall::new(spin),
                     deceleration: friction * GRAVITY,
                     mass: physics.masses[k],
                     friction: physics.frictions[k],

@@ -3,18 +3,47 @@
 //! The support is the ellipsoidal limit surface with even pressure (Goyal, Ruina and
 //! Papadopoulos 1991; Lynch and Howe 1992): dv/dt = -mu g v / s and
 //! d(c omega)/dt = -mu g (c / rho)^2 c omega / s with s^2 = |v|^2 + (c omega)^2. Without spin
-//! that is v^2 / (2 mu g) of travel in a straight line; with spin it is integrated.
+//! that is v^2 / (2 mu g) of travel in a straight line. With spin the two speeds fall together: by
+//! d(ln c omega) = k d(ln v) with k = (c / rho)^2 they are v = v0 u and c omega = c omega0 u^k, where
+//! u falls from one to zero and mu g dt = -s du / u. What comes to rest within the frame has then
+//! gone through integrals over all of u; what does not is followed piece by piece.
 
 use crate::scene::Velocity;
 
 use super::bodies::{Motion, Movable};
 
-/// Most pieces that a frame is cut into while an object slides and spins.
+/// Most pieces that a frame is cut into while an object slides and spins through it.
 const PIECES: usize = 12;
 
 /// Share of its speed that an object loses in one piece. Together with [`PIECES`] this keeps
 /// the distance within 0.1 % of a thousand pieces.
 const SHARE: f64 = 0.3;
+
+/// Gauss-Legendre quadrature over y from 0 to 1 where u = y^2, which leaves the integrands smooth:
+/// u and the weight 2 y w of every node. Distances are within 3e-5 of the exact integrals and the
+/// time within 3e-3, for k from 0.7 to 1 (discs have 8/9, thin rods 3/4).
+const NODES: [(f64, f64); 4] = [
+    node(0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    node(0.330_009_478_207_571_9, 0.326_072_577_431_273_07),
+    node(0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    node(0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+const fn node(y: f64, weight: f64) -> (f64, f64) {
+    (y * y, 2.0 * y * weight)
+}
+
+/// u^k at the nodes of the quadrature over the speeds of a sliding object: the same for each of
+/// its motions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fall([f64; NODES.len()]);
+
+impl Fall {
+    /// Of an object with the ratio `spin`, k, of its spin's deceleration to its slide's.
+    pub fn new(spin: f64) -> Self {
+        Self(NODES.map(|(u, _)| u.powf(spin)))
+    }
+}
 
 /// The motion of a free object during `duration` seconds.
 pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
@@ -33,6 +62,11 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     }
     // The direction of travel never changes; only the two speeds do.
     let direction = if speed > 0.0 { velocity.linear / speed } else { velocity.linear };
+    let rest = come_to_rest(body, speed, spin);
+    if rest.time <= duration {
+        let (shift, turn) = (direction * rest.travel, rest.turn / body.support);
+        return Motion { shift, turn, ..Motion::default() };
+    }
     let (mut v, mut w) = (speed, spin);
     let (mut travel, mut turn) = (0.0, 0.0);
     let mut left = duration;
@@ -65,6 +99,33 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     }
 }
 
+/// How an object comes to rest.
+struct Rest {
+    /// Seconds.
+    time: f64,
+    /// Metres.
+    travel: f64,
+    /// Times the length c, metres.
+    turn: f64,
+}
+
+/// What becomes of an object left alone with this speed and `spin`, c times the angular velocity,
+/// both in m/s.
+fn come_to_rest(body: &Movable, speed: f64, spin: f64) -> Rest {
+    let mut rest = Rest { time: 0.0, travel: 0.0, turn: 0.0 };
+    for ((u, weight), power) in NODES.into_iter().zip(body.fall.0) {
+        let (v, w) = (speed * u, spin * power);
+        // mu g dt / du
+        let slowing = weight * (v * v + w * w).sqrt() / u;
+        rest.time += slowing;
+        rest.travel += slowing * v;
+        rest.turn += slowing * w;
+    }
+    let Rest { time, travel, turn } = rest;
+    let share = 1.0 / body.deceleration;
+    Rest { time: share * time, travel: share * travel, turn: share * turn }
+}
+
 /// Distance and remaining speed after `duration` seconds of steady deceleration.
 fn slide(speed: f64, deceleration: f64, duration: f64) -> (f64, f64) {
     let left = (speed - deceleration * duration).max(0.0);
@@ -88,11 +149,13 @@ mod tests {
     fn body() -> Movable {
         let footprint = Footprint::Disc { radius: 0.05 };
         let support = footprint.mean_radius();
+        let spin = (support / footprint.gyration_radius()).powi(2);
         Movable {
             footprint,
             radius: 0.05,
             support,
-            spin: (support / footprint.gyration_radius()).powi(2),
+            spin,
+            fall: Fall::new(spin),
             deceleration: 4.0,
             mass: 1.0,
             friction: 0.4,
@@ -110,12 +173,14 @@ mod tests {
 
     #[test]
     fn with_spin_it_agrees_with_a_fine_integration() {
-        for duration in [0.02, 0.05, 0.4] {
-            agrees_with_a_fine_integration(duration);
+        for duration in [0.02, 0.05] {
+            agrees_with_a_fine_integration(duration, 1e-3);
         }
+        // Long enough to come to rest.
+        agrees_with_a_fine_integration(0.4, 1e-4);
     }
 
-    fn agrees_with_a_fine_integration(duration: f64) {
+    fn agrees_with_a_fine_integration(duration: f64, share: f64) {
         let body = body();
         let start = Velocity { linear: Vector::new(0.25, 0.0), angular: 6.0 };
         let (mut v, mut w, mut x, mut a) = (0.25, 6.0 * body.support, 0.0, 0.0);
@@ -129,12 +194,23 @@ mod tests {
             w = (w - h * body.deceleration * body.spin * w / s).max(0.0);
         }
         let motion = coast(&body, &start, duration);
-        assert!((motion.shift.x - x).abs() < 1e-3 * x, "{} {x}", motion.shift.x);
+        assert!((motion.shift.x - x).abs() < share * x, "{} {x}", motion.shift.x);
         assert!(
-            (motion.turn * body.support - a).abs() < 1e-3 * a,
+            (motion.turn * body.support - a).abs() < share * a,
             "{} {a}",
             motion.turn * body.support
         );
-        assert!((motion.velocity.x - v).abs() < 1e-3 * 0.25, "{} {v}", motion.velocity.x);
+        assert!((motion.velocity.x - v).abs() < share * 0.25, "{} {v}", motion.velocity.x);
+    }
+
+    #[test]
+    fn nothing_jumps_where_an_object_just_comes_to_rest() {
+        let body = body();
+        let start = Velocity { linear: Vector::new(0.25, 0.0), angular: 6.0 };
+        let time = come_to_rest(&body, 0.25, 6.0 * body.support).time;
+        let [before, after] = [0.999, 1.001].map(|share| coast(&body, &start, share * time));
+        assert!((before.shift - after.shift).norm() < 1e-3 * after.shift.norm());
+        assert!((before.turn - after.turn).abs() < 1e-3 * after.turn);
+        assert!(before.velocity.norm() < 0.02 * 0.25, "{}", before.velocity);
     }
 }

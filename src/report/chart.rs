@@ -2,7 +2,10 @@
 
 use crate::geometry::Vector;
 
-use super::svg::{Anchor, Font, Style, Svg};
+use super::{
+    labels::Labels,
+    svg::{Anchor, Font, Style, Svg},
+};
 
 pub(super) const SIZE: Vector = Vector::new(600.0, 320.0);
 /// Upper left corner of the plot below a legend of one line.
@@ -99,6 +102,8 @@ impl Chart {
             self.draw(&mut svg, series, k, &map);
         }
         svg.close();
+        // Last, so that no dot or line of another series lies over words.
+        self.label(&mut svg, corner, &map);
         for (k, place) in legend {
             self.draw_legend(&mut svg, k, Vector::new(CORNER.x, 46.0) + place);
         }
@@ -148,11 +153,21 @@ impl Chart {
                 svg.circle(*point, 3.5, Style::fill(colour(index)).outlined("#ffffff", 1.0));
             }
         }
-        for (k, words) in &series.labels {
-            let Some(point) = series.points.get(*k).filter(|point| self.visible(point)) else {
-                continue;
-            };
-            svg.text(map(point) + Vector::new(6.0, -6.0), words, Font::new(11.0, INK).halo());
+    }
+
+    /// The words beside points, each where it covers least.
+    fn label(&self, svg: &mut Svg, corner: Vector, map: &impl Fn(&[f64; 2]) -> Vector) {
+        let dotted = self.series.iter().filter(|series| series.mark != Mark::Line);
+        let dots = dotted.flat_map(|series| &series.points).filter(|point| self.visible(point));
+        let mut labels = Labels::new(corner, SIZE, dots.map(map));
+        let font = Font::new(11.0, INK).halo();
+        for series in &self.series {
+            for (k, words) in &series.labels {
+                let point = series.points.get(*k).filter(|point| self.visible(point));
+                if let Some(point) = point {
+                    svg.text(labels.place(map(point), words, font), words, font);
+                }
+            }
         }
     }
 

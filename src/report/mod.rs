@@ -8,6 +8,7 @@ mod crowd;
 mod document;
 mod extremes;
 mod html;
+mod labels;
 mod measured;
 mod number;
 mod picture;

@@ -232,7 +232,7 @@ fn the_order_of_objects_and_parts_does_not_matter() {
 fn another_description_of_the_same_cuboid_changes_nothing() {
     use std::f64::consts::{FRAC_PI_2, PI};
     let model = Learned::new(weights(64));
-    let (scene, stroke) = (scene(), stroke());
+    let (scene, stroke) = (scene(), half_stroke());
     let plain = rollout(&model, &scene, stroke);
     let mut half_turned = scene.clone();
     half_turned.objects[0].pose.heading += PI;
