@@ -15,7 +15,7 @@ use super::{
     march::March,
     node::{Node, UNIT},
     prior::Prior,
-    relation::{Relation, Tie, of_contact, of_joint, sights},
+    relation::{Relation, Tie, add_contact, add_joint, sights},
 };
 
 /// Steps that a frame of several objects is solved in. What they do to each other depends on
@@ -63,11 +63,10 @@ pub fn add_graph(
         }
         relations.clear();
         for (k, contact) in contacts.iter().enumerate() {
-            relations
-                .extend(of_contact(bodies, state, coasts, prior, k, contact).into_iter().flatten());
+            add_contact(bodies, state, coasts, prior, k, contact, relations);
         }
         for k in 0..bodies.joints.len() {
-            relations.extend(of_joint(bodies, state, coasts, prior, k));
+            add_joint(bodies, state, coasts, prior, k, relations);
         }
         for (object, body) in bodies.objects.iter().enumerate() {
             let mut node = Node {

@@ -116,17 +116,17 @@ pub(super) fn sights(contact: &Contact) -> [Option<Sight<'_>>; 2] {
     [Some(first), second]
 }
 
-/// The relations of a contact: into its object, and into the other one if that can move.
-pub(super) fn of_contact(
+/// Adds the relations of a contact: into its object, and into the other one if that can move.
+pub(super) fn add_contact(
     bodies: &Bodies,
     state: &State,
     coasts: &[Motion],
     prior: &Prior,
     index: usize,
     contact: &Contact,
-) -> [Option<Relation>; 2] {
-    sights(contact).map(|sight| {
-        let sight = sight?;
+    relations: &mut Vec<Relation>,
+) {
+    for sight in sights(contact).into_iter().flatten() {
         let Sight { receiver, sender, normal, arms, .. } = sight;
         let motion = &prior.motions;
         let sent = sight.sent(motion);
@@ -147,18 +147,19 @@ pub(super) fn of_contact(
             load: prior.system.constraints[index].force.x / weight,
         };
         let answer = prior.answer(index, bodies.groups.of[receiver], position);
-        Some(relation(bodies, receiver, sender, arms, relative, answer, tie))
-    })
+        relations.push(relation(bodies, receiver, sender, arms, relative, answer, tie));
+    }
 }
 
-/// The two relations of joint `index`.
-pub(super) fn of_joint(
+/// Adds the two relations of joint `index`.
+pub(super) fn add_joint(
     bodies: &Bodies,
     state: &State,
     coasts: &[Motion],
     prior: &Prior,
     index: usize,
-) -> [Relation; 2] {
+    relations: &mut Vec<Relation>,
+) {
     let joint = &bodies.joints[index];
     let poses = joint.between.map(|object| state.poses[object]);
     let [on_first, on_second]: [Pose; 2] = [poses[0] * joint.frames[0], poses[1] * joint.frames[1]];
@@ -175,14 +176,15 @@ pub(super) fn of_joint(
         .limits
         .map_or((f64::INFINITY, f64::INFINITY), |limits| (now - limits.low, limits.high - now));
     let tie = Tie::Joint { kind: joint.kind, guessed: joint.guessed, axis, room };
-    [[0, 1], [1, 0]].map(|[to, from]| {
+    for [to, from] in [[0, 1], [1, 0]] {
         let (receiver, sender) = (joint.between[to], joint.between[from]);
         let arms = [at - poses[to].position, at - poses[from].position];
         let relative = prior.motions[sender].at(arms[1]) - coasts[receiver].at(arms[0]);
         let group = bodies.groups.of[receiver];
         let answer = prior.joint_answer(index, group, poses[to].position);
-        relation(bodies, receiver, Body::Object(sender), arms, relative, answer, tie)
-    })
+        let sender = Body::Object(sender);
+        relations.push(relation(bodies, receiver, sender, arms, relative, answer, tie));
+    }
 }
 
 fn relation(
