@@ -42,7 +42,7 @@ pub enum Mark {
 /// Points with a name.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// For the legend; a series without a name is not in it.
+    /// For the legend; a series without a name or without points is not in it.
     pub name: String,
     /// x and y; what is not finite is left out.
     pub points: Vec<[f64; 2]>,
@@ -171,12 +171,15 @@ impl Chart {
         }
     }
 
-    /// The series with a name, and where each stands in the legend, from its upper left.
+    /// The series with a name and points, and where each stands in the legend, from its upper left.
     fn legend(&self) -> Vec<(usize, Vector)> {
         let font = Font::new(12.0, INK);
         let mut next = Vector::zeros();
         let mut places = Vec::new();
-        for (k, series) in self.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
+        let shown = |series: &Series| {
+            !series.name.is_empty() && series.points.iter().any(|point| self.visible(point))
+        };
+        for (k, series) in self.series.iter().enumerate().filter(|(_, series)| shown(series)) {
             let width = 24.0 + font.width(&series.name);
             if next.x > 0.0 && next.x + width > SIZE.x {
                 next = Vector::new(0.0, next.y + LEGEND_LINE);
@@ -314,9 +317,11 @@ mod tests {
     fn points_that_cannot_be_shown_are_left_out() {
         let points = vec![[1.0, 1.0], [2.0, f64::NAN], [3.0, 0.0], [4.0, 10.0]];
         let series = Series { name: "a".into(), points, mark: Mark::Dots, labels: Vec::new() };
-        let chart = Chart { y: Axis::log("loss"), series: vec![series], ..Chart::default() };
+        let empty = Series { name: "b".into(), points: vec![[1.0, 0.0]], ..series.clone() };
+        let chart = Chart { y: Axis::log("loss"), series: vec![series, empty], ..Chart::default() };
         let svg = chart.to_svg();
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        assert!(svg.contains(">a<") && !svg.contains(">b<"));
         // Two points and the one in the legend.
         assert_eq!(svg.matches("<circle").count(), 3);
     }
