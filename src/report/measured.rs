@@ -97,9 +97,11 @@ pub fn inference_table(costs: &[InferenceCost]) -> Table {
         ("fused network", Align::Right),
         ("candle network", Align::Right),
         ("fused of GEMM peak", Align::Right),
+        ("with its graph", Align::Right),
         ("GEMM peak", Align::Right),
     ]);
     for cost in costs {
+        let with_graph = cost.of_peak * cost.fused / (cost.fused + cost.graph);
         table.row([
             cost.graphs.to_string(),
             cost.relations.to_string(),
@@ -107,6 +109,7 @@ pub fn inference_table(costs: &[InferenceCost]) -> Table {
             seconds(cost.fused),
             seconds(cost.candle),
             format!("{:.0} %", 100.0 * cost.of_peak),
+            format!("{:.0} %", 100.0 * with_graph),
             format!("{:.0} GFLOP/s", cost.peak / 1e9),
         ]);
     }

@@ -47,6 +47,10 @@ struct CostRow {
 /// it errs less than the prior, and costs half of what the engine does at its finest step.
 const CROWD_STEP: f64 = 1.0 / 120.0;
 
+/// Share of the engine's cost below which a model is preferred: nearer to it the engine's smaller
+/// error among touching objects decides, not the noise of the measurement.
+const WORTH: f64 = 0.9;
+
 /// A test sees to it that the file can be read and has all efforts.
 static TRADE: LazyLock<Measured> =
     LazyLock::new(|| serde_json::from_str(MEASURED).unwrap_or_default());
@@ -66,7 +70,7 @@ impl Effort {
     }
 
     /// The effect model of its level, and the planar engine for pushes that reach so many objects
-    /// that it is the cheaper one.
+    /// that the model is no longer clearly cheaper.
     ///
     /// # Errors
     /// [`WeightsError`] if the library was built around a damaged weights file.
@@ -94,14 +98,16 @@ impl Effort {
     }
 }
 
-/// The most objects for which `model` is cheaper than `rival`, between measured numbers of them
-/// by straight lines in logarithms; no limit if the rival is never seen to be cheaper.
+/// The most objects for which `model` costs less than [`WORTH`] of what `rival` does, between
+/// measured numbers of them by straight lines in logarithms; no limit if it is never seen to cost
+/// more.
 fn cheaper_up_to(rows: &[CostRow], model: &str, rival: &str) -> usize {
     let mut last: Option<(f64, f64)> = None;
     for row in rows.iter().filter(|row| row.model == model) {
         let other = rows.iter().find(|o| o.objects == row.objects && o.model == rival);
         let Some(other) = other else { continue };
-        let (count, dearer) = ((row.objects as f64).ln(), (row.seconds / other.seconds).ln());
+        let count = (row.objects as f64).ln();
+        let dearer = (row.seconds / (WORTH * other.seconds)).ln();
         if dearer >= 0.0 {
             let crossing = last.map_or(0.0, |(before, was)| {
                 (before + (count - before) * was / (was - dearer)).exp()
@@ -125,8 +131,8 @@ mod tests {
             let own = counts.map(|(n, cost)| row(n, "own", cost));
             own.chain([1, 3, 9].map(|n| row(n, "planar", 1.0))).collect::<Vec<_>>()
         };
-        // Cost 0.1 n^2 passes one at the square root of ten.
-        assert_eq!(cheaper_up_to(&rows([0.1, 0.9, 8.1]), "own", "planar"), 3);
+        // Cost 0.05 n^2 passes the worth at the square root of 18.
+        assert_eq!(cheaper_up_to(&rows([0.05, 0.45, 4.05]), "own", "planar"), 4);
         assert_eq!(cheaper_up_to(&rows([0.01, 0.09, 0.81]), "own", "planar"), usize::MAX);
         assert_eq!(cheaper_up_to(&rows([2.0, 3.0, 4.0]), "own", "planar"), 0);
     }
@@ -135,6 +141,8 @@ mod tests {
     fn the_measured_file_is_read() {
         assert_eq!(TRADE.efforts.len(), 4);
         // The README says that pushes that can reach three objects are simulated.
-        assert_eq!(cheaper_up_to(&TRADE.objects, "quasi-static", "planar, 1/120 s"), 2);
+        for model in ["quasi-static", "brdpn-128"] {
+            assert_eq!(cheaper_up_to(&TRADE.objects, model, "planar, 1/120 s"), 2);
+        }
     }
 }
