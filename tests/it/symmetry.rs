@@ -7,7 +7,7 @@ use pushplan::{
     asset::ToolLibrary,
     bench::{Case, Suite, SuiteKind, crowd_cases},
     effect::{EffectModel, QuasiStatic},
-    geometry::Pose,
+    geometry::{Pose, Shape},
     scene::{Job, JointKind, Record, State},
 };
 
@@ -71,5 +71,27 @@ fn the_order_of_objects_and_parts_does_not_matter_to_the_prior() {
         let mut there = predict(&other);
         there.poses.reverse();
         assert_same(&predict(&case), &there);
+    }
+}
+
+#[test]
+fn another_description_of_the_same_solid_changes_nothing_for_the_prior() {
+    for case in cases() {
+        let mut other = case.clone();
+        // Joints are given by where the objects stand, so only free ones are written anew.
+        let jointed: Vec<usize> = case.scene.joints.iter().flat_map(|j| j.between).collect();
+        for (k, object) in other.scene.objects.iter_mut().enumerate() {
+            if jointed.contains(&k) {
+                continue;
+            }
+            match &mut object.shape {
+                Shape::Cuboid { size: [length, width, _] } => {
+                    std::mem::swap(length, width);
+                    object.pose.heading += std::f64::consts::FRAC_PI_2;
+                }
+                Shape::Cylinder { .. } => object.pose.heading += 1.0,
+            }
+        }
+        assert_same(&predict(&case), &predict(&other));
     }
 }
