@@ -7,9 +7,9 @@ use std::time::Duration;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use pushplan::asset::ToolLibrary;
 use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
-use pushplan::brdpn::{Engine, Workspace as Memory};
-use pushplan::effect::{EffectModel, EffectModels, Learned, QuasiStatic, Simulated};
+use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::graph::{Batch, Bodies, add_graph};
+use pushplan::network::{Buffers, Forward};
 use pushplan::plan::{
     QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
     Workspace, refine,
@@ -68,7 +68,7 @@ fn fill(batch: &mut Batch, frames: &[Near]) {
 
 /// Contacts, prior and features; then the network on the same batch.
 fn graph_and_network(criterion: &mut Criterion) {
-    let engine = Engine::new(&EffectModels::weights().expect("the shipped weights are sound"));
+    let forward = Forward::new(&EffectModels::weights().expect("the shipped weights are sound"));
     let mut group = criterion.benchmark_group("graph of 64 candidate-steps");
     group.throughput(Throughput::Elements(BATCH as u64));
     for (name, cases) in cases() {
@@ -82,9 +82,9 @@ fn graph_and_network(criterion: &mut Criterion) {
     for (name, cases) in cases() {
         let mut batch = Batch::default();
         fill(&mut batch, &frames(&cases));
-        let (mut memory, mut corrections) = (Memory::default(), Vec::new());
+        let (mut buffers, mut corrections) = (Buffers::default(), Vec::new());
         group.bench_function(name, |b| {
-            b.iter(|| engine.forward(black_box(&batch), &mut memory, &mut corrections));
+            b.iter(|| forward.run(black_box(&batch), &mut buffers, &mut corrections));
         });
     }
     group.finish();
@@ -94,8 +94,8 @@ fn graph_and_network(criterion: &mut Criterion) {
 fn rollouts(criterion: &mut Criterion) {
     let weights = EffectModels::weights().expect("the shipped weights are sound");
     let models: [(Box<dyn EffectModel>, usize); 4] = [
-        (Box::new(Learned::new(weights)), BATCH),
-        (Box::new(QuasiStatic::default()), BATCH),
+        (Box::new(Network::new(weights)), BATCH),
+        (Box::new(Prior::default()), BATCH),
         (Box::new(Simulated::new(Simulator::planar())), 1),
         (Box::new(Simulated::new(Simulator::spatial())), 1),
     ];

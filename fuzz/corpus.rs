@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pushplan::asset::{PlanFile, ToolLibrary, TrajectoryFile};
-use pushplan::brdpn::{Config, Parameters, Weights};
-use pushplan::effect::{EffectModel, EffectModels, QuasiStatic};
+use pushplan::effect::{EffectModel, EffectModels, Prior};
 use pushplan::geometry::Vector;
+use pushplan::network::{Config, Parameters, Weights};
 use pushplan::scene::{Job, Outcome, Plan, Push, Record, Task};
 use serde_json::Value as Json;
 
@@ -146,7 +146,7 @@ fn sample(name: &str) -> Option<Sample> {
     };
     let motion = plan.motion(&tool);
     let job = Job { start: task.scene.start(), motion, hypothesis: None };
-    let trajectory = QuasiStatic::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
+    let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
     let predicted = Some(Outcome::judge(&task.goal, &trajectory));
     let model = Some("quasi-static".to_owned());
     let plan = PlanFile { task, tool, plan, model, predicted, verdict: None };
@@ -172,6 +172,6 @@ fn weights() -> Vec<u8> {
     let shipped = EffectModels::weights().expect("the shipped weights are sound");
     let config = Config { width: 4, steps: 1 };
     let parameters = Parameters::fresh(&config, 1);
-    let card = pushplan::brdpn::Card { config, ..shipped.card };
+    let card = pushplan::network::Card { config, ..shipped.card };
     Weights { card, parameters }.to_bytes().expect("a small network")
 }

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::asset::{Faults, PlanFile, Recording, ToolLibrary, TrajectoryFile};
-use pushplan::brdpn::Weights;
-use pushplan::effect::{EffectModel, Learned, QuasiStatic};
+use pushplan::effect::{EffectModel, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::network::Weights;
 use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::scene::{
     Job, Object, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
@@ -34,7 +34,7 @@ pub fn tool(tool: Tool) {
     let scene = Scene { table_friction: 0.5, objects: vec![can], ..Scene::default() };
     let push = Push { start: Vector::zeros(), direction: 0.1, length: 0.1, speed: 0.1 };
     let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.3, &[push], true);
-    let rolled = rollout(&QuasiStatic::default(), &scene, &motion);
+    let rolled = rollout(&Prior::default(), &scene, &motion);
     picture(&scene, Some(&motion), rolled.as_ref());
 }
 
@@ -46,7 +46,7 @@ pub fn task(task: Task) {
     let rules = &task.pushes;
     let push = Push { start, direction: 0.0, length: rules.length, speed: rules.speed };
     let motion = ToolMotion::pushes(Arc::clone(&tools[0]), rules.lift, 0.0, &[push], true);
-    let rolled = rollout(&QuasiStatic::default(), &task.scene, &motion);
+    let rolled = rollout(&Prior::default(), &task.scene, &motion);
     picture(&task.scene, Some(&motion), rolled.as_ref());
     let frames = motion.strokes[0].frames() * rules.max_count;
     if task.scene.objects.len() > CROWD || frames > LONGEST {
@@ -64,7 +64,7 @@ pub fn task(task: Task) {
         verify_batches: 0,
         disturbed: 0,
     };
-    let planner = Planner::builder(QuasiStatic::default()).settings(budgets).build();
+    let planner = Planner::builder(Prior::default()).settings(budgets).build();
     match planner.solve(&task, &library) {
         Ok(solution) => {
             for plan in &solution.plans {
@@ -82,7 +82,7 @@ pub fn task(task: Task) {
 
 pub fn plan(file: PlanFile) {
     let motion = file.plan.motion(&file.tool);
-    let rolled = rollout(&QuasiStatic::default(), &file.task.scene, &motion);
+    let rolled = rollout(&Prior::default(), &file.task.scene, &motion);
     picture(&file.task.scene, Some(&motion), rolled.as_ref());
     written(|path| file.write(path), |path| PlanFile::load(path), &file);
 }
@@ -95,7 +95,7 @@ pub fn trajectory(file: TrajectoryFile) {
 
 pub fn recording(recording: Recording) {
     let replay = recording.replay();
-    let rolled = rollout(&QuasiStatic::default(), &recording.scene, &replay.motion);
+    let rolled = rollout(&Prior::default(), &recording.scene, &replay.motion);
     picture(&recording.scene, Some(&replay.motion), rolled.as_ref());
     let folder = tempfile::tempdir().expect("a folder for a moment");
     let path = folder.path().join("fuzz.recording.json");
@@ -109,7 +109,7 @@ pub fn weights(weights: Weights) {
     if weights.card.config.width > 512 {
         return;
     }
-    let model = Learned::new(weights);
+    let model = Network::new(weights);
     let scene = Scene {
         table_friction: 0.5,
         objects: vec![Object {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile, check};
-use pushplan::brdpn::Weights;
+use pushplan::network::Weights;
 use pushplan::scene::{Task, Tool};
 
 use crate::survive;

@@ -6,7 +6,7 @@
 //! ```text
 //! geometry ─ scene ─ asset
 //!              ├─ sim ─ effect ─ plan ─ verify ─ solve ─ bench ─ report ─ cli
-//!              └─ graph ─ brdpn ─ rollout ─┘
+//!              └─ graph ─ network ─ rollout ─┘
 //!                  dataset ─ train ─ (weights in models/)
 //! ```
 //!
@@ -32,12 +32,12 @@
 
 pub mod asset;
 pub mod bench;
-pub mod brdpn;
 pub mod cli;
 pub mod dataset;
 pub mod effect;
 pub mod geometry;
 pub mod graph;
+pub mod network;
 pub mod plan;
 pub mod report;
 pub mod rollout;

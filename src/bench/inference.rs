@@ -1,4 +1,4 @@
-//! What the network alone costs: fused engine and candle graph on the same batches, against
+//! What the network alone costs: fused network and candle graph on the same batches, against
 //! what the machine's matrix products reach in the same run.
 
 use std::time::Duration;
@@ -6,8 +6,8 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    brdpn::{Engine, Inputs, Predictor, Weights, Workspace, matrix_product},
     graph::{Batch, Bodies, add_graph},
+    network::{Buffers, Forward, Inputs, Predictor, Weights, matrix_product},
     scene::Record,
     sim::Simulator,
 };
@@ -34,13 +34,13 @@ pub struct InferenceCost {
     pub nodes: usize,
     /// Relations in the batch.
     pub relations: usize,
-    /// Fused engine, seconds per graph.
+    /// Fused network, seconds per graph.
     pub fused: f64,
     /// candle graph, seconds per graph.
     pub candle: f64,
     /// Graph building (contacts, prior, features), seconds per graph.
     pub graph: f64,
-    /// Share of the peak that the fused engine's matrix products would have if they took all
+    /// Share of the peak that the fused network's matrix products would have if they took all
     /// of its time, 0 to 1.
     pub of_peak: f64,
     /// Matrix-product rate of one thread in the same run, floating-point operations per second.
@@ -57,7 +57,7 @@ pub fn inference_costs(
     cases: &[Case],
     sizes: &[usize],
 ) -> candle_core::Result<Vec<InferenceCost>> {
-    let engine = Engine::new(weights);
+    let forward = Forward::new(weights);
     let network = Predictor::new(weights.card.config, &weights.parameters)?;
     let peak = peak();
     sizes
@@ -65,16 +65,16 @@ pub fn inference_costs(
         .map(|&size| {
             let mut batch = Batch::default();
             let building = fill(&mut batch, cases, size);
-            let mut workspace = Workspace::default();
+            let mut buffers = Buffers::default();
             let mut corrections = Vec::new();
-            let fused = best(|| engine.forward(&batch, &mut workspace, &mut corrections));
+            let fused = best(|| forward.run(&batch, &mut buffers, &mut corrections));
             let inputs = Inputs::new(&batch, &weights.card.normaliser)?;
             network.forward(&inputs)?;
             let candle = best(|| {
                 // The first call above has shown that this one succeeds.
                 let _ = std::hint::black_box(network.forward(&inputs));
             });
-            let work = engine.operations(&batch);
+            let work = forward.operations(&batch);
             Ok(InferenceCost {
                 graphs: size,
                 nodes: batch.node_count(),

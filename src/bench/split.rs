@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    effect::{EffectModel, Learned},
+    effect::{EffectModel, Network},
     rollout::Work,
 };
 
@@ -49,7 +49,7 @@ pub struct PushSplit {
 }
 
 /// Splits the pushes of `suite`, `batch` jobs at a time, on this thread.
-pub fn push_split(model: &Learned, suite: &Suite, batch: usize) -> PushSplit {
+pub fn push_split(model: &Network, suite: &Suite, batch: usize) -> PushSplit {
     let jobs = batches(&suite.cases, batch);
     let pushes = (jobs.len() * batch).max(1) as f64;
     let mut work = Work::default();

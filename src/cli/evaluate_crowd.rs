@@ -257,8 +257,7 @@ fn models(
     for assumption in Assumption::ALL {
         models.push(Box::new(Assuming::new(Arc::clone(&model), assumption)));
     }
-    let baselines =
-        [ModelName::QuasiStatic, ModelName::Projection, ModelName::Follow, ModelName::Still];
+    let baselines = [ModelName::Prior, ModelName::Projection, ModelName::Follow, ModelName::Still];
     for other in baselines.into_iter().filter(|other| other != name) {
         models.push(Box::new(other.load()?));
     }

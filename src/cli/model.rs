@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use crate::brdpn::{Weights, WeightsError};
 use crate::effect::{
-    EffectModel, EffectModels, Follow, Guarded, Learned, Outside, Projection, QuasiStatic,
-    Simulated, Still,
+    EffectModel, EffectModels, Follow, Guarded, Network, Outside, Prior, Projection, Simulated,
+    Still,
 };
+use crate::network::{Weights, WeightsError};
 use crate::sim::Simulator;
 use crate::solve::Effort;
 
@@ -42,7 +42,7 @@ pub enum ModelName {
     /// The shipped network.
     Brdpn,
     /// The network's quasi-static prior, without the network.
-    QuasiStatic,
+    Prior,
     /// The planar simulation.
     Planar,
     /// The 3-D simulation: slow.
@@ -65,7 +65,7 @@ impl ModelName {
         ("brdpn", ModelName::Brdpn),
         ("planar", ModelName::Planar),
         ("3d", ModelName::Spatial),
-        ("quasi-static", ModelName::QuasiStatic),
+        ("quasi-static", ModelName::Prior),
         ("projection", ModelName::Projection),
         ("follow", ModelName::Follow),
         ("still", ModelName::Still),
@@ -77,7 +77,7 @@ impl ModelName {
     /// Those that stand beside any other in `evaluate`: what it must beat, and the other engine.
     pub const BASELINES: [ModelName; 5] = [
         ModelName::Spatial,
-        ModelName::QuasiStatic,
+        ModelName::Prior,
         ModelName::Projection,
         ModelName::Follow,
         ModelName::Still,
@@ -92,7 +92,7 @@ impl ModelName {
             return effort.model().map_err(broken);
         }
         if let Some(weights) = self.weights()? {
-            return Ok(Arc::new(Learned::new(weights)));
+            return Ok(Arc::new(Network::new(weights)));
         }
         Ok(match self {
             Self::Planar => Arc::new(Simulated::new(Simulator::planar())),
@@ -101,8 +101,8 @@ impl ModelName {
             Self::Follow => Arc::new(Follow),
             Self::Projection => Arc::new(Projection),
             // Networks and efforts have returned above.
-            Self::QuasiStatic | Self::Brdpn | Self::Weights(_) | Self::OfEffort(_) => {
-                Arc::new(QuasiStatic::default())
+            Self::Prior | Self::Brdpn | Self::Weights(_) | Self::OfEffort(_) => {
+                Arc::new(Prior::default())
             }
         })
     }
@@ -115,7 +115,7 @@ impl ModelName {
         match self {
             Self::Brdpn => EffectModels::weights().map(Some).map_err(broken),
             Self::OfEffort(effort) => {
-                let network = Learned::new(EffectModels::weights().map_err(broken)?);
+                let network = Network::new(EffectModels::weights().map_err(broken)?);
                 let same = effort.model().map_err(broken)?.name() == network.name();
                 Ok(same.then(|| network.weights().clone()))
             }

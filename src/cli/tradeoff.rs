@@ -8,8 +8,8 @@ use crate::bench::{
     RunManifest, Seconds, Store, TradeOff, TradeOffReport, TradeOffSettings, Unit, digest, levels,
     plan_levels,
 };
-use crate::brdpn::Weights;
 use crate::effect::EffectModels;
+use crate::network::Weights;
 use crate::report::{
     Table, tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
     tradeoff_push_chart, tradeoff_task_chart,

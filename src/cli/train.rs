@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
 use crate::asset::write_atomic;
-use crate::brdpn::Config;
 use crate::dataset::{Dataset, DatasetConfig, Preset};
+use crate::network::Config;
 use crate::report::{millimetres, training_chart};
 use crate::train::{CheckpointError, Exposure, MetricLine, Report, Settings, TrainError, train};
 

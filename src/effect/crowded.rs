@@ -65,7 +65,7 @@ impl<M: EffectModel> EffectModel for Crowded<M> {
 mod tests {
     use std::sync::Arc;
 
-    use crate::effect::QuasiStatic;
+    use crate::effect::Prior;
     use crate::geometry::{Pose, Shape, Vector};
     use crate::scene::{Object, Part, Push, Tool};
 
@@ -97,7 +97,7 @@ mod tests {
             }
         };
         let jobs = [job(0.0), job(0.5)];
-        let (prior, planar) = (QuasiStatic::default(), Simulator::planar());
+        let (prior, planar) = (Prior::default(), Simulator::planar());
         let roll = |model: &dyn EffectModel| model.rollout(&scene, &jobs, Record::Outcome);
         let [own, engine] = [roll(&prior), roll(&Simulated::new(planar.clone()))];
         assert!(own != engine);

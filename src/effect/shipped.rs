@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use crate::{
-    brdpn::{Weights, WeightsError},
+    network::{Weights, WeightsError},
     sim::{DEFAULT_STEP, Simulator},
 };
 
-use super::{EffectModel, Follow, Learned, Projection, QuasiStatic, Simulated, Still};
+use super::{EffectModel, Follow, Network, Prior, Projection, Simulated, Still};
 
 /// The trained weights that are part of the library; `models/brdpn.md` says what they are.
 const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn.safetensors");
@@ -29,7 +29,7 @@ impl EffectModels {
     /// # Errors
     /// [`WeightsError`] if the library was built around a damaged weights file.
     pub fn shipped() -> Result<Arc<dyn EffectModel>, WeightsError> {
-        Ok(Arc::new(Learned::new(Self::weights()?)))
+        Ok(Arc::new(Network::new(Self::weights()?)))
     }
 
     /// The model of this name, as [`EffectModel::name`] gives it: the shipped network, its prior,
@@ -46,7 +46,7 @@ impl EffectModels {
         Ok(Some(match plain {
             "planar" => Arc::new(Simulated::new(Simulator::planar_with_step(step))),
             "3d" => Arc::new(Simulated::new(Simulator::spatial_with_step(step))),
-            "quasi-static" => Arc::new(QuasiStatic::default()),
+            "quasi-static" => Arc::new(Prior::default()),
             "projection" => Arc::new(Projection),
             "follow" => Arc::new(Follow),
             "still" => Arc::new(Still),

@@ -9,8 +9,8 @@ use std::sync::{Arc, LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use crate::brdpn::WeightsError;
 use crate::effect::{Crowded, EffectModel, EffectModels, Simulated};
+use crate::network::WeightsError;
 use crate::sim::Simulator;
 
 use super::{Effort, Settings};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
-use crate::brdpn::WeightsError;
 use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
+use crate::network::WeightsError;
 use crate::scene::{
     Frame, Outcome, Plan, Push, Record, Task, Tool, ToolMotion, Trajectory, Warning,
 };

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    brdpn::{Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata},
     dataset::DatasetConfig,
+    network::{Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
 
 use super::{AdamW, HeldOutError, Settings};

@@ -5,10 +5,10 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    brdpn::{Engine, Workspace},
     dataset::Episode,
     geometry::{Pose, Vector},
     graph::{Batch, Bodies, Motion, Node, add_graph},
+    network::{Buffers, Forward},
     rollout::{apply, hold, integrate},
     scene::{COAST_FRAME, FrameStep, State},
 };
@@ -134,13 +134,13 @@ impl<'a> Examples<'a> {
         (seed, step, part): (u64, u64, u64),
         progress: f64,
         count: usize,
-        engine: Option<&Engine>,
+        forward: Option<&Forward>,
     ) -> Supervised {
         let mut random = Pcg64::new(
             (u128::from(seed) << 64) | u128::from(step),
             0xa02b_dbf7_bb3c_00a7_u128 ^ (u128::from(part) << 8),
         );
-        let multiple = match (noise.exposure, engine) {
+        let multiple = match (noise.exposure, forward) {
             (Exposure::MultiStep, Some(_)) => noise.lead + 1,
             _ => 1,
         };
@@ -149,7 +149,7 @@ impl<'a> Examples<'a> {
                 let place = &self.places[random.random_range(0..self.places.len())];
                 let (episode, frame) =
                     (&self.episodes[place.episode as usize], place.frame as usize);
-                let wanted = match (engine, noise.exposure) {
+                let wanted = match (forward, noise.exposure) {
                     (None, _) => 0,
                     (_, Exposure::Pushforward) => random.random_range(0..=noise.lead),
                     (_, Exposure::Scheduled) => {
@@ -173,14 +173,14 @@ impl<'a> Examples<'a> {
         let mut drawn = Supervised::default();
         let mut led = Batch::default();
         let mut scratch = Scratch::default();
-        if let Some(engine) = engine {
+        if let Some(forward) = forward {
             while starts.iter().any(|start| start.at < start.frame) {
                 if multiple > 1 {
                     for start in starts.iter().filter(|start| start.at < start.frame) {
                         drawn.add(start, &mut scratch);
                     }
                 }
-                lead_on(&mut starts, engine, &mut led);
+                lead_on(&mut starts, forward, &mut led);
             }
         }
         for start in &starts {
@@ -204,8 +204,8 @@ struct Start<'a> {
 }
 
 /// Rolls every start that is not yet at its frame on by one frame with the network.
-fn lead_on(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
-    let mut workspace = Workspace::default();
+fn lead_on(starts: &mut [Start<'_>], forward: &Forward, batch: &mut Batch) {
+    let mut buffers = Buffers::default();
     let mut corrections = Vec::new();
     let mut motions = vec![Vec::new(); starts.len()];
     batch.clear();
@@ -214,7 +214,7 @@ fn lead_on(starts: &mut [Start<'_>], engine: &Engine, batch: &mut Batch) {
         let graph = k as u32;
         add_graph(&start.bodies, &start.state, &step, axis, graph, batch, &mut motions[k]);
     }
-    engine.forward(batch, &mut workspace, &mut corrections);
+    forward.run(batch, &mut buffers, &mut corrections);
     apply(batch, &corrections, &mut motions);
     for (start, motions) in starts.iter_mut().zip(&motions).filter(|(s, _)| s.at < s.frame) {
         let (step, _) = transition(start.episode, start.at);

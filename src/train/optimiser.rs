@@ -3,7 +3,7 @@
 //! Adam (Kingma and Ba 2015) with decoupled weight decay (Loshchilov and Hutter 2019). Written
 //! here because candle's keeps its moments private, so that a run could not be resumed.
 
-use crate::brdpn::Parameters;
+use crate::network::Parameters;
 
 use super::{Settings, learning_rate};
 

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use crate::{
-    brdpn::{Engine, Workspace},
     dataset::Episode,
     geometry::wrap_angle,
+    network::{Buffers, Forward},
     rollout::{RollSettings, roll},
     scene::{Job, Record},
 };
@@ -26,10 +26,10 @@ type Sample = (f64, Option<f64>, usize);
 const FEW: usize = 3;
 
 /// Rolls every episode out from its first frame and compares the last.
-pub fn rollout_error(engine: &Engine, episodes: &[Episode], step: u64) -> HeldOutError {
+pub fn rollout_error(forward: &Forward, episodes: &[Episode], step: u64) -> HeldOutError {
     let samples: Vec<Sample> = episodes
         .par_iter()
-        .map_init(Workspace::default, |workspace, episode| samples(engine, episode, workspace))
+        .map_init(Buffers::default, |buffers, episode| samples(forward, episode, buffers))
         .flatten_iter()
         .collect();
     let part = |wanted: &dyn Fn(usize) -> bool| {
@@ -43,7 +43,7 @@ pub fn rollout_error(engine: &Engine, episodes: &[Episode], step: u64) -> HeldOu
     }
 }
 
-fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec<Sample> {
+fn samples(forward: &Forward, episode: &Episode, buffers: &mut Buffers) -> Vec<Sample> {
     let (Some(first), Some(last)) = (episode.frames.first(), episode.frames.last()) else {
         return Vec::new();
     };
@@ -54,7 +54,7 @@ fn samples(engine: &Engine, episode: &Episode, workspace: &mut Workspace) -> Vec
         Record::Outcome,
         RollSettings::default(),
         Some(&mut |batch, corrections| {
-            engine.forward(batch, workspace, corrections);
+            forward.run(batch, buffers, corrections);
         }),
     );
     let predicted = predicted[0].outcome();

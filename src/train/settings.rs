@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::brdpn::Config;
+use crate::network::Config;
 
 use super::Noise;
 

@@ -12,10 +12,10 @@ use thiserror::Error;
 
 use crate::{
     asset::{Faults, write_atomic},
-    brdpn::{
-        Card, Engine, ErrorCard, Inputs, Normaliser, Parameters, Predictor, Weights, WeightsError,
-    },
     dataset::{Dataset, DatasetError},
+    network::{
+        Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Weights, WeightsError,
+    },
 };
 
 use super::{
@@ -100,14 +100,14 @@ pub fn train(
     let mut log = Log::open(folder, run.optimiser.step)?;
     let started = Instant::now();
     let mut since = (Instant::now(), 0u64, 0.0f64, 0.0f64);
-    let mut lead: Option<Engine> = None;
+    let mut lead: Option<Forward> = None;
     while run.optimiser.step < settings.steps {
         let step = run.optimiser.step;
         if step.is_multiple_of(REFRESH) {
             if report.cancelled() {
                 break;
             }
-            lead = (settings.noise.lead > 0).then(|| Engine::new(&weights(&run, data, None)));
+            lead = (settings.noise.lead > 0).then(|| Forward::new(&weights(&run, data, None)));
         }
         let (loss, gradients) = gradients(&run, &examples, lead.as_ref())?;
         let norm = run.optimiser.update(settings, &gradients);
@@ -118,8 +118,8 @@ pub fn train(
         let step = run.optimiser.step;
         report.step(step, settings.steps);
         if step.is_multiple_of(settings.evaluate_every) || step == settings.steps {
-            let engine = Engine::new(&weights(&run, data, None));
-            let error = rollout_error(&engine, held_out.episodes(), step);
+            let forward = Forward::new(&weights(&run, data, None));
+            let error = rollout_error(&forward, held_out.episodes(), step);
             let count = since.1 as f64;
             let line = MetricLine {
                 step,
@@ -190,7 +190,7 @@ fn save(run: &Checkpoint, path: &Path) -> Result<(), TrainError> {
 fn gradients(
     run: &Checkpoint,
     examples: &Examples<'_>,
-    lead: Option<&Engine>,
+    lead: Option<&Forward>,
 ) -> Result<(f64, Parameters), TrainError> {
     let settings = &run.settings;
     let parts = (0..REPLICAS as u64)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The rooms in order; a module imports only from rooms before its own.
 const ROOMS: [&str; 16] = [
-    "geometry", "scene", "asset", "sim", "graph", "brdpn", "rollout", "effect", "plan", "verify",
+    "geometry", "scene", "asset", "sim", "graph", "network", "rollout", "effect", "plan", "verify",
     "solve", "dataset", "train", "bench", "report", "cli",
 ];
 

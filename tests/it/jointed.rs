@@ -1,9 +1,9 @@
 //! Predictions of jointed scenes: their symmetries, and joints that hold.
 
 use pushplan::{
-    brdpn::Weights,
-    effect::{EffectModel, Learned, QuasiStatic},
+    effect::{EffectModel, Network, Prior},
     geometry::{Pose, Shape, Vector, perpendicular, wrap_angle},
+    network::Weights,
     scene::{Job, Joint, JointKind, Object, Record, Scene, Span, State, Stroke, ToolMotion},
 };
 
@@ -64,7 +64,7 @@ fn rollout(model: &dyn EffectModel, scene: &Scene, stroke: Stroke) -> State {
 
 #[test]
 fn turning_and_shifting_a_jointed_scene_turns_and_shifts_the_prediction() {
-    let model = Learned::new(gentle());
+    let model = Network::new(gentle());
     let plain = rollout(&model, &scene(), half_stroke());
     for by in [Pose::new(0.7, -1.3, 2.2), Pose::new(-4.0, 2.0, -0.4)] {
         let turned =
@@ -77,7 +77,7 @@ fn turning_and_shifting_a_jointed_scene_turns_and_shifts_the_prediction() {
 
 #[test]
 fn the_order_of_objects_and_joints_does_not_matter() {
-    let model = Learned::new(gentle());
+    let model = Network::new(gentle());
     let plain = rollout(&model, &scene(), stroke());
     let mut other = scene();
     let last = other.objects.len() - 1;
@@ -91,7 +91,7 @@ fn the_order_of_objects_and_joints_does_not_matter() {
 
 #[test]
 fn naming_the_two_objects_of_a_joint_the_other_way_round_changes_nothing() {
-    let plain = rollout(&QuasiStatic::default(), &scene(), stroke());
+    let plain = rollout(&Prior::default(), &scene(), stroke());
     let mut other = scene();
     for joint in &mut other.joints {
         joint.between.reverse();
@@ -99,7 +99,7 @@ fn naming_the_two_objects_of_a_joint_the_other_way_round_changes_nothing() {
             *limits = Span::new(-limits.high, -limits.low);
         }
     }
-    assert_same(&plain, &rollout(&QuasiStatic::default(), &other, stroke()));
+    assert_same(&plain, &rollout(&Prior::default(), &other, stroke()));
 }
 
 /// How far the joints are from what they allow: metres, or radians at 5 cm.
@@ -129,7 +129,7 @@ fn violation(scene: &Scene, state: &State) -> f64 {
 fn joints_hold_whatever_the_network_says() {
     let long = Stroke { to: Pose::new(0.6, 0.1, 0.0), duration: 4.0, ..stroke() };
     let models: [Box<dyn EffectModel>; 2] =
-        [Box::new(Learned::new(gentle())), Box::new(QuasiStatic::default())];
+        [Box::new(Network::new(gentle())), Box::new(Prior::default())];
     for model in models {
         let end = rollout(&*model, &scene(), long);
         let travel = (end.poses[3].position - scene().objects[3].pose.position).norm();
@@ -143,7 +143,7 @@ fn joints_hold_whatever_the_network_says() {
 fn what_nothing_pushes_stays_jointed_or_not() {
     let aside =
         Stroke { from: Pose::new(0.0, -0.5, 0.0), to: Pose::new(0.2, -0.5, 0.0), ..stroke() };
-    let end = rollout(&Learned::new(gentle()), &scene(), aside);
+    let end = rollout(&Network::new(gentle()), &scene(), aside);
     assert_eq!(end, scene().start());
 }
 
@@ -160,10 +160,8 @@ fn a_fixed_pair_is_predicted_as_the_one_body_it_is() {
     let whole =
         Object { mass: 0.8, ..object(Shape::Cuboid { size: [0.06, 0.12, 0.1] }, 0.06, 0.03, 0.0) };
     let one = Scene { objects: vec![whole], joints: Vec::new(), ..both.clone() };
-    let (pair, single) = (
-        rollout(&QuasiStatic::default(), &both, stroke()),
-        rollout(&QuasiStatic::default(), &one, stroke()),
-    );
+    let (pair, single) =
+        (rollout(&Prior::default(), &both, stroke()), rollout(&Prior::default(), &one, stroke()));
     let middle = (pair.poses[0].position + pair.poses[1].position) / 2.0;
     // The supports differ: two ellipsoids against one.
     assert!((middle - single.poses[0].position).norm() < 2e-3, "{pair:?} {single:?}");

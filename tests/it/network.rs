@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use pushplan::{
-    brdpn::{
-        Card, Config, Engine, ErrorCard, Inputs, Normaliser, Parameters, Predictor, Weights,
-        WeightsError, Workspace,
-    },
     dataset::{Dataset, DatasetConfig, Unwatched},
-    effect::{EffectModel, Learned},
+    effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
     graph::{Batch, Bodies, Motion, add_graph},
+    network::{
+        Buffers, Card, Config, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor,
+        Weights, WeightsError,
+    },
     scene::{
         Job, Object, Obstacle, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity,
     },
@@ -107,7 +107,7 @@ fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
     batch
 }
 
-fn rollout(model: &Learned, scene: &Scene, stroke: Stroke) -> State {
+fn rollout(model: &Network, scene: &Scene, stroke: Stroke) -> State {
     let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke] };
     let job = Job { start: scene.start(), motion, hypothesis: None };
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
@@ -163,7 +163,7 @@ fn fused_inference_equals_the_candle_graph() {
             .and_then(|out| out.to_vec2::<f32>())
             .expect("candle");
         let mut fused = Vec::new();
-        Engine::new(&weights).forward(&batch, &mut Workspace::default(), &mut fused);
+        Forward::new(&weights).run(&batch, &mut Buffers::default(), &mut fused);
         assert_eq!(reference.len(), fused.len());
         let scale = reference.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
         for (a, b) in reference.iter().flatten().zip(fused.iter().flatten()) {
@@ -174,7 +174,7 @@ fn fused_inference_equals_the_candle_graph() {
 
 #[test]
 fn turning_and_shifting_the_scene_turns_and_shifts_the_prediction() {
-    let model = Learned::new(weights(64));
+    let model = Network::new(weights(64));
     let (scene, stroke) = (scene(), half_stroke());
     let plain = rollout(&model, &scene, stroke);
     for by in [Pose::new(0.7, -1.3, 2.2), Pose::new(-4.0, 2.0, -0.4)] {
@@ -187,7 +187,7 @@ fn turning_and_shifting_the_scene_turns_and_shifts_the_prediction() {
 
 #[test]
 fn mirroring_the_scene_mirrors_the_prediction() {
-    let model = Learned::new(weights(64));
+    let model = Network::new(weights(64));
     let mirror = |p: Pose| Pose::new(p.position.x, -p.position.y, -p.heading);
     let (scene, stroke) = (scene(), stroke());
     let plain = rollout(&model, &scene, stroke);
@@ -206,7 +206,7 @@ fn mirroring_the_scene_mirrors_the_prediction() {
 
 #[test]
 fn the_order_of_objects_and_parts_does_not_matter() {
-    let model = Learned::new(weights(64));
+    let model = Network::new(weights(64));
     let scene = scene();
     let mut other = scene.clone();
     other.objects.reverse();
@@ -231,7 +231,7 @@ fn the_order_of_objects_and_parts_does_not_matter() {
 #[test]
 fn another_description_of_the_same_cuboid_changes_nothing() {
     use std::f64::consts::{FRAC_PI_2, PI};
-    let model = Learned::new(weights(64));
+    let model = Network::new(weights(64));
     let (scene, stroke) = (scene(), half_stroke());
     let plain = rollout(&model, &scene, stroke);
     let mut half_turned = scene.clone();
@@ -256,7 +256,7 @@ fn a_golden_forward_pass() {
     state.velocities[1] = Velocity { linear: Vector::new(0.05, 0.02), angular: 0.4 };
     let mut corrections = Vec::new();
     let batch = batch(&scene(), &state, &stroke());
-    Engine::new(&weights).forward(&batch, &mut Workspace::default(), &mut corrections);
+    Forward::new(&weights).run(&batch, &mut Buffers::default(), &mut corrections);
     assert_eq!(corrections.len(), GOLDEN.len());
     for (found, golden) in corrections.iter().flatten().zip(GOLDEN.iter().flatten()) {
         assert!((found - golden).abs() < 1e-4, "{corrections:?}");
@@ -288,7 +288,7 @@ fn weights_survive_their_file_and_damage_is_refused() {
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let model = Learned::new(weights(64));
+    let model = Network::new(weights(64));
     let scene = scene();
     let jobs: Vec<Job> = (0..70)
         .map(|k| {

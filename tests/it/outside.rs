@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
-    effect::{EffectModel, EffectModels, Guarded, Learned, Outside},
+    effect::{EffectModel, EffectModels, Guarded, Network, Outside},
     scene::{Job, Joint, JointKind, Obstacle, Record, Scene, Task, Trajectory, Warning},
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
@@ -14,8 +14,8 @@ use super::network::{object, stroke, tool};
 use pushplan::geometry::{Pose, Shape};
 use pushplan::scene::ToolMotion;
 
-fn network() -> Learned {
-    Learned::new(EffectModels::weights().expect("the shipped weights"))
+fn network() -> Network {
+    Network::new(EffectModels::weights().expect("the shipped weights"))
 }
 
 /// A box before the tool, of this mass.

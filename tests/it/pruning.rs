@@ -7,11 +7,11 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use pushplan::{
-    brdpn::{Engine, Weights, Workspace},
     dataset::{Dataset, DatasetConfig, Preset, Unwatched},
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,
+    network::{Buffers, Forward, Weights},
     rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
         Hypothesis, Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
@@ -21,16 +21,16 @@ use pushplan::{
 /// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
 /// at a time: in a batch, a matrix product rounds a row differently according to what stands
 /// beside it, and that changes with the frames that are skipped.
-fn compare(engine: &Engine, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
+fn compare(forward: &Forward, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
     let run = |pruned, record| {
         let mut roller = Roller::new(RollSettings { stride, pruned });
-        let mut workspace = Workspace::default();
+        let mut buffers = Buffers::default();
         let rolled = roller.roll(
             scene,
             std::slice::from_ref(job),
             record,
             Some(&mut |batch, corrections| {
-                engine.forward(batch, &mut workspace, corrections);
+                forward.run(batch, &mut buffers, corrections);
             }),
         );
         (rolled, *roller.work())
@@ -69,7 +69,7 @@ fn crowds_pushed_again_and_again() {
         let config = DatasetConfig { seed, preset, episodes: 12, ..DatasetConfig::default() };
         let data = Dataset::in_memory(&config, &Unwatched).expect("data");
         for weights in [shipped(), wild()] {
-            let engine = Engine::new(&weights);
+            let forward = Forward::new(&weights);
             for episode in data.episodes() {
                 let scene = &episode.scene;
                 // From the start, and from the middle of the motion, where things move.
@@ -80,7 +80,7 @@ fn crowds_pushed_again_and_again() {
                         motion: episode.motion.clone(),
                         hypothesis: None,
                     };
-                    compare(&engine, scene, &job, 1);
+                    compare(&forward, scene, &job, 1);
                 }
             }
         }
@@ -189,11 +189,11 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
 #[test]
 fn random_tables_chained_and_placed_jointed_and_moving() {
     let mut rng = Pcg64::seed_from_u64(3);
-    let engines = [shipped(), wild()].map(|weights| Engine::new(&weights));
+    let networks = [shipped(), wild()].map(|weights| Forward::new(&weights));
     let (mut some, mut every) = (Work::default(), Work::default());
     for round in 0..300 {
         let (scene, job) = random_job(&mut rng);
-        let (work, all) = compare(&engines[round % 2], &scene, &job, 1 + round % 3);
+        let (work, all) = compare(&networks[round % 2], &scene, &job, 1 + round % 3);
         some.add(&work);
         every.add(&all);
     }

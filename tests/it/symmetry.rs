@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::{
     asset::ToolLibrary,
     bench::{Case, Suite, SuiteKind, crowd_cases},
-    effect::{EffectModel, QuasiStatic},
+    effect::{EffectModel, Prior},
     geometry::{Pose, Shape},
     scene::{Job, JointKind, Record, State},
 };
@@ -26,7 +26,7 @@ fn cases() -> Vec<Case> {
 fn predict(case: &Case) -> State {
     let Case { scene, motion } = case;
     let job = Job { start: scene.start(), motion: motion.clone(), hypothesis: None };
-    QuasiStatic::default().rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
+    Prior::default().rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
 fn assert_same(a: &State, b: &State) {

@@ -7,24 +7,24 @@ use pushplan::{
         TradeOffSettings, Unit, dominates, levels, plan_levels,
     },
     dataset::Watch,
-    effect::{EffectModel, EffectModels, Job, Learned, QuasiStatic},
+    effect::{EffectModel, EffectModels, Job, Network, Prior},
     report::{tradeoff_efforts, tradeoff_push_chart, tradeoff_task_chart},
     scene::Record,
     solve::{Effort, Settings},
 };
 
-fn learned() -> Learned {
-    Learned::new(EffectModels::weights().unwrap())
+fn network() -> Network {
+    Network::new(EffectModels::weights().unwrap())
 }
 
 #[test]
 fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end() {
     let suite = Suite::draw(SuiteKind::Single, &ToolLibrary::embedded().unwrap(), 5, 8);
-    let fine: Box<dyn EffectModel> = Box::new(learned());
+    let fine: Box<dyn EffectModel> = Box::new(network());
     for stride in [2, 3, 4, 64] {
         let coarse: [Box<dyn EffectModel>; 2] = [
-            Box::new(learned().with_stride(stride)),
-            Box::new(QuasiStatic::default().with_stride(stride)),
+            Box::new(network().with_stride(stride)),
+            Box::new(Prior::default().with_stride(stride)),
         ];
         for (case, model) in suite.cases.iter().flat_map(|c| coarse.iter().map(move |m| (c, m))) {
             let job =
@@ -44,15 +44,15 @@ fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end()
             assert_eq!(alone.outcome(), coarse.outcome());
         }
     }
-    assert_eq!(learned().with_stride(2).name(), "brdpn-128, 20 mm frames");
-    assert_eq!(learned().with_steps(1).name(), "brdpn-128, 1 step");
-    assert_eq!(QuasiStatic::default().with_stride(4).name(), "quasi-static, 40 mm frames");
+    assert_eq!(network().with_stride(2).name(), "brdpn-128, 20 mm frames");
+    assert_eq!(network().with_steps(1).name(), "brdpn-128, 1 step");
+    assert_eq!(Prior::default().with_stride(4).name(), "quasi-static, 40 mm frames");
 }
 
 #[test]
 fn the_timed_rollout_is_the_rollout() {
     let suite = Suite::draw(SuiteKind::Touching, &ToolLibrary::embedded().unwrap(), 5, 2);
-    let model = learned();
+    let model = network();
     for case in &suite.cases {
         let job = Job { start: case.scene.start(), motion: case.motion.clone(), hypothesis: None };
         let jobs = vec![job; 40];

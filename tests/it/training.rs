@@ -3,8 +3,8 @@
 use std::{fs, path::Path};
 
 use pushplan::{
-    brdpn::{Config, Weights},
     dataset::{Dataset, DatasetConfig, Unwatched},
+    network::{Config, Weights},
     train::{
         Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Report, Settings, TrainError,
         train,

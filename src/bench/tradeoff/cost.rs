@@ -11,7 +11,7 @@ use crate::{
         timing::push_seconds,
     },
     dataset::JointRule,
-    effect::{Job, Learned},
+    effect::{Job, Network},
 };
 
 use super::levels::Level;
@@ -64,7 +64,7 @@ impl Timed {
                     let alone = push_seconds(&model, cases, 1, ENOUGH);
                     seconds.insert(alone_key(level.name()), alone);
                 }
-                if let Level::Learned(model) = level {
+                if let Level::Network(model) = level {
                     let network = spent * network_share(model, cases);
                     seconds.insert(network_key(objects, level.name()), network);
                 }
@@ -90,7 +90,7 @@ pub(super) fn network_key(objects: usize, model: &str) -> String {
 }
 
 /// Share of a batch's time that goes to the network. Wall time, but of both in one go.
-fn network_share(model: &Learned, cases: &[Case]) -> f64 {
+fn network_share(model: &Network, cases: &[Case]) -> f64 {
     let (mut network, mut all) = (Duration::ZERO, Duration::ZERO);
     for case in cases {
         let job = Job { start: case.scene.start(), motion: case.motion.clone(), hypothesis: None };

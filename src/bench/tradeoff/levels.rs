@@ -5,8 +5,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    brdpn::Weights,
-    effect::{EffectModel, Follow, Learned, Projection, QuasiStatic, Simulated, Still},
+    effect::{EffectModel, Follow, Network, Prior, Projection, Simulated, Still},
+    network::Weights,
     sim::{DEFAULT_STEP, Simulator},
     solve::Settings,
 };
@@ -22,7 +22,7 @@ const SPATIAL_STEPS: [f64; 1] = [120.0];
 #[derive(Clone)]
 pub enum Level {
     /// A network.
-    Learned(Arc<Learned>),
+    Network(Arc<Network>),
     /// Anything else.
     Other(Arc<dyn EffectModel>),
 }
@@ -31,7 +31,7 @@ impl Level {
     /// The predictor.
     pub fn model(&self) -> Arc<dyn EffectModel> {
         match self {
-            Level::Learned(model) => Arc::clone(model) as Arc<dyn EffectModel>,
+            Level::Network(model) => Arc::clone(model) as Arc<dyn EffectModel>,
             Level::Other(model) => Arc::clone(model),
         }
     }
@@ -39,14 +39,14 @@ impl Level {
     /// Its name.
     pub fn name(&self) -> &str {
         match self {
-            Level::Learned(model) => model.name(),
+            Level::Network(model) => model.name(),
             Level::Other(model) => model.name(),
         }
     }
 
     /// Whether jobs of one scene share work: then a push costs less in a batch.
     pub(super) fn batches(&self) -> bool {
-        matches!(self, Level::Learned(_)) || self.name().starts_with("quasi-static")
+        matches!(self, Level::Network(_)) || self.name().starts_with("quasi-static")
     }
 
     /// Whether it is measured on scenes of several objects too: whole models, and what leaving
@@ -61,21 +61,21 @@ impl Level {
 /// All predictors: the `shipped` network with its variants, `others` (with the names of their
 /// files), the prior, the engines at several steps, and the trivial ones.
 pub fn levels(shipped: &Weights, others: &[(String, Weights)]) -> Vec<Level> {
-    let learned = |model: Learned| Level::Learned(Arc::new(model));
-    let base = || Learned::new(shipped.clone());
+    let learned = |model: Network| Level::Network(Arc::new(model));
+    let base = || Network::new(shipped.clone());
     let mut levels = vec![learned(base())];
     levels.push(learned(base().unpruned()));
     levels.extend(STRIDES.map(|stride| learned(base().with_stride(stride))));
     levels.extend((0..shipped.card.config.steps).map(|steps| learned(base().with_steps(steps))));
     for (file, weights) in others {
-        let model = Learned::new(weights.clone());
+        let model = Network::new(weights.clone());
         let taken = levels.iter().any(|level| level.name() == model.name());
         let name = format!("{} ({file})", model.name());
         levels.push(learned(if taken { model.named(name) } else { model }));
     }
-    levels.push(Level::Other(Arc::new(QuasiStatic::default())));
+    levels.push(Level::Other(Arc::new(Prior::default())));
     for stride in STRIDES {
-        levels.push(Level::Other(Arc::new(QuasiStatic::default().with_stride(stride))));
+        levels.push(Level::Other(Arc::new(Prior::default().with_stride(stride))));
     }
     let step = |rate: f64| 1.0 / rate;
     let planar = [DEFAULT_STEP].into_iter().chain(PLANAR_STEPS.map(step));
@@ -162,8 +162,8 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
     for level in levels {
         let name = level.name();
         let budgets: &[_] = match level {
-            Level::Learned(_) if name.contains(',') => &[],
-            Level::Learned(_) => {
+            Level::Network(_) if name.contains(',') => &[],
+            Level::Network(_) => {
                 networks += 1;
                 if networks == 1 { &EVERY } else { &SOME }
             }

@@ -11,7 +11,7 @@ use crate::bench::{
     push_split, search_costs,
 };
 use crate::cli::{error::CliError, model::ModelName, output, session::Session};
-use crate::effect::{EffectModel, Learned};
+use crate::effect::{EffectModel, Network};
 use crate::report::{
     far_chart, far_table, inference_table, push_cost_table, search_cost_table, split_table,
 };
@@ -120,7 +120,7 @@ fn split(
 ) -> Result<Option<PushSplit>, CliError> {
     let weights = args.common.model_or_network().weights()?;
     Ok(weights.map(|weights| {
-        let model = Learned::new(weights);
+        let model = Network::new(weights);
         session.compute(|| push_split(&model, suite, batch))
     }))
 }
@@ -134,7 +134,7 @@ fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     }
     let library = args.common.library.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
-    let (pruned, whole) = (Learned::new(weights.clone()), Learned::new(weights).unpruned());
+    let (pruned, whole) = (Network::new(weights.clone()), Network::new(weights).unpruned());
     let planar = ModelName::Planar.load()?;
     let batch = usize::from(args.batch);
     let models: [(&dyn EffectModel, usize); 3] = [(&pruned, batch), (&whole, batch), (&planar, 1)];

@@ -2,11 +2,11 @@
 //!
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
 //! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
-//! training differentiates and that is the reference, and as a fused engine on preallocated
+//! training differentiates and that is the reference, and as a fused forward pass on preallocated
 //! buffers that planning runs. Loops over time are not here but in `rollout`.
 
 mod config;
-mod engine;
+mod forward;
 mod normaliser;
 mod parameters;
 mod parity;
@@ -15,7 +15,7 @@ mod tensors;
 mod weights;
 
 pub use config::Config;
-pub use engine::{Engine, Workspace, matrix_product};
+pub use forward::{Buffers, Forward, matrix_product};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 pub use predictor::{Inputs, Predictor};

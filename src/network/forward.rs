@@ -13,9 +13,9 @@ use super::{
     parity::{Sum, rectify_rows},
 };
 
-/// Immutable weights in the layout that the engine reads; shared between threads.
+/// Immutable weights in the layout that it reads; shared between threads.
 #[derive(Clone, Debug)]
-pub struct Engine {
+pub struct Forward {
     half: usize,
     steps: usize,
     relation: Encoder,
@@ -44,7 +44,7 @@ struct Encoder {
 
 /// One thread's buffers; they grow to the largest batch seen and are then reused.
 #[derive(Clone, Debug, Default)]
-pub struct Workspace {
+pub struct Buffers {
     relations: Vec<f32>,
     messages: Vec<f32>,
     objects: Vec<f32>,
@@ -58,8 +58,8 @@ pub struct Workspace {
     odd: Vec<f32>,
 }
 
-impl Engine {
-    /// Takes the weights apart into the engine's layout.
+impl Forward {
+    /// Takes the weights apart into the layout of the fused pass.
     pub fn new(weights: &Weights) -> Self {
         let get = |name: &str| weights.parameters.values[name].clone();
         let normaliser = &weights.card.normaliser;
@@ -98,7 +98,7 @@ impl Engine {
         Self { steps, ..self }
     }
 
-    /// Floating-point operations of the matrix products in one [`Engine::forward`], counting a
+    /// Floating-point operations of the matrix products in one [`Forward::run`], counting a
     /// multiplication and an addition each.
     pub fn operations(&self, batch: &Batch) -> u64 {
         let (nodes, relations, h) = (batch.node_count(), batch.relation_count(), self.half);
@@ -113,7 +113,7 @@ impl Engine {
 
     /// The correction of every node's prior in output units, [N, 6], appended to an emptied
     /// `corrections`.
-    pub fn forward(&self, batch: &Batch, w: &mut Workspace, corrections: &mut Vec<[f64; 6]>) {
+    pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<[f64; 6]>) {
         corrections.clear();
         let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
         if n == 0 {
@@ -242,7 +242,7 @@ fn dense(
 }
 
 /// `out [m, n] = x [m, k] matrix [k, n]`, all row-major, on one thread: the product that the
-/// engine is made of, for measuring what this machine reaches.
+/// network is made of, for measuring what this machine reaches.
 ///
 /// # Panics
 /// If a length does not fit the sizes.

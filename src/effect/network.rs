@@ -1,11 +1,11 @@
-//! The learned effect model: the BRDPN physics predictor behind [`EffectModel`].
+//! The network as an effect model: the BRDPN physics predictor corrects the prior.
 
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
 use crate::{
-    brdpn::{Engine, Weights, Workspace},
+    network::{Buffers, Forward, Weights},
     rollout::{RollSettings, Roller, Work, reachable},
     scene::{FRAME_TRAVEL, Job, Record, Scene, ToolMotion, Trajectory, Warning},
 };
@@ -15,24 +15,24 @@ use super::EffectModel;
 /// Jobs that share a network batch: enough rows to keep the matrix products busy, few enough
 /// that two cores share a coarse search evenly. Fixed, so that results do not depend on the
 /// number of threads.
-const CHUNK: usize = 32;
+pub(super) const CHUNK: usize = 32;
 
 /// Predicts with trained weights.
-pub struct Learned {
+pub struct Network {
     name: String,
-    engine: Engine,
+    forward: Forward,
     weights: Weights,
     settings: RollSettings,
     error_p95: f64,
 }
 
-impl Learned {
+impl Network {
     /// A model of these weights.
     pub fn new(weights: Weights) -> Self {
         let name = format!("brdpn-{}", weights.card.config.width);
         let error_p95 = weights.card.errors.p95;
-        let engine = Engine::new(&weights);
-        Self { name, engine, weights, settings: RollSettings::default(), error_p95 }
+        let forward = Forward::new(&weights);
+        Self { name, forward, weights, settings: RollSettings::default(), error_p95 }
     }
 
     /// The same with `stride` frames predicted as one. Measured errors are those of stride 1;
@@ -47,7 +47,7 @@ impl Learned {
     /// The same with `steps` propagation steps, whatever it was trained with; its error is
     /// unknown then.
     pub fn with_steps(mut self, steps: usize) -> Self {
-        self.engine = self.engine.with_steps(steps);
+        self.forward = self.forward.with_steps(steps);
         self.error_p95 = f64::INFINITY;
         let plural = if steps == 1 { "" } else { "s" };
         self.name += &format!(", {steps} step{plural}");
@@ -75,7 +75,7 @@ impl Learned {
     /// [`EffectModel::rollout`] on this thread, jobs in one batch, and how much of the time
     /// went to the network; the rest is geometry, prior, features and integration.
     pub fn timed_rollout(&self, scene: &Scene, jobs: &[Job]) -> (Vec<Trajectory>, Duration) {
-        let (mut workspace, mut network) = (Workspace::default(), Duration::ZERO);
+        let (mut buffers, mut network) = (Buffers::default(), Duration::ZERO);
         let mut roller = Roller::new(self.settings);
         let trajectories = jobs.chunks(CHUNK).flat_map(|chunk| {
             roller.roll(
@@ -84,7 +84,7 @@ impl Learned {
                 Record::Outcome,
                 Some(&mut |batch, corrections| {
                     let began = Instant::now();
-                    self.engine.forward(batch, &mut workspace, corrections);
+                    self.forward.run(batch, &mut buffers, corrections);
                     network += began.elapsed();
                 }),
             )
@@ -95,14 +95,14 @@ impl Learned {
 
     /// What rolling `jobs` out takes: frames, graphs, nodes.
     pub fn work(&self, scene: &Scene, jobs: &[Job]) -> Work {
-        let (mut roller, mut workspace) = (Roller::new(self.settings), Workspace::default());
+        let (mut roller, mut buffers) = (Roller::new(self.settings), Buffers::default());
         for chunk in jobs.chunks(CHUNK) {
             roller.roll(
                 scene,
                 chunk,
                 Record::Outcome,
                 Some(&mut |batch, corrections| {
-                    self.engine.forward(batch, &mut workspace, corrections);
+                    self.forward.run(batch, &mut buffers, corrections);
                 }),
             );
         }
@@ -110,7 +110,7 @@ impl Learned {
     }
 }
 
-impl EffectModel for Learned {
+impl EffectModel for Network {
     fn name(&self) -> &str {
         &self.name
     }
@@ -132,14 +132,14 @@ impl EffectModel for Learned {
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map_init(
-                || (Roller::new(self.settings), Workspace::default()),
-                |(roller, workspace), chunk| {
+                || (Roller::new(self.settings), Buffers::default()),
+                |(roller, buffers), chunk| {
                     roller.roll(
                         scene,
                         chunk,
                         record,
                         Some(&mut |batch, corrections| {
-                            self.engine.forward(batch, workspace, corrections);
+                            self.forward.run(batch, buffers, corrections);
                         }),
                     )
                 },
@@ -149,53 +149,7 @@ impl EffectModel for Learned {
     }
 }
 
-/// The quasi-static prior alone, without any network: the cheapest level with physics in it.
-#[derive(Clone, Debug)]
-pub struct QuasiStatic {
-    name: String,
-    settings: RollSettings,
-}
-
-impl QuasiStatic {
-    /// The same with `stride` frames predicted as one.
-    pub fn with_stride(mut self, stride: usize) -> Self {
-        self.settings.stride = stride.max(1);
-        self.name += &stride_name(stride);
-        self
-    }
-}
-
-impl Default for QuasiStatic {
-    fn default() -> Self {
-        Self { name: "quasi-static".to_owned(), settings: RollSettings::default() }
-    }
-}
-
-impl EffectModel for QuasiStatic {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    fn error_p95(&self) -> f64 {
-        0.0
-    }
-
-    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        jobs.par_chunks(CHUNK)
-            .map_init(
-                || Roller::new(self.settings),
-                |roller, chunk| roller.roll(scene, chunk, record, None),
-            )
-            .flatten_iter()
-            .collect()
-    }
-}
-
 /// What a stride adds to a name: the tool's travel in a frame.
-fn stride_name(stride: usize) -> String {
+pub(super) fn stride_name(stride: usize) -> String {
     format!(", {:.0} mm frames", 1e3 * FRAME_TRAVEL * stride as f64)
 }

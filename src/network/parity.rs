@@ -20,7 +20,7 @@ fn rectify(even: f32, odd: f32) -> (f32, f32) {
 }
 
 /// Rectifies the rows of x [2, M, h] after adding `bias` [h] to the even half: the forward pass of
-/// [`BiasRectify`], shared with the fused engine.
+/// [`BiasRectify`], shared with the fused forward pass.
 pub(super) fn rectify_rows(x: &mut [f32], bias: &[f32]) {
     Arch::new().dispatch(Rows { x, bias });
 }
@@ -223,7 +223,7 @@ fn add(target: &mut [f32], value: &[f32]) {
     }
 }
 
-/// The forward pass of [`Messages`] on slices, shared with the fused engine; `h` is half the width.
+/// The forward pass of [`Messages`] on slices, shared with the fused forward pass; `h` is half the width.
 /// `sum` must be zero on entry.
 pub(super) struct Sum<'a> {
     pub a: &'a [f32],
