@@ -32,6 +32,7 @@
 
 pub mod asset;
 pub mod bench;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod dataset;
 pub mod effect;
@@ -44,5 +45,6 @@ pub mod rollout;
 pub mod scene;
 pub mod sim;
 pub mod solve;
+#[cfg(feature = "train")]
 pub mod train;
 pub mod verify;

@@ -5,9 +5,11 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "train")]
+use crate::network::{Inputs, Predictor};
 use crate::{
     graph::{Batch, Bodies, add_graph},
-    network::{Buffers, Forward, Inputs, Predictor, Weights, matrix_product},
+    network::{Buffers, Forward, Weights, matrix_product},
     scene::Record,
     sim::Simulator,
 };
@@ -36,8 +38,8 @@ pub struct InferenceCost {
     pub relations: usize,
     /// Fused network, seconds per graph.
     pub fused: f64,
-    /// candle graph, seconds per graph.
-    pub candle: f64,
+    /// candle graph, seconds per graph; `None` in a build without the feature `train`.
+    pub candle: Option<f64>,
     /// Graph building (contacts, prior, features), seconds per graph.
     pub graph: f64,
     /// Share of the peak that the fused network's matrix products would have if they took all
@@ -49,16 +51,8 @@ pub struct InferenceCost {
 
 /// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the
 /// tool is near an object.
-///
-/// # Errors
-/// Those of candle.
-pub fn inference_costs(
-    weights: &Weights,
-    cases: &[Case],
-    sizes: &[usize],
-) -> candle_core::Result<Vec<InferenceCost>> {
+pub fn inference_costs(weights: &Weights, cases: &[Case], sizes: &[usize]) -> Vec<InferenceCost> {
     let forward = Forward::new(weights);
-    let network = Predictor::new(weights.card.config, &weights.parameters)?;
     let peak = peak();
     sizes
         .iter()
@@ -68,25 +62,37 @@ pub fn inference_costs(
             let mut buffers = Buffers::default();
             let mut corrections = Vec::new();
             let fused = best(|| forward.run(&batch, &mut buffers, &mut corrections));
-            let inputs = Inputs::new(&batch, &weights.card.normaliser)?;
-            network.forward(&inputs)?;
-            let candle = best(|| {
-                // The first call above has shown that this one succeeds.
-                let _ = std::hint::black_box(network.forward(&inputs));
-            });
             let work = forward.operations(&batch);
-            Ok(InferenceCost {
+            InferenceCost {
                 graphs: size,
                 nodes: batch.node_count(),
                 relations: batch.relation_count(),
                 fused: fused / size as f64,
-                candle: candle / size as f64,
+                candle: candle(weights, &batch).map(|seconds| seconds / size as f64),
                 graph: building / size as f64,
                 of_peak: work as f64 / fused / peak,
                 peak,
-            })
+            }
         })
         .collect()
+}
+
+/// Seconds of one forward pass of the candle graph over `batch`.
+#[cfg(feature = "train")]
+fn candle(weights: &Weights, batch: &Batch) -> Option<f64> {
+    // candle refuses no graph with parameters that were read from a weights file.
+    let network = Predictor::new(weights.card.config, &weights.parameters).ok()?;
+    let inputs = Inputs::new(batch, &weights.card.normaliser).ok()?;
+    network.forward(&inputs).ok()?;
+    Some(best(|| {
+        let _ = std::hint::black_box(network.forward(&inputs));
+    }))
+}
+
+/// Training is left out of this build, and candle with it.
+#[cfg(not(feature = "train"))]
+fn candle(_: &Weights, _: &Batch) -> Option<f64> {
+    None
 }
 
 /// Fills `batch` with `size` graphs and returns the processor time that building them took.

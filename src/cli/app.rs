@@ -6,12 +6,14 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "train")]
+use super::train;
 use super::{
     bench, check, completions,
     error::CliError,
     evaluate, exit_code, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session},
-    simulate, solve, tradeoff, train, verify,
+    simulate, solve, tradeoff, verify,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -33,6 +35,7 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
+    #[cfg(feature = "train")]
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Bench(bench::BenchArgs),
@@ -71,6 +74,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
+        #[cfg(feature = "train")]
         Command::Train(args) => train::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Bench(args) => bench::run(args, &session),

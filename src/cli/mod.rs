@@ -22,6 +22,7 @@ mod session;
 mod simulate;
 mod solve;
 mod tradeoff;
+#[cfg(feature = "train")]
 mod train;
 mod verify;
 

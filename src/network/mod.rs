@@ -3,13 +3,17 @@
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
 //! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
 //! training differentiates and that is the reference, and as a fused forward pass on preallocated
-//! buffers that planning runs. Loops over time are not here but in `rollout`.
+//! buffers that planning runs and that needs no candle. Loops over time are not here but in
+//! `rollout`.
 
 mod config;
 mod forward;
 mod normaliser;
+#[cfg(feature = "train")]
+mod operations;
 mod parameters;
 mod parity;
+#[cfg(feature = "train")]
 mod predictor;
 mod tensors;
 mod weights;
@@ -18,6 +22,7 @@ pub use config::Config;
 pub use forward::{Buffers, Forward, matrix_product};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
+#[cfg(feature = "train")]
 pub use predictor::{Inputs, Predictor};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

@@ -20,7 +20,7 @@ use crate::graph::{Batch, NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
 
 use super::{
     Config, Normaliser, Parameters, layout,
-    parity::{BiasRectify, Messages},
+    operations::{BiasRectify, Messages},
 };
 
 /// A batch as normalised tensors.

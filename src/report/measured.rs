@@ -107,7 +107,7 @@ pub fn inference_table(costs: &[InferenceCost]) -> Table {
             cost.relations.to_string(),
             seconds(cost.graph),
             seconds(cost.fused),
-            seconds(cost.candle),
+            cost.candle.map_or(NONE.to_owned(), seconds),
             format!("{:.0} %", 100.0 * cost.of_peak),
             format!("{:.0} %", 100.0 * with_graph),
             format!("{:.0} GFLOP/s", cost.peak / 1e9),

@@ -21,6 +21,7 @@ mod svg;
 mod table;
 mod tools;
 mod tradeoff;
+#[cfg(feature = "train")]
 mod training;
 
 pub use bars::{BarChart, Bars};
@@ -48,4 +49,5 @@ pub use tradeoff::{
     tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
     tradeoff_push_chart, tradeoff_task_chart,
 };
+#[cfg(feature = "train")]
 pub use training::training_chart;

@@ -74,8 +74,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
     let networks = match args.common.model_or_network().weights()? {
-        Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES)
-            .map_err(|error| CliError::unexpected("cannot time the network", &error))?,
+        Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES),
         None => Vec::new(),
     };
     let split = split(args, &suite, usize::from(args.batch), session)?;
@@ -103,8 +102,7 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     })?;
     let spinner = session.spinner("timing");
     let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
-    let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES)
-        .map_err(|error| CliError::unexpected("cannot time the network", &error))?;
+    let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES);
     spinner.finish_and_clear();
     let report = json!({"objects": objects, "networks": networks});
     let head = format!("{objects} objects, sparse and dense, mixed joints; times a graph-step\n\n");
