@@ -14,7 +14,7 @@ use pushplan::plan::{
     QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
     Workspace, refine,
 };
-use pushplan::scene::{FrameStep, Job, Record, State, Task};
+use pushplan::scene::{FrameStep, Job, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
 
 /// Candidates that a search predicts together.
@@ -42,8 +42,9 @@ fn frames(cases: &[Case]) -> Vec<Near> {
     let mut motions = Vec::new();
     let mut near = Vec::new();
     for Case { scene, motion } in cases {
-        let bodies = Bodies::new(scene, &motion.tool, motion.lift, None);
-        let truth = Simulator::planar().run(scene, &scene.start(), None, motion, Record::Frames);
+        let bodies = Bodies::new(scene, &motion.tool, motion.lift, &Physics::stated(scene));
+        let truth =
+            Simulator::planar().run(scene, &Job::stated(scene, motion.clone()), Record::Frames);
         let stroke = &motion.strokes[0];
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(truth.frames.len()) {
@@ -107,7 +108,7 @@ fn rollouts(criterion: &mut Criterion) {
                 .iter()
                 .map(|case| {
                     let motion = case.motion.clone();
-                    let job = Job { start: case.scene.start(), motion, hypothesis: None };
+                    let job = Job::stated(&case.scene, motion);
                     (case, vec![job; *batch])
                 })
                 .collect();
@@ -132,8 +133,8 @@ fn planning(criterion: &mut Criterion) {
     let workspace = Workspace { task: &task, tools: &tools, later_stand_off: 0.0 };
     let settings = SearchSettings { offsets: 5, beam: 1, rollouts: 500, kept: 8 };
     let search = || {
-        let mut rollouts = Rollouts::new(&model, &task.scene);
-        Search::new(workspace, settings).deepen(&mut rollouts, &mut |_, _| {})
+        let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+        Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &mut |_, _| {})
     };
     criterion.bench_function("search of 500 pushes", |b| b.iter(search));
 
@@ -141,7 +142,7 @@ fn planning(criterion: &mut Criterion) {
     let settings = RefineSettings { rounds: 4, extra: 2, seed: SEED, enough: best.len() };
     criterion.bench_function("refinement of 8 pushes", |b| {
         b.iter(|| {
-            let mut rollouts = Rollouts::new(&model, &task.scene);
+            let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
             let mut statistics = RefineStatistics::default();
             refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &mut |_, _| {})
         });

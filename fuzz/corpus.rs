@@ -145,7 +145,7 @@ fn sample(name: &str) -> Option<Sample> {
         pushes: vec![push(at - Vector::new(0.5, 0.0), 0.0), push(at - Vector::new(0.4, 0.0), 0.3)],
     };
     let motion = plan.motion(&tool);
-    let job = Job { start: task.scene.start(), motion, hypothesis: None };
+    let job = Job::stated(&task.scene, motion);
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
     let predicted = Some(Outcome::judge(&task.goal, &trajectory));
     let model = Some("quasi-static".to_owned());

@@ -136,7 +136,7 @@ fn rollout(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> Optio
     if frames > LONGEST || frames * scene.objects.len() > 4 * LONGEST {
         return None;
     }
-    let job = Job { start: scene.start(), motion: motion.clone(), hypothesis: None };
+    let job = Job::stated(scene, motion.clone());
     let trajectory = model.rollout(scene, &[job], Record::Frames).pop().expect("one a job");
     assert!(trajectory.frames.iter().all(|frame| frame.state.is_finite()), "not finite");
     assert!(

@@ -102,10 +102,8 @@ impl HeldOut {
             .cases
             .par_iter()
             .map(|case| {
-                let run = |simulator: Simulator| {
-                    let start = case.scene.start();
-                    simulator.run(&case.scene, &start, None, &case.motion, Record::Outcome)
-                };
+                let job = Job::stated(&case.scene, case.motion.clone());
+                let run = |simulator: Simulator| simulator.run(&case.scene, &job, Record::Outcome);
                 let (planar, spatial) = (run(Simulator::planar()), run(Simulator::spatial()));
                 let sound = !spatial.warnings.iter().any(Warning::forbids_success);
                 (planar.outcome().clone(), sound.then(|| spatial.outcome().clone()))
@@ -178,8 +176,7 @@ impl HeldOut {
                 let case = &self.suite.cases[index];
                 let job = Job {
                     start: start(case, index),
-                    motion: case.motion.clone(),
-                    hypothesis: None,
+                    ..Job::stated(&case.scene, case.motion.clone())
                 };
                 let rolled = model.rollout(&case.scene, &[job], Record::Outcome);
                 let given = rolled.first().filter(|t| !t.warnings.contains(&Warning::Refused));

@@ -10,7 +10,7 @@ use crate::network::{Inputs, Predictor};
 use crate::{
     graph::{Batch, Bodies, add_graph},
     network::{Buffers, Forward, Weights, matrix_product},
-    scene::Record,
+    scene::{Job, Record},
     sim::Simulator,
 };
 
@@ -102,9 +102,9 @@ fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     let mut motions = Vec::new();
     let mut trial = Batch::default();
     for case in cases {
-        let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, None);
-        let start = case.scene.start();
-        let truth = simulator.run(&case.scene, &start, None, &case.motion, Record::Frames);
+        let job = Job::stated(&case.scene, case.motion.clone());
+        let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, &job.physics);
+        let truth = simulator.run(&case.scene, &job, Record::Frames);
         let Some(stroke) = case.motion.strokes.first() else { continue };
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(truth.frames.len()) {

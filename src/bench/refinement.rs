@@ -13,7 +13,7 @@ use crate::{
         Candidate, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search, Workspace,
         evaluate, kinds, refine,
     },
-    scene::{Outcome, Record, Task, Tool, ToolMotion},
+    scene::{Job, Outcome, Record, Situation, Task, Tool, ToolMotion},
     sim::Simulator,
     solve::Settings,
 };
@@ -113,8 +113,8 @@ fn one_task(
     task: &Task,
 ) -> Option<(Errors, Errors, RefineStatistics)> {
     let workspace = Workspace { task, tools, later_stand_off: 0.0 };
-    let mut rollouts = Rollouts::new(model, &task.scene);
-    let mut search = Search::new(workspace, settings.search());
+    let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
+    let mut search = Search::new(workspace, rollouts.situation(), settings.search());
     let found = search.deepen(&mut rollouts, &mut |_, _| {});
     let chosen: Vec<Candidate> =
         kinds(&found, settings.refined).into_iter().map(|k| found[k].candidate.clone()).collect();
@@ -154,8 +154,8 @@ fn execute(workspace: &Workspace, evaluation: &Evaluation) -> Errors {
         workspace.is_placed(),
     );
     let run = |simulator: Simulator| {
-        let start = task.scene.start();
-        let played = simulator.run(&task.scene, &start, None, &motion, Record::Outcome);
+        let job = Job::stated(&task.scene, motion.clone());
+        let played = simulator.run(&task.scene, &job, Record::Outcome);
         Outcome::judge(&task.goal, &played)
     };
     Errors {

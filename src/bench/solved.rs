@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Engine, Evidence, Outcome, Plan, Task, Warning};
+use crate::scene::{Engine, Evidence, Outcome, Plan, Situation, Task, Warning};
 use crate::solve::{PlanStatus, Solution};
 use crate::verify::{Verifier, VerifySettings};
 
@@ -103,5 +103,5 @@ impl End {
 fn replay(task: &Task, solution: &Solution) -> Option<crate::scene::Verdict> {
     let best = solution.best()?;
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-    Some(verifier.nominal(task, &best.tool, &best.plan))
+    Some(verifier.nominal(task, &Situation::stated(&task.scene), &best.tool, &best.plan))
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     effect::{EffectModel, Job, Simulated},
     plan::{Rollouts, Search, SearchSettings, Workspace},
-    scene::{Record, Scene, Task, Tool},
+    scene::{Record, Scene, Situation, Task, Tool},
     sim::Simulator,
 };
 
@@ -114,7 +114,7 @@ pub(super) fn push_seconds(
 pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
     let repeated = |case: &'_ Case| {
         let motion = case.motion.clone();
-        vec![Job { start: case.scene.start(), motion, hypothesis: None }; batch]
+        vec![Job::stated(&case.scene, motion); batch]
     };
     cases.iter().map(|case| (&case.scene, repeated(case))).collect()
 }
@@ -137,8 +137,8 @@ pub fn search_costs(
             let mut used = 0;
             let seconds = shortest(|| {
                 let workspace = Workspace { task: &task, tools, later_stand_off: 0.0 };
-                let mut rollouts = Rollouts::new(*model, &task.scene);
-                let mut search = Search::new(workspace, settings);
+                let mut rollouts = Rollouts::new(*model, Situation::stated(&task.scene));
+                let mut search = Search::new(workspace, rollouts.situation(), settings);
                 std::hint::black_box(search.deepen(&mut rollouts, &mut |_, _| {}));
                 used = rollouts.used();
             });

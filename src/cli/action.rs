@@ -117,11 +117,10 @@ impl ActionArgs {
 
 /// Where the pushes so far leave the objects: later placed pushes are placed there.
 fn after(task: &Task, tool: &Arc<Tool>, plan: &Plan, session: &Session) -> State {
-    let start = task.scene.start();
     if plan.pushes.is_empty() {
-        return start;
+        return task.scene.start();
     }
-    let job = Job { start, motion: plan.motion(tool), hypothesis: None };
+    let job = Job::stated(&task.scene, plan.motion(tool));
     let model = Simulated::new(Simulator::planar());
     let found = session.compute(|| model.rollout(&task.scene, &[job], Record::Outcome));
     found.first().map_or_else(|| task.scene.start(), |trajectory| trajectory.outcome().clone())

@@ -63,7 +63,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
         for warning in model.warnings(&task.scene, &motion) {
             session.warn(&format!("{source}: {warning}"));
         }
-        let job = Job { start: task.scene.start(), motion: motion.clone(), hypothesis: None };
+        let job = Job::stated(&task.scene, motion.clone());
         let jobs = [job];
         let (found, seconds) = session.compute(|| {
             let start = Instant::now();

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use crate::asset::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
 use crate::report::{ScenePicture, Source, Track, goal_line, millimetres, plan_line, push_table};
-use crate::scene::{Engine, Record, Task};
+use crate::scene::{Engine, Job, Record, Task};
 use crate::sim::Simulator;
 
 use super::{
@@ -70,9 +70,8 @@ pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
         EngineName::Spatial => (Simulator::spatial(), "3d"),
     };
     let motion = plan.motion(&tool);
-    let start = task.scene.start();
-    let trajectory =
-        session.compute(|| simulator.run(&task.scene, &start, None, &motion, Record::Frames));
+    let job = Job::stated(&task.scene, motion.clone());
+    let trajectory = session.compute(|| simulator.run(&task.scene, &job, Record::Frames));
     for warning in &trajectory.warnings {
         session.warn(&warning.to_string());
     }

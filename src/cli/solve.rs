@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::asset::{PlanFile, load_task};
 use crate::report::{plan_picture, solution_json, solution_text};
-use crate::scene::{Engine, Record, Task, Trajectory};
+use crate::scene::{Engine, Job, Record, Task, Trajectory};
 use crate::sim::Simulator;
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
@@ -113,13 +113,13 @@ fn write(
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
     let motion = best.plan.motion(&best.tool);
-    let start = task.scene.start();
+    let job = Job::stated(&task.scene, motion.clone());
     let simulated: Vec<(Engine, Trajectory)> = session.compute(|| {
         [Simulator::planar(), Simulator::spatial()]
             .iter()
             .filter(|_| !motion.strokes.is_empty())
             .map(|engine| {
-                let run = engine.run(&task.scene, &start, None, &motion, Record::Frames);
+                let run = engine.run(&task.scene, &job, Record::Frames);
                 (engine.engine(), run)
             })
             .collect()

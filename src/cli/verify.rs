@@ -7,6 +7,7 @@ use serde_json::json;
 
 use crate::asset::{PlanFile, SCHEMA_VERSION};
 use crate::report::{goal_line, outcomes_text, plan_line, push_table};
+use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 
 use super::{error::CliError, exit_code, session::Session};
@@ -37,7 +38,9 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let verifier = Verifier::new(settings);
     let spinner = session.spinner("replaying");
-    let verdict = session.compute(|| verifier.verify(&file.task, &file.tool, &file.plan));
+    let situation = Situation::stated(&file.task.scene);
+    let verdict =
+        session.compute(|| verifier.verify(&file.task, &situation, &file.tool, &file.plan));
     spinner.finish_and_clear();
     for evidence in verdict.evidence.iter().filter(|e| e.disturbance == "nominal") {
         for warning in &evidence.warnings {

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use crate::{
     geometry::{Pose, Shape, Vector},
     scene::{
-        Body, COAST_FRAME, Frame, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion,
+        Body, COAST_FRAME, Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion,
     },
     sim::Simulator,
 };
@@ -92,8 +92,8 @@ impl<'a> HandPlay<'a> {
     /// gives the bits that playing them all at once does.
     pub(super) fn play(mut self, stroke: Stroke) -> Option<Self> {
         let one = ToolMotion { strokes: vec![stroke], ..self.motion.clone() };
-        let trajectory =
-            Simulator::planar().run(self.scene, &self.state(), None, &one, Record::Frames);
+        let job = Job { start: self.state(), ..Job::stated(self.scene, one) };
+        let trajectory = Simulator::planar().run(self.scene, &job, Record::Frames);
         if !trajectory.warnings.is_empty() {
             return None;
         }

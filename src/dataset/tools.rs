@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Pose, Shape, Vector},
-    scene::{Frame, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
+    scene::{Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
     sim::Simulator,
 };
 
@@ -87,7 +87,7 @@ pub(super) fn pushed_by_tool(
 }
 
 fn simulate(scene: &Scene, motion: &ToolMotion) -> Trajectory {
-    Simulator::planar().run(scene, &scene.start(), None, motion, Record::Frames)
+    Simulator::planar().run(scene, &Job::stated(scene, motion.clone()), Record::Frames)
 }
 
 /// Plays the motion, its last stroke ended before the tool squeezes anything against an

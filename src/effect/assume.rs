@@ -1,6 +1,8 @@
 //! A model that is told other joints than the scene has.
 
-use crate::scene::{Record, Scene, ToolMotion, Trajectory, Warning};
+use std::sync::Arc;
+
+use crate::scene::{Physics, Record, Scene, ToolMotion, Trajectory, Warning};
 
 use super::{EffectModel, Job};
 
@@ -8,11 +10,11 @@ use super::{EffectModel, Job};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assumption {
     /// The type of every joint, its geometry guessed from the start poses
-    /// ([`Scene::guess_joints`]).
+    /// ([`Physics::guess_joints`]).
     TypesOnly,
-    /// That there are none ([`Scene::without_joints`]).
+    /// That there are none ([`Physics::without_joints`]).
     NoJoints,
-    /// That whatever touches at the start is fixed together ([`Scene::with_contacts_fixed`]).
+    /// That whatever touches at the start is fixed together ([`Physics::with_contacts_fixed`]).
     ContactsFixed,
 }
 
@@ -30,12 +32,12 @@ impl Assumption {
         }
     }
 
-    /// The scene as it is believed to be.
-    pub fn scene(self, scene: &Scene) -> Scene {
+    /// What is believed instead of `physics`.
+    pub fn physics(self, scene: &Scene, physics: &Physics) -> Physics {
         match self {
-            Assumption::TypesOnly => scene.guess_joints(),
-            Assumption::NoJoints => scene.without_joints(),
-            Assumption::ContactsFixed => scene.with_contacts_fixed(),
+            Assumption::TypesOnly => physics.guess_joints(scene),
+            Assumption::NoJoints => physics.without_joints(),
+            Assumption::ContactsFixed => physics.with_contacts_fixed(scene),
         }
     }
 }
@@ -62,7 +64,7 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
     }
 
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        self.model.warnings(&self.assumption.scene(scene), motion)
+        self.model.warnings(scene, motion)
     }
 
     /// Unknown: measured errors are those with the true joints.
@@ -71,6 +73,11 @@ impl<M: EffectModel> EffectModel for Assuming<M> {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        self.model.rollout(&self.assumption.scene(scene), jobs, record)
+        let assume = |job: &Job| {
+            let physics = Arc::new(self.assumption.physics(scene, &job.physics));
+            Job { physics, ..job.clone() }
+        };
+        let jobs: Vec<Job> = jobs.iter().map(assume).collect();
+        self.model.rollout(scene, &jobs, record)
     }
 }

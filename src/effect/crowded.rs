@@ -1,7 +1,7 @@
 //! A model that leaves crowds to the planar engine, which is cheaper there.
 
 use crate::rollout::reachable;
-use crate::scene::{Job, Record, Scene, State, ToolMotion, Trajectory, Warning};
+use crate::scene::{Job, Record, Scene, ToolMotion, Trajectory, Warning};
 use crate::sim::Simulator;
 
 use super::{EffectModel, Simulated, model::fill};
@@ -21,8 +21,8 @@ impl<M: EffectModel> Crowded<M> {
     }
 
     /// Whether the model itself is asked.
-    fn is_for_model(&self, scene: &Scene, start: &State, motion: &ToolMotion) -> bool {
-        scene.objects.len() <= self.most || reachable(scene, start, motion).len() <= self.most
+    fn is_for_model(&self, scene: &Scene, job: &Job) -> bool {
+        scene.objects.len() <= self.most || reachable(scene, job).len() <= self.most
     }
 }
 
@@ -32,14 +32,14 @@ impl<M: EffectModel> EffectModel for Crowded<M> {
     }
 
     fn name_for(&self, scene: &Scene, motion: &ToolMotion) -> &str {
-        match self.is_for_model(scene, &scene.start(), motion) {
+        match self.is_for_model(scene, &Job::stated(scene, motion.clone())) {
             true => self.model.name_for(scene, motion),
             false => self.planar.name(),
         }
     }
 
     fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
-        match self.is_for_model(scene, &scene.start(), motion) {
+        match self.is_for_model(scene, &Job::stated(scene, motion.clone())) {
             true => self.model.warnings(scene, motion),
             false => self.planar.warnings(scene, motion),
         }
@@ -51,8 +51,7 @@ impl<M: EffectModel> EffectModel for Crowded<M> {
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         let work = (scene, jobs, record);
-        let few: Vec<bool> =
-            jobs.iter().map(|job| self.is_for_model(scene, &job.start, &job.motion)).collect();
+        let few: Vec<bool> = jobs.iter().map(|job| self.is_for_model(scene, job)).collect();
         let many: Vec<bool> = few.iter().map(|few| !few).collect();
         let mut places = vec![Trajectory::default(); jobs.len()];
         fill(&self.model, work, &few, &mut places);
@@ -90,11 +89,7 @@ mod tests {
         let job = |y: f64| {
             let push =
                 Push { start: Vector::new(0.0, y), direction: 0.0, length: 0.15, speed: 0.1 };
-            Job {
-                start: scene.start(),
-                motion: ToolMotion::pushes(tool.clone(), 0.002, 0.0, &[push], true),
-                hypothesis: None,
-            }
+            Job::stated(&scene, ToolMotion::pushes(tool.clone(), 0.002, 0.0, &[push], true))
         };
         let jobs = [job(0.0), job(0.5)];
         let (prior, planar) = (Prior::default(), Simulator::planar());

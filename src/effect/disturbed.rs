@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::Vector,
-    scene::{Hypothesis, Record, Scene, State, ToolMotion, Trajectory, Warning},
+    scene::{Record, Scene, State, ToolMotion, Trajectory, Warning},
 };
 
 use super::{EffectModel, Job};
@@ -30,19 +30,17 @@ impl Mistake {
         }
     }
 
-    fn apply(self, scene: &Scene, job: &Job) -> Job {
+    fn apply(self, job: &Job) -> Job {
         match self {
             Mistake::Friction(factor) => {
-                let nominal = || Hypothesis::nominal(scene, &job.motion.tool);
-                let mut wrong = job.hypothesis.as_deref().cloned().unwrap_or_else(nominal);
-                wrong.frictions.iter_mut().for_each(|friction| *friction *= factor);
-                wrong.table_friction *= factor;
-                wrong.tool_friction *= factor;
-                Job { hypothesis: Some(Arc::new(wrong)), ..job.clone() }
+                let mut wrong = job.clone();
+                let physics = Arc::make_mut(&mut wrong.physics);
+                physics.frictions.iter_mut().for_each(|friction| *friction *= factor);
+                physics.table_friction *= factor;
+                Arc::make_mut(&mut wrong.motion.tool).friction *= factor;
+                wrong
             }
-            Mistake::Start(metres) => {
-                Job { start: shifted(scene, &job.start, metres), ..job.clone() }
-            }
+            Mistake::Start(metres) => Job { start: shifted(job, metres), ..job.clone() },
         }
     }
 }
@@ -81,13 +79,14 @@ impl<M: EffectModel> EffectModel for Disturbed<M> {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        let jobs: Vec<Job> = jobs.iter().map(|job| self.mistake.apply(scene, job)).collect();
+        let jobs: Vec<Job> = jobs.iter().map(|job| self.mistake.apply(job)).collect();
         self.model.rollout(scene, &jobs, record)
     }
 }
 
 /// The start with every group of joined objects shifted by `metres`.
-fn shifted(scene: &Scene, start: &State, metres: f64) -> State {
+fn shifted(job: &Job, metres: f64) -> State {
+    let Job { start, physics, .. } = job;
     // Directions come from the start itself, so that a job gives the same trajectory whatever
     // jobs stand beside it.
     let seed = start.poses.iter().fold(0u64, |seed, pose| {
@@ -104,7 +103,7 @@ fn shifted(scene: &Scene, start: &State, metres: f64) -> State {
         })
         .collect();
     let mut state = start.clone();
-    for (pose, group) in state.poses.iter_mut().zip(scene.groups(|_| true)) {
+    for (pose, group) in state.poses.iter_mut().zip(physics.groups(|_| true)) {
         pose.position += shifts[group];
     }
     state

@@ -122,7 +122,8 @@ impl EffectModel for Network {
             return found;
         }
         // What the motion cannot reach is never shown to the network.
-        ranges.warnings(&scene.only(&reachable(scene, &scene.start(), motion)), motion)
+        let reached = reachable(scene, &Job::stated(scene, motion.clone()));
+        ranges.warnings(&scene.only(&reached), motion)
     }
 
     fn error_p95(&self) -> f64 {

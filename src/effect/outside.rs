@@ -50,8 +50,7 @@ impl<M: EffectModel> Guarded<M> {
 /// How far the planar engine ends from what is predicted for `job`, as a warning, for the object
 /// on which the two differ most: what a model's being outside its range means for this motion.
 pub fn consequence(scene: &Scene, job: &Job, predicted: &State) -> Option<Warning> {
-    let hypothesis = job.hypothesis.as_deref();
-    let run = Simulator::planar().run(scene, &job.start, hypothesis, &job.motion, Record::Outcome);
+    let run = Simulator::planar().run(scene, job, Record::Outcome);
     let apart = |k: usize| (run.outcome().poses[k].position - predicted.poses[k].position).norm();
     let far = (0..scene.objects.len()).max_by(|&a, &b| apart(a).total_cmp(&apart(b)))?;
     Some(Warning::Differs { object: scene.objects[far].name.clone(), distance: apart(far) })

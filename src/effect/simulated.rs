@@ -44,12 +44,7 @@ impl EffectModel for Simulated {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        jobs.par_iter()
-            .map(|job| {
-                let hypothesis = job.hypothesis.as_deref();
-                self.simulator.run(scene, &job.start, hypothesis, &job.motion, record)
-            })
-            .collect()
+        jobs.par_iter().map(|job| self.simulator.run(scene, job, record)).collect()
     }
 }
 
@@ -58,12 +53,12 @@ mod tests {
     use std::sync::Arc;
 
     use crate::geometry::{Pose, Shape, Vector};
-    use crate::scene::{Hypothesis, Object, Part, Push, Tool};
+    use crate::scene::{Object, Part, Push, Tool, ToolMotion};
 
     use super::*;
 
     #[test]
-    fn trajectories_come_in_the_order_of_the_jobs_each_under_its_hypothesis() {
+    fn trajectories_come_in_the_order_of_the_jobs_each_under_its_physics() {
         let puck = Object {
             name: "puck".into(),
             shape: Shape::Cylinder { radius: 0.03, height: 0.05 },
@@ -80,13 +75,12 @@ mod tests {
             .map(|k| {
                 let length = 0.04 + 0.02 * f64::from(k);
                 let push = Push { start: Vector::zeros(), direction: 0.0, length, speed: 0.1 };
-                let nominal = Hypothesis::nominal(&scene, &tool);
-                let slow = Hypothesis { table_friction: 0.9, ..nominal };
-                Job {
-                    start: scene.start(),
-                    motion: ToolMotion::pushes(tool.clone(), 0.002, 0.0, &[push], true),
-                    hypothesis: (k % 2 == 1).then(|| Arc::new(slow)),
+                let motion = ToolMotion::pushes(tool.clone(), 0.002, 0.0, &[push], true);
+                let mut job = Job::stated(&scene, motion);
+                if k % 2 == 1 {
+                    Arc::make_mut(&mut job.physics).table_friction = 0.9;
                 }
+                job
             })
             .collect();
         let simulator = Simulator::planar();
@@ -96,8 +90,7 @@ mod tests {
         assert_eq!(coarse.name(), "3d, 1/120 s");
         let trajectories = model.rollout(&scene, &jobs, Record::Frames);
         for (job, trajectory) in jobs.iter().zip(&trajectories) {
-            let hypothesis = job.hypothesis.as_deref();
-            let alone = simulator.run(&scene, &job.start, hypothesis, &job.motion, Record::Frames);
+            let alone = simulator.run(&scene, job, Record::Frames);
             assert_eq!(trajectory, &alone);
         }
         assert!(model.rollout(&scene, &[], Record::Frames).is_empty());

@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{Footprint, Pose, Vector},
-    scene::{GRAVITY, Hypothesis, JointKind, Scene, Span, Tool},
+    scene::{GRAVITY, JointKind, Physics, Scene, Span, Tool},
 };
 
 use super::coast::Fall;
@@ -70,9 +70,9 @@ pub struct Groups {
 }
 
 impl Groups {
-    fn new(scene: &Scene) -> Self {
+    fn new(scene: &Scene, physics: &Physics) -> Self {
         let mut groups = Self::default();
-        let lowest = scene.groups(|joint| joint.kind == JointKind::Fixed);
+        let lowest = physics.groups(|joint| joint.kind == JointKind::Fixed);
         for (object, first) in lowest.into_iter().enumerate() {
             if first == object {
                 groups.of.push(groups.members.len());
@@ -133,16 +133,8 @@ impl Motion {
 
 impl Bodies {
     /// The bodies of `scene` and a `tool` whose underside is `lift` metres above the table,
-    /// with the physical parameters of `hypothesis` where one is given.
-    pub fn new(scene: &Scene, tool: &Tool, lift: f64, hypothesis: Option<&Hypothesis>) -> Self {
-        let nominal;
-        let physics = match hypothesis {
-            Some(hypothesis) => hypothesis,
-            None => {
-                nominal = Hypothesis::nominal(scene, tool);
-                &nominal
-            }
-        };
+    /// under `physics`.
+    pub fn new(scene: &Scene, tool: &Tool, lift: f64, physics: &Physics) -> Self {
         let objects = scene
             .objects
             .iter()
@@ -150,7 +142,7 @@ impl Bodies {
             .map(|(k, object)| {
                 let footprint = object.shape.footprint();
                 let support = footprint.mean_radius();
-                let friction = Scene::pair_friction(physics.frictions[k], physics.table_friction);
+                let friction = physics.support_friction(k);
                 let spin = (support / footprint.gyration_radius()).powi(2);
                 Movable {
                     footprint,
@@ -171,7 +163,7 @@ impl Bodies {
             .map(|part| Given {
                 footprint: part.footprint(),
                 pose: part.pose,
-                friction: physics.tool_friction,
+                friction: tool.friction,
                 span: (lift, lift + part.shape.height()),
             })
             .collect();
@@ -185,7 +177,7 @@ impl Bodies {
                 span: (0.0, obstacle.size[2]),
             })
             .collect();
-        let joints = scene
+        let joints = physics
             .joints
             .iter()
             .map(|joint| Jointed {
@@ -196,8 +188,8 @@ impl Bodies {
                 guessed: joint.guessed,
             })
             .collect();
-        let groups = Groups::new(scene);
-        let mechanisms = scene.groups(|_| true);
+        let groups = Groups::new(scene, physics);
+        let mechanisms = physics.groups(|_| true);
         Self { objects, parts, obstacles, joints, groups, mechanisms }
     }
 }

@@ -261,7 +261,7 @@ mod tests {
     use crate::{
         geometry::{Pose, Shape},
         graph::{bodies::Bodies, coast, contact::find_contacts},
-        scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Scene, Tool},
+        scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
     };
 
     fn cuboid(x: f64, y: f64) -> Object {
@@ -293,7 +293,7 @@ mod tests {
         let tool =
             Tool::assemble("finger".into(), String::new(), Pose::default(), 0.5, vec![finger], &[])
                 .expect("one part is one piece");
-        let bodies = Bodies::new(scene, &tool, 0.002, None);
+        let bodies = Bodies::new(scene, &tool, 0.002, &Physics::stated(scene));
         let state = scene.start();
         let to = Pose { position: travel, heading: 0.0 };
         let step = FrameStep { from: Pose::default(), to, duration: 0.5 };

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
     use crate::{
         geometry::{Pose, Shape},
-        scene::{Joint, JointKind, Object, Part, Scene, Tool},
+        scene::{Joint, JointKind, Object, Part, Physics, Scene, Tool},
     };
 
     #[test]
@@ -110,7 +110,7 @@ mod tests {
         let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
         let tool =
             Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![part], &[]);
-        let whole = Bodies::new(&scene, &tool.expect("one piece"), 0.0, None);
+        let whole = Bodies::new(&scene, &tool.expect("one piece"), 0.0, &Physics::stated(&scene));
         let mut subset = Subset::default();
         subset.list_all(&whole);
         subset.gather(&whole);

@@ -44,7 +44,7 @@ pub fn evaluate(
     rollouts: &mut Rollouts,
     candidates: &[Candidate],
 ) -> Vec<Result<Evaluation, Infeasible>> {
-    let start = rollouts.scene().start();
+    let start = rollouts.situation().start.clone();
     let mut results: Vec<Result<Evaluation, Infeasible>> = candidates
         .iter()
         .map(|candidate| {
@@ -77,11 +77,7 @@ pub fn evaluate(
                 &evaluation.pushes,
                 false,
             );
-            (!evaluation.pushes.is_empty()).then(|| Job {
-                start: evaluation.outcome.clone(),
-                motion,
-                hypothesis: None,
-            })
+            (!evaluation.pushes.is_empty()).then_some(motion)
         });
     }
     results
@@ -105,7 +101,6 @@ fn advance(
             workspace.task.pushes.lift,
             candidate.grip_yaw,
             push,
-            evaluation.outcome.clone(),
         ))
     });
 }
@@ -132,17 +127,22 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
     }
 }
 
-/// Rolls out the job of every candidate that has one and keeps its outcome.
+/// Rolls out the motion of every candidate that has one, from its outcome so far, and keeps the
+/// new one.
 fn run(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
     results: &mut [Result<Evaluation, Infeasible>],
-    job: impl Fn(&Evaluation, &Workspace) -> Option<Job>,
+    motion: impl Fn(&Evaluation, &Workspace) -> Option<ToolMotion>,
 ) {
     let (indices, jobs): (Vec<usize>, Vec<Job>) = results
         .iter()
         .enumerate()
-        .filter_map(|(k, result)| Some((k, job(result.as_ref().ok()?, workspace)?)))
+        .filter_map(|(k, result)| {
+            let evaluation = result.as_ref().ok()?;
+            let motion = motion(evaluation, workspace)?;
+            Some((k, rollouts.job(motion, evaluation.outcome.clone())))
+        })
         .unzip();
     let trajectories = rollouts.run(&jobs, Record::Outcome);
     for (k, trajectory) in indices.into_iter().zip(trajectories) {

@@ -1,6 +1,8 @@
 //! The continuous parameters of a candidate: offset, direction and length of every push, counted
 //! in steps of about equal effect.
 
+use crate::scene::State;
+
 use super::workspace::MIN_LENGTH;
 use super::{Candidate, Start, Workspace};
 
@@ -41,10 +43,9 @@ pub(super) struct Parameters(Vec<Parameter>);
 
 impl Parameters {
     /// Parameters and bounds around a candidate as searched.
-    pub fn new(workspace: &Workspace, candidate: &Candidate) -> Self {
+    pub fn new(workspace: &Workspace, start: &State, candidate: &Candidate) -> Self {
         let pair = (candidate.tool, candidate.grip_yaw);
         let longest = workspace.task.pushes.length;
-        let start = workspace.task.scene.start();
         let mut list = Vec::new();
         for (k, push) in candidate.pushes.iter().enumerate() {
             let mut add = |quantity, step, low, high| {
@@ -54,7 +55,7 @@ impl Parameters {
             if let Start::Placed { part, offset } = push.start {
                 // The span depends on the object's heading only, and little on that.
                 let span =
-                    workspace.largest_offset(pair, &start, part, push.direction).max(offset.abs());
+                    workspace.largest_offset(pair, start, part, push.direction).max(offset.abs());
                 add(Quantity::Offset, OFFSET_STEP, -span, span);
                 longest *= LONGEST;
             }

@@ -98,7 +98,11 @@ pub fn refine(
         .filter_map(|(index, result)| {
             let best = result.ok().filter(Evaluation::is_feasible)?;
             Some(Work {
-                parameters: Parameters::new(workspace, &best.candidate),
+                parameters: Parameters::new(
+                    workspace,
+                    &rollouts.situation().start,
+                    &best.candidate,
+                ),
                 refined: Refined { before: best.clone(), rounds: vec![], best },
                 radius: FIRST_RADIUS,
                 random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),

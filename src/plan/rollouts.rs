@@ -4,20 +4,20 @@ use std::sync::Arc;
 
 use crate::effect::{EffectModel, Job};
 use crate::scene::{
-    GRAVITY, Goal, Push, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory,
+    GRAVITY, Goal, Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory,
 };
 
-/// An effect model on one scene, with a count of the rollouts made.
+/// An effect model in one situation, with a count of the rollouts made.
 pub struct Rollouts<'a> {
     model: &'a dyn EffectModel,
-    scene: &'a Scene,
+    situation: Situation,
     used: usize,
 }
 
 impl<'a> Rollouts<'a> {
     /// Starts counting at zero.
-    pub fn new(model: &'a dyn EffectModel, scene: &'a Scene) -> Self {
-        Self { model, scene, used: 0 }
+    pub fn new(model: &'a dyn EffectModel, situation: Situation) -> Self {
+        Self { model, situation, used: 0 }
     }
 
     /// Rollouts made so far.
@@ -25,29 +25,26 @@ impl<'a> Rollouts<'a> {
         self.used
     }
 
-    /// The scene that is rolled out.
-    pub fn scene(&self) -> &'a Scene {
-        self.scene
+    /// Where planning starts, and under which physics everything is rolled out.
+    pub fn situation(&self) -> &Situation {
+        &self.situation
+    }
+
+    /// `motion`, beginning in `start`.
+    pub(super) fn job(&self, motion: ToolMotion, start: State) -> Job {
+        Job { start, motion, physics: Arc::clone(&self.situation.physics) }
     }
 
     /// Rolls out a batch, in parallel, and counts it.
     pub fn run(&mut self, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         self.used += jobs.len();
-        self.model.rollout(self.scene, jobs, record)
+        self.model.rollout(&self.situation.scene, jobs, record)
     }
 }
 
-/// A job for one straight push that ends with waiting for rest.
-pub(super) fn single_push(
-    tool: &Arc<Tool>,
-    lift: f64,
-    grip_yaw: f64,
-    push: &Push,
-    start: State,
-) -> Job {
-    let motion =
-        ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, std::slice::from_ref(push), true);
-    Job { start, motion, hypothesis: None }
+/// One straight push that ends with waiting for rest.
+pub(super) fn single_push(tool: &Arc<Tool>, lift: f64, grip_yaw: f64, push: &Push) -> ToolMotion {
+    ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, std::slice::from_ref(push), true)
 }
 
 /// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
@@ -69,13 +66,14 @@ pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
 /// Sliding under the ellipsoidal limit surface slows down at about mu g along the generalised
 /// velocity s = sqrt(v^2 + c^2 omega^2), so it lasts s / (mu g) and covers half of what the
 /// present speeds would. Exact without spin; used to compare stops, never as a result.
-pub(super) fn coasted(scene: &Scene, state: &State) -> State {
+pub(super) fn coasted(situation: &Situation, state: &State) -> State {
+    let Situation { scene, physics, .. } = situation;
     let mut rest = state.clone();
     for (k, object) in scene.objects.iter().enumerate() {
         let velocity = state.velocities[k];
         let c = object.shape.footprint().mean_radius();
         let s = velocity.linear.norm().hypot(c * velocity.angular);
-        let braking = scene.support_friction(k) * GRAVITY;
+        let braking = physics.support_friction(k) * GRAVITY;
         if s > 0.0 && braking > 0.0 {
             let time = 0.5 * s / braking;
             rest.poses[k].position += velocity.linear * time;

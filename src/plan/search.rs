@@ -5,10 +5,12 @@
 //! rollout scores every shorter push as well. The budget is in rollouts, never in seconds, and
 //! ties go to the lower index, so a search gives the same answer on any machine.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::geometry::Vector;
-use crate::scene::{Push, PushForm, Record, State, Trajectory};
+use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Trajectory};
 
 use super::beam::{Stop, choose};
 use super::enumerate::{Extension, extensions};
@@ -78,6 +80,7 @@ pub(super) struct Node {
 /// A search in progress.
 pub struct Search<'a> {
     workspace: Workspace<'a>,
+    situation: Situation,
     settings: SearchSettings,
     field: Field<'a>,
     grips: Vec<(usize, f64)>,
@@ -88,23 +91,25 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Prepares a search; rolls nothing out.
-    pub fn new(workspace: Workspace<'a>, settings: SearchSettings) -> Self {
+    pub fn new(workspace: Workspace<'a>, situation: &Situation, settings: SearchSettings) -> Self {
         let yaws = &workspace.task.pushes.grip_yaws;
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
-        Self::with_grips(workspace, grips, settings)
+        Self::with_grips(workspace, situation, grips, settings)
     }
 
     /// The same with these tools and grip yaws only (index of the tool, radians).
     pub fn with_grips(
         workspace: Workspace<'a>,
+        situation: &Situation,
         grips: Vec<(usize, f64)>,
         settings: SearchSettings,
     ) -> Self {
-        let start = Node { candidate: None, state: workspace.task.scene.start(), end: None };
+        let start = Node { candidate: None, state: situation.start.clone(), end: None };
         Self {
             workspace,
+            situation: situation.clone(),
             settings,
             field: Field::new(workspace.task),
             grips,
@@ -178,13 +183,18 @@ impl<'a> Search<'a> {
         found
     }
 
-    fn job(&self, extension: &Extension) -> crate::effect::Job {
+    fn job(&self, extension: &Extension) -> Job {
+        let start = self.nodes[extension.node].state.clone();
+        let physics = Arc::clone(&self.situation.physics);
+        Job { start, motion: self.motion(extension), physics }
+    }
+
+    fn motion(&self, extension: &Extension) -> ToolMotion {
         single_push(
             &self.workspace.tools[extension.pair.0],
             self.workspace.task.pushes.lift,
             extension.pair.1,
             &extension.push,
-            self.nodes[extension.node].state.clone(),
         )
     }
 
@@ -206,7 +216,7 @@ impl<'a> Search<'a> {
         let mut best = (final_score(&task.goal, trajectory), length);
         let deeper = self.depth + 1 < task.pushes.max_count;
         let placed = task.pushes.form == PushForm::Placed;
-        let stroke = &self.job(extension).motion.strokes[0];
+        let stroke = &self.motion(extension).strokes[0];
         let mut offers: Vec<Stop> = Vec::new();
         let mut cheapest: Option<Stop> = None;
         let moving = stroke.frames();
@@ -215,7 +225,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let state = &trajectory.frames[frame].state;
-            let rest = coasted(&task.scene, state);
+            let rest = coasted(&self.situation, state);
             let score = finite_score(&task.goal, &rest);
             if frame < moving && score < best.0 {
                 best = (score, travel);
@@ -237,7 +247,7 @@ impl<'a> Search<'a> {
             let index = if placed { trajectory.frames.len() - 1 } else { moving };
             let known = trajectory.frames.get(index).unwrap_or(last).state.clone();
             if known.is_finite() {
-                let rest = coasted(&task.scene, &known);
+                let rest = coasted(&self.situation, &known);
                 let cost = self.field.cost(&rest);
                 let object = task.goal.object;
                 offers.push(Stop::new(extension, length, cost, &rest, object, Some(known)));

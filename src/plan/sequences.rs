@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use crate::effect::Job;
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Goal, Push, Record, Scene, State, ToolMotion, Trajectory};
+use crate::scene::{Goal, Push, Record, Situation, State, ToolMotion, Trajectory};
 
 use super::rollouts::{coasted, finite_score};
 use super::{Candidate, CandidatePush, Found, Rollouts, Start, Workspace};
@@ -59,7 +59,7 @@ impl SequenceTree {
         grips: &[(usize, f64)],
         steps: usize,
     ) -> Self {
-        let mut tree = Self::empty(workspace, steps);
+        let mut tree = Self::empty(workspace, rollouts.situation(), steps);
         let (rules, home) = (&workspace.task.pushes, workspace.task.robot.home);
         let root = |&grip| Node { grip, branch: None, state: tree.start.clone(), end: home };
         let mut nodes: Vec<Node> = grips.iter().map(root).collect();
@@ -73,7 +73,8 @@ impl SequenceTree {
             let jobs: Vec<Job> = pushes
                 .iter()
                 .map(|(node, push)| {
-                    let mut job = job(workspace, node.grip, &[*push], node.state.clone());
+                    let motion = motion(workspace, node.grip, &[*push]);
+                    let mut job = rollouts.job(motion, node.state.clone());
                     // Only the end of a sequence waits for rest.
                     job.motion.strokes[0].settle = last;
                     job
@@ -85,7 +86,7 @@ impl SequenceTree {
                 let moving = job.motion.strokes[0].frames();
                 let states = states(trajectory, 0);
                 let played = Played { states: &states, moving, settled: last };
-                let rests = played.rests(rollouts.scene(), tree.object, steps);
+                let rests = played.rests(rollouts.situation(), tree.object, steps);
                 let (grip, before, direction) = (node.grip, node.branch, push.direction);
                 tree.branches.push(Branch { grip, before, direction, rests });
                 if let Some(state) = states.get(moving).filter(|state| state.is_finite()) {
@@ -110,7 +111,7 @@ impl SequenceTree {
         grips: &[(usize, f64)],
         steps: usize,
     ) -> Self {
-        let mut tree = Self::empty(workspace, steps);
+        let mut tree = Self::empty(workspace, rollouts.situation(), steps);
         let count = workspace.task.pushes.max_count as u32;
         let ways: Vec<f64> = headings(workspace).collect();
         let sequences = ways.len().pow(count);
@@ -127,7 +128,8 @@ impl SequenceTree {
                         push
                     })
                     .collect();
-                jobs.push((pushes.clone(), job(workspace, grip, &pushes, tree.start.clone())));
+                let motion = motion(workspace, grip, &pushes);
+                jobs.push((pushes, rollouts.job(motion, tree.start.clone())));
             }
         }
         let (pushes, jobs): (Vec<Vec<Push>>, Vec<Job>) = jobs.into_iter().unzip();
@@ -142,7 +144,7 @@ impl SequenceTree {
                 let grip = grips[first / sequences];
                 let direction = pushes[first][level as usize].direction;
                 let played = Played { states: &states, moving, settled: level + 1 == count };
-                let rests = played.rests(rollouts.scene(), tree.object, steps);
+                let rests = played.rests(rollouts.situation(), tree.object, steps);
                 tree.branches.push(Branch { grip, before: before[first], direction, rests });
                 before[first..first + alike].fill(Some(tree.branches.len() - 1));
             }
@@ -196,10 +198,10 @@ impl SequenceTree {
         })
     }
 
-    fn empty(workspace: &Workspace, steps: usize) -> Self {
+    fn empty(workspace: &Workspace, situation: &Situation, steps: usize) -> Self {
         let task = workspace.task;
         Self {
-            start: task.scene.start(),
+            start: situation.start.clone(),
             object: task.goal.object,
             length: task.pushes.length,
             steps,
@@ -243,7 +245,7 @@ struct Played<'a> {
 impl Played<'_> {
     /// Where the object rests if the tool stops after each of `steps` equal steps; fewer where
     /// the rollout broke off. Between two frames the state is interpolated.
-    fn rests(&self, scene: &Scene, object: usize, steps: usize) -> Vec<Pose> {
+    fn rests(&self, situation: &Situation, object: usize, steps: usize) -> Vec<Pose> {
         let mut rests = Vec::with_capacity(steps);
         for step in 1..=steps {
             let (place, rest) = (step * self.moving / steps, step * self.moving % steps);
@@ -253,7 +255,7 @@ impl Played<'_> {
                 (_, Some(after)) => between(before, after, rest as f64 / steps as f64),
                 (_, None) => break,
             };
-            rests.push(coasted(scene, &state).poses[object]);
+            rests.push(coasted(situation, &state).poses[object]);
         }
         if let (true, Some(last)) = (self.settled && rests.len() == steps, self.states.last()) {
             rests[steps - 1] = last.poses[object];
@@ -293,8 +295,7 @@ fn straight(workspace: &Workspace, start: Vector, direction: f64) -> Push {
     Push { start, direction, length: rules.length, speed: rules.speed }
 }
 
-fn job(workspace: &Workspace, grip: (usize, f64), pushes: &[Push], start: State) -> Job {
+fn motion(workspace: &Workspace, grip: (usize, f64), pushes: &[Push]) -> ToolMotion {
     let tool = Arc::clone(&workspace.tools[grip.0]);
-    let motion = ToolMotion::pushes(tool, workspace.task.pushes.lift, grip.1, pushes, false);
-    Job { start, motion, hypothesis: None }
+    ToolMotion::pushes(tool, workspace.task.pushes.lift, grip.1, pushes, false)
 }

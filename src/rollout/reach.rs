@@ -9,7 +9,7 @@
 use crate::{
     geometry::{Footprint, Pose, Vector, perpendicular},
     graph::{Bodies, MARGIN, Subset},
-    scene::{Scene, State, Stroke, ToolMotion, Velocity},
+    scene::{Job, Scene, State, Stroke, Velocity},
 };
 
 /// How far an object may move before the list is made anew, metres. A push of 20 cm then makes
@@ -42,14 +42,15 @@ pub struct Course<'a> {
     pub stride: usize,
 }
 
-/// The objects of `scene` that `motion` can set in motion from `start`, stroke by stroke and as far
+/// The objects of `scene` that `job` can set in motion from its start, stroke by stroke and as far
 /// as one stroke can tell, in order; all of them where the tool makes no stroke.
-pub fn reachable(scene: &Scene, start: &State, motion: &ToolMotion) -> Vec<usize> {
+pub fn reachable(scene: &Scene, job: &Job) -> Vec<usize> {
+    let Job { start, motion, physics } = job;
     let count = scene.objects.len();
     if motion.strokes.is_empty() {
         return (0..count).collect();
     }
-    let whole = Bodies::new(scene, &motion.tool, motion.lift, None);
+    let whole = Bodies::new(scene, &motion.tool, motion.lift, physics);
     let (mut reach, mut subset) = (Reach::default(), Subset::default());
     let mut reached = vec![false; count];
     for stroke in &motion.strokes {

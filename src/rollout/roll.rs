@@ -1,5 +1,7 @@
 //! Rolling many jobs of one scene out side by side, frame by frame.
 
+use std::sync::Arc;
+
 use crate::{
     graph::{Batch, Bodies, Motion, add_graph, add_prior},
     scene::{Job, Record, Scene, Trajectory},
@@ -126,26 +128,21 @@ pub fn apply(batch: &Batch, corrections: &[[f64; 6]], motions: &mut [Vec<Motion>
     }
 }
 
-/// The bodies of the scene with every tool and hypothesis that occurs, and which of them each
+/// The bodies of the scene with every tool and physics that occurs, and which of them each
 /// job has: a search has hundreds of jobs with a handful of tools.
 fn casts(scene: &Scene, jobs: &[Job]) -> (Vec<Bodies>, Vec<usize>) {
     let mut casts = Vec::new();
     let mut firsts: Vec<&Job> = Vec::new();
     let same = |a: &Job, b: &Job| {
-        let same_hypothesis = match (&a.hypothesis, &b.hypothesis) {
-            (Some(a), Some(b)) => std::sync::Arc::ptr_eq(a, b),
-            (None, None) => true,
-            _ => false,
-        };
-        let same_tool = std::sync::Arc::ptr_eq(&a.motion.tool, &b.motion.tool);
-        same_tool && a.motion.lift == b.motion.lift && same_hypothesis
+        let same_physics = Arc::ptr_eq(&a.physics, &b.physics) || a.physics == b.physics;
+        let same_tool = Arc::ptr_eq(&a.motion.tool, &b.motion.tool);
+        same_tool && a.motion.lift == b.motion.lift && same_physics
     };
     let which = jobs
         .iter()
         .map(|job| {
             firsts.iter().position(|first| same(first, job)).unwrap_or_else(|| {
-                let hypothesis = job.hypothesis.as_deref();
-                casts.push(Bodies::new(scene, &job.motion.tool, job.motion.lift, hypothesis));
+                casts.push(Bodies::new(scene, &job.motion.tool, job.motion.lift, &job.physics));
                 firsts.push(job);
                 firsts.len() - 1
             })

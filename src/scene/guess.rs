@@ -1,25 +1,25 @@
-//! Other joints for the same scene: none, every contact fixed, or geometry guessed from the
-//! types.
+//! Other beliefs about the joints of a scene: none, every contact fixed, or geometry guessed from
+//! the types.
 
 use crate::geometry::{ContactPoint, Vector, contact_points};
 
-use super::{Joint, JointKind, Object, Scene};
+use super::{Joint, JointKind, Object, Physics, Scene};
 
 /// Objects whose gap at the start is smaller than this count as touching when every contact is
 /// taken for a joint, metres: the reach in which the thesis looks for joints.
 pub const NEARLY_TOUCHING: f64 = 0.005;
 
-impl Scene {
-    /// The scene as it looks to someone who knows which objects are joined and by which type of
+impl Physics {
+    /// What someone believes who knows which objects of `scene` are joined and by which type of
     /// joint, but not where the axes are.
     ///
-    /// Geometry is guessed from the start poses: the axis of a revolute joint stands midway
+    /// Geometry is guessed from the stated poses: the axis of a revolute joint stands midway
     /// between the closest points of the two objects, a prismatic joint slides along the line
     /// of their centres, and nothing is limited. Such joints are marked [`Joint::guessed`]. A
     /// fixed joint has no geometry to guess and stays as it is.
-    pub fn guess_joints(&self) -> Self {
+    pub fn guess_joints(&self, scene: &Scene) -> Self {
         let guess = |joint: &Joint| {
-            let [first, second] = joint.between.map(|index| &self.objects[index]);
+            let [first, second] = joint.between.map(|index| &scene.objects[index]);
             let kind = match joint.kind {
                 JointKind::Fixed => return joint.clone(),
                 JointKind::Revolute { .. } => {
@@ -34,17 +34,17 @@ impl Scene {
         Self { joints: self.joints.iter().map(guess).collect(), ..self.clone() }
     }
 
-    /// The scene without its joints.
+    /// The same without joints.
     pub fn without_joints(&self) -> Self {
         Self { joints: Vec::new(), ..self.clone() }
     }
 
-    /// The scene with a fixed joint between every two objects that touch or nearly touch at the
-    /// start (gap below [`NEARLY_TOUCHING`]), whatever its own joints say.
-    pub fn with_contacts_fixed(&self) -> Self {
+    /// The same with a fixed joint between every two objects of `scene` that touch or nearly
+    /// touch at their stated poses (gap below [`NEARLY_TOUCHING`]), and no other joints.
+    pub fn with_contacts_fixed(&self, scene: &Scene) -> Self {
         let mut joints = Vec::new();
-        for (a, first) in self.objects.iter().enumerate() {
-            for (b, second) in self.objects.iter().enumerate().skip(a + 1) {
+        for (a, first) in scene.objects.iter().enumerate() {
+            for (b, second) in scene.objects.iter().enumerate().skip(a + 1) {
                 if gap(first, second) < NEARLY_TOUCHING {
                     let kind = JointKind::Fixed;
                     joints.push(Joint { between: [a, b], kind, guessed: false });
@@ -108,7 +108,8 @@ mod tests {
     #[test]
     fn geometry_is_guessed_from_the_poses_alone() {
         let scene = scene();
-        let guessed = scene.guess_joints();
+        let stated = Physics::stated(&scene);
+        let guessed = stated.guess_joints(&scene);
         let [revolute, prismatic, fixed] = &guessed.joints[..] else { panic!("three joints") };
         let JointKind::Revolute { at, limits: None } = revolute.kind else { panic!("revolute") };
         assert!((at - Vector::new(0.051, 0.0)).norm() < 1e-12 && revolute.guessed);
@@ -118,14 +119,15 @@ mod tests {
         let line = Vector::new(-0.002, 0.2).normalize();
         assert!((axis - line).norm() < 1e-12 && prismatic.guessed);
         assert_eq!(*fixed, scene.joints[2]);
-        assert_eq!(guessed.guess_joints(), guessed, "guessing again changes nothing");
+        assert_eq!(guessed.guess_joints(&scene), guessed, "guessing again changes nothing");
     }
 
     #[test]
     fn contacts_become_joints_and_joints_vanish() {
         let scene = scene();
-        assert!(scene.without_joints().joints.is_empty());
-        let fixed = scene.with_contacts_fixed();
+        let stated = Physics::stated(&scene);
+        assert!(stated.without_joints().joints.is_empty());
+        let fixed = stated.with_contacts_fixed(&scene);
         let kind = JointKind::Fixed;
         assert_eq!(fixed.joints, [Joint { between: [0, 1], kind, guessed: false }]);
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Hypothesis, State, ToolMotion};
+use super::{Physics, Scene, Situation, State, ToolMotion};
 
 /// One rollout to compute.
 #[derive(Clone, Debug)]
@@ -11,6 +11,19 @@ pub struct Job {
     pub start: State,
     /// What the tool does.
     pub motion: ToolMotion,
-    /// Other physical parameters than the scene's, where wanted.
-    pub hypothesis: Option<Arc<Hypothesis>>,
+    /// Under which physical parameters.
+    pub physics: Arc<Physics>,
+}
+
+impl Job {
+    /// `motion`, beginning in `situation`.
+    pub fn new(situation: &Situation, motion: ToolMotion) -> Self {
+        let Situation { start, physics, .. } = situation;
+        Self { start: start.clone(), motion, physics: Arc::clone(physics) }
+    }
+
+    /// `motion` in the scene exactly as it is stated.
+    pub fn stated(scene: &Scene, motion: ToolMotion) -> Self {
+        Self { start: scene.start(), motion, physics: Arc::new(Physics::stated(scene)) }
+    }
 }

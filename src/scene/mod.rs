@@ -1,16 +1,21 @@
-//! The plain data of the field: objects, tools, tasks, motions, trajectories, plans.
+//! The plain data of the field.
+//!
+//! - What is *seen* or stated in a file: objects, obstacles, tools, tasks and goals.
+//! - What is *believed*: [`Physics`]. A [`Situation`] is a scene, where everything is now, and
+//!   what is believed about it; a [`Job`] is a tool motion that begins in one.
+//! - What *happened*: trajectories, plans and verdicts.
 //!
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
-mod groups;
 mod guess;
-mod hypothesis;
 mod job;
 mod joint;
 mod motion;
+mod physics;
 mod plan;
 mod ranges;
+mod situation;
 mod state;
 mod task;
 mod tool;
@@ -19,14 +24,15 @@ mod warning;
 mod world;
 
 pub use guess::NEARLY_TOUCHING;
-pub use hypothesis::Hypothesis;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
+pub use physics::Physics;
 pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
+pub use situation::Situation;
 pub use state::{State, Velocity};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};

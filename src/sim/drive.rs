@@ -6,7 +6,7 @@
 
 use crate::geometry::{Pose, contact_points};
 use crate::scene::{
-    Body, COAST_FRAME, Contact, Frame, FrameStep, Hypothesis, MAX_COAST_FRAMES, Record, Scene,
+    Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, Physics, Record, Scene,
     State, ToolMotion, Trajectory, Warning,
 };
 
@@ -19,7 +19,7 @@ pub(super) trait World: Sized {
     fn build(
         scene: &Scene,
         state: &State,
-        parameters: &Hypothesis,
+        physics: &Physics,
         motion: &ToolMotion,
         tool: &Pose,
     ) -> Self;
@@ -41,22 +41,16 @@ pub(super) trait World: Sized {
     fn toppled(&self) -> Vec<usize>;
 }
 
-/// Plays `motion` in a world `W` with steps of at most `step` seconds.
-pub(super) fn drive<W: World>(
-    scene: &Scene,
-    start: &State,
-    parameters: &Hypothesis,
-    motion: &ToolMotion,
-    step: f64,
-    record: Record,
-) -> Trajectory {
+/// Plays `job` in a world `W` with steps of at most `step` seconds.
+pub(super) fn drive<W: World>(scene: &Scene, job: &Job, step: f64, record: Record) -> Trajectory {
+    let Job { start, motion, physics } = job;
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
     let mut recorder = Recorder::new(record, start, tool);
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene);
     }
-    let mut world = W::build(scene, start, parameters, motion, &tool);
+    let mut world = W::build(scene, start, physics, motion, &tool);
     let mut time = 0.0;
     for (index, stroke) in motion.strokes.iter().enumerate() {
         let lifted = index > 0 && motion.strokes[index - 1].settle;
@@ -64,7 +58,7 @@ pub(super) fn drive<W: World>(
             // A fresh world, so that going on from a recorded rest and never having stopped
             // are the same computation. What lies on its side cannot be told by a planar state
             // and stays in the old one, where the tool jumps.
-            world = W::build(scene, &world.state(), parameters, motion, &stroke.from);
+            world = W::build(scene, &world.state(), physics, motion, &stroke.from);
         }
         if index == 0 || lifted {
             let warnings = set_down_on(scene, &recorder.last().state, motion, index);

@@ -7,7 +7,7 @@
 //! object keeps its own mass and its own friction with the table.
 
 use crate::geometry::{Pose, Vector, cross};
-use crate::scene::{JointKind, Scene, State, Velocity};
+use crate::scene::{JointKind, Physics, Scene, State, Velocity};
 
 /// One rigid body, as it starts.
 pub(super) struct Group {
@@ -20,15 +20,14 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// The bodies of a scene in `state` with these masses (kg), in the order of their first
-    /// objects.
-    pub fn of(scene: &Scene, state: &State, masses: &[f64]) -> Vec<Group> {
-        let first = scene.groups(|joint| joint.kind == JointKind::Fixed);
+    /// The bodies of a scene in `state` under `physics`, in the order of their first objects.
+    pub fn of(scene: &Scene, state: &State, physics: &Physics) -> Vec<Group> {
+        let first = physics.groups(|joint| joint.kind == JointKind::Fixed);
         (0..first.len())
             .filter(|&index| first[index] == index)
             .map(|index| {
                 let objects = (0..first.len()).filter(|&other| first[other] == index).collect();
-                Self::at(scene, state, masses, objects)
+                Self::at(scene, state, &physics.masses, objects)
             })
             .collect()
     }
@@ -135,8 +134,7 @@ mod tests {
     #[test]
     fn fixed_joints_make_groups_and_loops_of_them_do_no_harm() {
         let (scene, state) = scene();
-        let masses = [1.0, 2.0, 3.0, 4.0, 5.0];
-        let groups = Group::of(&scene, &state, &masses);
+        let groups = Group::of(&scene, &state, &Physics::stated(&scene));
         let objects: Vec<Vec<usize>> = groups.iter().map(|group| group.objects.clone()).collect();
         assert_eq!(objects, [vec![0, 2, 3], vec![1], vec![4]]);
         assert_eq!(groups[1].pose, scene.objects[1].pose);
@@ -146,12 +144,11 @@ mod tests {
     #[test]
     fn a_turning_group_gives_its_objects_their_velocities_back() {
         let (scene, mut state) = scene();
-        let masses = [1.0, 2.0, 3.0, 4.0, 5.0];
         let about = Velocity { linear: Vector::new(0.1, -0.2), angular: 0.7 };
         for (pose, velocity) in state.poses.iter().zip(&mut state.velocities) {
             *velocity = Velocity { linear: about.at(pose.position), ..about };
         }
-        let groups = Group::of(&scene, &state, &masses);
+        let groups = Group::of(&scene, &state, &Physics::stated(&scene));
         for index in 0..5 {
             let member = Member::of(&groups, &state, index);
             let velocity = member.velocity(groups[member.body].velocity, 0.0);

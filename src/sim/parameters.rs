@@ -1,7 +1,7 @@
 //! Settings that both engines share, and why they are so.
 
 use crate::geometry::Vector;
-use crate::scene::{JointKind, Scene, State};
+use crate::scene::{JointKind, Physics, State};
 
 /// Penetration that is not corrected, metres. rapier's default of 1 mm lets bodies sink 1.4 mm.
 pub(super) const ALLOWED_ERROR: f64 = 1e-5;
@@ -35,8 +35,8 @@ pub(super) const ARTICULATED_ITERATIONS: usize = 6;
 /// Such neighbours also touch each other, with the leverage of all that hangs on the joint:
 /// rapier's soft contacts let 12 boxes on revolute joints with gaps of 2 mm, which can turn by 3
 /// degrees, turn by 24 instead, and the row then never came to rest.
-pub(super) fn is_articulated(scene: &Scene) -> bool {
-    scene.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
+pub(super) fn is_articulated(physics: &Physics) -> bool {
+    physics.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
 }
 
 /// Whether the masses (kg) differ so much that contacts must be stiffened.

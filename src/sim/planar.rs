@@ -13,9 +13,7 @@ use rapier2d::prelude::{
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
-use crate::scene::{
-    Body, FrameStep, Hypothesis, JointKind, Scene, Span, State, ToolMotion, Velocity,
-};
+use crate::scene::{Body, FrameStep, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity};
 
 use super::drive::World;
 use super::groups::{Group, Member};
@@ -58,27 +56,27 @@ impl World for PlanarWorld {
     fn build(
         scene: &Scene,
         state: &State,
-        parameters: &Hypothesis,
+        physics: &Physics,
         motion: &ToolMotion,
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(scene, parameters),
+            world: empty_world(physics),
             origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
         };
-        this.add_tool(motion, parameters, tool);
-        let groups = Group::of(scene, state, &parameters.masses);
+        this.add_tool(motion, tool);
+        let groups = Group::of(scene, state, physics);
         groups.iter().for_each(|group| this.add_body(group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, parameters, motion.lift, index, member);
+            this.add_object(scene, physics, motion.lift, index, member);
         }
         this.add_obstacles(scene);
-        this.add_joints(scene);
+        this.add_joints(scene, physics);
         this
     }
 
@@ -165,14 +163,14 @@ impl PlanarWorld {
         self.labels[self.world.colliders[collider].user_data as usize]
     }
 
-    fn add_tool(&mut self, motion: &ToolMotion, parameters: &Hypothesis, at: &Pose) {
+    fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
         let body = RigidBodyBuilder::kinematic_velocity_based()
             .pose(to_rapier(at, self.origin))
             .can_sleep(false);
         self.tool = self.world.insert_body(body);
         for (index, part) in motion.tool.parts.iter().enumerate() {
             // Without mass the centre of mass, which rapier's velocity is of, is the tool frame.
-            let collider = collider(&part.footprint(), parameters.tool_friction)
+            let collider = collider(&part.footprint(), motion.tool.friction)
                 .density(0.0)
                 .position(to_rapier(&part.pose, Vector::zeros()))
                 .collision_groups(groups(PART, TALL));
@@ -198,22 +196,22 @@ impl PlanarWorld {
     fn add_object(
         &mut self,
         scene: &Scene,
-        parameters: &Hypothesis,
+        physics: &Physics,
         lift: f64,
         index: usize,
         member: Member,
     ) {
-        let (shape, friction) = (&scene.objects[index].shape, parameters.frictions[index]);
+        let (shape, friction) = (&scene.objects[index].shape, physics.frictions[index]);
         let footprint = shape.footprint();
         // All parts have their underside at the same height, so the object alone decides.
         let own = if shape.height() > lift { TALL } else { LOW };
         let collider = collider(&footprint, friction)
-            .mass(parameters.masses[index] as Real)
+            .mass(physics.masses[index] as Real)
             .position(to_rapier(&member.local, Vector::zeros()))
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
-        let table = Scene::pair_friction(friction, parameters.table_friction);
-        self.objects.push((member, Support::new(&footprint, table, parameters.masses[index])));
+        let table = Scene::pair_friction(friction, physics.table_friction);
+        self.objects.push((member, Support::new(&footprint, table, physics.masses[index])));
     }
 
     fn add_obstacles(&mut self, scene: &Scene) {
@@ -226,8 +224,8 @@ impl PlanarWorld {
         }
     }
 
-    fn add_joints(&mut self, scene: &Scene) {
-        for joint in &scene.joints {
+    fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
+        for joint in &physics.joints {
             let (axes, free) = match joint.kind {
                 // Its objects are one body.
                 JointKind::Fixed => continue,
@@ -259,15 +257,15 @@ impl PlanarWorld {
     }
 }
 
-fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
+fn empty_world(physics: &Physics) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
-    let articulated = is_articulated(scene);
+    let articulated = is_articulated(physics);
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    let stiff = articulated || needs_stiff_contacts(&parameters.masses);
+    let stiff = articulated || needs_stiff_contacts(&physics.masses);
     let (frequency, damping) = if stiff { STIFF_CONTACT } else { PLANAR_CONTACT };
     settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world

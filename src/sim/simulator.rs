@@ -1,6 +1,6 @@
 //! The door: an engine with its step, playing tool motions.
 
-use crate::scene::{Engine, Hypothesis, Record, Scene, State, ToolMotion, Trajectory};
+use crate::scene::{Engine, Job, Record, Scene, Trajectory};
 
 use super::drive::drive;
 use super::planar::PlanarWorld;
@@ -18,7 +18,7 @@ pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 /// ```
 /// use std::sync::Arc;
 /// use pushplan::geometry::{Pose, Shape, Vector};
-/// use pushplan::scene::{Object, Part, Push, Record, Scene, Tool, ToolMotion};
+/// use pushplan::scene::{Job, Object, Part, Push, Record, Scene, Tool, ToolMotion};
 /// use pushplan::sim::Simulator;
 ///
 /// let can = Object {
@@ -35,7 +35,7 @@ pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 /// let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
 /// let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.0, &[push], true);
 ///
-/// let trajectory = Simulator::planar().run(&scene, &scene.start(), None, &motion, Record::Outcome);
+/// let trajectory = Simulator::planar().run(&scene, &Job::stated(&scene, motion), Record::Outcome);
 /// assert!((trajectory.outcome().poses[0].position.x - 0.26).abs() < 2e-3);
 /// ```
 #[derive(Clone, Debug)]
@@ -75,30 +75,15 @@ impl Simulator {
         self.step
     }
 
-    /// Plays `motion` from `start` until everything rests.
+    /// Plays a job until everything rests.
     ///
-    /// `hypothesis` replaces the masses and frictions that scene and tool state. The trajectory
-    /// always has at least one frame; what went wrong on the way stands in its warnings.
-    pub fn run(
-        &self,
-        scene: &Scene,
-        start: &State,
-        hypothesis: Option<&Hypothesis>,
-        motion: &ToolMotion,
-        record: Record,
-    ) -> Trajectory {
-        let nominal;
-        let parameters = match hypothesis {
-            Some(hypothesis) => hypothesis,
-            None => {
-                nominal = Hypothesis::nominal(scene, &motion.tool);
-                &nominal
-            }
-        };
+    /// The trajectory always has at least one frame; what went wrong on the way stands in its
+    /// warnings.
+    pub fn run(&self, scene: &Scene, job: &Job, record: Record) -> Trajectory {
         let play = match self.engine {
             Engine::Planar => drive::<PlanarWorld>,
             Engine::Spatial => drive::<SpatialWorld>,
         };
-        play(scene, start, parameters, motion, self.step, record)
+        play(scene, job, self.step, record)
     }
 }

@@ -15,7 +15,7 @@ use rapier3d_f64::prelude::{
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::scene::{
-    Body, FrameStep, GRAVITY, Hypothesis, JointKind, Scene, Span, State, ToolMotion, Velocity,
+    Body, FrameStep, GRAVITY, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity,
 };
 
 use super::drive::World;
@@ -57,12 +57,12 @@ impl World for SpatialWorld {
     fn build(
         scene: &Scene,
         state: &State,
-        parameters: &Hypothesis,
+        physics: &Physics,
         motion: &ToolMotion,
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(scene, parameters),
+            world: empty_world(physics),
             origin: centre(state).unwrap_or(tool.position),
             lift: motion.lift,
             tool: RigidBodyHandle::invalid(),
@@ -72,18 +72,18 @@ impl World for SpatialWorld {
         };
         let table = rubbing(
             ColliderBuilder::new(SharedShape::halfspace(RapierVector::Z)),
-            parameters.table_friction,
+            physics.table_friction,
         );
         this.world.insert_collider(table.user_data(TABLE), None);
-        this.add_tool(motion, parameters, tool);
-        let groups = Group::of(scene, state, &parameters.masses);
+        this.add_tool(motion, tool);
+        let groups = Group::of(scene, state, physics);
         groups.iter().for_each(|group| this.add_body(scene, group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, parameters, index, member);
+            this.add_object(scene, physics, index, member);
         }
         this.add_obstacles(scene);
-        this.add_joints(scene);
+        this.add_joints(scene, physics);
         this
     }
 
@@ -161,7 +161,7 @@ impl SpatialWorld {
         self.labels.get(index).copied()
     }
 
-    fn add_tool(&mut self, motion: &ToolMotion, parameters: &Hypothesis, at: &Pose) {
+    fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
         let body = RigidBodyBuilder::kinematic_velocity_based()
             .pose(to_rapier(at, self.origin, self.lift))
             .can_sleep(false);
@@ -170,8 +170,7 @@ impl SpatialWorld {
             // The tool frame lies at the parts' underside. Without mass the centre of mass,
             // which rapier's velocity is of, is the tool frame.
             let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
-            let collider =
-                rubbing(upright(&part.shape, placed), parameters.tool_friction).density(0.0);
+            let collider = rubbing(upright(&part.shape, placed), motion.tool.friction).density(0.0);
             self.insert(collider, Body::Part(index), self.tool);
         }
     }
@@ -199,13 +198,13 @@ impl SpatialWorld {
         });
     }
 
-    fn add_object(&mut self, scene: &Scene, parameters: &Hypothesis, index: usize, member: Member) {
+    fn add_object(&mut self, scene: &Scene, physics: &Physics, index: usize, member: Member) {
         let shape = &scene.objects[index].shape;
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
         let rise = shape.height() / 2.0 - first_position.z;
         let placed = to_rapier(&member.local, Vector::zeros(), rise);
-        let collider = rubbing(upright(shape, placed), parameters.frictions[index])
-            .mass(parameters.masses[index]);
+        let collider =
+            rubbing(upright(shape, placed), physics.frictions[index]).mass(physics.masses[index]);
         self.insert(collider, Body::Object(index), handle);
         self.objects.push((member, rise));
     }
@@ -219,8 +218,8 @@ impl SpatialWorld {
         }
     }
 
-    fn add_joints(&mut self, scene: &Scene) {
-        for joint in &scene.joints {
+    fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
+        for joint in &physics.joints {
             let (axes, free, axis) = match joint.kind {
                 // Its objects are one body.
                 JointKind::Fixed => continue,
@@ -261,18 +260,18 @@ impl SpatialWorld {
     }
 }
 
-fn empty_world(scene: &Scene, parameters: &Hypothesis) -> PhysicsWorld {
+fn empty_world(physics: &Physics) -> PhysicsWorld {
     let gravity = RapierVector::Z * -GRAVITY;
     let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     // One friction constraint per contact point; the simplified model is 2 cm off on cuboids.
     settings.friction_model = FrictionModel::Coulomb;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR;
-    let articulated = is_articulated(scene);
+    let articulated = is_articulated(physics);
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    if articulated || needs_stiff_contacts(&parameters.masses) {
+    if articulated || needs_stiff_contacts(&physics.masses) {
         let (frequency, damping) = STIFF_CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }

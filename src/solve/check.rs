@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{JointKind, Offsets, Task, Tool};
+use crate::scene::{JointKind, Offsets, Situation, Task, Tool};
 
 use super::SolveError;
 
@@ -10,9 +10,14 @@ use super::SolveError;
 ///
 /// # Errors
 /// The first fault.
-pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> {
+pub(super) fn check(
+    task: &Task,
+    situation: &Situation,
+    tools: &[Arc<Tool>],
+) -> Result<(), SolveError> {
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
     let (rules, goal, robot) = (&task.pushes, &task.goal, &task.robot);
+    let Situation { scene, start, physics } = situation;
     for (name, value) in [
         ("the length of a push", rules.length),
         ("the speed of a push", rules.speed),
@@ -26,7 +31,7 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
     for (name, value) in [
         ("the lift", rules.lift),
         ("the smallest reach", robot.reach_min),
-        ("the friction of the table", task.scene.table_friction),
+        ("the friction of the table", physics.table_friction),
     ] {
         if !(value.is_finite() && value >= 0.0) {
             return fault(format!("{name} is {value}, but must not be negative"));
@@ -44,7 +49,7 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
     {
         return fault("the offsets must be finite numbers, at least one".into());
     }
-    if goal.object >= task.scene.objects.len() {
+    if goal.object >= scene.objects.len() {
         return fault(format!("the goal names object {}, which does not exist", goal.object));
     }
     let heading = goal.heading.is_none_or(|(h, t)| h.is_finite() && t.is_finite() && t > 0.0);
@@ -54,11 +59,18 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
     if !robot.home.iter().all(|v| v.is_finite()) {
         return fault("the robot's home must be finite".into());
     }
-    for object in &task.scene.objects {
+    let counts = [start.poses.len(), start.velocities.len(), physics.masses.len()];
+    if counts.iter().chain([&physics.frictions.len()]).any(|&n| n != scene.objects.len()) {
+        return fault("start and physics need one entry for every object".into());
+    }
+    if !start.is_finite() {
+        return fault("the start must be finite".into());
+    }
+    for (k, object) in scene.objects.iter().enumerate() {
         let sound = object.pose.is_finite()
-            && object.mass.is_finite()
-            && object.mass > 0.0
-            && is_friction(object.friction)
+            && physics.masses[k].is_finite()
+            && physics.masses[k] > 0.0
+            && is_friction(physics.frictions[k])
             && object.shape.footprint().area() > 0.0
             && object.shape.height() > 0.0
             && object.shape.footprint().bounding_radius().is_finite();
@@ -69,7 +81,7 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
             ));
         }
     }
-    for joint in &task.scene.joints {
+    for joint in &physics.joints {
         let [a, b] = joint.between;
         let placed = match joint.kind {
             JointKind::Fixed => true,
@@ -77,14 +89,14 @@ pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> 
             JointKind::Prismatic { axis, .. } => (axis.norm() - 1.0).abs() < 1e-6,
         };
         let limited = joint.limits().is_none_or(|span| span.low <= 0.0 && span.high >= 0.0);
-        if a == b || a.max(b) >= task.scene.objects.len() || !placed || !limited {
+        if a == b || a.max(b) >= scene.objects.len() || !placed || !limited {
             return fault(format!(
                 "the joint between objects {a} and {b} needs two different objects of the scene, \
                  a finite axis (of length one) and limits that hold the start"
             ));
         }
     }
-    for obstacle in &task.scene.obstacles {
+    for obstacle in &scene.obstacles {
         let sound = obstacle.pose.is_finite()
             && obstacle.size.iter().all(|v| v.is_finite() && *v > 0.0)
             && is_friction(obstacle.friction);

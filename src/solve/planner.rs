@@ -7,7 +7,8 @@ use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
 use crate::network::WeightsError;
 use crate::scene::{
-    Frame, Outcome, Plan, Push, Record, Task, Tool, ToolMotion, Trajectory, Warning,
+    Frame, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
+    Warning,
 };
 
 use super::check::check;
@@ -134,11 +135,27 @@ impl Planner {
         library: &ToolLibrary,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<Solution, SolveError> {
+        self.solve_from(&Situation::stated(&task.scene), task, library, progress)
+    }
+
+    /// [`Planner::solve_with`] from another situation than the one that the task states: where
+    /// everything stands by now, and what is believed by now. Of the task only the robot, the
+    /// tools, the rules for pushes and the goal count then.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn solve_from(
+        &self,
+        situation: &Situation,
+        task: &Task,
+        library: &ToolLibrary,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<Solution, SolveError> {
         let tools = task.tools(library)?;
-        check(task, &tools)?;
-        let motion = |tool: &Arc<Tool>| typical(task, tool);
-        self.refuse(task, tools.iter().map(motion))?;
-        Ok(Solving::new(self, task, &tools, progress).run())
+        check(task, situation, &tools)?;
+        let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
+        self.refuse(task, situation, tools.iter().map(motion))?;
+        Ok(Solving::new(self, task, situation, &tools, progress).run())
     }
 
     /// What the effect model predicts for a plan made with `tool`.
@@ -151,22 +168,24 @@ impl Planner {
         tool: &Arc<Tool>,
         plan: &Plan,
     ) -> Result<Prediction, SolveError> {
-        check(task, std::slice::from_ref(tool))?;
-        self.refuse(task, std::iter::once(plan.motion(tool)))?;
-        Ok(self.predict_all(task, &[(plan, tool)]).remove(0))
+        let situation = Situation::stated(&task.scene);
+        check(task, &situation, std::slice::from_ref(tool))?;
+        self.refuse(task, &situation, std::iter::once(plan.motion(tool)))?;
+        Ok(self.predict_all(task, &situation, &[(plan, tool)]).remove(0))
     }
 
     /// Refuses what the model should not be trusted with, if that is asked for.
     fn refuse(
         &self,
         task: &Task,
+        situation: &Situation,
         motions: impl Iterator<Item = ToolMotion>,
     ) -> Result<(), SolveError> {
         if self.outside != Outside::Refuse {
             return Ok(());
         }
         let mut warnings = Vec::new();
-        for warning in motions.flat_map(|motion| self.model.warnings(&task.scene, &motion)) {
+        for warning in motions.flat_map(|motion| self.model.warnings(&situation.scene, &motion)) {
             // What the scene is to blame for comes with every tool.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
@@ -187,29 +206,24 @@ impl Planner {
     pub(super) fn predict_all(
         &self,
         task: &Task,
+        situation: &Situation,
         plans: &[(&Plan, &Arc<Tool>)],
     ) -> Vec<Prediction> {
-        let start = task.scene.start();
-        let jobs: Vec<Job> = plans
-            .iter()
-            .map(|(plan, tool)| Job {
-                start: start.clone(),
-                motion: plan.motion(tool),
-                hypothesis: None,
-            })
-            .collect();
+        let scene = &*situation.scene;
+        let jobs: Vec<Job> =
+            plans.iter().map(|(plan, tool)| Job::new(situation, plan.motion(tool))).collect();
         // A plan without pushes moves nothing and needs no model.
         let moving: Vec<Job> =
             jobs.iter().filter(|job| !job.motion.strokes.is_empty()).cloned().collect();
-        let mut rolled = self.model.rollout(&task.scene, &moving, Record::Frames).into_iter();
+        let mut rolled = self.model.rollout(scene, &moving, Record::Frames).into_iter();
         jobs.iter()
             .map(|job| {
-                let still = || still(task, &job.motion.tool);
+                let still = || still(task, &job.start, &job.motion.tool);
                 let trajectory = match job.motion.strokes.is_empty() {
                     true => still(),
                     false => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
                 };
-                let mut warnings = self.model.warnings(&task.scene, &job.motion);
+                let mut warnings = self.model.warnings(scene, &job.motion);
                 for warning in &trajectory.warnings {
                     if !warnings.contains(warning) {
                         warnings.push(warning.clone());
@@ -217,7 +231,7 @@ impl Planner {
                 }
                 if warnings.iter().any(Warning::questions_model) {
                     // Once simulated the doubt has a number.
-                    warnings.extend(consequence(&task.scene, job, trajectory.outcome()));
+                    warnings.extend(consequence(scene, job, trajectory.outcome()));
                 }
                 let outcome = Outcome::judge(&task.goal, &trajectory);
                 Prediction { trajectory, outcome, warnings }
@@ -228,9 +242,9 @@ impl Planner {
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
 /// used for, as far as it can be known before.
-fn typical(task: &Task, tool: &Arc<Tool>) -> ToolMotion {
+fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goal);
-    let object = task.scene.objects[goal.object].pose.position;
+    let object = start.poses[goal.object].position;
     let way = goal.position - object;
     let part = tool.part_pose(0, &tool.pose(Pose::default()));
     let push = Push {
@@ -243,8 +257,8 @@ fn typical(task: &Task, tool: &Arc<Tool>) -> ToolMotion {
 }
 
 /// The trajectory of doing nothing.
-fn still(task: &Task, tool: &Tool) -> Trajectory {
+fn still(task: &Task, start: &State, tool: &Tool) -> Trajectory {
     let home = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
-    let frame = Frame { time: 0.0, stroke: 0, tool: home, state: task.scene.start() };
+    let frame = Frame { time: 0.0, stroke: 0, tool: home, state: start.clone() };
     Trajectory { frames: vec![frame], ..Trajectory::default() }
 }

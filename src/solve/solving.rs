@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::plan::{
     Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine,
 };
-use crate::scene::{Goal, Plan, Task, Tool, Verdict};
+use crate::scene::{Goal, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 
 use super::rank::{is_worth_verifying, sort};
@@ -38,6 +38,7 @@ pub(super) struct Tried {
 pub(super) struct Solving<'a> {
     pub planner: &'a Planner,
     pub task: &'a Task,
+    pub situation: &'a Situation,
     pub workspace: Workspace<'a>,
     pub rollouts: Rollouts<'a>,
     verifier: Verifier,
@@ -52,6 +53,7 @@ impl<'a> Solving<'a> {
     pub fn new(
         planner: &'a Planner,
         task: &'a Task,
+        situation: &'a Situation,
         tools: &'a [Arc<Tool>],
         progress: &'a mut dyn FnMut(Progress),
     ) -> Self {
@@ -61,8 +63,9 @@ impl<'a> Solving<'a> {
         Self {
             planner,
             task,
+            situation,
             workspace: Workspace { task, tools, later_stand_off },
-            rollouts: Rollouts::new(model, &task.scene),
+            rollouts: Rollouts::new(model, situation.clone()),
             verifier: Verifier::new(verify),
             progress,
             statistics: Statistics::default(),
@@ -74,19 +77,21 @@ impl<'a> Solving<'a> {
     pub fn run(mut self) -> Solution {
         let began = Instant::now();
         let nothing = self.without_pushes();
-        let reached = self.task.goal.reached(&self.task.scene.start());
+        let reached = self.task.goal.reached(&self.situation.start);
         self.tried.push(nothing);
         let mut winner = reached.then_some(0);
-        let mut search = Search::new(self.workspace, self.planner.settings().search());
+        let mut search =
+            Search::new(self.workspace, self.situation, self.planner.settings().search());
         while winner.is_none() && search.can_deepen() {
             winner = self.attempt(&mut search);
         }
         if let Some(index) = winner {
             let since = Instant::now();
             let Tried { plan, tool, verdict, .. } = &mut self.tried[index];
-            let verdict =
-                verdict.get_or_insert_with(|| self.verifier.nominal(self.task, tool, plan));
-            self.verifier.disturb(self.task, tool, plan, verdict);
+            let verdict = verdict.get_or_insert_with(|| {
+                self.verifier.nominal(self.task, self.situation, tool, plan)
+            });
+            self.verifier.disturb(self.task, self.situation, tool, plan, verdict);
             self.statistics.timing.verification += since.elapsed().as_secs_f64();
         }
         let status = match winner {
@@ -176,7 +181,7 @@ impl<'a> Solving<'a> {
         let error_p95 = self.planner.model().error_p95();
         let mut worth = Vec::new();
         for refined in refined {
-            if is_worth_verifying(&task.scene, &aim, &refined.best, error_p95) {
+            if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error_p95) {
                 worth.push(self.tried.len());
             }
             let tried = self.tried(refined, aim);
@@ -189,7 +194,10 @@ impl<'a> Solving<'a> {
     fn verify(&mut self, indices: &[usize]) -> Option<usize> {
         let verdicts: Vec<Verdict> = indices
             .par_iter()
-            .map(|&k| self.verifier.nominal(self.task, &self.tried[k].tool, &self.tried[k].plan))
+            .map(|&k| {
+                let Tried { tool, plan, .. } = &self.tried[k];
+                self.verifier.nominal(self.task, self.situation, tool, plan)
+            })
             .collect();
         self.statistics.verified += indices.len();
         let passed = verdicts.iter().position(|verdict| verdict.passed).map(|k| indices[k]);
@@ -236,8 +244,8 @@ impl<'a> Solving<'a> {
 
     /// Doing nothing, which is a plan too.
     fn without_pushes(&self) -> Tried {
-        let (start, rules) = (self.task.scene.start(), &self.task.pushes);
-        let error = self.task.goal.error(&start);
+        let (start, rules) = (&self.situation.start, &self.task.pushes);
+        let error = self.task.goal.error(start);
         let tool = Arc::clone(&self.workspace.tools[0]);
         Tried {
             plan: Plan {
@@ -256,7 +264,7 @@ impl<'a> Solving<'a> {
                 aimed_at: None,
                 rounds: Vec::new(),
             },
-            score: self.task.goal.score(&start),
+            score: self.task.goal.score(start),
             verdict: None,
         }
     }
@@ -285,7 +293,7 @@ impl<'a> Solving<'a> {
         order.truncate(REPORTED);
         let plans: Vec<(&Plan, &Arc<Tool>)> =
             order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
-        let predictions = self.planner.predict_all(self.task, &plans);
+        let predictions = self.planner.predict_all(self.task, self.situation, &plans);
         self.statistics.rollouts = self.rollouts.used() + plans.len();
         let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
         let plans = order

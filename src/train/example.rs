@@ -10,7 +10,7 @@ use crate::{
     graph::{Batch, Bodies, Motion, Node, add_graph},
     network::{Buffers, Forward},
     rollout::{apply, hold, integrate},
-    scene::{COAST_FRAME, FrameStep, State},
+    scene::{COAST_FRAME, FrameStep, Physics, State},
 };
 
 /// How input states are disturbed (Sanchez-Gonzalez et al. 2020, "random-walk noise").
@@ -281,14 +281,11 @@ impl Supervised {
 
 /// The bodies of an episode, its joints as they are or guessed from their types.
 fn bodies(episode: &Episode, guessed: bool) -> Bodies {
-    let guess;
-    let scene = if guessed {
-        guess = episode.scene.guess_joints();
-        &guess
-    } else {
-        &episode.scene
-    };
-    Bodies::new(scene, &episode.motion.tool, episode.motion.lift, None)
+    let mut physics = Physics::stated(&episode.scene);
+    if guessed {
+        physics = physics.guess_joints(&episode.scene);
+    }
+    Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 
 /// The tool's motion between frame `index` and the next, and the unit vector of its stroke.

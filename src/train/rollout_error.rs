@@ -47,7 +47,8 @@ fn samples(forward: &Forward, episode: &Episode, buffers: &mut Buffers) -> Vec<S
     let (Some(first), Some(last)) = (episode.frames.first(), episode.frames.last()) else {
         return Vec::new();
     };
-    let job = Job { start: first.state.clone(), motion: episode.motion.clone(), hypothesis: None };
+    let job =
+        Job { start: first.state.clone(), ..Job::stated(&episode.scene, episode.motion.clone()) };
     let predicted = roll(
         &episode.scene,
         &[job],

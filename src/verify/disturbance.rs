@@ -1,12 +1,13 @@
 //! Small errors of the world against the task as written: what a camera and a data sheet miss by.
 
 use std::fmt;
+use std::sync::Arc;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Hypothesis, Scene, State, Tool};
+use crate::scene::{Job, Situation, Tool, ToolMotion};
 
 /// Largest shift of an object at the start along each axis, metres.
 const SHIFT: f64 = 1e-3;
@@ -20,35 +21,40 @@ const FRICTION: f64 = 0.1;
 /// One draw of disturbances, uniform within their ranges; the same for the same seed and draw.
 pub(super) struct Disturbance {
     draw: usize,
-    /// Where the objects start instead.
-    pub start: State,
-    /// The parameters instead.
-    pub hypothesis: Hypothesis,
+    /// Where the objects start and what they are like instead.
+    situation: Situation,
+    /// The tool instead.
+    tool: Arc<Tool>,
 }
 
 impl Disturbance {
-    pub fn draw(scene: &Scene, tool: &Tool, seed: u64, draw: usize) -> Self {
+    pub fn draw(situation: &Situation, tool: &Tool, seed: u64, draw: usize) -> Self {
         let mut random = Pcg64::new(u128::from(seed), draw as u128);
         // A fresh stream's first numbers resemble those of its neighbours.
         let mut random = Pcg64::seed_from_u64(random.random());
-        let mut start = scene.start();
+        let mut situation = situation.clone();
+        let mut tool = tool.clone();
         // Moving one side of a joint alone would break it.
-        let groups = scene.groups(|_| true);
+        let groups = situation.physics.groups(|_| true);
         for first in 0..groups.len() {
             let mut within = |range: f64| random.random_range(-range..=range);
             let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
             let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
-            disturb(&mut start.poses, &group, first, shift, turn);
+            disturb(&mut situation.start.poses, &group, first, shift, turn);
         }
-        let mut hypothesis = Hypothesis::nominal(scene, tool);
-        let values = hypothesis
-            .frictions
-            .iter_mut()
-            .chain([&mut hypothesis.table_friction, &mut hypothesis.tool_friction]);
+        let physics = Arc::make_mut(&mut situation.physics);
+        let values =
+            physics.frictions.iter_mut().chain([&mut physics.table_friction, &mut tool.friction]);
         for friction in values {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }
-        Self { draw, start, hypothesis }
+        Self { draw, situation, tool: Arc::new(tool) }
+    }
+
+    /// `motion` as it happens under the disturbance.
+    pub fn job(&self, motion: &ToolMotion) -> Job {
+        let motion = ToolMotion { tool: Arc::clone(&self.tool), ..motion.clone() };
+        Job::new(&self.situation, motion)
     }
 }
 
@@ -82,7 +88,7 @@ impl fmt::Display for Disturbance {
 mod tests {
     use super::*;
     use crate::geometry::Shape;
-    use crate::scene::{Joint, JointKind, Object, Part};
+    use crate::scene::{Joint, JointKind, Object, Part, Scene};
 
     #[test]
     fn a_jointed_group_is_disturbed_as_one_piece_and_by_little() {
@@ -104,8 +110,9 @@ mod tests {
         let tool =
             Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[])
                 .unwrap();
+        let situation = Situation::stated(&scene);
         for draw in 0..20 {
-            let start = Disturbance::draw(&scene, &tool, 1, draw).start;
+            let start = Disturbance::draw(&situation, &tool, 1, draw).situation.start;
             let relative = |poses: &[Pose], k: usize| poses[1].inverse() * poses[k];
             let stated: Vec<Pose> = scene.objects.iter().map(|object| object.pose).collect();
             for k in [3, 4] {

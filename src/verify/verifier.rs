@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use crate::geometry::{Pose, clearance};
 use crate::scene::{
-    Evidence, Frame, Outcome, Plan, Record, Scene, State, Task, Tool, ToolMotion, Trajectory,
-    Verdict, Warning,
+    Evidence, Frame, Goal, Job, Outcome, Plan, Record, Scene, Situation, State, Task, Tool,
+    ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::sim::Simulator;
 
@@ -39,11 +39,17 @@ impl Verifier {
     /// Nominal replays in both engines; enough to tell whether a plan passes.
     ///
     /// `tool` is the one that the plan names.
-    pub fn nominal(&self, task: &Task, tool: &Arc<Tool>, plan: &Plan) -> Verdict {
-        let motion = plan.motion(tool);
+    pub fn nominal(
+        &self,
+        task: &Task,
+        situation: &Situation,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+    ) -> Verdict {
+        let job = Job::new(situation, plan.motion(tool));
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| replay(engine, task, &motion, None))
+            .map(|engine| replay(engine, &task.goal, &situation.scene, &job, None))
             .collect();
         let passed = evidence[0].outcome.reached;
         // The planar engine is the one that people compare predictions with: it comes first.
@@ -52,7 +58,14 @@ impl Verifier {
     }
 
     /// Adds the disturbed replays to the verdict of [`Verifier::nominal`].
-    pub fn disturb(&self, task: &Task, tool: &Arc<Tool>, plan: &Plan, verdict: &mut Verdict) {
+    pub fn disturb(
+        &self,
+        task: &Task,
+        situation: &Situation,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+        verdict: &mut Verdict,
+    ) {
         if self.settings.disturbed == 0 {
             return;
         }
@@ -64,8 +77,9 @@ impl Verifier {
         let replays: Vec<Evidence> = draws
             .into_par_iter()
             .map(|(engine, draw)| {
-                let disturbance = Disturbance::draw(&task.scene, tool, self.settings.seed, draw);
-                replay(engine, task, &motion, Some(&disturbance))
+                let disturbance = Disturbance::draw(situation, tool, self.settings.seed, draw);
+                let job = disturbance.job(&motion);
+                replay(engine, &task.goal, &situation.scene, &job, Some(&disturbance))
             })
             .collect();
         let spatial = replays.iter().filter(|e| e.engine == self.spatial.engine());
@@ -75,35 +89,40 @@ impl Verifier {
     }
 
     /// All replays of a plan: nominal, then disturbed.
-    pub fn verify(&self, task: &Task, tool: &Arc<Tool>, plan: &Plan) -> Verdict {
-        let mut verdict = self.nominal(task, tool, plan);
-        self.disturb(task, tool, plan, &mut verdict);
+    pub fn verify(
+        &self,
+        task: &Task,
+        situation: &Situation,
+        tool: &Arc<Tool>,
+        plan: &Plan,
+    ) -> Verdict {
+        let mut verdict = self.nominal(task, situation, tool, plan);
+        self.disturb(task, situation, tool, plan, &mut verdict);
         verdict
     }
 }
 
 fn replay(
     engine: &Simulator,
-    task: &Task,
-    motion: &ToolMotion,
+    goal: &Goal,
+    scene: &Scene,
+    job: &Job,
     disturbance: Option<&Disturbance>,
 ) -> Evidence {
-    let nominal = task.scene.start();
-    let start = disturbance.map_or(&nominal, |d| &d.start);
-    let hypothesis = disturbance.map(|d| &d.hypothesis);
+    let Job { start, motion, .. } = job;
     // Frames are needed to see on what the tool comes down for a later stroke.
     let record = if motion.strokes.len() > 1 { Record::Frames } else { Record::Outcome };
     let mut trajectory = if motion.strokes.is_empty() {
         Trajectory { frames: vec![standing(start)], ..Trajectory::default() }
     } else {
-        engine.run(&task.scene, start, hypothesis, motion, record)
+        engine.run(scene, job, record)
     };
-    let landings = set_down_on(&task.scene, start, motion, &trajectory);
+    let landings = set_down_on(scene, start, motion, &trajectory);
     trajectory.warnings.extend(landings);
     Evidence {
         engine: engine.engine(),
         disturbance: disturbance.map_or("nominal".into(), Disturbance::to_string),
-        outcome: Outcome::judge(&task.goal, &trajectory),
+        outcome: Outcome::judge(goal, &trajectory),
         warnings: trajectory.warnings,
     }
 }

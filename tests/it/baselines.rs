@@ -40,7 +40,7 @@ fn job(scene: &Scene) -> Job {
     let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.3, speed: 0.1 };
     let tool = Arc::new(tool.expect("one part is one piece"));
     let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
-    Job { start: scene.start(), motion, hypothesis: None }
+    Job::stated(scene, motion)
 }
 
 fn roll(model: &dyn EffectModel, scene: &Scene) -> Trajectory {

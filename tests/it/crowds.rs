@@ -7,7 +7,7 @@ use pushplan::{
         Preset, Solids, TEST_SPEED, Unwatched, generate,
     },
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
-    scene::{JointKind, Record, Trajectory},
+    scene::{Job, JointKind, Record, Trajectory},
     sim::Simulator,
 };
 
@@ -86,9 +86,9 @@ fn nothing_overlaps_at_the_start_and_the_hand_is_set_down_free() {
 fn strokes_played_one_by_one_are_what_the_simulator_plays_at_once() {
     for preset in CROWDS {
         for Episode { index, scene, motion, frames } in drawn(&config(preset, 3)) {
-            let start = scene.start();
+            let job = Job::stated(&scene, motion);
             let Trajectory { frames: whole, warnings, .. } =
-                Simulator::planar().run(&scene, &start, None, &motion, Record::Frames);
+                Simulator::planar().run(&scene, &job, Record::Frames);
             assert!(warnings.is_empty(), "{preset:?} {index}");
             assert_eq!(frames.len(), whole.len(), "{preset:?} {index}");
             for (k, (ours, theirs)) in frames.iter().zip(&whole).enumerate() {

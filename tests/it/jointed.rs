@@ -58,7 +58,7 @@ fn moved(by: Pose) -> Scene {
 
 fn rollout(model: &dyn EffectModel, scene: &Scene, stroke: Stroke) -> State {
     let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke] };
-    let job = Job { start: scene.start(), motion, hypothesis: None };
+    let job = Job::stated(scene, motion);
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 

@@ -12,7 +12,8 @@ use pushplan::{
         Weights, WeightsError,
     },
     scene::{
-        Job, Object, Obstacle, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity,
+        Job, Object, Obstacle, Part, Physics, Record, Scene, State, Stroke, Tool, ToolMotion,
+        Velocity,
     },
 };
 
@@ -100,7 +101,7 @@ pub(super) fn half_stroke() -> Stroke {
 
 fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
     let mut batch = Batch::default();
-    let bodies = Bodies::new(scene, &tool(), 0.002, None);
+    let bodies = Bodies::new(scene, &tool(), 0.002, &Physics::stated(scene));
     let axis = (stroke.to.position - stroke.from.position).normalize();
     let mut motions: Vec<Motion> = Vec::new();
     add_graph(&bodies, state, &stroke.frame(0), axis, 0, &mut batch, &mut motions);
@@ -109,7 +110,7 @@ fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
 
 fn rollout(model: &Network, scene: &Scene, stroke: Stroke) -> State {
     let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke] };
-    let job = Job { start: scene.start(), motion, hypothesis: None };
+    let job = Job::stated(scene, motion);
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
@@ -139,7 +140,12 @@ fn fused_inference_equals_the_candle_graph() {
     let data = Dataset::in_memory(&data, &Unwatched).expect("data");
     let mut batch = Batch::default();
     for (k, episode) in data.episodes().iter().enumerate() {
-        let bodies = Bodies::new(&episode.scene, &episode.motion.tool, 0.002, None);
+        let bodies = Bodies::new(
+            &episode.scene,
+            &episode.motion.tool,
+            0.002,
+            &Physics::stated(&episode.scene),
+        );
         let stroke = &episode.motion.strokes[0];
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(episode.frames.len()) {
@@ -198,7 +204,7 @@ fn mirroring_the_scene_mirrors_the_prediction() {
     mirrored.parts.iter_mut().for_each(|p| p.pose = mirror(p.pose));
     let stroke = Stroke { from: mirror(stroke.from), to: mirror(stroke.to), ..stroke };
     let motion = ToolMotion { tool: Arc::new(mirrored), lift: 0.002, strokes: vec![stroke] };
-    let job = Job { start: other.start(), motion, hypothesis: None };
+    let job = Job::stated(&other, motion);
     let there = model.rollout(&other, &[job], Record::Outcome)[0].outcome().clone();
     let back = State::at_rest(there.poses.iter().map(|p| mirror(*p)).collect());
     assert_same(&plain, &back);
@@ -221,7 +227,7 @@ fn the_order_of_objects_and_parts_does_not_matter() {
     for (stroke, distance) in [(short, SAME), (half, 10.0 * SAME)] {
         let plain = rollout(&model, &scene, stroke);
         let motion = ToolMotion { tool: reversed.clone(), lift: 0.002, strokes: vec![stroke] };
-        let job = Job { start: other.start(), motion, hypothesis: None };
+        let job = Job::stated(&other, motion);
         let mut there = model.rollout(&other, &[job], Record::Outcome)[0].outcome().clone();
         there.poses.reverse();
         assert_close(&plain, &there, distance);
@@ -295,7 +301,7 @@ fn any_number_of_threads_gives_the_same_bits() {
             let to = Pose::new(0.1, 0.001 * f64::from(k), 0.0);
             let strokes = vec![Stroke { to, ..stroke() }];
             let motion = ToolMotion { tool: tool(), lift: 0.002, strokes };
-            Job { start: scene.start(), motion, hypothesis: None }
+            Job::stated(&scene, motion)
         })
         .collect();
     let run = |threads| {

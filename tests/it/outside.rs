@@ -27,7 +27,7 @@ fn scene(mass: f64) -> Scene {
 
 fn job(scene: &Scene) -> Job {
     let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke()] };
-    Job { start: scene.start(), motion, hypothesis: None }
+    Job::stated(scene, motion)
 }
 
 fn run(outside: Outside, scene: &Scene) -> Trajectory {
@@ -48,7 +48,8 @@ fn inside_its_range_the_network_predicts_whatever_is_asked_for() {
 fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     let scene = scene(500.0);
     let motion = job(&scene).motion;
-    let planar = Simulator::planar().run(&scene, &scene.start(), None, &motion, Record::Frames);
+    let planar =
+        Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
     assert_eq!(run(Outside::Simulate, &scene).frames, planar.frames);
     let guarded = Guarded::new(network(), Outside::Simulate);
     let said = guarded.warnings(&scene, &motion);
@@ -96,7 +97,7 @@ fn jobs_keep_their_order_when_some_are_simulated() {
     for (k, (job, trajectory)) in jobs.iter().zip(&rolled).enumerate() {
         let duration = trajectory.frames[job.motion.strokes[0].frames()].time;
         assert!((duration - fast(k)).abs() < 1e-9, "{k}: {duration}");
-        let planar = Simulator::planar().run(&scene, &job.start, None, &job.motion, Record::Frames);
+        let planar = Simulator::planar().run(&scene, job, Record::Frames);
         assert_eq!(trajectory.frames == planar.frames, k % 2 == 1, "{k}");
     }
 }

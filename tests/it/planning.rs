@@ -11,8 +11,8 @@ use pushplan::plan::{
     Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::scene::{
-    Directions, Goal, Object, Obstacle, Offsets, Part, PushForm, PushRules, Robot, Scene, Task,
-    Tool, ToolChoice,
+    Directions, Goal, Object, Obstacle, Offsets, Part, PushForm, PushRules, Robot, Scene,
+    Situation, Task, Tool, ToolChoice,
 };
 use pushplan::sim::Simulator;
 
@@ -167,8 +167,8 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     assert_eq!(beside.unwrap_err(), Infeasible::NoContact);
 
     let model = planar();
-    let mut rollouts = Rollouts::new(&model, &task.scene);
-    let mut search = Search::new(space, SETTINGS);
+    let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+    let mut search = Search::new(space, rollouts.situation(), SETTINGS);
     let found = search.deepen(&mut rollouts, &mut |_, _| {});
     let best = &found[0];
     assert!(best.score < 0.3, "{best:?}");
@@ -216,8 +216,8 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
     task.robot.reach_min = 0.0;
     let space = workspace(&task, &tools);
     let model = planar();
-    let mut rollouts = Rollouts::new(&model, &task.scene);
-    let mut search = Search::new(space, SETTINGS);
+    let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+    let mut search = Search::new(space, rollouts.situation(), SETTINGS);
     search.deepen(&mut rollouts, &mut |_, _| {});
     let found = search.deepen(&mut rollouts, &mut |_, _| {});
     assert!(rollouts.used() <= 2 * (4 + 16));
@@ -258,8 +258,8 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let model = planar();
-            let mut rollouts = Rollouts::new(&model, &task.scene);
-            let mut search = Search::new(workspace(&task, &tools), settings);
+            let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+            let mut search = Search::new(workspace(&task, &tools), rollouts.situation(), settings);
             let first = search.deepen(&mut rollouts, &mut |_, _| {});
             let second = search.deepen(&mut rollouts, &mut |_, _| {});
             assert!(!search.can_deepen());
@@ -305,8 +305,8 @@ fn refinement_never_makes_a_candidate_worse() {
             task.robot.reach_min = 0.0;
         }
         let space = workspace(&task, &tools);
-        let mut rollouts = Rollouts::new(&model, &task.scene);
-        let mut search = Search::new(space, SETTINGS);
+        let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
+        let mut search = Search::new(space, rollouts.situation(), SETTINGS);
         let mut found = Vec::new();
         while search.can_deepen() {
             found = search.deepen(&mut rollouts, &mut |_, _| {});

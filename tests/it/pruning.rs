@@ -14,7 +14,7 @@ use pushplan::{
     network::{Buffers, Forward, Weights},
     rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
-        Hypothesis, Job, Object, Obstacle, Part, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
+        Job, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
     },
 };
 
@@ -77,8 +77,7 @@ fn crowds_pushed_again_and_again() {
                 for frame in [&episode.frames[0], middle] {
                     let job = Job {
                         start: frame.state.clone(),
-                        motion: episode.motion.clone(),
-                        hypothesis: None,
+                        ..Job::stated(scene, episode.motion.clone())
                     };
                     compare(&forward, scene, &job, 1);
                 }
@@ -120,7 +119,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
     scene.objects = objects;
     if rng.random_bool(0.5) {
         // What nearly touches is jointed: a wide reach makes chains.
-        scene = scene.with_contacts_fixed();
+        scene.joints = Physics::stated(&scene).with_contacts_fixed(&scene).joints;
         let kinds = [
             pushplan::scene::JointKind::Fixed,
             pushplan::scene::JointKind::Prismatic { axis: Vector::y(), limits: None },
@@ -182,7 +181,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
             *velocity = Velocity { linear, angular: rng.random_range(-4.0..4.0) };
         }
     }
-    let job = Job { start, motion: ToolMotion { tool, lift, strokes }, hypothesis: None };
+    let job = Job { start, ..Job::stated(&scene, ToolMotion { tool, lift, strokes }) };
     (scene, job)
 }
 
@@ -209,9 +208,9 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
     let (mut tools, mut physics) = (0, 0);
     for _ in 0..20 {
         let (scene, plain) = random_job(&mut rng);
-        let mut slippery = Hypothesis::nominal(&scene, &plain.motion.tool);
-        slippery.frictions.iter_mut().for_each(|friction| *friction *= 0.3);
-        let slippery = Job { hypothesis: Some(Arc::new(slippery)), ..plain.clone() };
+        let mut slippery = plain.clone();
+        let frictions = &mut Arc::make_mut(&mut slippery.physics).frictions;
+        frictions.iter_mut().for_each(|friction| *friction *= 0.3);
         let mut tool = (*plain.motion.tool).clone();
         tool.parts.truncate(1);
         let mut short = plain.clone();

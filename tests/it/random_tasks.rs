@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use pushplan::asset::ToolLibrary;
 use pushplan::bench::{RandomSuite, Shard, SuiteTask, TaskKind};
 use pushplan::geometry::{Footprint, swept_clearance, wrap_angle};
-use pushplan::scene::{Engine, Task};
+use pushplan::scene::{Engine, Situation, Task};
 use pushplan::verify::{Verifier, VerifySettings};
 
 /// Tasks of each kind.
@@ -20,7 +20,8 @@ fn the_plan_that_made_a_task_solves_it_and_the_task_is_of_its_kind() {
     for index in 0..EACH * counts.len() {
         let made = suite.task(index).expect("a task");
         let task = &made.task;
-        let verdict = verifier.nominal(task, &made.tool, &made.plan);
+        let verdict =
+            verifier.nominal(task, &Situation::stated(&task.scene), &made.tool, &made.plan);
         assert!(verdict.passed, "{}: its own plan does not solve it", task.name);
         let planar = &verdict.evidence[0];
         assert_eq!(planar.engine, Engine::Planar);

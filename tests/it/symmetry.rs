@@ -25,7 +25,7 @@ fn cases() -> Vec<Case> {
 
 fn predict(case: &Case) -> State {
     let Case { scene, motion } = case;
-    let job = Job { start: scene.start(), motion: motion.clone(), hypothesis: None };
+    let job = Job::stated(scene, motion.clone());
     Prior::default().rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 

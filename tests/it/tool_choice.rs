@@ -10,7 +10,7 @@ use pushplan::bench::{
 use pushplan::effect::{EffectModel, EffectModels, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::plan::{Rollouts, SequenceTree, evaluate};
-use pushplan::scene::Task;
+use pushplan::scene::{Situation, Task};
 use pushplan::sim::Simulator;
 
 /// A start with goals that need corners and edges.
@@ -31,7 +31,7 @@ fn shared_beginnings_change_no_bit_of_a_prediction() {
     let model = EffectModels::shipped().expect("the shipped weights");
     let workspace = setup.workspace(&task);
     let grips = setup.grips(&setup.free_poses(setup.starts[START])[..2]);
-    let mut rollouts = Rollouts::new(&model, &task.scene);
+    let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
     let shared = SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS);
     assert_eq!(rollouts.used(), 2 * (4 + 16 + 64));
     let whole = SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS);
@@ -49,7 +49,7 @@ fn the_planar_engine_forgets_little_at_a_shared_beginning() {
     let planar = Simulated::new(Simulator::planar());
     let workspace = setup.workspace(&task);
     let grips = setup.grips(&setup.free_poses(setup.starts[START])[..2]);
-    let mut rollouts = Rollouts::new(&planar, &task.scene);
+    let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
     let shared = SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS);
     let whole = SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS);
     let apart: Vec<f64> = shared
@@ -68,7 +68,7 @@ fn the_best_stops_are_where_they_are_said_to_be() {
     let workspace = setup.workspace(&task);
     let poses = setup.free_poses(setup.starts[START]);
     let grips = setup.grips(&poses);
-    let mut rollouts = Rollouts::new(&planar, &task.scene);
+    let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
     let tree = SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS);
     let found = tree.best(&task.goal, 12, |_| true);
     assert_eq!(found.len(), 12);

@@ -27,8 +27,7 @@ fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end()
             Box::new(Prior::default().with_stride(stride)),
         ];
         for (case, model) in suite.cases.iter().flat_map(|c| coarse.iter().map(move |m| (c, m))) {
-            let job =
-                Job { start: case.scene.start(), motion: case.motion.clone(), hypothesis: None };
+            let job = Job::stated(&case.scene, case.motion.clone());
             let jobs = [job];
             let [fine, coarse] = [&fine, model]
                 .map(|model| model.rollout(&case.scene, &jobs, Record::Frames).remove(0));
@@ -54,7 +53,7 @@ fn the_timed_rollout_is_the_rollout() {
     let suite = Suite::draw(SuiteKind::Touching, &ToolLibrary::embedded().unwrap(), 5, 2);
     let model = network();
     for case in &suite.cases {
-        let job = Job { start: case.scene.start(), motion: case.motion.clone(), hypothesis: None };
+        let job = Job::stated(&case.scene, case.motion.clone());
         let jobs = vec![job; 40];
         let (timed, network) = model.timed_rollout(&case.scene, &jobs);
         assert_eq!(timed, model.rollout(&case.scene, &jobs, Record::Outcome));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{Engine, Plan, Push, PushForm, Task, Tool, Warning};
+use pushplan::scene::{Engine, Plan, Push, PushForm, Situation, Task, Tool, Warning};
 use pushplan::verify::{Verifier, VerifySettings};
 
 const TASK: &str = "
@@ -47,7 +47,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     let verifier = Verifier::new(VerifySettings { disturbed: 3, seed: 1 });
     // The face's front is 0.22 ahead of the grip: from 0.235 it travels 5 mm to the can.
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
-    let verdict = verifier.verify(&task(), &paddle(), &good);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good);
     assert!(verdict.passed);
     assert_eq!(verdict.evidence.len(), 2 + 2 * 3);
     assert_eq!(verdict.evidence[0].engine, Engine::Planar);
@@ -58,16 +58,19 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     // Draws differ, and the same seed draws the same.
     let outcome = |k: usize| &verdict.evidence[k].outcome;
     assert!(outcome(2).error != outcome(3).error);
-    assert_eq!(verdict, verifier.verify(&task(), &paddle(), &good));
+    assert_eq!(
+        verdict,
+        verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good)
+    );
     let other = Verifier::new(VerifySettings { disturbed: 3, seed: 2 });
-    assert_ne!(verdict, other.verify(&task(), &paddle(), &good));
+    assert_ne!(verdict, other.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good));
 }
 
 #[test]
 fn a_plan_that_stops_short_fails() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     let short = plan(vec![push([0.235, 0.0], 0.0, 0.05)]);
-    let verdict = verifier.verify(&task(), &paddle(), &short);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &short);
     assert!(!verdict.passed && verdict.robustness.is_none());
     assert!((verdict.evidence[1].outcome.error - 0.105).abs() < 5e-3);
 }
@@ -77,7 +80,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     // The second push forgets that the first has moved the can to 0.65.
     let blind = plan(vec![push([0.235, 0.0], 0.0, 0.155), push([0.42, 0.0], 0.0, 0.01)]);
-    let verdict = verifier.verify(&task(), &paddle(), &blind);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &blind);
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
@@ -94,7 +97,7 @@ fn a_toppled_object_is_no_pass() {
     task.scene = Task::parse(&text, "bottle.yaml").unwrap().scene;
     let mut high = plan(vec![push([0.26, 0.0], 0.0, 0.155)]);
     high.lift = 0.2;
-    let verdict = verifier.verify(&task, &paddle(), &high);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &high);
     assert!(!verdict.passed);
     let spatial = &verdict.evidence[1];
     assert!(spatial.warnings.iter().any(|w| matches!(w, Warning::Toppled { .. })));

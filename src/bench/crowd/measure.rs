@@ -80,7 +80,7 @@ struct JudgedObject {
 
 fn judge(model: &dyn EffectModel, trial: &Trial) -> Judged {
     let start = trial.scene.start();
-    let job = Job { start: start.clone(), motion: trial.motion.clone(), hypothesis: None };
+    let job = Job::stated(&trial.scene, trial.motion.clone());
     let predicted = model.rollout(&trial.scene, &[job], Record::Frames);
     let predicted = predicted.into_iter().next().unwrap_or_default();
     let gave_up = |warning: &Warning| matches!(warning, Warning::NotFinite | Warning::Refused);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Footprint, Pose, contact_points, wrap_angle},
-    scene::{Joint, JointKind, Scene, State},
+    scene::{Joint, JointKind, Physics, Scene, State},
 };
 
 /// How far the joints of one kind drift in a prediction, over all joints and frames.
@@ -109,7 +109,7 @@ pub(super) struct Overlaps<'a> {
 impl<'a> Overlaps<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
         let footprints = scene.objects.iter().map(|object| object.shape.footprint()).collect();
-        let bodies = scene.groups(|joint| joint.kind == JointKind::Fixed);
+        let bodies = Physics::stated(scene).groups(|joint| joint.kind == JointKind::Fixed);
         Self { scene, footprints, bodies }
     }
 

@@ -149,13 +149,15 @@ fn measure_all(model: &dyn EffectModel, cases: &[Case]) -> Vec<Measured> {
 fn measure(model: &dyn EffectModel, case: &Case, index: usize) -> Measured {
     let Case { scene, motion } = case;
     let start = scene.start();
-    let job = Job { start: start.clone(), motion: motion.clone(), hypothesis: None };
+    let job = Job::stated(scene, motion.clone());
     let mut warnings = model.warnings(scene, motion);
-    let predicted = model.rollout(scene, &[job], Record::Frames).pop().unwrap_or_default();
+    let predicted =
+        model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop().unwrap_or_default();
     warnings.extend(predicted.warnings.iter().cloned());
 
     let run = |simulator: Simulator, start: &State| {
-        simulator.run(scene, start, None, motion, Record::Outcome)
+        let job = Job { start: start.clone(), ..job.clone() };
+        simulator.run(scene, &job, Record::Outcome)
     };
     let truth = run(Simulator::planar(), &start);
     let touches = |object: usize, obstacle: bool| {

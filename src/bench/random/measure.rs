@@ -8,7 +8,7 @@ use crate::bench::solved::{End, SolvedTask};
 use crate::bench::store::Measured;
 use crate::dataset::generator;
 use crate::geometry::Pose;
-use crate::scene::{Engine, Frame, Outcome, Trajectory};
+use crate::scene::{Engine, Frame, Outcome, Situation, Trajectory};
 use crate::solve::{Planner, SolveError};
 use crate::verify::{Verifier, VerifySettings};
 
@@ -92,7 +92,8 @@ impl RandomSuite {
         let plan = random_plan(&mut rng, &made.task, self.tools())?;
         let tool = self.tools().iter().find(|tool| tool.name == plan.tool)?;
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        let verdict = verifier.nominal(&made.task, tool, &plan);
+        let verdict =
+            verifier.nominal(&made.task, &Situation::stated(&made.task.scene), tool, &plan);
         let end = |engine: Engine| {
             let found = verdict.evidence.iter().find(|evidence| evidence.engine == engine);
             found.map(|evidence| End::of(&evidence.outcome))

@@ -14,8 +14,8 @@ use crate::{
     geometry::{Pose, Vector},
     plan::{Candidate, CandidatePush, Rollouts, Start, Workspace, evaluate},
     scene::{
-        Directions, Goal, Offsets, PushForm, PushRules, Ranges, Robot, Scene, Span, Task, Tool,
-        ToolChoice,
+        Directions, Goal, Offsets, PushForm, PushRules, Ranges, Robot, Scene, Situation, Span,
+        Task, Tool, ToolChoice,
     },
     sim::Simulator,
 };
@@ -50,7 +50,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
         let candidate = random_candidate(&mut rng, &task, &tools);
         let workspace = Workspace { task: &task, tools: &tools, later_stand_off: 0.0 };
         let scene = task.scene.clone();
-        let mut rollouts = Rollouts::new(&planar, &scene);
+        let mut rollouts = Rollouts::new(&planar, Situation::stated(&scene));
         let Some(Ok(made)) = evaluate(&workspace, &mut rollouts, &[candidate]).pop() else {
             continue;
         };

@@ -10,7 +10,7 @@ use crate::dataset::generator;
 use crate::effect::Simulated;
 use crate::geometry::{Pose, Vector, cross};
 use crate::plan::{Candidate, Rollouts};
-use crate::scene::{Plan, Scene, Task, Tool};
+use crate::scene::{Plan, Scene, Situation, Task, Tool};
 use crate::sim::Simulator;
 use crate::verify::{Verifier, VerifySettings};
 
@@ -110,7 +110,7 @@ impl RandomSuite {
         }
         let tool = Arc::clone(&self.tools[candidate.tool]);
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        let verdict = verifier.nominal(&task, &tool, &plan);
+        let verdict = verifier.nominal(&task, &Situation::stated(&task.scene), &tool, &plan);
         let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
         (verdict.passed && both).then_some(SuiteTask { kind, task, plan, tool })
     }
@@ -120,7 +120,7 @@ impl RandomSuite {
     fn made(&self, task: &mut Task, kind: TaskKind, candidate: &Candidate) -> Option<Plan> {
         let planar = Simulated::new(Simulator::planar());
         let scene: Scene = task.scene.clone();
-        let mut rollouts = Rollouts::new(&planar, &scene);
+        let mut rollouts = Rollouts::new(&planar, Situation::stated(&scene));
         let workspace = workspace(task, &self.tools);
         let made = carried_out(&workspace, &mut rollouts, candidate)?;
         let plan = plan(&workspace, candidate, made.pushes);

@@ -7,7 +7,7 @@ use crate::{
         Candidate, Evaluation, Found, RefineSettings, RefineStatistics, Refined, Rollouts, Search,
         SearchSettings, SequenceTree, Workspace, evaluate, kinds, refine,
     },
-    scene::{Directions, PushForm, Task},
+    scene::{Directions, PushForm, Situation, Task},
 };
 
 use super::{execute::Action, setup::ReferenceSetup};
@@ -88,8 +88,8 @@ pub fn placed_choices(
     task.pushes.form = PushForm::Placed;
     task.pushes.directions = Directions::Count(WAYS);
     let workspace = setup.workspace(&task);
-    let mut rollouts = Rollouts::new(model, &task.scene);
-    let mut search = Search::with_grips(workspace, grips.to_vec(), PLACED);
+    let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
+    let mut search = Search::with_grips(workspace, rollouts.situation(), grips.to_vec(), PLACED);
     let mut all: Vec<Evaluation> = Vec::new();
     while search.can_deepen() {
         let found = search.deepen(&mut rollouts, &mut |_, _| {});

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::{
     geometry::Vector,
-    scene::{Engine, Push, PushForm, Record, Task, ToolMotion, Trajectory},
+    scene::{Engine, Job, Push, PushForm, Record, Task, ToolMotion, Trajectory},
     sim::Simulator,
 };
 
@@ -95,7 +95,7 @@ fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) ->
         Engine::Spatial => Simulator::spatial(),
     };
     let motion = action.motion(setup, task.pushes.lift);
-    landing(&simulator.run(scene, &scene.start(), None, &motion, Record::Outcome))
+    landing(&simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Outcome))
 }
 
 /// Where a trajectory leaves the cylinder.

@@ -11,6 +11,7 @@ use crate::{
     effect::Simulated,
     geometry::Vector,
     plan::{Candidate, Rollouts, SequenceTree},
+    scene::Situation,
     sim::Simulator,
 };
 
@@ -129,7 +130,7 @@ impl StartGoals {
     pub fn make(setup: &ReferenceSetup, start: Vector) -> Self {
         let task = setup.task(start, start);
         let planar = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&planar, &task.scene);
+        let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
         let grips = setup.grips(&setup.free_poses(start));
         let workspace = setup.workspace(&task);
         let tree = SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS);

@@ -4,7 +4,7 @@ use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
     plan::{Rollouts, SequenceTree},
-    scene::Task,
+    scene::{Situation, Task},
     sim::Simulator,
 };
 
@@ -89,11 +89,11 @@ impl Shared {
         let workspace = setup.workspace(task);
         let free = setup.free_poses(task.scene.objects[task.goal.object].pose.position);
         let grips = setup.grips(&free);
-        let mut rollouts = Rollouts::new(model, &task.scene);
+        let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
         let (predicted, spent) =
             Spent::on(|| SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS));
         let planar = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&planar, &task.scene);
+        let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
         Self {
             start,
             free,

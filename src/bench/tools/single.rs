@@ -14,7 +14,7 @@ use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
     plan::{Candidate, Rollouts, SequenceTree, evaluate},
-    scene::{Engine, Task},
+    scene::{Engine, Situation, Task},
     sim::Simulator,
 };
 
@@ -131,7 +131,7 @@ fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Optio
     let start = task.scene.objects[goal.object].pose.position;
     let grips = setup.grips(&setup.free_poses(start));
     let workspace = setup.workspace(task);
-    let mut rollouts = Rollouts::new(model, &task.scene);
+    let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
     let tree = SequenceTree::roll(&workspace, &mut rollouts, &grips, 1);
     let candidates: Vec<Candidate> =
         tree.best(goal, 1, |_| true).into_iter().map(|found| found.candidate).collect();

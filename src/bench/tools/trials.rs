@@ -7,7 +7,7 @@ use crate::{
     dataset::generator,
     effect::{EffectModel, Simulated},
     plan::{Candidate, CandidatePush, Rollouts, Start},
-    scene::{Engine, Push, PushForm, Task},
+    scene::{Engine, Push, PushForm, Situation, Task},
     sim::Simulator,
 };
 
@@ -69,7 +69,7 @@ impl<'a> Trials<'a> {
     pub fn run(&mut self, draw: (u64, u64), seconds: Option<&mut Seconds>) -> Vec<ToolTrial> {
         let (setup, task, shared) = (self.setup, self.task, self.shared.spent);
         let (workspace, grips) = (setup.workspace(task), self.grips.clone());
-        let mut rollouts = Rollouts::new(self.model, &task.scene);
+        let mut rollouts = Rollouts::new(self.model, Situation::stated(&task.scene));
         let mut stopwatch = Stopwatch { seconds };
         let tree = &self.shared.predicted;
         let first = stopwatch.time("first", shared, || {
@@ -87,7 +87,7 @@ impl<'a> Trials<'a> {
         let (_, planar) = self.verify(Engine::Planar, &placed);
 
         let truth = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&truth, &task.scene);
+        let mut rollouts = Rollouts::new(&truth, Situation::stated(&task.scene));
         let tree = &self.shared.planar;
         let simulated = first_choices(setup, &workspace, &mut rollouts, tree, &grips, 1);
         let still = nothing(setup, task);

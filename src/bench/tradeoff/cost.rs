@@ -93,7 +93,7 @@ pub(super) fn network_key(objects: usize, model: &str) -> String {
 fn network_share(model: &Network, cases: &[Case]) -> f64 {
     let (mut network, mut all) = (Duration::ZERO, Duration::ZERO);
     for case in cases {
-        let job = Job { start: case.scene.start(), motion: case.motion.clone(), hypothesis: None };
+        let job = Job::stated(&case.scene, case.motion.clone());
         let jobs = vec![job; BATCH];
         let began = Instant::now();
         network += model.timed_rollout(&case.scene, &jobs).1;

@@ -8,7 +8,7 @@
 
 use crate::{
     geometry::{Pose, Vector, cross, wrap_angle},
-    scene::{JointKind, Scene, Span},
+    scene::{JointKind, Physics, Scene, Span},
 };
 
 /// The bodies of a scene and the joints between them.
@@ -48,10 +48,10 @@ pub(super) struct Side {
 }
 
 impl Bodies {
-    /// The bodies of `scene`, as they are at the poses that it states.
-    pub fn new(scene: &Scene) -> Self {
+    /// The bodies of `scene` with the joints of `physics`, at the poses that the scene states.
+    pub fn new(scene: &Scene, physics: &Physics) -> Self {
         let objects = &scene.objects;
-        let first = scene.groups(|joint| joint.kind == JointKind::Fixed);
+        let first = physics.groups(|joint| joint.kind == JointKind::Fixed);
         let mut bodies = Vec::new();
         let mut body_of = vec![0; objects.len()];
         for leader in (0..objects.len()).filter(|k| first[*k] == *k) {
@@ -76,7 +76,8 @@ impl Bodies {
             let moment = moment.sum();
             bodies.push(Body { members, rest, pose: Pose::default(), area, moment });
         }
-        let joints = scene.joints.iter().filter(|j| body_of[j.between[0]] != body_of[j.between[1]]);
+        let joints = physics.joints.iter();
+        let joints = joints.filter(|j| body_of[j.between[0]] != body_of[j.between[1]]);
         let joints = joints.map(|joint| Tie {
             between: joint.between,
             frames: joint.frames(objects),

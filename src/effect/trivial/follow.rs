@@ -3,7 +3,7 @@
 use crate::{
     effect::{EffectModel, Job},
     geometry::Pose,
-    scene::{Body, Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Body, Physics, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
 use super::play::{Rule, Table, play_all};
@@ -18,7 +18,7 @@ struct Sticking {
 }
 
 impl Rule for Sticking {
-    fn begin(scene: &Scene) -> Self {
+    fn begin(scene: &Scene, _: &Physics) -> Self {
         Self { held: vec![false; scene.objects.len()] }
     }
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::{
     effect::Job,
     geometry::{ContactPoint, Pose, contact_points},
-    scene::{Body, Contact, Frame, Record, Scene, State, Tool, ToolMotion, Trajectory},
+    scene::{Body, Contact, Frame, Physics, Record, Scene, State, Tool, ToolMotion, Trajectory},
 };
 
 /// Tool travel per small step, metres: overlaps stay much smaller than any body.
@@ -16,8 +16,8 @@ const TOUCHING: f64 = 1e-4;
 
 /// How a model moves objects when the tool moves.
 pub(super) trait Rule {
-    /// A new rule for a scene, nothing touched yet.
-    fn begin(scene: &Scene) -> Self;
+    /// A new rule for a scene under `physics`, nothing touched yet.
+    fn begin(scene: &Scene, physics: &Physics) -> Self;
 
     /// Moves `poses` for a small step of the tool.
     fn step(&mut self, table: &Table, from: &Pose, to: &Pose, poses: &mut [Pose]);
@@ -91,7 +91,7 @@ pub(super) fn play_all<R: Rule>(scene: &Scene, jobs: &[Job], record: Record) -> 
 
 fn play<R: Rule>(scene: &Scene, job: &Job, record: Record) -> Trajectory {
     let table = Table { scene, motion: &job.motion };
-    let mut rule = R::begin(scene);
+    let mut rule = R::begin(scene, &job.physics);
     let mut poses = job.start.poses.clone();
     let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let mut frame = Frame { time: 0.0, stroke: 0, tool, state: job.start.clone() };

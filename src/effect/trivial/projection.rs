@@ -3,7 +3,7 @@
 use crate::{
     effect::{EffectModel, Job},
     geometry::Pose,
-    scene::{Body, Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Body, Physics, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
 use super::{
@@ -28,8 +28,8 @@ struct Shifting {
 }
 
 impl Rule for Shifting {
-    fn begin(scene: &Scene) -> Self {
-        Self { bodies: Bodies::new(scene) }
+    fn begin(scene: &Scene, physics: &Physics) -> Self {
+        Self { bodies: Bodies::new(scene, physics) }
     }
 
     fn step(&mut self, table: &Table, _: &Pose, to: &Pose, poses: &mut [Pose]) {
@@ -136,7 +136,7 @@ mod tests {
         };
         let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
         let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.0, &[push], true);
-        let job = Job { start: scene.start(), motion, hypothesis: None };
+        let job = Job::stated(&scene, motion);
         model.rollout(&scene, &[job], Record::Frames).remove(0)
     }
 

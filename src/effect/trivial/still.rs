@@ -3,7 +3,7 @@
 use crate::{
     effect::{EffectModel, Job},
     geometry::Pose,
-    scene::{Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Physics, Record, Scene, ToolMotion, Trajectory, Warning},
 };
 
 use super::play::{Rule, Table, play_all};
@@ -15,7 +15,7 @@ pub struct Still;
 struct Nothing;
 
 impl Rule for Nothing {
-    fn begin(_: &Scene) -> Self {
+    fn begin(_: &Scene, _: &Physics) -> Self {
         Nothing
     }
 

@@ -92,7 +92,8 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
         |x, y, direction| Push { start: Vector::new(x, y), direction, length: 0.2, speed: 0.1 };
     let pushes = [push(0.0, 0.01, 0.0), push(0.6, 0.2, -2.5)];
     let motion = ToolMotion::pushes(Arc::new(hand.expect("one piece")), 0.002, 0.0, &pushes, true);
-    let simulated = Simulator::planar().run(&scene, &scene.start(), None, &motion, Record::Frames);
+    let simulated =
+        Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
 
     let recording = Recording::of_frames("two-pushes", &scene, &motion, &simulated.frames);
     let folder = tempfile::tempdir().expect("a folder");
@@ -232,7 +233,7 @@ fn everything_wrong_is_said_with_its_place() {
 /// What the planar engine makes of the recorded pusher.
 fn replayed(recording: &Recording) -> Trajectory {
     let motion = recording.replay().motion;
-    let job = Job { start: recording.start(), motion, hypothesis: None };
+    let job = Job { start: recording.start(), ..Job::stated(&recording.scene, motion) };
     let model = Simulated::new(Simulator::planar());
     model.rollout(&recording.scene, &[job], Record::Frames).remove(0)
 }

@@ -1,10 +1,12 @@
 //! Who meets whom, and what is reported when things go wrong.
 
+use std::sync::Arc;
+
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Body, Hypothesis, Obstacle, Record, Warning};
+use pushplan::scene::{Body, Job, Obstacle, Physics, Record, Warning};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{bar, brick, can, engines, hand_push, push, table};
+use super::fixtures::{brick, can, engines, hand_push, push, table};
 
 #[test]
 fn a_lifted_tool_passes_over_a_low_object() {
@@ -15,7 +17,8 @@ fn a_lifted_tool_passes_over_a_low_object() {
     for simulator in engines() {
         for (lift, meets) in [(0.018, true), (0.021, false)] {
             motion.lift = lift;
-            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+            let trajectory =
+                simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
             let moved = trajectory.outcome().poses[0].position.norm() > 0.01;
             assert_eq!(moved, meets, "{:?} at lift {lift}", simulator.engine());
             assert_eq!(!trajectory.contacts.is_empty(), meets);
@@ -35,7 +38,8 @@ fn an_obstacle_holds_what_is_pushed_against_it() {
     // The face ends 0.2 mm further from the wall than the can is wide; it slides the rest.
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1098, 0.1);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
         let end = trajectory.outcome().poses[0].position;
         assert!((end.x - 0.1).abs() < 0.3e-3, "{:?}: {end}", simulator.engine());
         let with: Vec<Body> = trajectory.contacts.iter().map(|contact| contact.with).collect();
@@ -54,7 +58,8 @@ fn a_heavy_object_behind_a_light_one_is_not_sunk_into() {
     let scene = table(vec![light, heavy]);
     let motion = push(Vector::new(-0.055, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
         let deepest = trajectory.frames.iter().map(|frame| {
             let poses = &frame.state.poses;
             0.1 - (poses[0].position - poses[1].position).norm()
@@ -65,20 +70,16 @@ fn a_heavy_object_behind_a_light_one_is_not_sunk_into() {
 }
 
 #[test]
-fn a_hypothesis_replaces_what_the_scene_says() {
+fn physics_replaces_what_the_scene_states() {
     let scene = table(vec![can()]);
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.3);
-    let slippery = Hypothesis {
-        frictions: vec![0.1],
-        table_friction: 0.1,
-        ..Hypothesis::nominal(&scene, &bar())
-    };
+    let stated = Job::stated(&scene, motion);
+    let slippery =
+        Physics { frictions: vec![0.1], table_friction: 0.1, ..Physics::clone(&stated.physics) };
+    let slippery = Job { physics: Arc::new(slippery), ..stated.clone() };
     for simulator in engines() {
-        let end = |hypothesis| {
-            let run = simulator.run(&scene, &scene.start(), hypothesis, &motion, Record::Outcome);
-            run.outcome().poses[0].position.x
-        };
-        let (nominal, far) = (end(None), end(Some(&slippery)));
+        let end = |job| simulator.run(&scene, job, Record::Outcome).outcome().poses[0].position.x;
+        let (nominal, far) = (end(&stated), end(&slippery));
         // The face ends at 0.04; slides are v^2 / 2 mu g.
         assert!((nominal - 0.09 - 0.0102).abs() < 1e-3, "{nominal}");
         assert!((far - 0.09 - 0.0459).abs() < 2e-3, "{far}");
@@ -94,7 +95,7 @@ fn a_tall_object_pushed_at_its_top_topples_in_3d() {
     let mut motion = push(Vector::new(-0.03, 0.0), 0.0, 0.1, 0.1);
     motion.lift = 0.14;
     let trajectory =
-        Simulator::spatial().run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        Simulator::spatial().run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
     let toppled = Warning::Toppled { object: "tower".into() };
     assert!(trajectory.warnings.contains(&toppled), "{:?}", trajectory.warnings);
 }
@@ -106,7 +107,11 @@ fn a_start_that_is_not_finite_is_returned_with_a_warning() {
     let mut start = scene.start();
     start.velocities[0].angular = f64::NAN;
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &start, None, &motion, Record::Frames);
+        let trajectory = simulator.run(
+            &scene,
+            &Job { start: start.clone(), ..Job::stated(&scene, motion.clone()) },
+            Record::Frames,
+        );
         assert_eq!(trajectory.frames.len(), 1);
         assert_eq!(trajectory.warnings, vec![Warning::NotFinite]);
     }
@@ -119,7 +124,8 @@ fn on_ice_waiting_is_given_up_with_a_warning() {
     scene.objects[0].friction = 0.0;
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
         assert_eq!(trajectory.warnings, vec![Warning::NotAtRest { waited: 3.0 }]);
     }
 }
@@ -133,7 +139,8 @@ fn a_round_tool_part_stands_upright() {
         let start = if direction == 0.0 { start } else { along * -0.12 };
         let motion = hand_push(start, direction, 0.2, 0.1);
         for simulator in engines() {
-            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+            let trajectory =
+                simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
             let end = trajectory.outcome().poses[0].position;
             let touching = start + along * (0.2 + 0.1);
             assert!((end - touching).norm() < 3e-3, "{:?}: {end}", simulator.engine());

@@ -21,10 +21,8 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 fn assert_same_bits(scene: &Scene) {
     let jobs: Vec<Job> = (0..12)
-        .map(|k| Job {
-            start: scene.start(),
-            motion: push(Vector::new(-0.06, -0.05 + 0.01 * k as f64), 0.0, 0.15, 0.1),
-            hypothesis: None,
+        .map(|k| {
+            Job::stated(scene, push(Vector::new(-0.06, -0.05 + 0.01 * k as f64), 0.0, 0.15, 0.1))
         })
         .collect();
     for simulator in engines() {

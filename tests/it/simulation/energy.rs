@@ -1,7 +1,7 @@
 //! Kinetic energy comes from the tool alone.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Obstacle, Record, Scene, State, Velocity};
+use pushplan::scene::{Job, Obstacle, Record, Scene, State, Velocity};
 
 use super::fixtures::{brick, can, engines, push, table};
 
@@ -39,7 +39,11 @@ fn colliding_objects_never_gain_energy_while_the_tool_is_away() {
     // Frames of 10 ms, so that a collision cannot hide in one.
     let motion = push(Vector::new(-3.0, 0.0), 0.0, 0.6, 1.0);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &start, None, &motion, Record::Frames);
+        let trajectory = simulator.run(
+            &scene,
+            &Job { start: start.clone(), ..Job::stated(&scene, motion.clone()) },
+            Record::Frames,
+        );
         let energies: Vec<f64> =
             trajectory.frames.iter().map(|frame| kinetic(&scene, &frame.state)).collect();
         assert!(trajectory.contacts.len() >= 2, "{:?}", trajectory.contacts);

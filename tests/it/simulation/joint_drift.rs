@@ -15,7 +15,7 @@
 //! | same, masses 1 : 10 in turn| 0.71 / 2.6      |                 |                    |
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{JointKind, Object, Record, Scene, Trajectory};
+use pushplan::scene::{Job, JointKind, Object, Record, Scene, Trajectory};
 use pushplan::sim::Simulator;
 
 use super::fixtures::{brick, can, drift, hand_push, row};
@@ -32,7 +32,7 @@ const KINDS: [Named; 3] = [
 /// A push of the hand, 1 m at 0.21 m/s, at `y` metres.
 fn play(scene: &Scene, simulator: &Simulator, y: f64) -> Trajectory {
     let motion = hand_push(Vector::new(-0.13, y), 0.0, 1.0, 0.21);
-    simulator.run(scene, &scene.start(), None, &motion, Record::Frames)
+    simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Frames)
 }
 
 fn models() -> [(&'static str, Object, f64); 2] {

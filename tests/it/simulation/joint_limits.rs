@@ -1,7 +1,7 @@
 //! Limits stop a joint where they say, on both sides, in both engines.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{JointKind, Record, Scene, Span};
+use pushplan::scene::{Job, JointKind, Record, Scene, Span};
 
 use super::fixtures::{brick, engines, opened, push, row};
 
@@ -21,7 +21,7 @@ fn extremes(scene: &Scene, ahead: bool, value: fn(Pose) -> f64) -> [Span; 2] {
     let (start, direction) = if ahead { (-0.04, 0.0) } else { (0.04, std::f64::consts::PI) };
     let motion = push(Vector::new(start, 0.26), direction, 0.10, 0.1);
     engines().map(|simulator| {
-        let trajectory = simulator.run(scene, &scene.start(), None, &motion, Record::Frames);
+        let trajectory = simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Frames);
         assert!(trajectory.warnings.is_empty(), "{:?}", trajectory.warnings);
         let values = trajectory.frames.iter().map(|frame| value(opened(scene, &frame.state, 0)));
         values.fold(Span::new(0.0, 0.0), |span, value| {
@@ -96,7 +96,8 @@ fn limits_count_from_the_stated_start_also_after_the_tool_was_lifted() {
     motion.strokes.push(again);
     motion.strokes[1].to.position.x += 0.06;
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
         for frame in &trajectory.frames {
             let slid = opened(&scene, &frame.state, 0).position.x;
             assert!(slid < limits.high + 0.1e-3, "{slid}");

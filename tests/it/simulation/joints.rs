@@ -1,7 +1,7 @@
 //! Joints hold what they should hold and leave free what they should leave free.
 
 use pushplan::geometry::{Pose, Vector, wrap_angle};
-use pushplan::scene::{Joint, JointKind, Record, Scene, State};
+use pushplan::scene::{Job, Joint, JointKind, Record, Scene, State};
 
 use super::fixtures::{brick, can, engines, push, table};
 
@@ -16,7 +16,8 @@ fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
     let motion = push(Vector::new(-0.04, 0.17), 0.0, 0.12, 0.1);
     let ends = engines().map(|simulator| {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
         assert!(trajectory.warnings.is_empty(), "{:?}", trajectory.warnings);
         trajectory.outcome().clone()
     });
@@ -83,7 +84,8 @@ fn an_untouched_joint_does_not_move() {
     });
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
         for (object, pose) in scene.objects.iter().zip(&trajectory.outcome().poses) {
             assert!((object.pose.position - pose.position).norm() < 2e-5, "{pose:?}");
         }

@@ -10,7 +10,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::Record;
+use pushplan::scene::{Job, Record};
 
 use super::fixtures::{brick, engines, push, table};
 
@@ -24,7 +24,8 @@ fn misalignment(length: f64, width: f64, heading: f64, friction: f64) -> [f64; 2
     let scene = table(vec![object]);
     let motion = push(Vector::new(-0.08, 0.0), 0.0, 0.25, 0.1);
     engines().map(|simulator| {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
         let turn = trajectory.outcome().poses[0].heading;
         (turn - (turn / FRAC_PI_2).round() * FRAC_PI_2).abs()
     })

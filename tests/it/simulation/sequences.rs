@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_3;
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Push, Record, State, ToolMotion, Warning};
+use pushplan::scene::{Job, Push, Record, State, ToolMotion, Warning};
 
 use super::fixtures::{bar, brick, can, engines, table};
 
@@ -23,7 +23,8 @@ fn a_placed_sequence_is_its_pushes_one_after_another_to_the_bit() {
     let motion = |pushes: &[Push]| ToolMotion::pushes(bar(), 0.002, 0.0, pushes, true);
     for simulator in engines() {
         let run = |start: &State, pushes: &[Push]| {
-            simulator.run(&scene, start, None, &motion(pushes), Record::Frames)
+            let job = Job { start: start.clone(), ..Job::stated(&scene, motion(pushes)) };
+            simulator.run(&scene, &job, Record::Frames)
         };
         let whole = run(&scene.start(), &pushes);
         let first = run(&scene.start(), &pushes[..1]);
@@ -53,7 +54,8 @@ fn a_chained_sequence_goes_on_without_waiting() {
     });
     let motion = ToolMotion::pushes(bar(), 0.002, 0.0, &pushes, false);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
         let strokes: Vec<usize> = trajectory.frames[..26].iter().map(|f| f.stroke).collect();
         let expected: Vec<usize> =
             (0..26).map(|k| usize::from(k > 10) + usize::from(k > 15)).collect();
@@ -73,7 +75,8 @@ fn coming_down_on_an_object_is_reported() {
     pushes[1].start = Vector::new(0.12, 0.02);
     let motion = ToolMotion::pushes(bar(), 0.002, 0.0, &pushes, true);
     for simulator in engines() {
-        let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+        let trajectory =
+            simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
         let expected = Warning::SetDownOn { object: "can".into(), stroke: 1 };
         assert_eq!(trajectory.warnings, vec![expected]);
     }

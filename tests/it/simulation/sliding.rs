@@ -1,7 +1,7 @@
 //! An object that slides freely goes as far as its support law says.
 
 use pushplan::geometry::{Pose, Shape, Vector, cross};
-use pushplan::scene::{GRAVITY, JointKind, Object, Record, Scene, State, Velocity};
+use pushplan::scene::{GRAVITY, Job, JointKind, Object, Record, Scene, State, Velocity};
 use pushplan::sim::Simulator;
 
 use super::fixtures::{brick, can, engines, push, row, table};
@@ -12,7 +12,11 @@ fn slide(simulator: &Simulator, object: Object, velocity: Velocity) -> (Pose, f6
     let start = State { velocities: vec![velocity], ..scene.start() };
     // The tool must move somewhere; far behind it meets nothing.
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.05, 0.05);
-    let trajectory = simulator.run(&scene, &start, None, &motion, Record::Frames);
+    let trajectory = simulator.run(
+        &scene,
+        &Job { start: start.clone(), ..Job::stated(&scene, motion.clone()) },
+        Record::Frames,
+    );
     assert!(trajectory.warnings.is_empty(), "{:?}", trajectory.warnings);
     let time = trajectory.frames.last().map_or(0.0, |frame| frame.time);
     (trajectory.outcome().poses[0], time)
@@ -107,7 +111,8 @@ fn slide_group(simulator: &Simulator, scene: &Scene, velocity: Velocity) -> Stat
         *own = Velocity { linear: velocity.at(pose.position), ..velocity };
     }
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.05, 0.05);
-    let trajectory = simulator.run(scene, &start, None, &motion, Record::Outcome);
+    let trajectory =
+        simulator.run(scene, &Job { start, ..Job::stated(scene, motion) }, Record::Outcome);
     assert!(trajectory.warnings.is_empty(), "{:?}", trajectory.warnings);
     trajectory.outcome().clone()
 }

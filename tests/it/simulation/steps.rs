@@ -1,7 +1,7 @@
 //! A smaller time step changes little.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::Record;
+use pushplan::scene::{Job, Record};
 use pushplan::sim::Simulator;
 
 use super::fixtures::{brick, can, push, table};
@@ -16,7 +16,8 @@ fn a_quarter_of_the_step_moves_a_planar_outcome_by_less_than_half_a_millimetre()
             let motion = push(Vector::new(-0.07, -0.02 + 0.01 * k as f64), 0.0, 0.2, 0.1);
             let end = |step: f64| {
                 let simulator = Simulator::planar_with_step(step);
-                let run = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+                let run =
+                    simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
                 run.outcome().poses[0]
             };
             let (coarse, fine) = (end(1.0 / 240.0), end(1.0 / 960.0));

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Engine, JointKind, Object, Record, Scene, Span, Stroke, Tool, ToolMotion};
+use pushplan::scene::{
+    Engine, Job, JointKind, Object, Record, Scene, Span, Stroke, Tool, ToolMotion,
+};
 use pushplan::sim::Simulator;
 
 use super::fixtures::{bar, brick, can, engines, row, table};
@@ -24,7 +26,7 @@ fn outcome(simulator: &Simulator, objects: &[Object], place: &dyn Fn(Pose) -> Po
         settle: true,
     };
     let motion = ToolMotion { tool, lift: 0.002, strokes: vec![stroke] };
-    let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Outcome);
+    let trajectory = simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
     trajectory.outcome().poses.clone()
 }
 
@@ -135,7 +137,8 @@ fn turning_a_jointed_scene_turns_the_result() {
                 let end = |scene: &Scene, place: Pose| {
                     let strokes = vec![stroke(place)];
                     let motion = ToolMotion { tool: bar(), lift: 0.002, strokes };
-                    let run = simulator.run(scene, &scene.start(), None, &motion, Record::Outcome);
+                    let run =
+                        simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Outcome);
                     run.outcome().poses.clone()
                 };
                 let (a, b) = (end(&plain, Pose::default()), end(&turned, turn));

@@ -1,7 +1,7 @@
 //! The tool travels exactly what the motion says, and pushes what it meets.
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{Body, Contact, Record};
+use pushplan::scene::{Body, Contact, Job, Record};
 
 use super::fixtures::{can, engines, push, table};
 
@@ -11,7 +11,8 @@ fn a_can_ends_one_slide_before_the_face_that_pushed_it() {
     for simulator in engines() {
         for speed in [0.03, 0.1, 0.3] {
             let motion = push(Vector::new(-0.0655, 0.0), 0.0, 0.2, speed);
-            let trajectory = simulator.run(&scene, &scene.start(), None, &motion, Record::Frames);
+            let trajectory =
+                simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
             let moving = &trajectory.frames[20];
             assert_eq!(moving.tool.position, Vector::new(-0.0655 + 0.2, 0.0));
             assert!((moving.time - 0.2 / speed).abs() < 1e-9);
