@@ -7,8 +7,9 @@ use std::time::Duration;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use pushplan::asset::ToolLibrary;
 use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
+use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
-use pushplan::graph::{Batch, Bodies, add_graph};
+use pushplan::graph::Batch;
 use pushplan::network::{Buffers, Forward};
 use pushplan::plan::{
     QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
@@ -38,8 +39,7 @@ fn cases() -> [(&'static str, Vec<Case>); 2] {
 
 /// Frames of the cases that have a graph, as the planar engine passes through them.
 fn frames(cases: &[Case]) -> Vec<Near> {
-    let mut batch = Batch::default();
-    let mut motions = Vec::new();
+    let mut solver = FrameSolver::default();
     let mut near = Vec::new();
     for Case { scene, motion } in cases {
         let bodies = Bodies::new(scene, &motion.tool, motion.lift, &Physics::stated(scene));
@@ -49,9 +49,8 @@ fn frames(cases: &[Case]) -> Vec<Near> {
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(truth.frames.len()) {
             let (state, step) = (truth.frames[index].state.clone(), stroke.frame(index));
-            batch.clear();
-            add_graph(&bodies, &state, &step, axis, 0, &mut batch, &mut motions);
-            if batch.node_count() > 0 {
+            let problem = FrameProblem { bodies: &bodies, state: &state, step: &step, axis };
+            if !solver.solve(problem).motions.is_empty() {
                 near.push((bodies.clone(), state, step, axis));
             }
         }
@@ -59,11 +58,12 @@ fn frames(cases: &[Case]) -> Vec<Near> {
     near
 }
 
-fn fill(batch: &mut Batch, frames: &[Near]) {
-    let mut motions = Vec::new();
+fn fill(solver: &mut FrameSolver, batch: &mut Batch, frames: &[Near]) {
     batch.clear();
     for (k, (bodies, state, step, axis)) in frames.iter().cycle().take(BATCH).enumerate() {
-        add_graph(bodies, state, step, *axis, k as u32, batch, &mut motions);
+        let (frame, forces) =
+            solver.solve_with_forces(FrameProblem { bodies, state, step, axis: *axis });
+        batch.add(k as u32, &frame, &forces);
     }
 }
 
@@ -74,15 +74,17 @@ fn graph_and_network(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(BATCH as u64));
     for (name, cases) in cases() {
         let frames = frames(&cases);
-        let mut batch = Batch::default();
-        group.bench_function(name, |b| b.iter(|| fill(&mut batch, black_box(&frames))));
+        let (mut solver, mut batch) = (FrameSolver::default(), Batch::default());
+        group.bench_function(name, |b| {
+            b.iter(|| fill(&mut solver, &mut batch, black_box(&frames)));
+        });
     }
     group.finish();
     let mut group = criterion.benchmark_group("network on 64 candidate-steps");
     group.throughput(Throughput::Elements(BATCH as u64));
     for (name, cases) in cases() {
         let mut batch = Batch::default();
-        fill(&mut batch, &frames(&cases));
+        fill(&mut FrameSolver::default(), &mut batch, &frames(&cases));
         let (mut buffers, mut corrections) = (Buffers::default(), Vec::new());
         group.bench_function(name, |b| {
             b.iter(|| forward.run(black_box(&batch), &mut buffers, &mut corrections));

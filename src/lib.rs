@@ -34,6 +34,7 @@ pub mod asset;
 pub mod bench;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod contact;
 pub mod dataset;
 pub mod effect;
 pub mod geometry;

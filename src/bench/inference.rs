@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 #[cfg(feature = "train")]
 use crate::network::{Inputs, Predictor};
 use crate::{
-    graph::{Batch, Bodies, add_graph},
+    contact::{Bodies, FrameProblem, FrameSolver},
+    graph::Batch,
     network::{Buffers, Forward, Weights, matrix_product},
     scene::{Job, Record},
     sim::Simulator,
@@ -99,8 +100,7 @@ fn candle(_: &Weights, _: &Batch) -> Option<f64> {
 fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     let simulator = Simulator::planar();
     let mut found = Vec::new();
-    let mut motions = Vec::new();
-    let mut trial = Batch::default();
+    let mut solver = FrameSolver::default();
     for case in cases {
         let job = Job::stated(&case.scene, case.motion.clone());
         let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, &job.physics);
@@ -109,9 +109,8 @@ fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(truth.frames.len()) {
             let (state, step) = (truth.frames[index].state.clone(), stroke.frame(index));
-            trial.clear();
-            add_graph(&bodies, &state, &step, axis, 0, &mut trial, &mut motions);
-            if trial.node_count() > 0 {
+            let problem = FrameProblem { bodies: &bodies, state: &state, step: &step, axis };
+            if !solver.solve(problem).motions.is_empty() {
                 found.push((bodies.clone(), state, step, axis));
             }
         }
@@ -122,7 +121,9 @@ fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
     best(|| {
         batch.clear();
         for (k, (bodies, state, step, axis)) in found.iter().cycle().take(size).enumerate() {
-            add_graph(bodies, state, step, *axis, k as u32, batch, &mut motions);
+            let problem = FrameProblem { bodies, state, step, axis: *axis };
+            let (frame, forces) = solver.solve_with_forces(problem);
+            batch.add(k as u32, &frame, &forces);
         }
     })
 }

@@ -1,31 +1,15 @@
 //! Many graphs side by side, as flat feature tables: what the network reads.
 
-use crate::{geometry::Vector, scene::Body};
+use crate::contact::PairId;
 
 use super::{
-    build::Scratch,
     features::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD},
     node::Node,
+    relation::Relation,
 };
 
 /// Sender index of a relation whose sender's motion is given (tool part or obstacle).
 pub const KINEMATIC: u32 = u32::MAX;
-
-/// Two bodies that touch, or come to touch, in a frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
-    /// Which graph of the batch, as the caller numbered it.
-    pub graph: u32,
-    /// The object that is touched.
-    pub object: usize,
-    /// What it touches.
-    pub with: Body,
-    /// How deep they are inside each other as the frame begins, metres; negative before they
-    /// touch.
-    pub depth: f64,
-    /// Unit, into the object.
-    pub normal: Vector,
-}
 
 /// Feature tables of a batch of graphs. N nodes, R relations.
 ///
@@ -47,10 +31,11 @@ pub struct Batch {
     pub receivers: Vec<u32>,
     /// `[R]`, node index of every relation's sender, or [`KINEMATIC`].
     pub senders: Vec<u32>,
-    /// Contacts with an overlap, in the order of the relations.
-    pub touches: Vec<Touch>,
-    /// Behind a pointer, as it is taken out and put back for every graph.
-    pub(super) scratch: Option<Box<Scratch>>,
+    /// `[R]`, which two bodies every relation is about: the same id in every frame of a scene
+    /// with a tool, and for both directions.
+    pub pairs: Vec<PairId>,
+    /// Memory for those of one graph.
+    pub(super) relations: Vec<Relation>,
 }
 
 impl Batch {
@@ -63,7 +48,7 @@ impl Batch {
         self.relation_odd.clear();
         self.receivers.clear();
         self.senders.clear();
-        self.touches.clear();
+        self.pairs.clear();
     }
 
     /// Number of nodes, N.
@@ -86,11 +71,13 @@ impl Batch {
         &mut self,
         receiver: u32,
         sender: u32,
+        pair: PairId,
         even: [f64; RELATION_EVEN],
         odd: [f64; RELATION_ODD],
     ) {
         self.receivers.push(receiver);
         self.senders.push(sender);
+        self.pairs.push(pair);
         self.relation_even.extend(even.map(bounded));
         self.relation_odd.extend(odd.map(bounded));
     }

@@ -4,12 +4,12 @@
 //! numbers are invariant to shifting and turning the scene; even ones also to mirroring it.
 
 use crate::{
+    contact::{Motion, Movable, Partner},
     geometry::{Vector, cross},
-    scene::{Body, JointKind},
+    scene::JointKind,
 };
 
 use super::{
-    bodies::{Motion, Movable},
     node::{Node, UNIT},
     relation::{Relation, Tie},
 };
@@ -36,7 +36,7 @@ pub const OUTPUT_EVEN: usize = 2;
 /// Odd outputs of a node: shift y, turn, velocity y, spin.
 pub const OUTPUT_ODD: usize = 4;
 
-/// Features of an object that would coast by `coast` and by quasi-statics moves by
+/// Features of an object that would coast by `coast` and in the prior moves by
 /// `node.prior`; `pressed` is the sum of its contacts' overlaps in [`UNIT`]s.
 pub(super) fn node_features(
     node: &Node,
@@ -72,9 +72,9 @@ pub(super) fn relation_features(
     let along = |v: Vector| axis.x * v.x + axis.y * v.y;
     let across = |v: Vector| axis.x * v.y - axis.y * v.x;
     let [of_part, of_obstacle, of_object] = match relation.sender {
-        Body::Part(_) => [1.0, 0.0, 0.0],
-        Body::Obstacle(_) => [0.0, 1.0, 0.0],
-        Body::Object(_) => [0.0, 0.0, 1.0],
+        Partner::Part(_) => [1.0, 0.0, 0.0],
+        Partner::Obstacle(_) => [0.0, 1.0, 0.0],
+        Partner::Object(_) => [0.0, 0.0, 1.0],
     };
     let Relation { arm, sender_arm, relative, answer: (shift, turn), .. } = *relation;
     let mut even = [0.0; RELATION_EVEN];

@@ -1,8 +1,10 @@
 //! A node: an object whose motion the network decides, and the units of that motion.
 
-use crate::{geometry::Vector, scene::FRAME_TRAVEL};
-
-use super::bodies::Motion;
+use crate::{
+    contact::{ListIndex, Motion},
+    geometry::Vector,
+    scene::FRAME_TRAVEL,
+};
 
 /// Unit of displacements and gaps, metres: one frame of tool travel.
 pub const UNIT: f64 = FRAME_TRAVEL;
@@ -12,15 +14,15 @@ pub const UNIT: f64 = FRAME_TRAVEL;
 pub struct Node {
     /// Which graph of the batch, as the caller numbered it.
     pub graph: u32,
-    /// Index of the object in its scene.
-    pub object: u32,
+    /// Which of the frame's objects.
+    pub object: ListIndex,
     /// Unit vector of the tool's motion: the x axis of every feature and output of this graph.
     pub axis: Vector,
     /// Duration of the frame, seconds.
     pub duration: f64,
     /// Length c of the object's limit surface, metres.
     pub support: f64,
-    /// What quasi-statics predict, in output units: even shift x, velocity x; odd shift y,
+    /// The prior's motion, in output units: even shift x, velocity x; odd shift y,
     /// turn, velocity y, spin.
     pub prior: [f64; 6],
 }

@@ -1,14 +1,9 @@
 //! Relations: a contact point or a joint, as one of its two bodies, the receiver, sees it.
 
 use crate::{
+    contact::{Bodies, Contact, FrameForces, FrameSolution, PairId, Partner, Sight},
     geometry::{Pose, Vector, perpendicular, wrap_angle},
-    scene::{Body, JointKind, State},
-};
-
-use super::{
-    bodies::{Bodies, Motion},
-    contact::Contact,
-    prior::Prior,
+    scene::JointKind,
 };
 
 /// What relates two bodies.
@@ -47,8 +42,10 @@ pub(super) enum Tie {
 /// A relation as its receiver sees it. World axes, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relation {
+    pub pair: PairId,
+    /// By its number among those awake, as the sender's.
     pub receiver: usize,
-    pub sender: Body,
+    pub sender: Partner,
     /// From the receiver's centre to the contact point, or to the joint.
     pub arm: Vector,
     /// From the sender's centre to the contact point on it, or to the joint; zero where its
@@ -65,101 +62,47 @@ pub(super) struct Relation {
     pub tie: Tie,
 }
 
-/// A contact as one of its two bodies sees it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sight<'a> {
-    pub receiver: usize,
-    pub sender: Body,
-    /// Unit, into the receiver.
-    pub normal: Vector,
-    arms: [Vector; 2],
-    contact: &'a Contact,
-}
-
-impl Sight<'_> {
-    /// Displacement of the sender's point in the prior, metres.
-    fn sent(&self, motions: &[Motion]) -> Vector {
-        match self.sender {
-            Body::Object(sender) => motions[sender].at(self.arms[1]),
-            _ => self.contact.given,
-        }
-    }
-
-    /// How far the bodies would overlap if the receiver only coasted while the sender moves as
-    /// in `motions`, metres.
-    pub fn overlap(&self, coast: &Motion, motions: &[Motion]) -> f64 {
-        let relative = self.sent(motions) - coast.at(self.arms[0]);
-        (relative.dot(&self.normal) - self.contact.gap).max(0.0)
-    }
-}
-
-/// Both sights of a contact: of its object, and of the other one if that can move.
-pub(super) fn sights(contact: &Contact) -> [Option<Sight<'_>>; 2] {
-    let [arm, other_arm] = [contact.arm, contact.other_arm];
-    let first = Sight {
-        receiver: contact.object,
-        sender: contact.with,
-        normal: contact.normal,
-        arms: [arm, other_arm],
-        contact,
-    };
-    let second = match contact.with {
-        Body::Object(receiver) => Some(Sight {
-            receiver,
-            sender: Body::Object(contact.object),
-            normal: -contact.normal,
-            arms: [other_arm, arm],
-            contact,
-        }),
-        _ => None,
-    };
-    [Some(first), second]
-}
-
 /// Adds the relations of a contact: into its object, and into the other one if that can move.
 pub(super) fn add_contact(
-    bodies: &Bodies,
-    state: &State,
-    coasts: &[Motion],
-    prior: &Prior,
+    frame: &FrameSolution,
+    forces: &FrameForces,
     index: usize,
     contact: &Contact,
     relations: &mut Vec<Relation>,
 ) {
-    for sight in sights(contact).into_iter().flatten() {
+    let FrameSolution { bodies, coasts, motions, .. } = *frame;
+    for sight in contact.sights().into_iter().flatten() {
         let Sight { receiver, sender, normal, arms, .. } = sight;
-        let motion = &prior.motions;
-        let sent = sight.sent(motion);
+        let sent = sight.sent(motions);
         let relative = sent - coasts[receiver].at(arms[0]);
         let closing = relative.dot(&normal);
         let gap = contact.gap;
-        let ends = sent - motion[receiver].at(arms[0]);
+        let ends = sent - motions[receiver].at(arms[0]);
         let weight = bodies.objects[receiver].mass * bodies.objects[receiver].deceleration;
-        let position = state.poses[receiver].position;
         let tie = Tie::Contact {
             normal,
             gap,
             friction: contact.friction,
-            overlap: sight.overlap(&coasts[receiver], motion),
+            overlap: sight.overlap(&coasts[receiver], motions),
             remaining: if closing > gap.max(0.0) { 1.0 - gap.max(0.0) / closing } else { 0.0 },
             left: gap - ends.dot(&normal),
             slip: ends.dot(&perpendicular(normal)),
-            load: prior.system.constraints[index].force.x / weight,
+            load: forces.normal(index) / weight,
         };
-        let answer = prior.answer(index, bodies.groups.of[receiver], position);
-        relations.push(relation(bodies, receiver, sender, arms, relative, answer, tie));
+        let answer = forces.by_contact(index, receiver);
+        let ends = (receiver, sender);
+        relations.push(relation(bodies, ends, arms, relative, answer, tie));
     }
 }
 
 /// Adds the two relations of joint `index`.
 pub(super) fn add_joint(
-    bodies: &Bodies,
-    state: &State,
-    coasts: &[Motion],
-    prior: &Prior,
+    frame: &FrameSolution,
+    forces: &FrameForces,
     index: usize,
     relations: &mut Vec<Relation>,
 ) {
+    let FrameSolution { bodies, state, coasts, motions, .. } = *frame;
     let joint = &bodies.joints[index];
     let poses = joint.between.map(|object| state.poses[object]);
     let [on_first, on_second]: [Pose; 2] = [poses[0] * joint.frames[0], poses[1] * joint.frames[1]];
@@ -179,31 +122,30 @@ pub(super) fn add_joint(
     for [to, from] in [[0, 1], [1, 0]] {
         let (receiver, sender) = (joint.between[to], joint.between[from]);
         let arms = [at - poses[to].position, at - poses[from].position];
-        let relative = prior.motions[sender].at(arms[1]) - coasts[receiver].at(arms[0]);
-        let group = bodies.groups.of[receiver];
-        let answer = prior.joint_answer(index, group, poses[to].position);
-        let sender = Body::Object(sender);
-        relations.push(relation(bodies, receiver, sender, arms, relative, answer, tie));
+        let relative = motions[sender].at(arms[1]) - coasts[receiver].at(arms[0]);
+        let answer = forces.by_joint(index, receiver);
+        let ends = (receiver, Partner::Object(sender));
+        relations.push(relation(bodies, ends, arms, relative, answer, tie));
     }
 }
 
 fn relation(
     bodies: &Bodies,
-    receiver: usize,
-    sender: Body,
+    (receiver, sender): (usize, Partner),
     [arm, sender_arm]: [Vector; 2],
     relative: Vector,
     answer: (Vector, f64),
     tie: Tie,
 ) -> Relation {
     let (mass_ratio, sender_support) = match sender {
-        Body::Object(sender) => {
+        Partner::Object(sender) => {
             let (to, from) = (&bodies.objects[receiver], &bodies.objects[sender]);
             ((from.mass / to.mass).ln(), from.support)
         }
         _ => (0.0, 0.0),
     };
     Relation {
+        pair: bodies.pair(receiver, sender),
         receiver,
         sender,
         arm,

@@ -1,8 +1,8 @@
 //! What a rollout shows about itself that no real table does.
 
 use crate::{
+    contact::{Bodies, Jointed},
     geometry::{Footprint, Pose, contact_points, wrap_angle},
-    graph::{Bodies, Jointed},
     scene::{Body, JointKind, State},
 };
 

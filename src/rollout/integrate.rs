@@ -1,9 +1,7 @@
 //! Applying one frame's motions to a state.
 
-use super::hold;
-
 use crate::{
-    graph::{Bodies, Motion},
+    contact::{Bodies, Motion, hold},
     scene::{FrameStep, State, Velocity},
 };
 

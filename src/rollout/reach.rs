@@ -7,8 +7,8 @@
 //! molecular dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
 
 use crate::{
+    contact::{Bodies, ListIndex, MARGIN, SceneIndex, Subset},
     geometry::{Footprint, Pose, Vector, perpendicular},
-    graph::{Bodies, MARGIN, Subset},
     scene::{Job, Scene, State, Stroke, Velocity},
 };
 
@@ -18,6 +18,9 @@ const SKIN: f64 = 0.05;
 
 /// Allowance for rounding, metres.
 const ROUNDING: f64 = 1e-7;
+
+/// The bodies of a scene that matter now.
+pub type Listed = Subset<SceneIndex, ListIndex>;
 
 /// Which bodies matter, and for how long.
 #[derive(Clone, Debug, Default)]
@@ -51,12 +54,12 @@ pub fn reachable(scene: &Scene, job: &Job) -> Vec<usize> {
         return (0..count).collect();
     }
     let whole = Bodies::new(scene, &motion.tool, motion.lift, physics);
-    let (mut reach, mut subset) = (Reach::default(), Subset::default());
+    let (mut reach, mut subset) = (Reach::default(), Listed::default());
     let mut reached = vec![false; count];
     for stroke in &motion.strokes {
         let course = Course { stroke, frame: 0, stride: 1 };
         reach.list(&whole, start, course, 0.0, &mut subset);
-        subset.objects.iter().for_each(|&object| reached[object] = true);
+        subset.objects.iter().for_each(|object| reached[object.0] = true);
     }
     (0..count).filter(|&object| reached[object]).collect()
 }
@@ -83,7 +86,7 @@ impl Reach {
         state: &State,
         Course { stroke, frame, stride }: Course<'_>,
         duration: f64,
-        subset: &mut Subset,
+        subset: &mut Listed,
     ) {
         let advance = stroke.travel() / stroke.frames() as f64;
         self.near = MARGIN + advance * stride as f64 + ROUNDING;
@@ -111,14 +114,14 @@ impl Reach {
             let lost = !pose.is_finite();
             if moves || lost || sweeps.iter().any(swept) {
                 listed[k] = true;
-                objects.push(k);
+                objects.push(SceneIndex(k));
                 self.skin = self.skin.max(SKIN + way(velocity, body.radius, duration));
             }
         }
         // Neighbours of neighbours: the list grows while it is read.
         let near = *near + self.skin;
         let mut next = 0;
-        while let Some(&object) = objects.get(next) {
+        while let Some(&SceneIndex(object)) = objects.get(next) {
             next += 1;
             let (centre, radius) = (state.poses[object].position, whole.objects[object].radius);
             let mechanism = whole.mechanisms[object];
@@ -127,7 +130,7 @@ impl Reach {
                 let square = (state.poses[other].position - centre).norm_squared();
                 if whole.mechanisms[other] == mechanism || square <= room * room {
                     *taken = true;
-                    objects.push(other);
+                    objects.push(SceneIndex(other));
                 }
             }
         }
@@ -136,7 +139,7 @@ impl Reach {
         parts.clear();
         parts.extend((0..whole.parts.len()).filter(|&part| {
             turns
-                || objects.iter().any(|&k| {
+                || objects.iter().any(|&SceneIndex(k)| {
                     let (sweep, body) = (&sweeps[part], &whole.objects[k]);
                     let room = body.radius + near;
                     sweep.underside < body.height
@@ -146,14 +149,14 @@ impl Reach {
         obstacles.clear();
         obstacles.extend((0..whole.obstacles.len()).filter(|&index| {
             let obstacle = &whole.obstacles[index];
-            objects.iter().any(|&k| {
+            objects.iter().any(|&SceneIndex(k)| {
                 let gap = gap(&obstacle.footprint, &obstacle.pose, state.poses[k].position);
                 gap <= whole.objects[k].radius + near
             })
         }));
         subset.gather(whole);
         self.positions.clear();
-        self.positions.extend(subset.objects.iter().map(|&k| state.poses[k].position));
+        self.positions.extend(subset.objects.iter().map(|k| state.poses[k.0].position));
     }
 
     /// Whether the list still holds everything that a frame of `duration` seconds can relate;
@@ -169,7 +172,7 @@ impl Reach {
     /// object, if none of them moves; beyond the last one if it never does.
     pub fn first_contact(
         &self,
-        subset: &Subset,
+        subset: &Listed,
         state: &State,
         stroke: &Stroke,
         frame: usize,

@@ -3,18 +3,15 @@
 use std::sync::Arc;
 
 use crate::{
-    graph::{Batch, Bodies, Motion, add_graph, add_prior},
+    contact::Bodies,
     scene::{Job, Record, Scene, Trajectory},
 };
 
 use super::{
     run::{Memory, Run},
+    stepper::{Corrector, Stepper},
     work::Work,
 };
-
-/// Corrects the prior of every node of a batch: fills the vector with one entry per node, in
-/// output units (see [`crate::graph::Node::encode`]).
-pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<[f64; 6]>) + 'a;
 
 /// How finely a rollout goes, and whether it looks at everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,9 +36,7 @@ impl Default for RollSettings {
 pub struct Roller {
     settings: RollSettings,
     memories: Vec<Memory>,
-    batch: Batch,
-    corrections: Vec<[f64; 6]>,
-    motions: Vec<Vec<Motion>>,
+    stepper: Stepper,
     work: Work,
 }
 
@@ -67,12 +62,10 @@ impl Roller {
         record: Record,
         mut correct: Option<&mut Corrector<'_>>,
     ) -> Vec<Trajectory> {
-        let Self { settings, memories, batch, corrections, motions, work } = self;
-        let add = if correct.is_some() { add_graph } else { add_prior };
+        let Self { settings, memories, stepper, work } = self;
         let (casts, cast) = casts(scene, jobs);
         if memories.len() < jobs.len() {
             memories.resize_with(jobs.len(), Memory::default);
-            motions.resize_with(jobs.len(), Vec::new);
         }
         let mut runs: Vec<Run> = jobs
             .iter()
@@ -82,27 +75,9 @@ impl Roller {
                 Run::new(scene, job, &casts[cast], memory, *settings, record)
             })
             .collect();
-        work.rollouts += jobs.len() as u64;
-        loop {
-            batch.clear();
-            let mut active = false;
-            for (k, run) in runs.iter_mut().enumerate() {
-                active |= run.next(k as u32, add, batch, &mut motions[k], work);
-            }
-            if !active {
-                return runs.into_iter().map(Run::finish).collect();
-            }
-            if let Some(correct) = &mut correct {
-                correct(batch, corrections);
-                apply(batch, corrections, motions);
-            }
-            for touch in &batch.touches {
-                runs[touch.graph as usize].touch(touch);
-            }
-            for (run, motions) in runs.iter_mut().zip(&*motions) {
-                run.advance(motions);
-            }
-        }
+        while stepper.step(&mut runs, correct.as_deref_mut()) {}
+        runs.iter().for_each(|run| work.add(run.work()));
+        runs.into_iter().map(Run::finish).collect()
     }
 }
 
@@ -115,17 +90,6 @@ pub fn roll(
     correct: Option<&mut Corrector<'_>>,
 ) -> Vec<Trajectory> {
     Roller::new(settings).roll(scene, jobs, record, correct)
-}
-
-/// Puts the corrected motion of every node in its graph's list.
-pub fn apply(batch: &Batch, corrections: &[[f64; 6]], motions: &mut [Vec<Motion>]) {
-    for (node, correction) in batch.nodes.iter().zip(corrections) {
-        let mut output = node.prior;
-        for (value, change) in output.iter_mut().zip(correction) {
-            *value += change;
-        }
-        motions[node.graph as usize][node.object as usize] = node.decode(&output);
-    }
 }
 
 /// The bodies of the scene with every tool and physics that occurs, and which of them each

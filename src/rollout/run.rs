@@ -1,8 +1,8 @@
 //! One job on its way through a rollout.
 
 use crate::{
+    contact::{Bodies, FrameProblem, ListIndex, Motion, Movable, Touch},
     geometry::{Pose, Vector},
-    graph::{Batch, Bodies, Motion, Movable, Subset, Touch},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
         Scene, State, Stroke, Trajectory, Velocity, Warning,
@@ -13,24 +13,21 @@ use super::{
     doubt::{DEEP, deepest_overlap, loosest_joint, set_down_on},
     integrate::integrate,
     pressing::Pressing,
-    reach::{Course, Reach},
+    reach::{Course, Listed, Reach},
     roll::RollSettings,
+    stepper::{Found, Walk},
     work::Work,
 };
 
 /// Memory of one job, reused for the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
-    subset: Subset,
+    subset: Listed,
     reach: Reach,
     /// State of the listed objects, under their numbers in `subset`.
     state: State,
     before: State,
 }
-
-/// [`crate::graph::add_graph`] or [`crate::graph::add_prior`].
-pub(super) type AddFrame =
-    fn(&Bodies, &State, &FrameStep, Vector, u32, &mut Batch, &mut Vec<Motion>) -> usize;
 
 /// One job on its way.
 pub(super) struct Run<'a> {
@@ -62,6 +59,7 @@ pub(super) struct Run<'a> {
     /// The deepest overlap met on the way, see [`deepest_overlap`].
     deepest: Option<(usize, Body, f64)>,
     pressing: Pressing,
+    work: Work,
     trajectory: Trajectory,
 }
 
@@ -93,6 +91,7 @@ impl<'a> Run<'a> {
             span: 1,
             deepest: None,
             pressing: Pressing::default(),
+            work: Work { rollouts: 1, ..Work::default() },
             trajectory: Trajectory::default(),
         };
         if record == Record::Frames {
@@ -102,32 +101,13 @@ impl<'a> Run<'a> {
         run
     }
 
-    /// Decides what the tool does in the next frame that can change anything, and lets `add`
-    /// add its graph or prior to `batch`; returns whether there is such a frame.
-    pub fn next(
-        &mut self,
-        graph: u32,
-        add: AddFrame,
-        batch: &mut Batch,
-        motions: &mut Vec<Motion>,
-        work: &mut Work,
-    ) -> bool {
-        self.next_step(work);
-        let Some(step) = &self.step else { return false };
-        let relations = batch.relation_count();
-        let Memory { subset, state, .. } = &*self.memory;
-        let nodes = add(&subset.bodies, state, step, self.axis, graph, batch, motions);
-        self.idle = nodes == 0;
-        if !self.idle {
-            self.apart_until = None;
-        }
-        work.graphs += u64::from(!self.idle);
-        work.nodes += nodes as u64;
-        work.relations += (batch.relation_count() - relations) as u64;
-        true
+    /// What it took so far.
+    pub fn work(&self) -> &Work {
+        &self.work
     }
 
-    fn next_step(&mut self, work: &mut Work) {
+    /// Decides what the tool does in the next frame that can change anything.
+    fn next_step(&mut self) {
         self.step = None;
         while let Some(stroke) = self.job.motion.strokes.get(self.stroke) {
             let moving = stroke.frames();
@@ -135,13 +115,13 @@ impl<'a> Run<'a> {
                 self.axis = direction(stroke).unwrap_or(self.axis);
                 self.span = self.settings.stride.clamp(1, moving - self.frame);
                 let step = stroke.frames_from(self.frame, self.span);
-                self.look(stroke, step.duration, work);
+                self.look(stroke, step.duration);
                 if self.frame == 0 {
                     self.set_down(stroke);
                 }
-                work.moving += 1;
+                self.work.moving += 1;
                 if self.idle && self.settings.pruned && self.is_still() && self.is_apart(stroke) {
-                    work.skipped += 1;
+                    self.work.skipped += 1;
                     self.pass(&step);
                     continue;
                 }
@@ -152,9 +132,9 @@ impl<'a> Run<'a> {
             if stroke.settle && !self.is_resting() {
                 if self.frame < moving + MAX_COAST_FRAMES {
                     let duration = COAST_FRAME;
-                    self.look(stroke, duration, work);
+                    self.look(stroke, duration);
                     self.step = Some(FrameStep { from: stroke.to, to: stroke.to, duration });
-                    work.coasting += 1;
+                    self.work.coasting += 1;
                     return;
                 }
                 let waited = MAX_COAST_FRAMES as f64 * COAST_FRAME;
@@ -167,7 +147,7 @@ impl<'a> Run<'a> {
     }
 
     /// Sees to it that the list holds all that the coming frame of `stroke` can relate.
-    fn look(&mut self, stroke: &Stroke, duration: f64, work: &mut Work) {
+    fn look(&mut self, stroke: &Stroke, duration: f64) {
         let Memory { subset, reach, state, .. } = &mut *self.memory;
         if self.settings.pruned {
             if !self.stale && reach.holds(&subset.bodies, state, duration) {
@@ -184,12 +164,9 @@ impl<'a> Run<'a> {
         }
         self.stale = false;
         self.apart_until = None;
-        work.lists += 1;
-        work.listed += subset.objects.len() as u64;
-        state.poses.clear();
-        state.poses.extend(subset.objects.iter().map(|&k| self.state.poses[k]));
-        state.velocities.clear();
-        state.velocities.extend(subset.objects.iter().map(|&k| self.state.velocities[k]));
+        self.work.lists += 1;
+        self.work.listed += subset.objects.len() as u64;
+        subset.gather_state(&self.state, state);
     }
 
     /// Notes on what the tool is set down at the start of `stroke`, if it is.
@@ -199,8 +176,8 @@ impl<'a> Run<'a> {
             return;
         }
         let Memory { subset, state, .. } = &*self.memory;
-        for object in set_down_on(&subset.bodies, state, &stroke.from) {
-            let object = self.scene.objects[subset.objects[object]].name.clone();
+        for object in set_down_on(&subset.bodies, state, &stroke.from).map(ListIndex) {
+            let object = self.scene.objects[subset.outer(object).0].name.clone();
             let stroke = self.stroke;
             self.trajectory.warnings.push(Warning::SetDownOn { object, stroke });
         }
@@ -269,27 +246,6 @@ impl<'a> Run<'a> {
         self.end_frame(step);
     }
 
-    /// Applies the frame's motions; a state that is not finite ends the job at the last good
-    /// one, with a warning.
-    pub fn advance(&mut self, motions: &[Motion]) {
-        let Some(step) = self.step else { return };
-        self.pressing.begin();
-        let Memory { subset, state, before, .. } = &mut *self.memory;
-        before.clone_from(state);
-        integrate(&subset.bodies, state, motions, &step);
-        if !state.is_finite() {
-            std::mem::swap(state, before);
-            self.trajectory.warnings.push(Warning::NotFinite);
-            self.stroke = self.job.motion.strokes.len();
-            return;
-        }
-        for (own, &object) in subset.objects.iter().enumerate() {
-            self.state.poses[object] = state.poses[own];
-            self.state.velocities[object] = state.velocities[own];
-        }
-        self.end_frame(&step);
-    }
-
     /// Counts the frame of `step` as done and records it.
     fn end_frame(&mut self, step: &FrameStep) {
         self.frame += self.span;
@@ -308,10 +264,10 @@ impl<'a> Run<'a> {
         for k in 1..=self.span {
             let share = k as f64 / self.span as f64;
             let Memory { subset, state, before, .. } = &*self.memory;
-            for (own, &object) in subset.objects.iter().enumerate() {
+            for (own, object) in subset.objects.iter().enumerate() {
                 let (from, to) = (before.poses[own], state.poses[own]);
                 // The last one puts things where they really are.
-                self.state.poses[object] =
+                self.state.poses[object.0] =
                     if k < self.span { from.towards(&to, share) } else { to };
             }
             if k < self.span {
@@ -331,23 +287,31 @@ impl<'a> Run<'a> {
         });
     }
 
-    /// Notes a contact; bodies under their numbers in the subset, parts in theirs.
-    pub fn touch(&mut self, touch: &Touch) {
-        // What the tool is set down on, or what overlaps at the start, is no fault of the model.
-        let deep = self.frame > 0 && touch.depth > self.deepest.map_or(DEEP, |(_, _, most)| most);
-        let Subset { objects, parts, obstacles, .. } = &self.memory.subset;
-        let object = objects[touch.object];
-        let with = match touch.with {
-            Body::Object(k) => Body::Object(objects[k]),
-            Body::Part(k) => Body::Part(parts[k]),
-            Body::Obstacle(k) => Body::Obstacle(obstacles[k]),
-        };
+    /// Notes a contact.
+    fn touch(&mut self, touch: &Touch) {
+        let (first, with) = self.whole.pairs.bodies(touch.pair);
         if let Some(step) = &self.step {
             let travel = step.to.position - step.from.position;
-            self.pressing.touch(object, with, touch.depth, touch.normal, travel);
+            self.pressing.touch(first.0, with, touch.depth, touch.normal, travel);
         }
-        if deep {
-            self.deepest = Some((object, with, touch.depth));
+        let second = match with {
+            Body::Object(second) => Some((second, Body::Object(first.0))),
+            _ => None,
+        };
+        for ((object, with), stops) in
+            [Some((first.0, with)), second].into_iter().flatten().zip(touch.stops)
+        {
+            if stops {
+                self.meet(object, with, touch.depth);
+            }
+        }
+    }
+
+    /// Notes that `object` meets another body.
+    fn meet(&mut self, object: usize, with: Body, depth: f64) {
+        // What the tool is set down on, or what overlaps at the start, is no fault of the model.
+        if self.frame > 0 && depth > self.deepest.map_or(DEEP, |(_, _, most)| most) {
+            self.deepest = Some((object, with, depth));
         }
         if self.record != Record::Frames {
             return;
@@ -368,6 +332,44 @@ impl<'a> Run<'a> {
             self.keep_frame(tool);
         }
         self.trajectory
+    }
+}
+
+impl Walk for Run<'_> {
+    fn next(&mut self) -> Option<FrameProblem<'_>> {
+        self.next_step();
+        let Memory { subset, state, .. } = &*self.memory;
+        let step = self.step.as_ref()?;
+        Some(FrameProblem { bodies: &subset.bodies, state, step, axis: self.axis })
+    }
+
+    fn note(&mut self, found: Found<'_>) {
+        self.idle = found.awake == 0;
+        if !self.idle {
+            self.apart_until = None;
+        }
+        self.work.graphs += u64::from(!self.idle);
+        self.work.nodes += found.awake as u64;
+        self.work.relations += found.relations as u64;
+        found.touches.iter().for_each(|touch| self.touch(touch));
+    }
+
+    /// Applies the frame's motions; a state that is not finite ends the job at the last good
+    /// one, with a warning.
+    fn advance(&mut self, motions: &[Motion]) {
+        let Some(step) = self.step else { return };
+        self.pressing.begin();
+        let Memory { subset, state, before, .. } = &mut *self.memory;
+        before.clone_from(state);
+        integrate(&subset.bodies, state, motions, &step);
+        if !state.is_finite() {
+            std::mem::swap(state, before);
+            self.trajectory.warnings.push(Warning::NotFinite);
+            self.stroke = self.job.motion.strokes.len();
+            return;
+        }
+        subset.return_state(state, &mut self.state);
+        self.end_frame(&step);
     }
 }
 

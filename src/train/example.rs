@@ -5,11 +5,12 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold},
     dataset::Episode,
     geometry::{Pose, Vector},
-    graph::{Batch, Bodies, Motion, Node, add_graph},
+    graph::{Batch, Node},
     network::{Buffers, Forward},
-    rollout::{apply, hold, integrate},
+    rollout::{Stepper, Walk, integrate},
     scene::{COAST_FRAME, FrameStep, Physics, State},
 };
 
@@ -83,7 +84,7 @@ struct Place {
 
 /// The correction that the prior of an object needs, in output units.
 struct Wanted {
-    object: u32,
+    object: ListIndex,
     correction: [f32; 6],
 }
 
@@ -110,9 +111,9 @@ impl<'a> Examples<'a> {
             .enumerate()
             .flat_map_iter(|(e, episode)| {
                 let bodies = bodies(episode, false);
-                let mut scratch = Scratch::default();
+                let mut memory = Memory::default();
                 (0..episode.frames.len() - 1).filter_map(move |frame| {
-                    let wanted = wanted(episode, &bodies, frame, &mut scratch);
+                    let wanted = wanted(episode, &bodies, frame, &mut memory);
                     let place = |wanted| Place { episode: e as u32, frame: frame as u32, wanted };
                     (!wanted.is_empty()).then(|| place(wanted.into()))
                 })
@@ -167,24 +168,29 @@ impl<'a> Examples<'a> {
                 }
                 // Guessed joints make another prior, which needs other corrections.
                 let wanted = (!guessed).then_some(&*place.wanted);
-                Start { episode, bodies, frame, wanted, at: frame - lead, state }
+                let at = frame - lead;
+                let transition = Transition::of(episode, at);
+                Start { episode, bodies, frame, wanted, at, transition, state }
             })
             .collect();
         let mut drawn = Supervised::default();
-        let mut led = Batch::default();
-        let mut scratch = Scratch::default();
+        let mut memory = Memory::default();
         if let Some(forward) = forward {
+            let (mut stepper, mut buffers) = (Stepper::default(), Buffers::default());
+            let mut correct = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+                forward.run(batch, &mut buffers, corrections);
+            };
             while starts.iter().any(|start| start.at < start.frame) {
                 if multiple > 1 {
                     for start in starts.iter().filter(|start| start.at < start.frame) {
-                        drawn.add(start, &mut scratch);
+                        drawn.add(start, &mut memory);
                     }
                 }
-                lead_on(&mut starts, forward, &mut led);
+                stepper.step(&mut starts, Some(&mut correct));
             }
         }
         for start in &starts {
-            drawn.add(start, &mut scratch);
+            drawn.add(start, &mut memory);
         }
         drawn
     }
@@ -198,36 +204,30 @@ struct Start<'a> {
     frame: usize,
     /// The corrections wanted there, if they are known.
     wanted: Option<&'a [Wanted]>,
-    /// The frame that `state` belongs to.
+    /// The frame that `state` belongs to, and what the tool does from there.
     at: usize,
+    transition: Transition,
     state: State,
 }
 
-/// Rolls every start that is not yet at its frame on by one frame with the network.
-fn lead_on(starts: &mut [Start<'_>], forward: &Forward, batch: &mut Batch) {
-    let mut buffers = Buffers::default();
-    let mut corrections = Vec::new();
-    let mut motions = vec![Vec::new(); starts.len()];
-    batch.clear();
-    for (k, start) in starts.iter().enumerate().filter(|(_, start)| start.at < start.frame) {
-        let (step, axis) = transition(start.episode, start.at);
-        let graph = k as u32;
-        add_graph(&start.bodies, &start.state, &step, axis, graph, batch, &mut motions[k]);
+/// With the network, up to the frame of the example.
+impl Walk for Start<'_> {
+    fn next(&mut self) -> Option<FrameProblem<'_>> {
+        (self.at < self.frame).then(|| self.transition.problem(&self.bodies, &self.state))
     }
-    forward.run(batch, &mut buffers, &mut corrections);
-    apply(batch, &corrections, &mut motions);
-    for (start, motions) in starts.iter_mut().zip(&motions).filter(|(s, _)| s.at < s.frame) {
-        let (step, _) = transition(start.episode, start.at);
-        integrate(&start.bodies, &mut start.state, motions, &step);
-        start.at += 1;
+
+    fn advance(&mut self, motions: &[Motion]) {
+        integrate(&self.bodies, &mut self.state, motions, &self.transition.step);
+        self.at += 1;
+        self.transition = Transition::of(self.episode, self.at);
     }
 }
 
 /// Memory that building graphs reuses.
 #[derive(Default)]
-struct Scratch {
+struct Memory {
+    solver: FrameSolver,
     batch: Batch,
-    motions: Vec<Motion>,
 }
 
 /// The corrections that the prior needs from frame `frame` to the next, at the true state.
@@ -235,14 +235,15 @@ fn wanted(
     episode: &Episode,
     bodies: &Bodies,
     frame: usize,
-    Scratch { batch, motions }: &mut Scratch,
+    Memory { solver, batch }: &mut Memory,
 ) -> Vec<Wanted> {
     batch.clear();
-    let (step, axis) = transition(episode, frame);
     let [state, next] = [0, 1].map(|k| &episode.frames[frame + k].state);
-    add_graph(bodies, state, &step, axis, 0, batch, motions);
+    let transition = Transition::of(episode, frame);
+    let (solved, forces) = solver.solve_with_forces(transition.problem(bodies, state));
+    batch.add(0, &solved, &forces);
     let correction = |node: &Node| {
-        let k = node.object as usize;
+        let k = node.object.0;
         let truth = node.encode(&Motion {
             shift: next.poses[k].position - state.poses[k].position,
             turn: next.poses[k].heading - state.poses[k].heading,
@@ -256,24 +257,25 @@ fn wanted(
 }
 
 impl Supervised {
-    fn add(&mut self, start: &Start<'_>, scratch: &mut Scratch) {
+    fn add(&mut self, start: &Start<'_>, memory: &mut Memory) {
         let Start { episode, bodies, at, state, .. } = start;
         let fresh;
         let wanted = match start.wanted {
             Some(wanted) if start.at == start.frame => wanted,
             _ => {
-                fresh = wanted(episode, bodies, *at, scratch);
+                fresh = wanted(episode, bodies, *at, memory);
                 &fresh
             }
         };
         let first = self.batch.node_count();
-        let (step, axis) = transition(episode, *at);
-        add_graph(bodies, state, &step, axis, 0, &mut self.batch, &mut scratch.motions);
+        let (frame, forces) =
+            memory.solver.solve_with_forces(start.transition.problem(bodies, state));
+        self.batch.add(0, &frame, &forces);
         for node in &self.batch.nodes[first..] {
             // What nothing can touch at the true state moves as its prior says, exactly.
             let known = wanted.iter().find(|wanted| wanted.object == node.object);
             self.target.extend(known.map_or([0.0; 6], |wanted| wanted.correction));
-            let cylinder = episode.scene.objects[node.object as usize].shape.is_cylinder();
+            let cylinder = episode.scene.objects[node.object.0].shape.is_cylinder();
             self.weight.extend(super::loss::weights(cylinder));
         }
     }
@@ -288,21 +290,33 @@ fn bodies(episode: &Episode, guessed: bool) -> Bodies {
     Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 
-/// The tool's motion between frame `index` and the next, and the unit vector of its stroke.
-fn transition(episode: &Episode, index: usize) -> (FrameStep, Vector) {
-    let frames = &episode.frames;
-    let stroke_index = frames[index + 1].stroke;
-    let stroke = &episode.motion.strokes[stroke_index];
-    // Frames of this stroke before the next one: the start belongs to none.
-    let done = frames[1..=index].iter().rev().take_while(|f| f.stroke == stroke_index).count();
-    let travel = stroke.to.position - stroke.from.position;
-    let axis = if travel.norm() > 1e-9 { travel.normalize() } else { Vector::x() };
-    let step = if done < stroke.frames() {
-        stroke.frame(done)
-    } else {
-        FrameStep { from: stroke.to, to: stroke.to, duration: COAST_FRAME }
-    };
-    (step, axis)
+/// The tool's motion between a frame and the next, and the unit vector of its stroke.
+struct Transition {
+    step: FrameStep,
+    axis: Vector,
+}
+
+impl Transition {
+    /// From frame `index` of an episode to the next.
+    fn of(episode: &Episode, index: usize) -> Self {
+        let frames = &episode.frames;
+        let stroke_index = frames[index + 1].stroke;
+        let stroke = &episode.motion.strokes[stroke_index];
+        // Frames of this stroke before the next one: the start belongs to none.
+        let done = frames[1..=index].iter().rev().take_while(|f| f.stroke == stroke_index).count();
+        let travel = stroke.to.position - stroke.from.position;
+        let axis = if travel.norm() > 1e-9 { travel.normalize() } else { Vector::x() };
+        let step = if done < stroke.frames() {
+            stroke.frame(done)
+        } else {
+            FrameStep { from: stroke.to, to: stroke.to, duration: COAST_FRAME }
+        };
+        Self { step, axis }
+    }
+
+    fn problem<'a>(&'a self, bodies: &'a Bodies, state: &'a State) -> FrameProblem<'a> {
+        FrameProblem { bodies, state, step: &self.step, axis: self.axis }
+    }
 }
 
 fn disturb(state: &mut State, noise: &Noise, random: &mut Pcg64) {

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use pushplan::{
+    contact::{Bodies, FrameProblem, FrameSolver},
     dataset::{Dataset, DatasetConfig, Unwatched},
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
-    graph::{Batch, Bodies, Motion, add_graph},
+    graph::Batch,
     network::{
         Buffers, Card, Config, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor,
         Weights, WeightsError,
@@ -103,9 +104,15 @@ fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
     let mut batch = Batch::default();
     let bodies = Bodies::new(scene, &tool(), 0.002, &Physics::stated(scene));
     let axis = (stroke.to.position - stroke.from.position).normalize();
-    let mut motions: Vec<Motion> = Vec::new();
-    add_graph(&bodies, state, &stroke.frame(0), axis, 0, &mut batch, &mut motions);
+    add_graph(&mut batch, 0, FrameProblem { bodies: &bodies, state, step: &stroke.frame(0), axis });
     batch
+}
+
+/// Adds the graph of a frame.
+fn add_graph(batch: &mut Batch, graph: u32, problem: FrameProblem<'_>) {
+    let mut solver = FrameSolver::default();
+    let (frame, forces) = solver.solve_with_forces(problem);
+    batch.add(graph, &frame, &forces);
 }
 
 fn rollout(model: &Network, scene: &Scene, stroke: Stroke) -> State {
@@ -149,16 +156,9 @@ fn fused_inference_equals_the_candle_graph() {
         let stroke = &episode.motion.strokes[0];
         let axis = (stroke.to.position - stroke.from.position).normalize();
         for index in 0..stroke.frames().min(episode.frames.len()) {
-            let state = &episode.frames[index].state;
-            add_graph(
-                &bodies,
-                state,
-                &stroke.frame(index),
-                axis,
-                k as u32,
-                &mut batch,
-                &mut Vec::new(),
-            );
+            let (state, step) = (&episode.frames[index].state, stroke.frame(index));
+            let problem = FrameProblem { bodies: &bodies, state, step: &step, axis };
+            add_graph(&mut batch, k as u32, problem);
         }
     }
     assert!(batch.node_count() > 100);

@@ -2,10 +2,14 @@
 
 use crate::{
     geometry::{Follows, Vector, contact_points, wrap_angle},
-    scene::{Body, FrameStep, Scene, State},
+    scene::{FrameStep, Scene, State},
 };
 
-use super::bodies::{Bodies, Motion};
+use super::{
+    bodies::{Bodies, Partner},
+    motion::Motion,
+    pairs::PairId,
+};
 
 /// Pairs count as related when their gap is at most this beyond what both could travel in the
 /// frame, metres: room for the turning of long bodies.
@@ -13,26 +17,29 @@ pub const MARGIN: f64 = 0.008;
 
 /// A contact point of an object with another body. World axes, metres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
+pub struct Contact {
+    /// The two bodies over all frames.
+    pub pair: PairId,
     /// The first object.
     pub object: usize,
-    /// The other body; an object of a higher index, or one whose motion is given.
-    pub with: Body,
+    /// The other body; an object of a higher number, or one whose motion is given.
+    pub with: Partner,
     /// From the object's centre to the point on it.
     pub arm: Vector,
     /// From the other's centre to the point on it; zero where its motion is given.
     pub other_arm: Vector,
     /// Unit, from the other body into the object.
     pub normal: Vector,
+    /// Distance along the normal, negative where the bodies overlap.
     pub gap: f64,
     /// Coefficient of friction.
     pub friction: f64,
     /// Displacement of the point on a body whose motion is given.
     pub given: Vector,
     /// Turn of that body, radians.
-    pub given_turn: f64,
+    pub(super) given_turn: f64,
     /// What the normal turns with.
-    pub follows: Follows,
+    pub(super) follows: Follows,
 }
 
 /// What a frame's contacts depend on.
@@ -52,15 +59,15 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     for (object, body) in bodies.objects.iter().enumerate() {
         for (index, part) in bodies.parts.iter().enumerate() {
             if part.span.0 < body.height {
-                scenery.meet(object, Body::Part(index), contacts);
+                scenery.meet(object, Partner::Part(index), contacts);
             }
         }
         for index in 0..bodies.obstacles.len() {
-            scenery.meet(object, Body::Obstacle(index), contacts);
+            scenery.meet(object, Partner::Obstacle(index), contacts);
         }
         for other in object + 1..bodies.objects.len() {
             if bodies.groups.of[object] != bodies.groups.of[other] {
-                scenery.meet(object, Body::Object(other), contacts);
+                scenery.meet(object, Partner::Object(other), contacts);
             }
         }
     }
@@ -71,17 +78,16 @@ pub(super) fn find_again(scenery: Scenery, known: &[Contact], contacts: &mut Vec
     contacts.clear();
     let mut last = None;
     for contact in known {
-        let pair = (contact.object, contact.with);
         // The points of a pair stand together.
-        if last.replace(pair) != Some(pair) {
-            scenery.meet(pair.0, pair.1, contacts);
+        if last.replace(contact.pair) != Some(contact.pair) {
+            scenery.meet(contact.object, contact.with, contacts);
         }
     }
 }
 
 impl Scenery<'_> {
     /// Adds the contact points of an object and another body.
-    fn meet(&self, object: usize, with: Body, contacts: &mut Vec<Contact>) {
+    fn meet(&self, object: usize, with: Partner, contacts: &mut Vec<Contact>) {
         let Self { bodies, state, step, coasts } = *self;
         let travel = (step.to.position - step.from.position).norm();
         let own = |object: usize| {
@@ -93,35 +99,37 @@ impl Scenery<'_> {
         let pose = &state.poses[object];
         let part_pose;
         let (other, reach, friction) = match with {
-            Body::Part(index) => {
+            Partner::Part(index) => {
                 let part = &bodies.parts[index];
                 part_pose = step.from * part.pose;
                 ((&part.footprint, &part_pose), reach, part.friction)
             }
-            Body::Obstacle(index) => {
+            Partner::Obstacle(index) => {
                 let obstacle = &bodies.obstacles[index];
                 ((&obstacle.footprint, &obstacle.pose), reach, obstacle.friction)
             }
-            Body::Object(other) => {
+            Partner::Object(other) => {
                 let second = &bodies.objects[other];
                 let at = &state.poses[other];
                 ((&second.footprint, at), reach + own(other), second.friction)
             }
         };
+        let pair = bodies.pair(object, with);
         for point in contact_points((&body.footprint, pose), other, reach).0.iter().flatten() {
             let (given, given_turn) = match with {
-                Body::Part(_) if step.from != step.to => (
+                Partner::Part(_) if step.from != step.to => (
                     step.to.point(step.from.local_point(point.on_second)) - point.on_second,
                     wrap_angle(step.to.heading - step.from.heading),
                 ),
                 _ => (Vector::zeros(), 0.0),
             };
             contacts.push(Contact {
+                pair,
                 object,
                 with,
                 arm: point.on_first - pose.position,
                 other_arm: match with {
-                    Body::Object(_) => point.on_second - other.1.position,
+                    Partner::Object(_) => point.on_second - other.1.position,
                     _ => Vector::zeros(),
                 },
                 normal: point.normal,

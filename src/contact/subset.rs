@@ -1,29 +1,51 @@
-//! Some of the bodies of a scene, under numbers of their own.
+//! Some of the bodies at hand, under numbers of their own.
 
-use super::bodies::Bodies;
+use std::marker::PhantomData;
 
-/// Bodies taken from a scene's, in their order there, and where each comes from.
+use crate::scene::State;
+
+use super::{
+    bodies::Bodies,
+    index::{GroupIndex, Index},
+};
+
+/// Bodies taken from others, in their order there, and where each comes from: objects that are
+/// numbered by `Outer` there and by `Own` here.
 ///
 /// Whoever fills the lists takes all objects of a mechanism or none of them.
-#[derive(Clone, Debug, Default)]
-pub struct Subset {
-    /// Which objects of the scene; the position in this list is their number in `bodies`.
-    pub objects: Vec<usize>,
+#[derive(Clone, Debug)]
+pub struct Subset<Outer, Own> {
+    /// Which objects; the place in this list is their number in `bodies`.
+    pub objects: Vec<Outer>,
     /// Which parts of the tool.
     pub parts: Vec<usize>,
-    /// Which obstacles of the scene.
+    /// Which obstacles.
     pub obstacles: Vec<usize>,
     /// The bodies themselves.
     pub bodies: Bodies,
-    /// Number in `bodies` of every object of the scene that is taken.
+    /// Number in `bodies` of every object that is taken.
     number: Vec<usize>,
+    own: PhantomData<Own>,
 }
 
-impl Subset {
+impl<Outer, Own> Default for Subset<Outer, Own> {
+    fn default() -> Self {
+        Self {
+            objects: Vec::new(),
+            parts: Vec::new(),
+            obstacles: Vec::new(),
+            bodies: Bodies::default(),
+            number: Vec::new(),
+            own: PhantomData,
+        }
+    }
+}
+
+impl<Outer: Index, Own: Index> Subset<Outer, Own> {
     /// Lists everything in `whole`.
     pub fn list_all(&mut self, whole: &Bodies) {
         self.objects.clear();
-        self.objects.extend(0..whole.objects.len());
+        self.objects.extend((0..whole.objects.len()).map(Outer::at));
         self.parts.clear();
         self.parts.extend(0..whole.parts.len());
         self.obstacles.clear();
@@ -31,25 +53,47 @@ impl Subset {
     }
 
     /// The number in `bodies` of `object`, which must be taken.
-    pub fn number(&self, object: usize) -> usize {
-        self.number[object]
+    pub fn own(&self, object: Outer) -> Own {
+        Own::at(self.number[object.place()])
+    }
+
+    /// Where object `own` of `bodies` comes from.
+    pub fn outer(&self, own: Own) -> Outer {
+        self.objects[own.place()]
+    }
+
+    /// Fills `own` with the states of the objects that are taken.
+    pub fn gather_state(&self, whole: &State, own: &mut State) {
+        own.poses.clear();
+        own.poses.extend(self.objects.iter().map(|k| whole.poses[k.place()]));
+        own.velocities.clear();
+        own.velocities.extend(self.objects.iter().map(|k| whole.velocities[k.place()]));
+    }
+
+    /// Puts the states of the objects that are taken back where they come from.
+    pub fn return_state(&self, own: &State, whole: &mut State) {
+        for (k, object) in self.objects.iter().enumerate() {
+            whole.poses[object.place()] = own.poses[k];
+            whole.velocities[object.place()] = own.velocities[k];
+        }
     }
 
     /// Fills `bodies` with what the lists name, on the memory that it has.
     pub fn gather(&mut self, whole: &Bodies) {
-        let Self { objects, parts, obstacles, bodies, number } = self;
+        let Self { objects, parts, obstacles, bodies, number, .. } = self;
         number.resize(whole.objects.len(), 0);
-        objects.iter().enumerate().for_each(|(own, &object)| number[object] = own);
+        objects.iter().enumerate().for_each(|(own, object)| number[object.place()] = own);
         bodies.objects.clear();
-        bodies.objects.extend(objects.iter().map(|&k| whole.objects[k]));
+        bodies.objects.extend(objects.iter().map(|k| whole.objects[k.place()]));
         bodies.parts.clear();
         bodies.parts.extend(parts.iter().map(|&k| whole.parts[k]));
         bodies.obstacles.clear();
         bodies.obstacles.extend(obstacles.iter().map(|&k| whole.obstacles[k]));
         bodies.mechanisms.clear();
-        bodies.mechanisms.extend(objects.iter().map(|&k| number[whole.mechanisms[k]]));
+        bodies.mechanisms.extend(objects.iter().map(|k| number[whole.mechanisms[k.place()]]));
+        bodies.pairs = whole.pairs;
         bodies.joints.clear();
-        let taken = |object: usize| objects.get(number[object]) == Some(&object);
+        let taken = |object: usize| objects.get(number[object]) == Some(&Outer::at(object));
         for joint in whole.joints.iter().filter(|joint| taken(joint.between[0])) {
             let mut own = *joint;
             own.between = joint.between.map(|object| number[object]);
@@ -57,22 +101,22 @@ impl Subset {
         }
         let groups = &mut bodies.groups;
         groups.places.clear();
-        groups.places.extend(objects.iter().map(|&k| whole.groups.places[k]));
+        groups.places.extend(objects.iter().map(|k| whole.groups.places[k.place()]));
         groups.of.clear();
         let mut count = 0;
-        for (own, &object) in objects.iter().enumerate() {
-            let first = whole.groups.members[whole.groups.of[object]][0];
-            if first == object {
+        for (own, object) in objects.iter().enumerate() {
+            let first = whole.groups.members[whole.groups.of[object.place()].0][0];
+            if first == object.place() {
                 match groups.members.get_mut(count) {
                     Some(members) => members.clear(),
                     None => groups.members.push(Vec::new()),
                 }
-                groups.of.push(count);
+                groups.of.push(GroupIndex(count));
                 count += 1;
             } else {
                 groups.of.push(groups.of[number[first]]);
             }
-            groups.members[groups.of[own]].push(own);
+            groups.members[groups.of[own].0].push(own);
         }
         groups.members.truncate(count);
     }
@@ -82,6 +126,7 @@ impl Subset {
 mod tests {
     use super::*;
     use crate::{
+        contact::{ListIndex, Partner, SceneIndex},
         geometry::{Pose, Shape},
         scene::{Joint, JointKind, Object, Part, Physics, Scene, Tool},
     };
@@ -111,18 +156,18 @@ mod tests {
         let tool =
             Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![part], &[]);
         let whole = Bodies::new(&scene, &tool.expect("one piece"), 0.0, &Physics::stated(&scene));
-        let mut subset = Subset::default();
+        let mut subset = Subset::<SceneIndex, ListIndex>::default();
         subset.list_all(&whole);
         subset.gather(&whole);
         assert_eq!(subset.bodies.groups.members, whole.groups.members);
         assert_eq!(subset.bodies.mechanisms, whole.mechanisms);
         // Fewer than before, so that what is left over of the last time would show.
-        subset.objects = vec![2, 3, 4, 5];
+        subset.objects = [2, 3, 4, 5].map(SceneIndex).to_vec();
         subset.parts.clear();
         subset.gather(&whole);
         let bodies = &subset.bodies;
         assert_eq!(bodies.groups.members, [vec![0, 3], vec![1], vec![2]]);
-        assert_eq!(bodies.groups.of, [0, 1, 2, 0]);
+        assert_eq!(bodies.groups.of, [0, 1, 2, 0].map(GroupIndex));
         assert_eq!(bodies.mechanisms, [0, 1, 0, 0]);
         assert_eq!(bodies.groups.places[3], whole.groups.places[5]);
         let between: Vec<[usize; 2]> = bodies.joints.iter().map(|joint| joint.between).collect();
@@ -130,5 +175,9 @@ mod tests {
         let masses: Vec<f64> = bodies.objects.iter().map(|object| object.mass).collect();
         assert_eq!(masses, [3.0, 4.0, 5.0, 6.0]);
         assert!(bodies.parts.is_empty());
+        let (here, there) = (Partner::Object(3), Partner::Object(5));
+        assert_eq!(bodies.pair(0, here), whole.pair(2, there), "a pair keeps its id");
+        assert_eq!(subset.own(SceneIndex(4)), ListIndex(2));
+        assert_eq!(subset.outer(ListIndex(2)), SceneIndex(4));
     }
 }

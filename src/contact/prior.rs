@@ -3,18 +3,18 @@
 
 use nalgebra::Vector3;
 
-use crate::{
-    geometry::{Vector, perpendicular},
-    scene::Body,
-};
+use crate::geometry::{Vector, perpendicular};
 
 use super::{
-    bodies::Motion,
-    constraint::{Constraint, GIVEN, Law, along, shift},
+    bodies::Partner,
+    constraint::{Constraint, Law},
     contact::{Contact, Scenery},
+    index::GroupIndex,
     joint::{rows, turn_joints},
     midway::{Midway, midway},
+    motion::Motion,
     system::System,
+    twist::{along, shift},
     unknown::{Quantity, Unknown},
 };
 
@@ -85,8 +85,8 @@ impl Prior {
         for contact in contacts {
             let groups = &bodies.groups.of;
             let other = match contact.with {
-                Body::Object(other) => groups[other],
-                _ => GIVEN,
+                Partner::Object(other) => Some(groups[other]),
+                _ => None,
             };
             let law = Law::Contact { friction: contact.friction };
             // Their rows follow when it is known how things move.
@@ -100,8 +100,7 @@ impl Prior {
                 (last[n].arm - contact.arm).norm_squared()
                     + (last[n].other_arm - contact.other_arm).norm_squared()
             };
-            let same = (0..last.len())
-                .filter(|&n| (last[n].object, last[n].with) == (contact.object, contact.with));
+            let same = (0..last.len()).filter(|&n| last[n].pair == contact.pair);
             if let Some(n) = same.min_by(|&a, &b| far(a).total_cmp(&far(b))) {
                 system.warm(k, n);
             }
@@ -165,8 +164,8 @@ impl Prior {
     fn collect(&mut self, Scenery { bodies, state, step, coasts }: Scenery) {
         self.motions.clear();
         for (k, &group) in bodies.groups.of.iter().enumerate() {
-            let unknown = &self.system.unknowns[group];
-            let alone = bodies.groups.members[group].len() == 1;
+            let unknown = &self.system.unknowns[group.0];
+            let alone = bodies.groups.members[group.0].len() == 1;
             if alone && unknown.pressed == Vector3::zeros() {
                 // Nothing holds it: it coasts, exactly.
                 self.motions.push(coasts[k]);
@@ -175,7 +174,7 @@ impl Prior {
             let arm = state.poses[k].position - unknown.centre;
             let twist = &unknown.twist;
             let turned = unknown.turn.of(arm);
-            let end = &self.velocities.unknowns[group].twist;
+            let end = &self.velocities.unknowns[group.0].twist;
             self.motions.push(Motion {
                 shift: Vector::new(twist.x, twist.y) + turned - arm,
                 turn: twist.z,
@@ -185,9 +184,9 @@ impl Prior {
         }
     }
 
-    /// The motion that the force of contact `k` alone gives to an object of group `group`
-    /// whose centre lies at `position`: shift (metres) and turn (radians).
-    pub fn answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
+    /// The motion that the force of contact `k` alone gives to an object of `group` whose centre
+    /// lies at `position`: shift (metres) and turn (radians).
+    pub fn answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
         let c = &self.system.constraints[k];
         let pressed = if c.a == group {
             c.to[0] * c.force.x + c.to[1] * c.force.y
@@ -198,7 +197,7 @@ impl Prior {
     }
 
     /// The same for the force of joint `k`; nothing for one within a group.
-    pub fn joint_answer(&self, k: usize, group: usize, position: Vector) -> (Vector, f64) {
+    pub fn joint_answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
         let Some(tie) = self.joints[k].map(|tie| &self.system.ties[tie]) else {
             return (Vector::zeros(), 0.0);
         };
@@ -210,8 +209,8 @@ impl Prior {
         self.moved(group, position, &pressed)
     }
 
-    fn moved(&self, group: usize, position: Vector, pressed: &Vector3<f64>) -> (Vector, f64) {
-        let unknown = &self.system.unknowns[group];
+    fn moved(&self, group: GroupIndex, position: Vector, pressed: &Vector3<f64>) -> (Vector, f64) {
+        let unknown = &self.system.unknowns[group.0];
         let twist = unknown.inverse * pressed;
         (shift(&twist, position - unknown.centre), twist.z)
     }
@@ -221,7 +220,7 @@ impl Prior {
 fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
     let directions = [at.normal, perpendicular(at.normal)];
     constraint.to = directions.map(|direction| along(direction, at.arm));
-    if let Body::Object(_) = contact.with {
+    if let Partner::Object(_) = contact.with {
         constraint.from = directions.map(|direction| along(direction, at.other_arm));
     }
 }
@@ -240,13 +239,12 @@ fn sliding_in_touch(
     if contact.gap <= 0.0 {
         return held;
     }
-    let own = shift(&unknowns[constraint.a].twist, at.arm);
+    let own = shift(&unknowns[constraint.a.0].twist, at.arm);
     let own_coast = coasts[contact.object].at(contact.arm);
-    let (other, other_coast) = match contact.with {
-        Body::Object(object) => (
-            shift(&unknowns[constraint.b].twist, at.other_arm),
-            coasts[object].at(contact.other_arm),
-        ),
+    let (other, other_coast) = match (contact.with, constraint.b) {
+        (Partner::Object(object), Some(group)) => {
+            (shift(&unknowns[group.0].twist, at.other_arm), coasts[object].at(contact.other_arm))
+        }
         _ => (contact.given, contact.given),
     };
     // How far the two would have come into each other had either only coasted.
@@ -259,8 +257,8 @@ fn sliding_in_touch(
 mod tests {
     use super::*;
     use crate::{
+        contact::{bodies::Bodies, coast::coast, contact::find_contacts},
         geometry::{Pose, Shape},
-        graph::{bodies::Bodies, coast, contact::find_contacts},
         scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
     };
 

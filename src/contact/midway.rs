@@ -7,10 +7,14 @@
 
 use crate::{
     geometry::{Follows, Footprint, Turn, Vector},
-    scene::{Body, State},
+    scene::State,
 };
 
-use super::{bodies::Bodies, contact::Contact, unknown::Unknown};
+use super::{
+    bodies::{Bodies, Partner},
+    contact::Contact,
+    unknown::Unknown,
+};
 
 /// Smallest distance of two points whose line gives a normal, metres: that of nearer ones may
 /// point anywhere a moment later.
@@ -37,17 +41,17 @@ pub(super) fn midway(
 ) -> Midway {
     let side = |object: usize, arm: Vector| {
         let position = state.poses[object].position;
-        let moves = Moves::With(&unknowns[bodies.groups.of[object]]);
+        let moves = Moves::With(&unknowns[bodies.groups.of[object].0]);
         Side::new(bodies.objects[object].footprint, moves, position + arm, position)
     };
     let first = side(contact.object, contact.arm);
     let second = match contact.with {
-        Body::Object(other) => side(other, contact.other_arm),
+        Partner::Object(other) => side(other, contact.other_arm),
         with => {
             let normal = contact.normal;
             let point = state.poses[contact.object].position + contact.arm - contact.gap * normal;
             let footprint = match with {
-                Body::Part(index) => bodies.parts[index].footprint,
+                Partner::Part(index) => bodies.parts[index].footprint,
                 // Obstacles stay where they are, so only faces and corners matter.
                 _ => Footprint::Rectangle { half: Vector::zeros() },
             };

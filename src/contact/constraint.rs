@@ -3,9 +3,7 @@
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-use crate::geometry::{Vector, cross, perpendicular};
-
-use super::unknown::Unknown;
+use super::{index::GroupIndex, unknown::Unknown};
 
 /// Share of its own effect, joints left aside, by which a force gives way; keeps forces finite
 /// where nothing fits, and where the force of a contact acts through the axis of a joint.
@@ -18,9 +16,6 @@ const MIN_COMPLIANCE: f64 = 0.2;
 /// A displacement that does not count, metres: rounding must not decide anything.
 const OPEN: f64 = 1e-9;
 
-/// Index of a body whose motion is given.
-pub(super) const GIVEN: usize = usize::MAX;
-
 /// What a constraint allows its two forces to be.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Law {
@@ -32,12 +27,12 @@ pub(super) enum Law {
     Contact { friction: f64 },
 }
 
-/// Two scalar equations between bodies `a` and `b`: `to . twist(a) - from . twist(b)` against
-/// `target`, metres.
+/// Two scalar equations between groups `a` and `b`: `to . twist(a) - from . twist(b)` against
+/// `target`, metres. Without `b` the other body's motion is given, and part of the target.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Constraint {
-    pub a: usize,
-    pub b: usize,
+    pub a: GroupIndex,
+    pub b: Option<GroupIndex>,
     pub to: [Vector3<f64>; 2],
     pub from: [Vector3<f64>; 2],
     pub target: [f64; 2],
@@ -55,8 +50,8 @@ pub(super) struct Constraint {
 
 impl Constraint {
     pub fn new(
-        (a, to): (usize, [Vector3<f64>; 2]),
-        (b, from): (usize, [Vector3<f64>; 2]),
+        (a, to): (GroupIndex, [Vector3<f64>; 2]),
+        (b, from): (Option<GroupIndex>, [Vector3<f64>; 2]),
         target: [f64; 2],
         law: Law,
     ) -> Self {
@@ -67,9 +62,9 @@ impl Constraint {
 
     /// Takes its value from how the bodies move.
     pub fn read(&mut self, unknowns: &[Unknown]) {
-        self.value = apply(&self.to, &unknowns[self.a].twist);
-        if self.b != GIVEN {
-            self.value -= apply(&self.from, &unknowns[self.b].twist);
+        self.value = apply(&self.to, &unknowns[self.a.0].twist);
+        if let Some(b) = self.b {
+            self.value -= apply(&self.from, &unknowns[b.0].twist);
         }
     }
 
@@ -114,8 +109,8 @@ impl Constraint {
 /// metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
-    pub a: usize,
-    pub b: usize,
+    pub a: GroupIndex,
+    pub b: GroupIndex,
     pub to: [Vector3<f64>; 2],
     pub from: [Vector3<f64>; 2],
     pub target: [f64; 2],
@@ -123,11 +118,11 @@ pub(super) struct Tie {
 }
 
 impl Tie {
-    /// The part of this tie's equations that acts on group `index`.
-    pub fn side(&self, index: usize) -> Option<[Vector3<f64>; 2]> {
-        if index == self.b {
+    /// The part of this tie's equations that acts on `group`.
+    pub fn side(&self, group: GroupIndex) -> Option<[Vector3<f64>; 2]> {
+        if group == self.b {
             Some(self.to)
-        } else if index == self.a {
+        } else if group == self.a {
             Some(self.from.map(|from| -from))
         } else {
             None
@@ -135,18 +130,8 @@ impl Tie {
     }
 
     pub fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        apply(&self.to, &unknowns[self.b].twist) - apply(&self.from, &unknowns[self.a].twist)
+        apply(&self.to, &unknowns[self.b.0].twist) - apply(&self.from, &unknowns[self.a.0].twist)
     }
-}
-
-/// The row of the displacement along `direction` of a point `arm` metres from a group's centre.
-pub(super) fn along(direction: Vector, arm: Vector) -> Vector3<f64> {
-    Vector3::new(direction.x, direction.y, cross(arm, direction))
-}
-
-/// Displacement of a point `arm` metres from a group's centre, to first order, metres.
-pub(super) fn shift(twist: &Vector3<f64>, arm: Vector) -> Vector {
-    Vector::new(twist.x, twist.y) + twist.z * perpendicular(arm)
 }
 
 fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {

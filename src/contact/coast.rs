@@ -10,7 +10,7 @@
 
 use crate::scene::Velocity;
 
-use super::bodies::{Motion, Movable};
+use super::{bodies::Movable, motion::Motion};
 
 /// Most pieces that a frame is cut into while an object slides and spins through it.
 const PIECES: usize = 12;
@@ -18,32 +18,6 @@ const PIECES: usize = 12;
 /// Share of its speed that an object loses in one piece. Together with [`PIECES`] this keeps
 /// the distance within 0.1 % of a thousand pieces.
 const SHARE: f64 = 0.3;
-
-/// Gauss-Legendre quadrature over y from 0 to 1 where u = y^2, which leaves the integrands smooth:
-/// u and the weight 2 y w of every node. Distances are within 4e-5 of the exact integrals and the
-/// time within 3e-3, for k from 0.7 to 1 (discs have 8/9, thin rods 3/4).
-const NODES: [(f64, f64); 4] = [
-    node(0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    node(0.330_009_478_207_571_9, 0.326_072_577_431_273_07),
-    node(0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    node(0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
-];
-
-const fn node(y: f64, weight: f64) -> (f64, f64) {
-    (y * y, 2.0 * y * weight)
-}
-
-/// u^k at the nodes of the quadrature over the speeds of a sliding object: the same for each of
-/// its motions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fall([f64; NODES.len()]);
-
-impl Fall {
-    /// Of an object with the ratio `spin`, k, of its spin's deceleration to its slide's.
-    pub fn new(spin: f64) -> Self {
-        Self(NODES.map(|(u, _)| u.powf(spin)))
-    }
-}
 
 /// The motion of a free object during `duration` seconds.
 pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
@@ -62,7 +36,7 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     }
     // The direction of travel never changes; only the two speeds do.
     let direction = if speed > 0.0 { velocity.linear / speed } else { velocity.linear };
-    let rest = come_to_rest(body, speed, spin);
+    let rest = body.fall.to_rest(body.deceleration, speed, spin);
     if rest.time <= duration {
         let (shift, turn) = (direction * rest.travel, rest.turn / body.support);
         return Motion { shift, turn, ..Motion::default() };
@@ -99,33 +73,6 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     }
 }
 
-/// How an object comes to rest.
-struct Rest {
-    /// Seconds.
-    time: f64,
-    /// Metres.
-    travel: f64,
-    /// Times the length c, metres.
-    turn: f64,
-}
-
-/// What becomes of an object left alone with this speed and `spin`, c times the angular velocity,
-/// both in m/s.
-fn come_to_rest(body: &Movable, speed: f64, spin: f64) -> Rest {
-    let mut rest = Rest { time: 0.0, travel: 0.0, turn: 0.0 };
-    for ((u, weight), power) in NODES.into_iter().zip(body.fall.0) {
-        let (v, w) = (speed * u, spin * power);
-        // mu g dt / du
-        let slowing = weight * (v * v + w * w).sqrt() / u;
-        rest.time += slowing;
-        rest.travel += slowing * v;
-        rest.turn += slowing * w;
-    }
-    let Rest { time, travel, turn } = rest;
-    let share = 1.0 / body.deceleration;
-    Rest { time: share * time, travel: share * travel, turn: share * turn }
-}
-
 /// Distance and remaining speed after `duration` seconds of steady deceleration.
 fn slide(speed: f64, deceleration: f64, duration: f64) -> (f64, f64) {
     let left = (speed - deceleration * duration).max(0.0);
@@ -144,13 +91,17 @@ fn slid(from: f64, to: f64, step: f64, deceleration: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Footprint, Vector};
+    use crate::{
+        contact::{fall::Fall, index::SceneIndex},
+        geometry::{Footprint, Vector},
+    };
 
     fn body() -> Movable {
         let footprint = Footprint::Disc { radius: 0.05 };
         let support = footprint.mean_radius();
         let spin = (support / footprint.gyration_radius()).powi(2);
         Movable {
+            index: SceneIndex(0),
             footprint,
             radius: 0.05,
             support,
@@ -204,35 +155,10 @@ mod tests {
     }
 
     #[test]
-    fn four_nodes_are_as_good_as_many() {
-        // The midpoint rule in z with u = z^4, fine enough for the steepest integrand.
-        let many = |k: f64, v0: f64, w0: f64| {
-            let count = 20_000;
-            (0..count).fold([0.0; 3], |[time, travel, turn], n| {
-                let z = (f64::from(n) + 0.5) / f64::from(count);
-                let (u, weight) = (z.powi(4), 4.0 * z.powi(3) / f64::from(count));
-                let (v, w) = (v0 * u, w0 * u.powf(k));
-                let slowing = weight * v.hypot(w) / u;
-                [time + slowing, travel + slowing * v, turn + slowing * w]
-            })
-        };
-        for k in [0.7, 0.75, 0.8, 8.0 / 9.0, 1.0] {
-            let body = Movable { spin: k, fall: Fall::new(k), deceleration: 1.0, ..body() };
-            for (v, w) in [(1.0, 0.01), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.01, 1.0)] {
-                let (rest, exact) = (come_to_rest(&body, v, w), many(k, v, w));
-                let off = |found: f64, exact: f64| (found / exact - 1.0).abs();
-                assert!(off(rest.time, exact[0]) < 3e-3, "{k} {v} {w}");
-                assert!(off(rest.travel, exact[1]) < 4e-5, "{k} {v} {w}");
-                assert!(off(rest.turn, exact[2]) < 4e-5, "{k} {v} {w}");
-            }
-        }
-    }
-
-    #[test]
     fn nothing_jumps_where_an_object_just_comes_to_rest() {
         let body = body();
         let start = Velocity { linear: Vector::new(0.25, 0.0), angular: 6.0 };
-        let time = come_to_rest(&body, 0.25, 6.0 * body.support).time;
+        let time = body.fall.to_rest(body.deceleration, 0.25, 6.0 * body.support).time;
         let [before, after] = [0.999, 1.001].map(|share| coast(&body, &start, share * time));
         assert!((before.shift - after.shift).norm() < 1e-3 * after.shift.norm());
         assert!((before.turn - after.turn).abs() < 1e-3 * after.turn);

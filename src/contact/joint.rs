@@ -9,7 +9,9 @@ use crate::{
 
 use super::{
     bodies::{Bodies, Jointed},
-    constraint::{Constraint, Law, Tie, along},
+    constraint::{Constraint, Law, Tie},
+    index::GroupIndex,
+    twist::along,
     unknown::Unknown,
 };
 
@@ -21,7 +23,7 @@ pub(super) const ARM: f64 = 0.05;
 
 /// Two rows of a joint between two groups: of the second against the first.
 pub(super) struct Rows {
-    between: [usize; 2],
+    between: [GroupIndex; 2],
     to: [Vector3<f64>; 2],
     from: [Vector3<f64>; 2],
     target: [f64; 2],
@@ -38,7 +40,7 @@ impl Rows {
 
     pub fn constraint(&self) -> Constraint {
         let [a, b] = self.between;
-        Constraint::new((b, self.to), (a, self.from), self.target, Law::AtLeast)
+        Constraint::new((b, self.to), (Some(a), self.from), self.target, Law::AtLeast)
     }
 
     pub fn turn_tie(&self, tie: &mut Tie) {
@@ -73,7 +75,7 @@ pub(super) fn rows(
         let apart = starts[1].position - starts[0].position;
         (apart, wrap_angle(starts[1].heading - starts[0].heading))
     };
-    let groups = between.map(|group| &unknowns[group]);
+    let groups = between.map(|group| &unknowns[group.0]);
     let [on_first, on_second] = [0, 1].map(|end| Pose {
         position: groups[end].moved(starts[end].position),
         heading: starts[end].heading + groups[end].share * groups[end].twist.z,

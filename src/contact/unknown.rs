@@ -21,8 +21,9 @@ use crate::{
 };
 
 use super::{
-    bodies::{Bodies, Motion, Movable},
-    constraint::{along, shift},
+    bodies::{Bodies, Movable},
+    motion::Motion,
+    twist::{along, shift},
 };
 
 /// What the unknowns are.

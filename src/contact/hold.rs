@@ -11,8 +11,12 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{
     geometry::{Pose, Vector, cross, perpendicular, wrap_angle},
-    graph::{Bodies, Jointed},
     scene::{JointKind, State},
+};
+
+use super::{
+    bodies::{Bodies, Jointed},
+    index::GroupIndex,
 };
 
 /// Newton steps, and the error at which they end, metres.
@@ -52,8 +56,8 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
     if joints.is_empty() {
         return;
     }
-    let mut groups: Vec<Group> =
-        (0..bodies.groups.members.len()).map(|index| gather(bodies, state, index)).collect();
+    let members = bodies.groups.members.iter();
+    let mut groups: Vec<Group> = members.map(|members| gather(bodies, state, members)).collect();
     let places = place(bodies);
     let mut limited = vec![false; joints.len()];
     for _ in 0..STEPS {
@@ -71,7 +75,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
     }
     let rows = rows(bodies, &joints, &places, &groups, &mut limited);
     let speed = |row: &Row| {
-        let [a, b] = row.between.map(|index| &groups[index]);
+        let [a, b] = row.between.map(|group| &groups[group.0]);
         let of = |group: &Group, turn: f64| row.shift.dot(&group.velocity) + turn * group.spin;
         of(a, row.turns[0]) - of(b, row.turns[1])
     };
@@ -86,7 +90,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         if !joints.iter().any(|joint| joint.between.contains(&object)) {
             continue;
         }
-        let Group { pose, velocity, spin, .. } = groups[group];
+        let Group { pose, velocity, spin, .. } = groups[group.0];
         let held = pose * places[object];
         // Turns are counted, so a heading changes by the difference only.
         let turn = wrap_angle(held.heading - state.poses[object].heading);
@@ -114,9 +118,8 @@ fn centre(bodies: &Bodies, members: &[usize], of: impl Fn(usize) -> Vector) -> V
     members.iter().map(|&k| of(k) * bodies.objects[k].mass).sum::<Vector>() / mass
 }
 
-/// The rigid motion of group `index` nearest to its members'.
-fn gather(bodies: &Bodies, state: &State, index: usize) -> Group {
-    let members = &bodies.groups.members[index];
+/// The rigid motion of a group nearest to its members'.
+fn gather(bodies: &Bodies, state: &State, members: &[usize]) -> Group {
     let own = |k: usize| {
         let body = &bodies.objects[k];
         body.mass * body.support * body.support / body.spin
@@ -162,7 +165,7 @@ fn gather(bodies: &Bodies, state: &State, index: usize) -> Group {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     /// The two groups.
-    between: [usize; 2],
+    between: [GroupIndex; 2],
     /// Direction of displacement, zero for a turn.
     shift: Vector,
     /// What a turn of either group contributes, metres per radian.
@@ -172,27 +175,32 @@ struct Row {
 }
 
 impl Row {
-    fn of_shift(between: [usize; 2], arms: [Vector; 2], direction: Vector, missing: f64) -> Self {
+    fn of_shift(
+        between: [GroupIndex; 2],
+        arms: [Vector; 2],
+        direction: Vector,
+        missing: f64,
+    ) -> Self {
         let turns = arms.map(|arm| cross(arm, direction));
         Self { between, shift: direction, turns, missing }
     }
 
-    fn of_turn(between: [usize; 2], missing: f64) -> Self {
+    fn of_turn(between: [GroupIndex; 2], missing: f64) -> Self {
         Self { between, shift: Vector::zeros(), turns: [ARM; 2], missing: missing * ARM }
     }
 
     /// Lets `act` move both groups against each other along this row.
     fn each_side(&self, groups: &mut [Group], mut act: impl FnMut(&mut Group, Vector, f64)) {
         let [a, b] = self.between;
-        act(&mut groups[a], -self.shift, -self.turns[0]);
-        act(&mut groups[b], self.shift, self.turns[1]);
+        act(&mut groups[a.0], -self.shift, -self.turns[0]);
+        act(&mut groups[b.0], self.shift, self.turns[1]);
     }
 
-    /// The row's entries for group `index`: signed shift and turn.
-    fn side(&self, index: usize) -> Option<(Vector, f64)> {
-        if index == self.between[0] {
+    /// The row's entries for `group`: signed shift and turn.
+    fn side(&self, group: GroupIndex) -> Option<(Vector, f64)> {
+        if group == self.between[0] {
             Some((-self.shift, -self.turns[0]))
-        } else if index == self.between[1] {
+        } else if group == self.between[1] {
             Some((self.shift, self.turns[1]))
         } else {
             None
@@ -216,11 +224,11 @@ fn rows(
         }
         let on = [0, 1].map(|end| {
             let place = places[joint.between[end]];
-            groups[between[end]].pose * place * joint.frames[end]
+            groups[between[end].0].pose * place * joint.frames[end]
         });
         let apart = on[1].position - on[0].position;
         let turned = wrap_angle(on[1].heading - on[0].heading);
-        let arms = between.map(|index| on[1].position - groups[index].pose.position);
+        let arms = between.map(|group| on[1].position - groups[group.0].pose.position);
         let mut beyond = |value: f64| {
             let held = joint.limits.map(|limits| value.clamp(limits.low, limits.high) - value);
             *limited |= held.is_some_and(|held| held != 0.0);
@@ -253,11 +261,11 @@ fn solve(rows: &[Row], groups: &[Group], missing: impl Fn(&Row) -> f64) -> DVect
     let mut coupling = DMatrix::zeros(count, count);
     for (p, first) in rows.iter().enumerate() {
         for (q, second) in rows.iter().enumerate() {
-            for index in first.between {
-                let (Some((s, t)), Some((u, v))) = (first.side(index), second.side(index)) else {
+            for group in first.between {
+                let (Some((s, t)), Some((u, v))) = (first.side(group), second.side(group)) else {
                     continue;
                 };
-                let Group { lightness, ease, .. } = groups[index];
+                let Group { lightness, ease, .. } = groups[group.0];
                 coupling[(p, q)] += s.dot(&u) * lightness + t * v * ease;
             }
         }

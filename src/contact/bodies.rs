@@ -1,15 +1,21 @@
-//! What the graph needs to know of every body, computed once per rollout.
+//! What a frame's equations need to know of every body, computed once per rollout.
 
 use crate::{
-    geometry::{Footprint, Pose, Vector},
-    scene::{GRAVITY, JointKind, Physics, Scene, Span, Tool},
+    geometry::{Footprint, Pose},
+    scene::{Body, GRAVITY, JointKind, Physics, Scene, Span, Tool},
 };
 
-use super::coast::Fall;
+use super::{
+    fall::Fall,
+    index::{GroupIndex, SceneIndex},
+    pairs::{PairId, Pairs},
+};
 
-/// A movable body as the graph sees it.
+/// A movable body.
 #[derive(Clone, Copy, Debug)]
 pub struct Movable {
+    /// Which object of the scene.
+    pub index: SceneIndex,
     /// What it covers on the table.
     pub footprint: Footprint,
     /// Radius of a circle about the centre that holds it, metres.
@@ -33,6 +39,8 @@ pub struct Movable {
 /// A body whose motion is given: a tool part or an obstacle.
 #[derive(Clone, Copy, Debug)]
 pub struct Given {
+    /// Which part of the tool, or which obstacle of the scene.
+    pub index: usize,
     /// What it covers on the table.
     pub footprint: Footprint,
     /// Tool parts: pose in the tool frame. Obstacles: pose in the world.
@@ -43,7 +51,7 @@ pub struct Given {
     pub span: (f64, f64),
 }
 
-/// A joint as the graph sees it.
+/// A joint between two objects.
 #[derive(Clone, Copy, Debug)]
 pub struct Jointed {
     /// Indices of the two objects.
@@ -62,7 +70,7 @@ pub struct Jointed {
 #[derive(Clone, Debug, Default)]
 pub struct Groups {
     /// The group of every object.
-    pub of: Vec<usize>,
+    pub of: Vec<GroupIndex>,
     /// The objects of every group, in order.
     pub members: Vec<Vec<usize>>,
     /// Every object's pose in the frame of the first object of its group.
@@ -75,12 +83,12 @@ impl Groups {
         let lowest = physics.groups(|joint| joint.kind == JointKind::Fixed);
         for (object, first) in lowest.into_iter().enumerate() {
             if first == object {
-                groups.of.push(groups.members.len());
+                groups.of.push(GroupIndex(groups.members.len()));
                 groups.members.push(vec![object]);
             } else {
                 let group = groups.of[first];
                 groups.of.push(group);
-                groups.members[group].push(object);
+                groups.members[group.0].push(object);
             }
             let [base, own] = [first, object].map(|index| scene.objects[index].pose);
             groups.places.push(base.inverse() * own);
@@ -104,31 +112,19 @@ pub struct Bodies {
     pub groups: Groups,
     /// For every object the lowest one that joints of any kind connect it with.
     pub mechanisms: Vec<usize>,
+    /// All pairs of the scene and the tool, here or not.
+    pub pairs: Pairs,
 }
 
-/// A planar displacement and the velocity at its end.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Motion {
-    /// Displacement of the centre, metres.
-    pub shift: Vector,
-    /// Turn, radians.
-    pub turn: f64,
-    /// Velocity of the centre at the end, m/s.
-    pub velocity: Vector,
-    /// Angular velocity at the end, rad/s.
-    pub spin: f64,
-}
-
-impl Motion {
-    /// Displacement of the body's point `arm` metres from its centre, to first order, metres.
-    pub fn at(&self, arm: Vector) -> Vector {
-        self.shift + self.turn * Vector::new(-arm.y, arm.x)
-    }
-
-    /// Velocity of the body's point `arm` metres from its centre at the end, m/s.
-    pub fn velocity_at(&self, arm: Vector) -> Vector {
-        self.velocity + self.spin * Vector::new(-arm.y, arm.x)
-    }
+/// The other body of a contact, by its number in the bodies at hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// An object.
+    Object(usize),
+    /// An obstacle.
+    Obstacle(usize),
+    /// A part of the tool.
+    Part(usize),
 }
 
 impl Bodies {
@@ -145,6 +141,7 @@ impl Bodies {
                 let friction = physics.support_friction(k);
                 let spin = (support / footprint.gyration_radius()).powi(2);
                 Movable {
+                    index: SceneIndex(k),
                     footprint,
                     radius: footprint.bounding_radius(),
                     support,
@@ -160,7 +157,9 @@ impl Bodies {
         let parts = tool
             .parts
             .iter()
-            .map(|part| Given {
+            .enumerate()
+            .map(|(index, part)| Given {
+                index,
                 footprint: part.footprint(),
                 pose: part.pose,
                 friction: tool.friction,
@@ -170,7 +169,9 @@ impl Bodies {
         let obstacles = scene
             .obstacles
             .iter()
-            .map(|obstacle| Given {
+            .enumerate()
+            .map(|(index, obstacle)| Given {
+                index,
                 footprint: obstacle.shape().footprint(),
                 pose: obstacle.pose,
                 friction: obstacle.friction,
@@ -190,6 +191,17 @@ impl Bodies {
             .collect();
         let groups = Groups::new(scene, physics);
         let mechanisms = physics.groups(|_| true);
-        Self { objects, parts, obstacles, joints, groups, mechanisms }
+        let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.parts.len());
+        Self { objects, parts, obstacles, joints, groups, mechanisms, pairs }
+    }
+
+    /// The lasting id of an object and another body.
+    pub fn pair(&self, object: usize, with: Partner) -> PairId {
+        let with = match with {
+            Partner::Object(other) => Body::Object(self.objects[other].index.0),
+            Partner::Obstacle(index) => Body::Obstacle(self.obstacles[index].index),
+            Partner::Part(index) => Body::Part(self.parts[index].index),
+        };
+        self.pairs.id(self.objects[object].index, with)
     }
 }

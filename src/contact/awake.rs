@@ -1,10 +1,12 @@
 //! Which objects a frame's equations are about: those that may do anything but coast.
 
-use crate::scene::{Body, FrameStep, State};
+use crate::scene::{FrameStep, State};
 
 use super::{
-    bodies::{Bodies, Motion},
+    bodies::{Bodies, Partner},
     contact::Contact,
+    index::{AwakeIndex, ListIndex},
+    motion::Motion,
     subset::Subset,
 };
 
@@ -18,7 +20,7 @@ pub(super) struct Awake {
     /// Whether some of the objects sleep, so that the others are gathered.
     some_sleep: bool,
     pairs: Vec<[usize; 2]>,
-    subset: Subset,
+    subset: Subset<ListIndex, AwakeIndex>,
     state: State,
     coasts: Vec<Motion>,
 }
@@ -47,11 +49,11 @@ impl Awake {
         awake.clear();
         awake.resize(coasts.len(), false);
         for contact in contacts {
-            let pushed = matches!(contact.with, Body::Part(_)) && tool_moves;
+            let pushed = matches!(contact.with, Partner::Part(_)) && tool_moves;
             if pushed || moving(contact.object) {
                 awake[contact.object] = true;
             }
-            if let Body::Object(other) = contact.with
+            if let Partner::Object(other) = contact.with
                 && moving(other)
             {
                 awake[other] = true;
@@ -64,7 +66,7 @@ impl Awake {
         }
         pairs.clear();
         pairs.extend(contacts.iter().filter_map(|contact| match contact.with {
-            Body::Object(other) => Some([contact.object, other]),
+            Partner::Object(other) => Some([contact.object, other]),
             _ => None,
         }));
         pairs.extend(bodies.joints.iter().map(|joint| joint.between));
@@ -102,24 +104,22 @@ impl Awake {
         }
         contacts.retain(|contact| flags[contact.object]);
         subset.objects.clear();
-        subset.objects.extend((0..flags.len()).filter(|&k| flags[k]));
+        subset.objects.extend((0..flags.len()).filter(|&k| flags[k]).map(ListIndex));
         subset.parts.clear();
         subset.parts.extend(0..bodies.parts.len());
         subset.obstacles.clear();
         subset.obstacles.extend(0..bodies.obstacles.len());
         subset.gather(bodies);
+        let renumber = |object: &mut usize| *object = subset.own(ListIndex(*object)).0;
         for contact in contacts {
-            contact.object = subset.number(contact.object);
-            if let Body::Object(other) = &mut contact.with {
-                *other = subset.number(*other);
+            renumber(&mut contact.object);
+            if let Partner::Object(other) = &mut contact.with {
+                renumber(other);
             }
         }
-        own.poses.clear();
-        own.poses.extend(subset.objects.iter().map(|&k| state.poses[k]));
-        own.velocities.clear();
-        own.velocities.extend(subset.objects.iter().map(|&k| state.velocities[k]));
+        subset.gather_state(state, own);
         own_coasts.clear();
-        own_coasts.extend(subset.objects.iter().map(|&k| coasts[k]));
+        own_coasts.extend(subset.objects.iter().map(|k| coasts[k.0]));
     }
 
     /// Those of the given objects that were gathered.
@@ -135,8 +135,8 @@ impl Awake {
         }
     }
 
-    /// The number in the scene of the gathered object `index`.
-    pub fn number(&self, index: usize) -> usize {
-        if self.some_sleep { self.subset.objects[index] } else { index }
+    /// The number on the list of an object that was gathered.
+    pub fn listed(&self, object: AwakeIndex) -> ListIndex {
+        if self.some_sleep { self.subset.outer(object) } else { ListIndex(object.0) }
     }
 }

@@ -21,9 +21,11 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 use crate::scene::State;
 
 use super::{
-    bodies::{Bodies, Motion},
-    constraint::{Constraint, GIVE, GIVEN, Tie},
+    bodies::Bodies,
+    constraint::{Constraint, GIVE, Tie},
+    index::GroupIndex,
     joint::ARM,
+    motion::Motion,
     unknown::{Quantity, Unknown},
 };
 
@@ -168,9 +170,11 @@ impl System {
             for constraint in constraints.iter_mut() {
                 constraint.read(unknowns);
                 if constraint.presses(&constraint.trial) || constraint.asks() {
-                    active[mechanism[constraint.a]] += 1.0;
-                    if constraint.b != GIVEN && mechanism[constraint.b] != mechanism[constraint.a] {
-                        active[mechanism[constraint.b]] += 1.0;
+                    let first = mechanism[constraint.a.0];
+                    active[first] += 1.0;
+                    match constraint.b.map(|b| mechanism[b.0]) {
+                        Some(second) if second != first => active[second] += 1.0,
+                        _ => {}
                     }
                 }
             }
@@ -179,9 +183,9 @@ impl System {
             let carry = (previous - 1.0) / momentum;
             let (mut against, mut largest) = (0.0, 0.0f64);
             for constraint in constraints.iter_mut() {
-                let mut k = constraint.own[0] * active[mechanism[constraint.a]].max(1.0);
-                if constraint.b != GIVEN {
-                    k += constraint.own[1] * active[mechanism[constraint.b]].max(1.0);
+                let mut k = constraint.own[0] * active[mechanism[constraint.a.0]].max(1.0);
+                if let Some(b) = constraint.b {
+                    k += constraint.own[1] * active[mechanism[b.0]].max(1.0);
                 }
                 let force = constraint.answer(&k);
                 let change = force - constraint.force;
@@ -212,9 +216,9 @@ impl System {
         self.mechanism.extend(0..self.unknowns.len());
         for _ in 0..self.unknowns.len() {
             for tie in &self.ties {
-                let low = self.mechanism[tie.a].min(self.mechanism[tie.b]);
-                self.mechanism[tie.a] = low;
-                self.mechanism[tie.b] = low;
+                let [a, b] = [tie.a.0, tie.b.0];
+                let low = self.mechanism[a].min(self.mechanism[b]);
+                (self.mechanism[a], self.mechanism[b]) = (low, low);
             }
             if self.ties.is_empty() {
                 break;
@@ -232,11 +236,11 @@ impl System {
         let mut whole = DMatrix::zeros(2 * count, 2 * count);
         for (p, first) in self.ties.iter().enumerate() {
             for (q, second) in self.ties.iter().enumerate().take(p + 1) {
-                for index in [first.a, first.b] {
-                    let (Some(j), Some(k)) = (first.side(index), second.side(index)) else {
+                for group in [first.a, first.b] {
+                    let (Some(j), Some(k)) = (first.side(group), second.side(group)) else {
                         continue;
                     };
-                    let inverse = &self.unknowns[index].inverse;
+                    let inverse = &self.unknowns[group.0].inverse;
                     for (r, j) in j.iter().enumerate() {
                         for (s, k) in k.iter().enumerate() {
                             let value = j.dot(&(inverse * k));
@@ -263,24 +267,24 @@ impl System {
     /// J M J^T of either side of a constraint, M being A^-1 with the ties eliminated; all of it
     /// on the first side where both belong to one mechanism. Then the trace without ties.
     fn compliance(&self, constraint: &Constraint) -> ([Matrix2<f64>; 2], f64) {
-        let own = |index: usize, j: &[Vector3<f64>; 2]| {
-            let [p, q] = j.map(|j| self.unknowns[index].inverse * j);
+        let own = |group: GroupIndex, j: &[Vector3<f64>; 2]| {
+            let [p, q] = j.map(|j| self.unknowns[group.0].inverse * j);
             Matrix2::new(j[0].dot(&p), j[0].dot(&q), j[1].dot(&p), j[1].dot(&q))
         };
         let mut sides = [own(constraint.a, &constraint.to), Matrix2::zeros()];
-        if constraint.b != GIVEN {
-            sides[1] = own(constraint.b, &constraint.from);
+        if let Some(b) = constraint.b {
+            sides[1] = own(b, &constraint.from);
         }
         let alone = sides[0].trace() + sides[1].trace();
         if self.ties.is_empty() {
             return (sides, alone);
         }
         let first = self.through_ties(constraint.a, &constraint.to);
-        if constraint.b == GIVEN {
+        let Some(b) = constraint.b else {
             return ([sides[0] - self.taken(&first), Matrix2::zeros()], alone);
-        }
-        let mut second = self.through_ties(constraint.b, &constraint.from);
-        if self.mechanism[constraint.a] != self.mechanism[constraint.b] {
+        };
+        let mut second = self.through_ties(b, &constraint.from);
+        if self.mechanism[constraint.a.0] != self.mechanism[b.0] {
             return ([sides[0] - self.taken(&first), sides[1] - self.taken(&second)], alone);
         }
         second.iter_mut().for_each(|(_, w)| *w = -*w);
@@ -288,11 +292,11 @@ impl System {
         ([sides[0] + sides[1] - self.taken(&both), Matrix2::zeros()], alone)
     }
 
-    /// How the ties of group `index` feel the rows `j` of a constraint on it.
-    fn through_ties(&self, index: usize, j: &[Vector3<f64>; 2]) -> Vec<(usize, Matrix2<f64>)> {
-        let [p, q] = j.map(|j| self.unknowns[index].inverse * j);
+    /// How the ties of `group` feel the rows `j` of a constraint on it.
+    fn through_ties(&self, group: GroupIndex, j: &[Vector3<f64>; 2]) -> Vec<(usize, Matrix2<f64>)> {
+        let [p, q] = j.map(|j| self.unknowns[group.0].inverse * j);
         let felt = self.ties.iter().enumerate().filter_map(|(k, tie)| {
-            let side = tie.side(index)?;
+            let side = tie.side(group)?;
             let felt =
                 Matrix2::new(side[0].dot(&p), side[0].dot(&q), side[1].dot(&p), side[1].dot(&q));
             Some((k, felt))
@@ -319,9 +323,9 @@ impl System {
             unknown.pressed = Vector3::zeros();
         }
         for c in constraints.iter() {
-            unknowns[c.a].pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
-            if c.b != GIVEN {
-                unknowns[c.b].pressed -= c.from[0] * c.trial.x + c.from[1] * c.trial.y;
+            unknowns[c.a.0].pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
+            if let Some(b) = c.b {
+                unknowns[b.0].pressed -= c.from[0] * c.trial.x + c.from[1] * c.trial.y;
             }
         }
         let settle = |unknowns: &mut [Unknown]| {
@@ -343,8 +347,8 @@ impl System {
         for (k, tie) in ties.iter_mut().enumerate() {
             let force = |row: usize| tied.column(row).dot(asked);
             tie.force = Vector2::new(force(2 * k), force(2 * k + 1));
-            unknowns[tie.b].pressed += tie.to[0] * tie.force.x + tie.to[1] * tie.force.y;
-            unknowns[tie.a].pressed -= tie.from[0] * tie.force.x + tie.from[1] * tie.force.y;
+            unknowns[tie.b.0].pressed += tie.to[0] * tie.force.x + tie.to[1] * tie.force.y;
+            unknowns[tie.a.0].pressed -= tie.from[0] * tie.force.x + tie.from[1] * tie.force.y;
         }
         settle(unknowns);
     }

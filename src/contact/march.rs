@@ -9,9 +9,9 @@ use crate::{
 };
 
 use super::{
-    bodies::Motion,
     coast::coast,
     contact::{Contact, Scenery, find_again},
+    motion::Motion,
     prior::Prior,
 };
 

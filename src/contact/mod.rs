@@ -1,0 +1,38 @@
+//! The equations of a frame: what contacts, joints, friction with the table and inertia make of
+//! a state while the tool moves a little.
+//!
+//! Closed form and implicit, second order in time, joints eliminated, independent of any order;
+//! objects that nothing can push in a frame coast or stay, exactly. Nothing is learned here, and
+//! nothing is known of the network that corrects it. One frame at a time: the loop over time is in
+//! [`crate::rollout`].
+
+mod awake;
+mod bodies;
+mod coast;
+mod constraint;
+mod contact;
+mod fall;
+mod hold;
+mod index;
+mod joint;
+mod march;
+mod midway;
+mod motion;
+mod pairs;
+mod prior;
+mod sight;
+mod solver;
+mod subset;
+mod system;
+mod twist;
+mod unknown;
+
+pub use bodies::{Bodies, Given, Groups, Jointed, Movable, Partner};
+pub use contact::{Contact, MARGIN};
+pub use hold::hold;
+pub use index::{AwakeIndex, GroupIndex, Index, ListIndex, SceneIndex};
+pub use motion::Motion;
+pub use pairs::{PairId, Pairs};
+pub use sight::Sight;
+pub use solver::{FrameForces, FrameProblem, FrameSolution, FrameSolver, Touch};
+pub use subset::Subset;

@@ -1,0 +1,23 @@
+//! What a body does in a frame.
+
+use crate::geometry::Vector;
+
+/// A planar displacement and the velocity at its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Displacement of the centre, metres.
+    pub shift: Vector,
+    /// Turn, radians.
+    pub turn: f64,
+    /// Velocity of the centre at the end, m/s.
+    pub velocity: Vector,
+    /// Angular velocity at the end, rad/s.
+    pub spin: f64,
+}
+
+impl Motion {
+    /// Displacement of the body's point `arm` metres from its centre, to first order, metres.
+    pub fn at(&self, arm: Vector) -> Vector {
+        self.shift + self.turn * Vector::new(-arm.y, arm.x)
+    }
+}

@@ -1,0 +1,211 @@
+//! One frame: what everything does in it, and the forces that make it so.
+
+use crate::{
+    geometry::Vector,
+    scene::{FrameStep, State},
+};
+
+use super::{
+    awake::{Awake, View},
+    bodies::Bodies,
+    coast::coast,
+    contact::{Contact, Scenery, find_contacts},
+    index::{AwakeIndex, ListIndex},
+    march::March,
+    motion::Motion,
+    pairs::PairId,
+    prior::Prior,
+};
+
+/// Steps that a frame of several objects is solved in. What they do to each other depends on
+/// what happens first: of 60 sparse trajectories with fixed joints the mean error of a stroke is
+/// 3.4 mm with 1, 1.06 with 4 and 1.07 with 8. One object alone needs no such care.
+const PIECES: usize = 4;
+
+/// What a frame begins with, and what the tool does in it.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameProblem<'a> {
+    /// The bodies that matter.
+    pub bodies: &'a Bodies,
+    /// Where their objects are and how they move.
+    pub state: &'a State,
+    /// What the tool does.
+    pub step: &'a FrameStep,
+    /// Unit vector of the tool's motion, the last one while it stands still.
+    pub axis: Vector,
+}
+
+/// The equations of a frame, and memory to solve them that one frame leaves for the next. The
+/// answer depends on the frame alone.
+#[derive(Clone, Debug, Default)]
+pub struct FrameSolver {
+    coasts: Vec<Motion>,
+    contacts: Vec<Contact>,
+    awake: Awake,
+    prior: Prior,
+    march: March,
+}
+
+/// A solved frame. Only what may do anything but coast enters its equations; all that is public
+/// here is about those objects, under their numbers in `bodies`.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameSolution<'a> {
+    /// The objects that are awake, the tool's parts and the obstacles.
+    pub bodies: &'a Bodies,
+    /// The objects' state as the frame begins.
+    pub state: &'a State,
+    /// What the tool does.
+    pub step: &'a FrameStep,
+    /// Unit vector of the tool's motion, the last one while it stands still.
+    pub axis: Vector,
+    /// What the objects would do if nothing touched or held them.
+    pub coasts: &'a [Motion],
+    /// What they do.
+    pub motions: &'a [Motion],
+    /// Where bodies touch or may come to.
+    pub contacts: &'a [Contact],
+    all: &'a [Motion],
+    awake: &'a Awake,
+}
+
+/// The forces of a frame taken as a whole.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameForces<'a> {
+    bodies: &'a Bodies,
+    state: &'a State,
+    prior: &'a Prior,
+}
+
+/// Two bodies that touch, or come to touch, in a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// The two.
+    pub pair: PairId,
+    /// Whether they would overlap if the first of them (see [`super::Pairs::bodies`]) only
+    /// coasted, and whether if the second did; one of it at least.
+    pub stops: [bool; 2],
+    /// How deep they are inside each other as the frame begins, metres; negative before they
+    /// touch.
+    pub depth: f64,
+    /// Unit, into the first.
+    pub normal: Vector,
+}
+
+impl FrameSolver {
+    /// What everything does in the frame.
+    pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
+        if self.wake(problem) {
+            let Self { coasts, contacts, awake, prior, march } = &mut *self;
+            let scenery = scenery(problem, awake, coasts);
+            match scenery.bodies.objects[..] {
+                [_] => prior.solve(scenery, problem.axis, contacts),
+                _ => march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions),
+            }
+        }
+        self.solution(problem)
+    }
+
+    /// The same with the forces that, acting over the whole frame, do so.
+    pub fn solve_with_forces<'a>(
+        &'a mut self,
+        problem: FrameProblem<'a>,
+    ) -> (FrameSolution<'a>, FrameForces<'a>) {
+        if self.wake(problem) {
+            let Self { coasts, contacts, awake, prior, march } = &mut *self;
+            let scenery = scenery(problem, awake, coasts);
+            if let [_] = scenery.bodies.objects[..] {
+                prior.solve(scenery, problem.axis, contacts);
+            } else {
+                prior.press(scenery, problem.axis, contacts, None);
+                march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions);
+            }
+        }
+        let solution = self.solution(problem);
+        let FrameSolution { bodies, state, .. } = solution;
+        (solution, FrameForces { bodies, state, prior: &self.prior })
+    }
+
+    /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
+    /// returns whether anything is.
+    fn wake(&mut self, FrameProblem { bodies, state, step, .. }: FrameProblem) -> bool {
+        let Self { coasts, contacts, awake, prior, .. } = self;
+        coasts.clear();
+        let objects = bodies.objects.iter().zip(&state.velocities);
+        coasts.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
+        find_contacts(Scenery { bodies, state, step, coasts }, contacts);
+        awake.find(bodies, contacts, coasts, step);
+        awake.gather(bodies, state, coasts, contacts);
+        prior.motions.clear();
+        !awake.is_empty()
+    }
+
+    fn solution<'a>(&'a self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
+        let FrameProblem { bodies, state, step, axis } = problem;
+        let View { bodies, state, coasts } = self.awake.view(bodies, state, &self.coasts);
+        FrameSolution {
+            bodies,
+            state,
+            step,
+            axis,
+            coasts,
+            motions: &self.prior.motions,
+            contacts: &self.contacts,
+            all: &self.coasts,
+            awake: &self.awake,
+        }
+    }
+}
+
+fn scenery<'a>(problem: FrameProblem<'a>, awake: &'a Awake, coasts: &'a [Motion]) -> Scenery<'a> {
+    let View { bodies, state, coasts } = awake.view(problem.bodies, problem.state, coasts);
+    Scenery { bodies, state, step: problem.step, coasts }
+}
+
+impl FrameSolution<'_> {
+    /// Which of the frame's objects an object that is awake is.
+    pub fn listed(&self, object: AwakeIndex) -> ListIndex {
+        self.awake.listed(object)
+    }
+
+    /// Fills `motions` with those of all of the frame's objects, awake or not.
+    pub fn fill(&self, motions: &mut Vec<Motion>) {
+        motions.clear();
+        motions.extend_from_slice(self.all);
+        for (object, motion) in self.motions.iter().enumerate() {
+            motions[self.listed(AwakeIndex(object)).0] = *motion;
+        }
+    }
+
+    /// What touches, or comes to.
+    pub fn touches(&self) -> impl Iterator<Item = Touch> {
+        self.contacts.iter().filter_map(|contact| {
+            let stops = contact.sights().map(|sight| {
+                sight.is_some_and(|sight| {
+                    sight.overlap(&self.coasts[sight.receiver], self.motions) > 0.0
+                })
+            });
+            let Contact { pair, gap, normal, .. } = *contact;
+            stops.contains(&true).then_some(Touch { pair, stops, depth: -gap, normal })
+        })
+    }
+}
+
+impl FrameForces<'_> {
+    /// The force of contact `index` along its normal, newtons.
+    pub fn normal(&self, index: usize) -> f64 {
+        self.prior.system.constraints[index].force.x
+    }
+
+    /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
+    /// turn (radians).
+    pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
+        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
+        self.prior.answer(index, group, position)
+    }
+
+    /// The same for the force of joint `index`; none for a joint within a rigid group.
+    pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
+        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
+        self.prior.joint_answer(index, group, position)
+    }
+}
