@@ -1,6 +1,6 @@
 //! Which objects a frame's equations are about: those that may do anything but coast.
 
-use crate::scene::{FrameStep, State};
+use crate::scene::{DisjointSets, FrameStep, State};
 
 use super::{
     bodies::{Bodies, Partner},
@@ -19,7 +19,8 @@ pub(super) struct Awake {
     flags: Vec<bool>,
     /// Whether some of the objects sleep, so that the others are gathered.
     some_sleep: bool,
-    pairs: Vec<[usize; 2]>,
+    /// What touches or is joined.
+    sets: DisjointSets,
     subset: Subset<ListIndex, AwakeIndex>,
     state: State,
     coasts: Vec<Motion>,
@@ -43,44 +44,35 @@ impl Awake {
         coasts: &[Motion],
         step: &FrameStep,
     ) {
-        let Self { flags: awake, pairs, .. } = self;
+        let Self { flags: awake, sets, .. } = self;
         let tool_moves = step.from != step.to;
         let moving = |object: usize| coasts[object] != Motion::default();
         awake.clear();
         awake.resize(coasts.len(), false);
+        sets.reset(coasts.len());
         for contact in contacts {
             let pushed = matches!(contact.with, Partner::Part(_)) && tool_moves;
             if pushed || moving(contact.object) {
                 awake[contact.object] = true;
             }
-            if let Partner::Object(other) = contact.with
-                && moving(other)
-            {
-                awake[other] = true;
+            if let Partner::Object(other) = contact.with {
+                awake[other] |= moving(other);
+                sets.join([contact.object, other]);
             }
         }
         for joint in &bodies.joints {
+            sets.join(joint.between);
             for object in joint.between {
                 awake[object] |= moving(object);
             }
         }
-        pairs.clear();
-        pairs.extend(contacts.iter().filter_map(|contact| match contact.with {
-            Partner::Object(other) => Some([contact.object, other]),
-            _ => None,
-        }));
-        pairs.extend(bodies.joints.iter().map(|joint| joint.between));
-        loop {
-            let mut changed = false;
-            for &[a, b] in pairs.iter() {
-                if awake[a] != awake[b] {
-                    (awake[a], awake[b]) = (true, true);
-                    changed = true;
-                }
-            }
-            if !changed {
-                return;
-            }
+        // What wakes one wakes all that it hangs together with.
+        let lowest = sets.names();
+        for object in 0..awake.len() {
+            awake[lowest[object]] |= awake[object];
+        }
+        for object in 0..awake.len() {
+            awake[object] = awake[lowest[object]];
         }
     }
 

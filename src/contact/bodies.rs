@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{Footprint, Pose},
-    scene::{Body, GRAVITY, JointKind, Physics, Scene, Span, Tool},
+    scene::{Body, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool},
 };
 
 use super::{
@@ -66,6 +66,13 @@ pub struct Jointed {
     pub guessed: bool,
 }
 
+impl Jointed {
+    /// How its two sides stand when the objects are at `poses`.
+    pub fn separation(&self, poses: &[Pose]) -> Separation {
+        Separation::of(&self.frames, self.between.map(|object| poses[object]))
+    }
+}
+
 /// Which objects move as one, because fixed joints hold them together.
 #[derive(Clone, Debug, Default)]
 pub struct Groups {
@@ -79,21 +86,13 @@ pub struct Groups {
 
 impl Groups {
     fn new(scene: &Scene, physics: &Physics) -> Self {
-        let mut groups = Self::default();
-        let lowest = physics.groups(|joint| joint.kind == JointKind::Fixed);
-        for (object, first) in lowest.into_iter().enumerate() {
-            if first == object {
-                groups.of.push(GroupIndex(groups.members.len()));
-                groups.members.push(vec![object]);
-            } else {
-                let group = groups.of[first];
-                groups.of.push(group);
-                groups.members[group.0].push(object);
-            }
-            let [base, own] = [first, object].map(|index| scene.objects[index].pose);
-            groups.places.push(base.inverse() * own);
-        }
-        groups
+        let RigidGroups { of, members } = physics.rigid_groups();
+        let place = |(object, group): (usize, &usize)| {
+            let [base, own] = [members[*group][0], object].map(|index| scene.objects[index].pose);
+            base.inverse() * own
+        };
+        let places = of.iter().enumerate().map(place).collect();
+        Self { of: of.into_iter().map(GroupIndex).collect(), members, places }
     }
 }
 

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{
     geometry::{Pose, Vector, cross, perpendicular, wrap_angle},
-    scene::{JointKind, State},
+    scene::{JOINT_ARM, JointKind, Separation, State},
 };
 
 use super::{
@@ -22,9 +22,6 @@ use super::{
 /// Newton steps, and the error at which they end, metres.
 const STEPS: usize = 8;
 const HELD: f64 = 1e-10;
-
-/// What turns an angle's error into metres.
-const ARM: f64 = 0.05;
 
 /// A rigid group: pose and velocity of its centre of mass.
 #[derive(Clone, Copy, Debug)]
@@ -186,7 +183,12 @@ impl Row {
     }
 
     fn of_turn(between: [GroupIndex; 2], missing: f64) -> Self {
-        Self { between, shift: Vector::zeros(), turns: [ARM; 2], missing: missing * ARM }
+        Self {
+            between,
+            shift: Vector::zeros(),
+            turns: [JOINT_ARM; 2],
+            missing: missing * JOINT_ARM,
+        }
     }
 
     /// Lets `act` move both groups against each other along this row.
@@ -222,12 +224,9 @@ fn rows(
         if between[0] == between[1] {
             continue;
         }
-        let on = [0, 1].map(|end| {
-            let place = places[joint.between[end]];
-            groups[between[end].0].pose * place * joint.frames[end]
-        });
-        let apart = on[1].position - on[0].position;
-        let turned = wrap_angle(on[1].heading - on[0].heading);
+        let pose = |end: usize| groups[between[end].0].pose * places[joint.between[end]];
+        let separation = Separation::of(&joint.frames, [0, 1].map(pose));
+        let (on, apart, turned) = (separation.ends, separation.apart(), separation.turned());
         let arms = between.map(|group| on[1].position - groups[group.0].pose.position);
         let mut beyond = |value: f64| {
             let held = joint.limits.map(|limits| value.clamp(limits.low, limits.high) - value);

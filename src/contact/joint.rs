@@ -3,8 +3,8 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::{
-    geometry::{Pose, Vector, perpendicular, wrap_angle},
-    scene::{JointKind, State},
+    geometry::{Pose, Vector, perpendicular},
+    scene::{JOINT_ARM, JointKind, State},
 };
 
 use super::{
@@ -15,11 +15,8 @@ use super::{
     unknown::Unknown,
 };
 
-/// A limit this far off, or nearer, is watched: metres, or radians at [`ARM`].
+/// A limit this far off, or nearer, is watched: metres, or radians at [`JOINT_ARM`].
 const NEAR_LIMIT: f64 = 0.03;
-
-/// What turns angles into lengths, metres.
-pub(super) const ARM: f64 = 0.05;
 
 /// Two rows of a joint between two groups: of the second against the first.
 pub(super) struct Rows {
@@ -67,21 +64,18 @@ pub(super) fn rows(
     if between[0] == between[1] {
         return;
     }
-    let starts = [0, 1].map(|end| state.poses[joint.between[end]] * joint.frames[end]);
+    let start = joint.separation(&state.poses);
+    let starts = start.ends;
     // What has opened at a guessed joint is no error of the objects but of the guess.
-    let (apart, turned) = if joint.guessed {
-        (Vector::zeros(), 0.0)
-    } else {
-        let apart = starts[1].position - starts[0].position;
-        (apart, wrap_angle(starts[1].heading - starts[0].heading))
-    };
+    let (apart, turned) =
+        if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
     let groups = between.map(|group| &unknowns[group.0]);
     let [on_first, on_second] = [0, 1].map(|end| Pose {
         position: groups[end].moved(starts[end].position),
         heading: starts[end].heading + groups[end].share * groups[end].twist.z,
     });
     let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre));
-    let turn = Vector3::new(0.0, 0.0, ARM);
+    let turn = Vector3::new(0.0, 0.0, JOINT_ARM);
     let none = Vector3::zeros();
     let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });
     match joint.kind {
@@ -97,9 +91,9 @@ pub(super) fn rows(
             );
             if let Some(limits) = joint.limits {
                 for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
-                    if left * ARM < NEAR_LIMIT {
+                    if left * JOINT_ARM < NEAR_LIMIT {
                         let only = [sign * turn, none];
-                        add(only, only, [-left * ARM, 0.0], true);
+                        add(only, only, [-left * JOINT_ARM, 0.0], true);
                     }
                 }
             }
@@ -111,7 +105,7 @@ pub(super) fn rows(
             let across = perpendicular(slide);
             let at = on_second.position;
             let start = starts[0].vector(Vector::x());
-            let target = [-apart.dot(&perpendicular(start)), -turned * ARM];
+            let target = [-apart.dot(&perpendicular(start)), -turned * JOINT_ARM];
             let row = |centre| along(across, at - centre);
             add([row(centre_b), turn], [row(centre_a), turn], target, false);
             if let Some(limits) = joint.limits {

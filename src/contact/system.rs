@@ -18,13 +18,12 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
-use crate::scene::State;
+use crate::scene::{DisjointSets, JOINT_ARM, State};
 
 use super::{
     bodies::Bodies,
     constraint::{Constraint, GIVE, Tie},
     index::GroupIndex,
-    joint::ARM,
     motion::Motion,
     unknown::{Quantity, Unknown},
 };
@@ -50,6 +49,7 @@ pub(super) struct System {
     asked: DVector<f64>,
     /// Which groups hang together by ties: the number of the mechanism of each.
     mechanism: Vec<usize>,
+    sets: DisjointSets,
     active: Vec<f64>,
     /// The constraints of the last frame, and whether this one follows it.
     last: Vec<Constraint>,
@@ -134,7 +134,7 @@ impl System {
             self.iterate();
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
-                change.xy().norm().max(change.z.abs() * ARM) > SETTLED
+                change.xy().norm().max(change.z.abs() * JOINT_ARM) > SETTLED
             });
             if !changed && (update > 0 || self.follows) {
                 return;
@@ -212,18 +212,12 @@ impl System {
 
     /// Numbers the mechanisms: groups that ties connect.
     fn find_mechanisms(&mut self) {
-        self.mechanism.clear();
-        self.mechanism.extend(0..self.unknowns.len());
-        for _ in 0..self.unknowns.len() {
-            for tie in &self.ties {
-                let [a, b] = [tie.a.0, tie.b.0];
-                let low = self.mechanism[a].min(self.mechanism[b]);
-                (self.mechanism[a], self.mechanism[b]) = (low, low);
-            }
-            if self.ties.is_empty() {
-                break;
-            }
+        self.sets.reset(self.unknowns.len());
+        for tie in &self.ties {
+            self.sets.join([tie.a.0, tie.b.0]);
         }
+        self.mechanism.clear();
+        self.mechanism.extend_from_slice(self.sets.names());
         self.active.resize(self.unknowns.len(), 0.0);
     }
 

@@ -6,7 +6,7 @@ use super::{
     batch::{Batch, KINEMATIC},
     features::{node_features, relation_features},
     node::{Node, UNIT},
-    relation::{Relation, Tie, add_contact, add_joint},
+    relation::{Relation, RelationKind, add_contact, add_joint},
 };
 
 impl Batch {
@@ -52,8 +52,8 @@ impl Batch {
 }
 
 fn overlap(relation: &Relation) -> f64 {
-    match relation.tie {
-        Tie::Contact { overlap, .. } => overlap,
-        Tie::Joint { .. } => 0.0,
+    match relation.kind {
+        RelationKind::Contact { overlap, .. } => overlap,
+        RelationKind::Joint { .. } => 0.0,
     }
 }

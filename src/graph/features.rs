@@ -11,7 +11,7 @@ use crate::{
 
 use super::{
     node::{Node, UNIT},
-    relation::{Relation, Tie},
+    relation::{Relation, RelationKind},
 };
 
 /// Unit of body-sized lengths, metres.
@@ -99,8 +99,8 @@ pub(super) fn relation_features(
         turn * node.support / UNIT,
         cross(arm, relative) / (BODY * UNIT),
     ]);
-    match relation.tie {
-        Tie::Contact { normal, gap, friction, overlap, remaining, left, slip, load } => {
+    match relation.kind {
+        RelationKind::Contact { normal, gap, friction, overlap, remaining, left, slip, load } => {
             even[10..21].copy_from_slice(&[
                 along(normal),
                 gap / UNIT,
@@ -122,7 +122,7 @@ pub(super) fn relation_features(
                 slip / UNIT,
             ]);
         }
-        Tie::Joint { kind, guessed, axis: slide, room: (down, up) } => {
+        RelationKind::Joint { kind, guessed, axis: slide, room: (down, up) } => {
             let [fixed, revolute, prismatic] = match kind {
                 JointKind::Fixed => [1.0, 0.0, 0.0],
                 JointKind::Revolute { .. } => [0.0, 1.0, 0.0],

@@ -2,13 +2,13 @@
 
 use crate::{
     contact::{Bodies, Contact, FrameForces, FrameSolution, PairId, Partner, Sight},
-    geometry::{Pose, Vector, perpendicular, wrap_angle},
+    geometry::{Vector, perpendicular},
     scene::JointKind,
 };
 
 /// What relates two bodies.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Tie {
+pub(super) enum RelationKind {
     /// They touch, or may come to.
     Contact {
         /// Unit, into the receiver.
@@ -59,7 +59,7 @@ pub(super) struct Relation {
     pub relative: Vector,
     /// The motion that this relation's force alone gives to the receiver: shift and turn.
     pub answer: (Vector, f64),
-    pub tie: Tie,
+    pub kind: RelationKind,
 }
 
 /// Adds the relations of a contact: into its object, and into the other one if that can move.
@@ -79,7 +79,7 @@ pub(super) fn add_contact(
         let gap = contact.gap;
         let ends = sent - motions[receiver].at(arms[0]);
         let weight = bodies.objects[receiver].mass * bodies.objects[receiver].deceleration;
-        let tie = Tie::Contact {
+        let kind = RelationKind::Contact {
             normal,
             gap,
             friction: contact.friction,
@@ -91,7 +91,7 @@ pub(super) fn add_contact(
         };
         let answer = forces.by_contact(index, receiver);
         let ends = (receiver, sender);
-        relations.push(relation(bodies, ends, arms, relative, answer, tie));
+        relations.push(relation(bodies, ends, arms, relative, answer, kind));
     }
 }
 
@@ -105,27 +105,28 @@ pub(super) fn add_joint(
     let FrameSolution { bodies, state, coasts, motions, .. } = *frame;
     let joint = &bodies.joints[index];
     let poses = joint.between.map(|object| state.poses[object]);
-    let [on_first, on_second]: [Pose; 2] = [poses[0] * joint.frames[0], poses[1] * joint.frames[1]];
+    let separation = joint.separation(&state.poses);
+    let [on_first, on_second] = separation.ends;
     let axis = on_first.vector(Vector::x());
     let at = match joint.kind {
         JointKind::Revolute { .. } => (on_first.position + on_second.position) / 2.0,
         _ => (poses[0].position + poses[1].position) / 2.0,
     };
     let now = match joint.kind {
-        JointKind::Prismatic { .. } => (on_second.position - on_first.position).dot(&axis),
-        _ => wrap_angle(on_second.heading - on_first.heading),
+        JointKind::Prismatic { .. } => separation.seen().x,
+        _ => separation.turned(),
     };
     let room = joint
         .limits
         .map_or((f64::INFINITY, f64::INFINITY), |limits| (now - limits.low, limits.high - now));
-    let tie = Tie::Joint { kind: joint.kind, guessed: joint.guessed, axis, room };
+    let kind = RelationKind::Joint { kind: joint.kind, guessed: joint.guessed, axis, room };
     for [to, from] in [[0, 1], [1, 0]] {
         let (receiver, sender) = (joint.between[to], joint.between[from]);
         let arms = [at - poses[to].position, at - poses[from].position];
         let relative = motions[sender].at(arms[1]) - coasts[receiver].at(arms[0]);
         let answer = forces.by_joint(index, receiver);
         let ends = (receiver, Partner::Object(sender));
-        relations.push(relation(bodies, ends, arms, relative, answer, tie));
+        relations.push(relation(bodies, ends, arms, relative, answer, kind));
     }
 }
 
@@ -135,7 +136,7 @@ fn relation(
     [arm, sender_arm]: [Vector; 2],
     relative: Vector,
     answer: (Vector, f64),
-    tie: Tie,
+    kind: RelationKind,
 ) -> Relation {
     let (mass_ratio, sender_support) = match sender {
         Partner::Object(sender) => {
@@ -154,6 +155,6 @@ fn relation(
         sender_support,
         relative,
         answer,
-        tie,
+        kind,
     }
 }

@@ -2,23 +2,17 @@
 
 use crate::{
     contact::{Bodies, Jointed},
-    geometry::{Footprint, Pose, contact_points, wrap_angle},
-    scene::{Body, JointKind, State},
+    geometry::{Footprint, Pose, contact_points},
+    scene::{Body, JOINT_ARM, JointKind, Misfit, State},
 };
 
-/// Bodies deeper inside each other than this are worth a word, metres. What the network
+/// Bodies deeper inside each other than this are reported, metres. What the network
 /// leaves of an overlap in sound predictions is mostly below half a millimetre.
 pub(super) const DEEP: f64 = 0.002;
 
-/// Joints that end farther from what they allow are worth a word, metres: a thousand times what
+/// Joints that end farther from what they allow are reported, metres: a thousand times what
 /// the projection leaves where it converges.
 const LOOSE: f64 = 1e-3;
-
-/// An overlap above which the tool counts as set down on an object, metres: the simulator's.
-const TOUCHING: f64 = 1e-4;
-
-/// Length that turns a joint's angle into metres.
-const ARM: f64 = 0.05;
 
 /// The deepest overlap of an object that `moved` with another body, deeper than [`DEEP`]: the
 /// object, the body, and the depth in metres. The tool's frame is at `tool`.
@@ -56,22 +50,6 @@ pub(super) fn deepest_overlap(
     deepest
 }
 
-/// The objects that a tool set down at `tool` stands on.
-pub(super) fn set_down_on<'a>(
-    bodies: &'a Bodies,
-    state: &'a State,
-    tool: &'a Pose,
-) -> impl Iterator<Item = usize> + 'a {
-    let stands_on = move |&object: &usize| {
-        let body = &bodies.objects[object];
-        bodies.parts.iter().filter(|part| part.span.0 < body.height).any(|part| {
-            let own = (&body.footprint, &state.poses[object]);
-            contact_points(own, (&part.footprint, &(*tool * part.pose)), -TOUCHING).1 > 0
-        })
-    };
-    (0..bodies.objects.len()).filter(stands_on)
-}
-
 /// The joint farthest from what it allows, farther than [`LOOSE`], with an object that `moved`:
 /// its objects and how far, metres (turns at 5 cm).
 pub(super) fn loosest_joint(
@@ -92,15 +70,10 @@ pub(super) fn loosest_joint(
 
 /// How far a joint is from what it allows, metres (turns at 5 cm).
 fn off(joint: &Jointed, state: &State) -> f64 {
-    let [first, second] = [0, 1].map(|end| state.poses[joint.between[end]] * joint.frames[end]);
-    let apart = first.local_point(second.position);
-    let turn = wrap_angle(second.heading - first.heading);
-    let beyond = |value: f64| {
-        joint.limits.map_or(0.0, |limits| (value - value.clamp(limits.low, limits.high)).abs())
+    let Misfit { offset, turn } = joint.separation(&state.poses).misfit(&joint.kind, joint.limits);
+    let apart = match joint.kind {
+        JointKind::Prismatic { .. } => offset.amax(),
+        _ => offset.norm(),
     };
-    match joint.kind {
-        JointKind::Fixed => apart.norm().max(ARM * turn.abs()),
-        JointKind::Revolute { .. } => apart.norm().max(ARM * beyond(turn)),
-        JointKind::Prismatic { .. } => apart.y.abs().max(ARM * turn.abs()).max(beyond(apart.x)),
-    }
+    apart.max(JOINT_ARM * turn.abs())
 }

@@ -3,10 +3,10 @@
 //! What happens then is decided by what no model of rigid bodies knows; two engines, or one at two
 //! time steps, put the object in different places.
 
-use crate::{geometry::Vector, scene::Body};
-
-/// Bodies nearer to each other than this touch, metres.
-const TOUCHING: f64 = 1e-4;
+use crate::{
+    geometry::Vector,
+    scene::{Body, TOUCHING},
+};
 
 /// Cosine below which two normals oppose each other: between flatter ones an object slips out.
 const OPPOSED: f64 = -0.5;

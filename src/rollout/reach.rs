@@ -2,7 +2,7 @@
 //!
 //! Objects that the tool's swept area comes near, those that move, and whatever is near those or
 //! jointed with them, and so on. *Near* allows for some motion; when an object has used that up,
-//! or the stroke ends, the list is made anew. So it never leaves out anything that a frame of
+//! or the stroke ends, the list is made again. So it never leaves out anything that a frame of
 //! the whole scene would relate, however far the network throws things: the neighbour list of
 //! molecular dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
 
@@ -12,7 +12,7 @@ use crate::{
     scene::{Job, Scene, State, Stroke, Velocity},
 };
 
-/// How far an object may move before the list is made anew, metres. A push of 20 cm then makes
+/// How far an object may move before the list is made again, metres. A push of 20 cm then makes
 /// four lists, and a list holds little more than what stands within a hand's breadth.
 const SKIN: f64 = 0.05;
 

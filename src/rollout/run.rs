@@ -1,7 +1,7 @@
 //! One job on its way through a rollout.
 
 use crate::{
-    contact::{Bodies, FrameProblem, ListIndex, Motion, Movable, Touch},
+    contact::{Bodies, FrameProblem, Motion, Movable, Touch},
     geometry::{Pose, Vector},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
@@ -10,7 +10,7 @@ use crate::{
 };
 
 use super::{
-    doubt::{DEEP, deepest_overlap, loosest_joint, set_down_on},
+    doubt::{DEEP, deepest_overlap, loosest_joint},
     integrate::integrate,
     pressing::Pressing,
     reach::{Course, Listed, Reach},
@@ -112,12 +112,12 @@ impl<'a> Run<'a> {
         while let Some(stroke) = self.job.motion.strokes.get(self.stroke) {
             let moving = stroke.frames();
             if self.frame < moving {
-                self.axis = direction(stroke).unwrap_or(self.axis);
+                self.axis = stroke.direction().unwrap_or(self.axis);
                 self.span = self.settings.stride.clamp(1, moving - self.frame);
                 let step = stroke.frames_from(self.frame, self.span);
                 self.look(stroke, step.duration);
                 if self.frame == 0 {
-                    self.set_down(stroke);
+                    self.set_down();
                 }
                 self.work.moving += 1;
                 if self.idle && self.settings.pruned && self.is_still() && self.is_apart(stroke) {
@@ -169,15 +169,15 @@ impl<'a> Run<'a> {
         subset.gather_state(&self.state, state);
     }
 
-    /// Notes on what the tool is set down at the start of `stroke`, if it is.
-    fn set_down(&mut self, stroke: &Stroke) {
-        let before = self.stroke.checked_sub(1).map(|before| &self.job.motion.strokes[before]);
+    /// Notes on what the tool is set down at the start of the stroke, if it is.
+    fn set_down(&mut self) {
+        let motion = &self.job.motion;
+        let before = self.stroke.checked_sub(1).map(|before| &motion.strokes[before]);
         if before.is_some_and(|before| !before.settle) {
             return;
         }
-        let Memory { subset, state, .. } = &*self.memory;
-        for object in set_down_on(&subset.bodies, state, &stroke.from).map(ListIndex) {
-            let object = self.scene.objects[subset.outer(object).0].name.clone();
+        for object in motion.set_down_on(self.scene, &self.state, self.stroke) {
+            let object = self.scene.objects[object].name.clone();
             let stroke = self.stroke;
             self.trajectory.warnings.push(Warning::SetDownOn { object, stroke });
         }
@@ -371,11 +371,4 @@ impl Walk for Run<'_> {
         subset.return_state(state, &mut self.state);
         self.end_frame(&step);
     }
-}
-
-/// Unit vector of a stroke's travel, if it has any.
-fn direction(stroke: &Stroke) -> Option<Vector> {
-    let travel = stroke.to.position - stroke.from.position;
-    let length = travel.norm();
-    (length > 1e-9).then(|| travel / length)
 }

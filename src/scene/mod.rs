@@ -8,6 +8,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
+mod groups;
 mod guess;
 mod job;
 mod joint;
@@ -15,6 +16,8 @@ mod motion;
 mod physics;
 mod plan;
 mod ranges;
+mod separation;
+mod sets;
 mod situation;
 mod state;
 mod task;
@@ -23,6 +26,7 @@ mod trajectory;
 mod warning;
 mod world;
 
+pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
@@ -32,10 +36,12 @@ pub use motion::{
 pub use physics::Physics;
 pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
+pub use separation::{JOINT_ARM, Misfit, Separation};
+pub use sets::DisjointSets;
 pub use situation::Situation;
 pub use state::{State, Velocity};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
-pub use trajectory::{Body, Contact, Frame, Record, Trajectory};
+pub use trajectory::{Body, Contact, Frame, Record, TOUCHING, Trajectory};
 pub use warning::Warning;
 pub use world::{GRAVITY, Object, Obstacle, Scene};

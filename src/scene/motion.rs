@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Vector, contact_points};
 
-use super::Tool;
+use super::{Part, Scene, State, TOUCHING, Tool};
 
 /// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
 /// this travel, so a slow and a fast push cost the same number of frames.
@@ -66,6 +66,13 @@ impl Stroke {
     /// Travel of the tool frame, metres.
     pub fn travel(&self) -> f64 {
         (self.to.position - self.from.position).norm()
+    }
+
+    /// Unit vector of the travel, if there is any.
+    pub fn direction(&self) -> Option<Vector> {
+        let travel = self.to.position - self.from.position;
+        let length = travel.norm();
+        (length > 1e-9).then(|| travel / length)
     }
 
     /// Number of equal frames that the stroke is cut into.
@@ -137,5 +144,26 @@ impl ToolMotion {
             })
             .collect();
         Self { tool, lift, strokes }
+    }
+
+    /// The objects that the tool is set down on at the start of stroke `index`: some part is then
+    /// deeper than [`TOUCHING`] inside each of them.
+    pub fn set_down_on<'a>(
+        &'a self,
+        scene: &'a Scene,
+        state: &'a State,
+        index: usize,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let tool = self.strokes[index].from;
+        let stands_on = move |&object: &usize| {
+            let shape = &scene.objects[object].shape;
+            let own = (&shape.footprint(), &state.poses[object]);
+            let overlaps = |part: &Part| {
+                let part = (&part.footprint(), &(tool * part.pose));
+                contact_points(own, part, -TOUCHING).1 > 0
+            };
+            self.lift < shape.height() && self.tool.parts.iter().any(overlaps)
+        };
+        (0..scene.objects.len()).filter(stands_on)
     }
 }

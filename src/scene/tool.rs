@@ -5,6 +5,8 @@ use thiserror::Error;
 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 
+use super::DisjointSets;
+
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
 /// Wide enough for the rounding of sizes written in whole millimetres and turned by degrees.
@@ -100,16 +102,11 @@ impl Tool {
                 }
             }
         }
-        let mut piece: Vec<usize> = (0..parts.len()).collect();
-        for _ in 0..parts.len() {
-            for &[a, b] in &joints {
-                let low = piece[a].min(piece[b]);
-                (piece[a], piece[b]) = (low, low);
-            }
-        }
+        let mut piece = DisjointSets::of(parts.len(), joints.iter().copied());
+        let piece = piece.names();
         if piece.iter().any(|&p| p != 0) {
             let mut pieces: Vec<Vec<String>> = vec![Vec::new(); parts.len()];
-            for (part, &p) in parts.iter().zip(&piece) {
+            for (part, &p) in parts.iter().zip(piece) {
                 pieces[p].push(part.name.clone());
             }
             pieces.retain(|p| !p.is_empty());

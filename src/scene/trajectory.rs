@@ -19,6 +19,10 @@ pub struct Frame {
     pub state: State,
 }
 
+/// Bodies with a smaller gap than this touch, metres; the same depth of overlap is no more than a
+/// touch.
+pub const TOUCHING: f64 = 1e-4;
+
 /// A body that a contact names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -4,14 +4,11 @@
 //! exactly what the motion says; at the start of each frame it is put exactly where the motion
 //! says, so that rounding does not add up either.
 
-use crate::geometry::{Pose, contact_points};
+use crate::geometry::Pose;
 use crate::scene::{
     Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, Physics, Record, Scene,
     State, ToolMotion, Trajectory, Warning,
 };
-
-/// Overlap that still counts as touching when the tool comes down, metres.
-const TOUCHING: f64 = 1e-4;
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
@@ -61,7 +58,11 @@ pub(super) fn drive<W: World>(scene: &Scene, job: &Job, step: f64, record: Recor
             world = W::build(scene, &world.state(), physics, motion, &stroke.from);
         }
         if index == 0 || lifted {
-            let warnings = set_down_on(scene, &recorder.last().state, motion, index);
+            let below = motion.set_down_on(scene, &recorder.last().state, index);
+            let name = |object: usize| scene.objects[object].name.clone();
+            let warnings: Vec<Warning> = below
+                .map(|object| Warning::SetDownOn { object: name(object), stroke: index })
+                .collect();
             recorder.trajectory.warnings.extend(warnings);
         }
         for k in 0..stroke.frames() {
@@ -92,25 +93,6 @@ pub(super) fn drive<W: World>(scene: &Scene, job: &Job, step: f64, record: Recor
         }
     }
     recorder.finish(scene)
-}
-
-/// A warning for each object that the tool overlaps at the start of a stroke.
-fn set_down_on(scene: &Scene, state: &State, motion: &ToolMotion, stroke: usize) -> Vec<Warning> {
-    let tool = &motion.strokes[stroke].from;
-    let parts: Vec<_> = (motion.tool.parts.iter().enumerate())
-        .map(|(index, part)| (part.footprint(), motion.tool.part_pose(index, tool)))
-        .collect();
-    let mut warnings = Vec::new();
-    for (object, pose) in scene.objects.iter().zip(&state.poses) {
-        let footprint = object.shape.footprint();
-        let overlaps = parts
-            .iter()
-            .any(|(part, at)| contact_points((part, at), (&footprint, pose), -TOUCHING).1 > 0);
-        if overlaps && object.shape.height() > motion.lift {
-            warnings.push(Warning::SetDownOn { object: object.name.clone(), stroke });
-        }
-    }
-    warnings
 }
 
 /// Plays one frame in equal steps.

@@ -7,7 +7,7 @@
 //! object keeps its own mass and its own friction with the table.
 
 use crate::geometry::{Pose, Vector, cross};
-use crate::scene::{JointKind, Physics, Scene, State, Velocity};
+use crate::scene::{Physics, Scene, State, Velocity};
 
 /// One rigid body, as it starts.
 pub(super) struct Group {
@@ -22,14 +22,8 @@ pub(super) struct Group {
 impl Group {
     /// The bodies of a scene in `state` under `physics`, in the order of their first objects.
     pub fn of(scene: &Scene, state: &State, physics: &Physics) -> Vec<Group> {
-        let first = physics.groups(|joint| joint.kind == JointKind::Fixed);
-        (0..first.len())
-            .filter(|&index| first[index] == index)
-            .map(|index| {
-                let objects = (0..first.len()).filter(|&other| first[other] == index).collect();
-                Self::at(scene, state, &physics.masses, objects)
-            })
-            .collect()
+        let members = physics.rigid_groups().members.into_iter();
+        members.map(|objects| Self::at(scene, state, &physics.masses, objects)).collect()
     }
 
     fn at(scene: &Scene, state: &State, masses: &[f64], objects: Vec<usize>) -> Group {
@@ -106,7 +100,7 @@ impl Member {
 mod tests {
     use super::*;
     use crate::geometry::Shape;
-    use crate::scene::{Joint, Object};
+    use crate::scene::{Joint, JointKind, Object};
 
     fn scene() -> (Scene, State) {
         let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };

@@ -304,8 +304,7 @@ impl Transition {
         let stroke = &episode.motion.strokes[stroke_index];
         // Frames of this stroke before the next one: the start belongs to none.
         let done = frames[1..=index].iter().rev().take_while(|f| f.stroke == stroke_index).count();
-        let travel = stroke.to.position - stroke.from.position;
-        let axis = if travel.norm() > 1e-9 { travel.normalize() } else { Vector::x() };
+        let axis = stroke.direction().unwrap_or_else(Vector::x);
         let step = if done < stroke.frames() {
             stroke.frame(done)
         } else {

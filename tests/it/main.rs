@@ -14,6 +14,7 @@ mod extremes;
 mod jointed;
 mod network;
 mod outside;
+mod pairs;
 mod planning;
 mod pruning;
 mod random_tasks;

@@ -9,7 +9,7 @@ use crate::asset::spec::{ANGLE_LIMIT, Key, POSITION, Range, SHIFT_LIMIT, Value, 
 use crate::asset::strict::Ledger;
 use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
-use crate::scene::{Joint, JointKind, Object, Span};
+use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
 
 use super::rules::{body, known_object};
 
@@ -261,24 +261,23 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
 
 /// Which objects hang together.
 struct Groups {
-    /// For every object the first of its group.
-    first: Vec<usize>,
+    sets: DisjointSets,
     /// Whether the group that begins with an object has a joint that is not fixed.
     moves: Vec<bool>,
 }
 
 impl Groups {
     fn of(objects: usize) -> Self {
-        Self { first: (0..objects).collect(), moves: vec![false; objects] }
+        Self { sets: DisjointSets::new(objects), moves: vec![false; objects] }
     }
 
     fn size(&self, group: usize) -> usize {
-        self.first.iter().filter(|&&first| first == group).count()
+        (0..self.moves.len()).filter(|&object| self.sets.lowest(object) == group).count()
     }
 
     /// Joins the groups of a pair; notes a fault if it closes a loop or makes too large a group.
     fn join(&mut self, pair: [usize; 2], node: &Node, names: [&str; 2], ledger: &mut Ledger) {
-        let [a, b] = pair.map(|index| self.first[index]);
+        let [a, b] = pair.map(|index| self.sets.lowest(index));
         if a == b {
             ledger.fault(
                 node,
@@ -301,18 +300,19 @@ impl Groups {
                 "remove a joint, or write objects with fixed joints as one cuboid",
             );
         }
-        self.first.iter_mut().filter(|first| **first == b).for_each(|first| *first = a);
+        self.sets.join(pair);
         let fixed = node.get("kind").and_then(Node::text) == Some("fixed");
-        self.moves[a] |= self.moves[b] || !fixed;
+        let joined = a.min(b);
+        self.moves[joined] = self.moves[a] || self.moves[b] || !fixed;
     }
 
     fn check_masses(&self, objects: &[Node], ledger: &mut Ledger) {
         for group in (0..objects.len()).filter(|&group| self.moves[group]) {
             let mut masses: Vec<(f64, &Node)> = objects
                 .iter()
-                .zip(&self.first)
-                .filter(|(_, first)| **first == group)
-                .filter_map(|(object, _)| object.get("mass"))
+                .enumerate()
+                .filter(|(index, _)| self.sets.lowest(*index) == group)
+                .filter_map(|(_, object)| object.get("mass"))
                 .filter_map(|node| Some((node.number()?, node)))
                 .collect();
             masses.sort_by(|a, b| a.0.total_cmp(&b.0));

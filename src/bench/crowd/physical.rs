@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    geometry::{Footprint, Pose, contact_points, wrap_angle},
-    scene::{Joint, JointKind, Physics, Scene, State},
+    geometry::{Footprint, Pose, contact_points},
+    scene::{Joint, JointKind, Physics, Scene, Separation, State},
 };
 
 /// How far the joints of one kind drift in a prediction, over all joints and frames.
@@ -48,16 +48,9 @@ impl Joints {
             let k = index(kind);
             sums.joints[k] += 1;
             for state in states {
-                let [first, second] = [0, 1].map(|end| state.poses[between[end]] * frames[end]);
-                let seen = first.local_point(second.position);
-                let apart = match kind {
-                    JointKind::Fixed | JointKind::Revolute { .. } => seen.norm(),
-                    JointKind::Prismatic { .. } => seen.y.abs(),
-                };
-                let turn = match kind {
-                    JointKind::Revolute { .. } => 0.0,
-                    _ => wrap_angle(second.heading - first.heading).abs(),
-                };
+                let separation = Separation::of(frames, between.map(|k| state.poses[k]));
+                let misfit = separation.misfit(kind, None);
+                let (apart, turn) = (misfit.offset.norm(), misfit.turn.abs());
                 sums.samples[k] += 1;
                 sums.apart[k] += apart;
                 sums.turn[k] += turn;
@@ -109,7 +102,7 @@ pub(super) struct Overlaps<'a> {
 impl<'a> Overlaps<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
         let footprints = scene.objects.iter().map(|object| object.shape.footprint()).collect();
-        let bodies = Physics::stated(scene).groups(|joint| joint.kind == JointKind::Fixed);
+        let bodies = Physics::stated(scene).rigid_groups().of;
         Self { scene, footprints, bodies }
     }
 

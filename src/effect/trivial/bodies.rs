@@ -7,8 +7,8 @@
 //! Macklin et al. 2016, doi:10.1145/2994258.2994272, with areas for masses).
 
 use crate::{
-    geometry::{Pose, Vector, cross, wrap_angle},
-    scene::{JointKind, Physics, Scene, Span},
+    geometry::{Pose, Vector, cross},
+    scene::{JointKind, Physics, RigidGroups, Scene, Separation, Span},
 };
 
 /// The bodies of a scene and the joints between them.
@@ -16,7 +16,7 @@ pub(super) struct Bodies {
     bodies: Vec<Body>,
     /// Index into `bodies` of every object.
     body_of: Vec<usize>,
-    joints: Vec<Tie>,
+    joints: Vec<BodyJoint>,
 }
 
 /// Objects that move as one.
@@ -31,11 +31,12 @@ struct Body {
 }
 
 /// A joint between objects of two bodies.
-struct Tie {
+struct BodyJoint {
     between: [usize; 2],
     /// The joint's frame as each object sees it.
     frames: [Pose; 2],
     kind: JointKind,
+    limits: Option<Span>,
 }
 
 /// A body's share in a correction: nothing for what does not give way.
@@ -51,13 +52,9 @@ impl Bodies {
     /// The bodies of `scene` with the joints of `physics`, at the poses that the scene states.
     pub fn new(scene: &Scene, physics: &Physics) -> Self {
         let objects = &scene.objects;
-        let first = physics.groups(|joint| joint.kind == JointKind::Fixed);
+        let RigidGroups { of: body_of, members } = physics.rigid_groups();
         let mut bodies = Vec::new();
-        let mut body_of = vec![0; objects.len()];
-        for leader in (0..objects.len()).filter(|k| first[*k] == *k) {
-            let members: Vec<usize> =
-                (leader..objects.len()).filter(|k| first[*k] == leader).collect();
-            members.iter().for_each(|k| body_of[*k] = bodies.len());
+        for members in members {
             let footprint = |k: &usize| objects[*k].shape.footprint();
             let area: f64 = members.iter().map(|k| footprint(k).area()).sum();
             let weighted = |k: &usize| objects[*k].pose.position * footprint(k).area();
@@ -78,10 +75,11 @@ impl Bodies {
         }
         let joints = physics.joints.iter();
         let joints = joints.filter(|j| body_of[j.between[0]] != body_of[j.between[1]]);
-        let joints = joints.map(|joint| Tie {
+        let joints = joints.map(|joint| BodyJoint {
             between: joint.between,
             frames: joint.frames(objects),
             kind: joint.kind,
+            limits: joint.limits(),
         });
         Self { joints: joints.collect(), bodies, body_of }
     }
@@ -142,26 +140,19 @@ impl Bodies {
     pub fn hold(&mut self, poses: &mut [Pose]) -> f64 {
         let mut largest: f64 = 0.0;
         for k in 0..self.joints.len() {
-            let Tie { between, frames, kind } = self.joints[k];
-            let ends = |poses: &[Pose]| [0, 1].map(|end| poses[between[end]] * frames[end]);
-            let [first, second] = ends(poses);
-            let turned = wrap_angle(second.heading - first.heading);
-            let excess = match kind {
-                JointKind::Revolute { limits, .. } => beyond(turned, limits),
-                JointKind::Prismatic { .. } | JointKind::Fixed => turned,
-            };
+            let BodyJoint { between, frames, kind, limits } = self.joints[k];
+            let separation =
+                |poses: &[Pose]| Separation::of(&frames, between.map(|object| poses[object]));
+            let excess = separation(poses).misfit(&kind, limits).turn;
             if excess != 0.0 {
                 self.turn(between, -excess, poses);
                 largest = largest.max(excess.abs() * frames[1].position.norm());
             }
-            let [first, second] = ends(poses);
-            let seen = first.local_point(second.position);
-            let off = match kind {
-                JointKind::Prismatic { limits, .. } => Vector::new(beyond(seen.x, limits), seen.y),
-                JointKind::Revolute { .. } | JointKind::Fixed => seen,
-            };
+            let now = separation(poses);
+            let off = now.misfit(&kind, limits).offset;
             let distance = off.norm();
             if distance > 0.0 {
+                let [first, second] = now.ends;
                 let direction = first.vector(off / distance);
                 let at = second.position;
                 let [a, b] = between.map(|object| Side { object, at });
@@ -179,9 +170,4 @@ impl Body {
             poses[*member] = self.pose * *rest;
         }
     }
-}
-
-/// How far `value` lies outside of the limits; nothing where there are none.
-fn beyond(value: f64, limits: Option<Span>) -> f64 {
-    limits.map_or(0.0, |span| value - value.clamp(span.low, span.high))
 }

@@ -5,14 +5,13 @@ use rayon::prelude::*;
 use crate::{
     effect::Job,
     geometry::{ContactPoint, Pose, contact_points},
-    scene::{Body, Contact, Frame, Physics, Record, Scene, State, Tool, ToolMotion, Trajectory},
+    scene::{
+        Body, Contact, Frame, Physics, Record, Scene, State, TOUCHING, Tool, ToolMotion, Trajectory,
+    },
 };
 
 /// Tool travel per small step, metres: overlaps stay much smaller than any body.
 const STEP: f64 = 1e-3;
-
-/// Bodies this near count as touching where first contacts are listed, metres.
-const TOUCHING: f64 = 1e-4;
 
 /// How a model moves objects when the tool moves.
 pub(super) trait Rule {

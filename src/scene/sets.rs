@@ -1,0 +1,81 @@
+//! Disjoint sets: what hangs together by pairs.
+
+/// Numbers that pairs connect, in sets that are named by their lowest member: joining towards
+/// the lower root keeps that name whatever the order of the pairs.
+#[derive(Clone, Debug, Default)]
+pub struct DisjointSets {
+    /// A lower member of the same set, or the number itself where it is the lowest.
+    lower: Vec<usize>,
+}
+
+impl DisjointSets {
+    /// The numbers below `count`, each by itself.
+    pub fn new(count: usize) -> Self {
+        Self { lower: (0..count).collect() }
+    }
+
+    /// The sets of the numbers below `count` that `pairs` make.
+    pub fn of(count: usize, pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
+        let mut sets = Self::new(count);
+        for pair in pairs {
+            sets.join(pair);
+        }
+        sets
+    }
+
+    /// Starts again with the numbers below `count`, on the same memory.
+    pub fn reset(&mut self, count: usize) {
+        self.lower.clear();
+        self.lower.extend(0..count);
+    }
+
+    /// Joins the sets of a pair; returns whether they were two.
+    pub fn join(&mut self, pair: [usize; 2]) -> bool {
+        let [a, b] = pair.map(|number| self.lowest(number));
+        self.lower[a.max(b)] = a.min(b);
+        a != b
+    }
+
+    /// The lowest member of the set that `number` is in.
+    pub fn lowest(&self, mut number: usize) -> usize {
+        while self.lower[number] != number {
+            number = self.lower[number];
+        }
+        number
+    }
+
+    /// For every number the lowest member of its set.
+    pub fn names(&mut self) -> &[usize] {
+        for number in 0..self.lower.len() {
+            // Everything below is named already.
+            self.lower[number] = self.lower[self.lower[number]];
+        }
+        &self.lower
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_are_named_by_their_lowest_member_in_any_order_of_pairs() {
+        let pairs = [[4, 5], [3, 4], [0, 3], [7, 6]];
+        for shift in 0..pairs.len() {
+            let mut turned = pairs;
+            turned.rotate_left(shift);
+            let mut sets = DisjointSets::of(8, turned);
+            assert_eq!((sets.lowest(5), sets.lowest(7)), (0, 6));
+            assert_eq!(sets.names(), [0, 1, 2, 0, 0, 0, 6, 6], "{turned:?}");
+        }
+    }
+
+    #[test]
+    fn a_pair_within_a_set_joins_nothing() {
+        let mut sets = DisjointSets::new(3);
+        assert!(sets.join([2, 1]) && sets.join([0, 2]));
+        assert!(!sets.join([0, 1]));
+        sets.reset(3);
+        assert_eq!(sets.names(), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,90 @@
+//! A pair of bodies keeps its id through a whole rollout, whatever is on the list, awake or in
+//! touch.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use pushplan::{
+    contact::{PairId, Pairs},
+    geometry::{Pose, Shape, Vector},
+    graph::{Batch, KINEMATIC},
+    rollout::{RollSettings, Roller},
+    scene::{
+        Body, Job, Joint, JointKind, Object, Obstacle, Part, Push, Record, Scene, Tool, ToolMotion,
+    },
+};
+
+/// Rows of discs, each of a radius of its own, so that a node's support tells which object it is;
+/// a pair of them jointed, and a wall behind.
+fn scene() -> Scene {
+    let object = |k: usize| Object {
+        name: format!("{k}"),
+        shape: Shape::Cylinder { radius: 0.02 + 0.001 * k as f64, height: 0.1 },
+        mass: 0.3,
+        friction: 0.4,
+        pose: Pose::new(0.1 + 0.075 * (k / 3) as f64, 0.08 * ((k % 3) as f64 - 1.0), 0.0),
+    };
+    let pin = JointKind::Revolute { at: Vector::new(0.14, 0.0), limits: None };
+    let wall = Obstacle {
+        name: "wall".into(),
+        size: [0.02, 0.4, 0.1],
+        pose: Pose::new(0.42, 0.0, 0.0),
+        friction: 0.4,
+    };
+    Scene {
+        table_friction: 0.5,
+        objects: (0..12).map(object).collect(),
+        joints: vec![Joint { between: [4, 1], kind: pin, guessed: false }],
+        obstacles: vec![wall],
+    }
+}
+
+fn motion() -> ToolMotion {
+    let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
+    let tool = Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
+    let tool = Arc::new(tool.expect("one piece"));
+    let push = |y| Push { start: Vector::new(0.04, y), direction: 0.0, length: 0.25, speed: 0.1 };
+    ToolMotion::pushes(tool, 0.002, 0.0, &[push(-0.05), push(0.05)], true)
+}
+
+#[test]
+fn every_relation_carries_the_lasting_id_of_its_pair() {
+    let scene = scene();
+    let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), 1);
+    let supports: Vec<f64> =
+        scene.objects.iter().map(|object| object.shape.footprint().mean_radius()).collect();
+    let which = |support: f64| supports.iter().position(|own| *own == support).expect("an object");
+    let mut frames: HashMap<PairId, usize> = HashMap::new();
+    let mut sizes = HashSet::new();
+    let mut look = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+        corrections.clear();
+        corrections.resize(batch.node_count(), [0.0; 6]);
+        sizes.insert(batch.node_count());
+        let mut seen = HashSet::new();
+        for (relation, &pair) in batch.pairs.iter().enumerate() {
+            let object = |node: u32| which(batch.nodes[node as usize].support);
+            let (first, with) = pairs.bodies(pair);
+            let receiver = object(batch.receivers[relation]);
+            match (with, batch.senders[relation]) {
+                (Body::Object(second), sender) => {
+                    let mut found = [receiver, object(sender)];
+                    found.sort_unstable();
+                    assert_eq!(found, [first.0, second]);
+                }
+                (_, sender) => assert_eq!((receiver, sender), (first.0, KINEMATIC)),
+            }
+            seen.insert(pair);
+        }
+        seen.into_iter().for_each(|pair| *frames.entry(pair).or_default() += 1);
+    };
+    let job = Job::stated(&scene, motion());
+    Roller::new(RollSettings::default()).roll(&scene, &[job], Record::Outcome, Some(&mut look));
+    // The numbers must have changed on the way, and pairs of every kind have lasted.
+    assert!(sizes.len() > 3, "{sizes:?}");
+    let lasted = |wanted: &dyn Fn(Body) -> bool| {
+        frames.iter().any(|(pair, count)| *count > 5 && wanted(pairs.bodies(*pair).1))
+    };
+    assert!(lasted(&|body| matches!(body, Body::Object(_))));
+    assert!(lasted(&|body| matches!(body, Body::Part(_))));
+    assert!(lasted(&|body| matches!(body, Body::Obstacle(_))));
+}
