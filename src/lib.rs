@@ -39,6 +39,7 @@ pub mod dataset;
 pub mod effect;
 pub mod geometry;
 pub mod graph;
+pub mod judge;
 pub mod network;
 pub mod plan;
 pub mod report;

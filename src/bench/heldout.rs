@@ -10,19 +10,14 @@ use serde::{Deserialize, Serialize};
 use crate::{
     asset::ToolLibrary,
     dataset::generator,
-    effect::{EffectModel, Job, Simulated},
-    geometry::{Vector, wrap_angle},
-    scene::{Record, State, Warning},
+    effect::{EffectModel, shifted_start},
+    geometry::Pose,
+    judge::{Comparison, MOVED, ObjectError, Summary, Trial},
+    scene::{Job, Record, Warning},
     sim::Simulator,
 };
 
-use super::{
-    statistics::Summary,
-    suite::{Case, Suite, SuiteKind},
-};
-
-/// An object moved if its centre ends farther than this from its start, metres.
-pub const MOVED: f64 = 0.01;
+use super::suite::{Suite, SuiteKind};
 
 /// How far the start is shifted to see the planar truth's own spread, metres.
 pub const DISTURBANCE: f64 = 1e-4;
@@ -30,11 +25,12 @@ pub const DISTURBANCE: f64 = 1e-4;
 /// A suite with its truths.
 #[derive(Clone, Debug)]
 pub struct HeldOut {
-    suite: Suite,
+    kind: SuiteKind,
     seed: u64,
-    planar: Vec<State>,
-    /// Nothing where the 3-D engine's outcome has no planar meaning: an object fell over.
-    spatial: Vec<Option<State>>,
+    planar: Vec<Trial>,
+    /// Where the same pushes end in 3-D; `None` where that has no planar meaning: an object fell
+    /// over.
+    spatial: Vec<Option<Vec<Pose>>>,
 }
 
 /// Errors of one model on one suite.
@@ -82,15 +78,12 @@ pub struct HeldOutReport {
     pub models: Vec<HeldOutErrors>,
 }
 
-/// One object of one case, judged.
+/// One object of one push, judged.
 struct Judged {
     cylinder: bool,
     objects: usize,
-    moved: bool,
-    position: f64,
-    heading: f64,
-    position_3d: Option<f64>,
-    heading_3d: Option<f64>,
+    error: ObjectError,
+    against_3d: Option<ObjectError>,
 }
 
 impl HeldOut {
@@ -106,39 +99,25 @@ impl HeldOut {
                 let run = |simulator: Simulator| simulator.run(&case.scene, &job, Record::Outcome);
                 let (planar, spatial) = (run(Simulator::planar()), run(Simulator::spatial()));
                 let sound = !spatial.warnings.iter().any(Warning::forbids_success);
-                (planar.outcome().clone(), sound.then(|| spatial.outcome().clone()))
+                let poses = planar.outcome().poses.clone();
+                let trial = Trial::to_rest(case.scene.clone(), case.motion.clone(), poses);
+                (trial, sound.then(|| spatial.outcome().poses.clone()))
             })
             .unzip();
-        Self { suite, seed, planar, spatial }
-    }
-
-    /// The pushes.
-    pub fn suite(&self) -> &Suite {
-        &self.suite
-    }
-
-    /// Where every push ends by the planar engine, in the order of the cases.
-    pub fn planar(&self) -> &[State] {
-        &self.planar
+        Self { kind, seed, planar, spatial }
     }
 
     /// Errors of all models and the planar truth's own spread.
     pub fn report(&self, models: &[&dyn EffectModel]) -> HeldOutReport {
         let mut errors = vec![self.spread()];
         errors.extend(models.iter().map(|model| self.evaluate(*model)));
-        let motions: Vec<f64> = self
-            .suite
-            .cases
-            .iter()
-            .zip(&self.planar)
-            .flat_map(|(case, truth)| (0..truth.poses.len()).map(|k| travelled(case, truth, k)))
-            .filter(|motion| *motion > MOVED)
-            .collect();
+        let motions: Vec<f64> =
+            self.planar.iter().flat_map(Trial::motions).filter(|motion| *motion > MOVED).collect();
         HeldOutReport {
-            suite: self.suite.kind,
+            suite: self.kind,
             seed: self.seed,
-            pushes: self.suite.cases.len(),
-            toppled: self.spatial.iter().filter(|state| state.is_none()).count(),
+            pushes: self.planar.len(),
+            toppled: self.spatial.iter().filter(|poses| poses.is_none()).count(),
             motion: Summary::of(&motions),
             models: errors,
         }
@@ -146,77 +125,46 @@ impl HeldOut {
 
     /// Errors of one model.
     pub fn evaluate(&self, model: &dyn EffectModel) -> HeldOutErrors {
-        self.judge(model.name(), model, |case, _| case.scene.start())
+        self.judge(model.name(), |trial, _| Comparison::of(model, trial))
     }
 
     /// The planar engine against itself, every object's start shifted by 0.1 mm in a random
     /// direction: errors that no model can be expected to undercut.
     pub fn spread(&self) -> HeldOutErrors {
-        let planar = Simulated::new(Simulator::planar());
-        self.judge("planar, start off by 0.1 mm", &planar, |case, index| {
+        self.judge("planar, start off by 0.1 mm", |trial, index| {
             let mut rng = generator(self.seed ^ 0xD157, index as u64);
-            let mut start = case.scene.start();
-            for pose in &mut start.poses {
-                let angle = rand::Rng::random_range(&mut rng, 0.0..std::f64::consts::TAU);
-                pose.position += DISTURBANCE * Vector::new(angle.cos(), angle.sin());
-            }
-            start
+            let job = trial.job();
+            let start = shifted_start(&job.start, &job.physics, DISTURBANCE, &mut rng);
+            let job = Job { start, ..job };
+            Comparison::new(trial, Simulator::planar().run(&trial.scene, &job, Record::Outcome))
         })
     }
 
-    fn judge(
-        &self,
+    fn judge<'a>(
+        &'a self,
         name: &str,
-        model: &dyn EffectModel,
-        start: impl Fn(&Case, usize) -> State + Sync,
+        compare: impl Fn(&'a Trial, usize) -> Comparison<'a> + Sync,
     ) -> HeldOutErrors {
-        let judged: Vec<Judged> = (0..self.suite.cases.len())
-            .into_par_iter()
-            .flat_map_iter(|index| {
-                let case = &self.suite.cases[index];
-                let job = Job {
-                    start: start(case, index),
-                    ..Job::stated(&case.scene, case.motion.clone())
-                };
-                let rolled = model.rollout(&case.scene, &[job], Record::Outcome);
-                let given = rolled.first().filter(|t| !t.warnings.contains(&Warning::Refused));
-                self.judge_case(index, given.map(|trajectory| trajectory.outcome()))
+        let judged: Vec<Judged> = self
+            .planar
+            .par_iter()
+            .zip(&self.spatial)
+            .enumerate()
+            .flat_map_iter(|(index, (trial, spatial))| {
+                let compared = compare(trial, index);
+                let against_3d = spatial.as_ref().map(|poses| compared.end_against(poses));
+                let objects = &trial.scene.objects;
+                let judged = compared.end().into_iter().enumerate().map(move |(k, error)| Judged {
+                    cylinder: objects[k].shape.is_cylinder(),
+                    objects: objects.len(),
+                    error,
+                    against_3d: against_3d.as_ref().map(|errors| errors[k]),
+                });
+                judged.collect::<Vec<_>>()
             })
             .collect();
         HeldOutErrors { model: name.to_owned(), rows: rows(&judged) }
     }
-
-    fn judge_case(&self, index: usize, predicted: Option<&State>) -> Vec<Judged> {
-        let (case, truth) = (&self.suite.cases[index], &self.planar[index]);
-        let objects = case.scene.objects.len();
-        (0..objects)
-            .map(|k| {
-                let to = |state: &State| match predicted {
-                    Some(predicted) => {
-                        let (ours, theirs) = (predicted.poses[k], state.poses[k]);
-                        let turned = wrap_angle(ours.heading - theirs.heading).abs().to_degrees();
-                        ((ours.position - theirs.position).norm(), turned)
-                    }
-                    None => (f64::NAN, f64::NAN),
-                };
-                let (position, heading) = to(truth);
-                let against_3d = self.spatial[index].as_ref().map(to);
-                Judged {
-                    cylinder: case.scene.objects[k].shape.is_cylinder(),
-                    objects,
-                    moved: travelled(case, truth, k) > MOVED,
-                    position,
-                    heading,
-                    position_3d: against_3d.map(|pair| pair.0),
-                    heading_3d: against_3d.map(|pair| pair.1),
-                }
-            })
-            .collect()
-    }
-}
-
-fn travelled(case: &Case, truth: &State, object: usize) -> f64 {
-    (truth.poses[object].position - case.scene.objects[object].pose.position).norm()
 }
 
 fn rows(judged: &[Judged]) -> Vec<ErrorRow> {
@@ -234,25 +182,19 @@ fn rows(judged: &[Judged]) -> Vec<ErrorRow> {
 }
 
 fn row(group: &str, judged: &[Judged], member: impl Fn(&Judged) -> bool) -> ErrorRow {
-    let (known, unknown): (Vec<&Judged>, Vec<&Judged>) = judged
-        .iter()
-        .filter(|one| member(one))
-        .partition(|one| one.position.is_finite() && one.heading.is_finite());
-    let over = |moved: bool, cuboids: bool, value: &dyn Fn(&Judged) -> Option<f64>| {
-        let values: Vec<f64> = known
-            .iter()
-            .filter(|one| one.moved == moved && !(cuboids && one.cylinder))
-            .filter_map(|one| value(one))
-            .collect();
-        Summary::of(&values)
+    let (known, unknown): (Vec<&Judged>, Vec<&Judged>) =
+        judged.iter().filter(|one| member(one)).partition(|one| one.error.is_known());
+    let over = |moved: bool, value: &dyn Fn(&Judged) -> Option<f64>| {
+        let counted = known.iter().filter(|one| one.error.moved() == moved);
+        Summary::of(&counted.filter_map(|one| value(one)).collect::<Vec<f64>>())
     };
     ErrorRow {
         group: group.to_owned(),
-        position: over(true, false, &|one| Some(one.position)),
-        heading_deg: over(true, true, &|one| Some(one.heading)),
-        position_3d: over(true, false, &|one| one.position_3d),
-        heading_3d_deg: over(true, true, &|one| one.heading_3d),
-        unmoved: over(false, false, &|one| Some(one.position)),
+        position: over(true, &|one| Some(one.error.position)),
+        heading_deg: over(true, &|one| one.error.heading_deg()),
+        position_3d: over(true, &|one| Some(one.against_3d?.position)),
+        heading_3d_deg: over(true, &|one| one.against_3d?.heading_deg()),
+        unmoved: over(false, &|one| Some(one.error.position)),
         failed: unknown.len(),
     }
 }

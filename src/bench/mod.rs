@@ -5,15 +5,12 @@
 
 mod cpu_clock;
 mod crowd;
-mod extremes;
 mod far;
 mod heldout;
 mod inference;
 mod random;
 mod refinement;
 mod solved;
-mod split;
-mod statistics;
 mod store;
 mod suite;
 mod timing;
@@ -21,23 +18,16 @@ mod tools;
 mod tradeoff;
 
 pub use crowd::{
-    CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Drift, Moment, Phases,
-    Trial, When, evaluate_crowd,
-};
-pub use extremes::{
-    ExtremeCell, ExtremeKind, ExtremeYardstick, ExtremesReport, ExtremesSettings, ProgrammeCell,
-    TaskCell, Verdict as ExtremeVerdict, extremes,
+    CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Phases, evaluate_crowd,
 };
 pub use far::{FAR_COUNTS, FarCost, far_costs};
-pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport, MOVED};
+pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use random::{
     Choice, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind, random_task,
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};
-pub use split::{PushSplit, push_split};
-pub use statistics::{Summary, mean, percentile};
 pub use store::{
     Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, digest,
     merge_runs,
@@ -46,8 +36,8 @@ pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
 pub use tools::{
     EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, PROCESSOR, ReferenceSetup,
-    SinglePushes, StartGoals, ToolBench, ToolPose, ToolRecord, ToolRow, ToolTrial, single_pushes,
-    summarise,
+    SinglePushes, StartGoals, ToolBench, ToolBenchError, ToolRecord, ToolRow, ToolTrial,
+    single_pushes, summarise,
 };
 pub use tradeoff::{
     Level, Noise, ObjectCost, PlanLevel, PlanRow, Point, PredictorRow, SuiteErrors, TradeOff,

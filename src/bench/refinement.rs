@@ -1,26 +1,21 @@
-//! What refinement brings: final errors of the best plan before and after, as predicted and as
-//! executed in both engines, over random tasks that are known to be solvable.
-
-use std::sync::Arc;
+//! What refinement brings: random tasks that are known to be solvable, solved without and with
+//! it, everything else alike.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
     asset::ToolLibrary,
-    effect::EffectModel,
-    plan::{
-        Candidate, Evaluation, RefineSettings, RefineStatistics, Rollouts, Search, Workspace,
-        evaluate, kinds, refine,
-    },
-    scene::{Job, Outcome, Record, Situation, Task, Tool, ToolMotion},
-    sim::Simulator,
-    solve::Settings,
+    judge::Summary,
+    solve::{PlanStatus, Planner, SolveError},
 };
 
-use super::{random::random_task, statistics::Summary};
+use super::{
+    random::random_task,
+    solved::{End, SolvedTask},
+};
 
-/// Final errors of plans, metres.
+/// What became of the tasks with one planner; errors are of the plans to use, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanErrors {
     /// As the effect model predicts them.
@@ -29,10 +24,12 @@ pub struct PlanErrors {
     pub planar: Option<Summary>,
     /// As executed in the 3-D engine.
     pub spatial: Option<Summary>,
-    /// Plans that reach the goal in the planar engine.
-    pub reached_planar: usize,
-    /// Plans that reach the goal in the 3-D engine.
-    pub reached_spatial: usize,
+    /// Tasks solved.
+    pub solved: usize,
+    /// Plans replayed a task, on average.
+    pub attempts: f64,
+    /// Rollouts of the effect model a task, on average.
+    pub rollouts: f64,
 }
 
 /// Refinement over many tasks.
@@ -44,136 +41,88 @@ pub struct RefinementReport {
     pub seed: u64,
     /// Number of tasks.
     pub tasks: usize,
-    /// Tasks for which the search found any push that can be made; only these are counted.
-    pub planned: usize,
     /// Tolerance of the goals, metres.
     pub tolerance: f64,
-    /// The best candidate of the search.
+    /// Without refinement.
     pub before: PlanErrors,
-    /// The best refined candidate.
+    /// With it.
     pub after: PlanErrors,
-    /// Tasks in which the predicted error grew: must be none.
-    pub worse_predicted: usize,
-    /// Tasks in which the executed planar error grew by more than a millimetre.
-    pub worse_planar: usize,
+    /// Refined plans whose predicted error is larger than before: must be none.
+    pub worse: usize,
     /// Quadratic programmes solved.
     pub programmes: usize,
     /// Quadratic programmes that ended in another status.
     pub programmes_failed: usize,
 }
 
-/// Final errors of one plan.
-struct Errors {
-    predicted: f64,
-    planar: Outcome,
-    spatial: Outcome,
+/// What refinement did in one task.
+struct Refined {
+    before: SolvedTask,
+    after: SolvedTask,
+    worse: usize,
+    programmes: [usize; 2],
 }
 
-/// Searches and refines `tasks` random tasks with `model` under the budgets of `settings`, in
-/// parallel over tasks on the current rayon pool; the same bits for any number of threads.
+/// Solves `tasks` random tasks with two planners, of which `without` differs from `with` by not
+/// refining; in parallel over tasks on the current rayon pool, the same bits for any number of
+/// threads.
+///
+/// # Errors
+/// What the planners refuse.
 pub fn refinement_report(
-    model: &dyn EffectModel,
+    [without, with]: [&Planner; 2],
     library: &ToolLibrary,
-    settings: &Settings,
     seed: u64,
     tasks: usize,
-) -> RefinementReport {
-    let count = if library.is_empty() { 0 } else { tasks };
-    let tools: Vec<Arc<Tool>> = library.iter().cloned().collect();
-    let results: Vec<Option<(Errors, Errors, RefineStatistics)>> = (0..count)
+) -> Result<RefinementReport, SolveError> {
+    let tasks = if library.is_empty() { 0 } else { tasks };
+    let done: Vec<Refined> = (0..tasks)
         .into_par_iter()
-        .map(|index| one_task(model, &tools, settings, &random_task(library, seed, index)))
-        .collect();
-    let done: Vec<_> = results.into_iter().flatten().collect();
-    let tolerance = if count > 0 { random_task(library, seed, 0).goal.tolerance } else { 0.0 };
-    let (before, after): (Vec<&Errors>, Vec<&Errors>) =
-        done.iter().map(|(before, after, _)| (before, after)).unzip();
-    let worse = |grown: &dyn Fn(&Errors, &Errors) -> bool| {
-        done.iter().filter(|(before, after, _)| grown(before, after)).count()
-    };
-    RefinementReport {
-        model: model.name().to_owned(),
+        .map(|index| {
+            let task = random_task(library, seed, index);
+            let solution = with.solve(&task, library)?;
+            let statistics = &solution.statistics.refinement;
+            // A plan that is aimed beside the goal is meant to miss it by prediction.
+            let ours = solution.plans.iter().filter(|plan| plan.refinement.aimed_at.is_none());
+            let worse = ours.filter(|plan| plan.refinement.after > plan.refinement.before).count();
+            Ok(Refined {
+                before: SolvedTask::of(&task, &without.solve(&task, library)?),
+                after: SolvedTask::of(&task, &solution),
+                worse,
+                programmes: [statistics.solved, statistics.failures.len()],
+            })
+        })
+        .collect::<Result<_, SolveError>>()?;
+    let (before, after): (Vec<&SolvedTask>, Vec<&SolvedTask>) =
+        done.iter().map(|one| (&one.before, &one.after)).unzip();
+    let programmes = |which: usize| done.iter().map(|one| one.programmes[which]).sum();
+    Ok(RefinementReport {
+        model: with.model().name().to_owned(),
         seed,
-        tasks: count,
-        planned: done.len(),
-        tolerance,
+        tasks,
+        tolerance: after.first().map_or(0.0, |task| task.tolerance),
         before: plan_errors(&before),
         after: plan_errors(&after),
-        worse_predicted: worse(&|before, after| after.predicted > before.predicted),
-        worse_planar: worse(&|before, after| after.planar.error > before.planar.error + 1e-3),
-        programmes: done.iter().map(|(_, _, statistics)| statistics.solved).sum(),
-        programmes_failed: done.iter().map(|(_, _, statistics)| statistics.failures.len()).sum(),
-    }
+        worse: done.iter().map(|one| one.worse).sum(),
+        programmes: programmes(0),
+        programmes_failed: programmes(1),
+    })
 }
 
-fn one_task(
-    model: &dyn EffectModel,
-    tools: &[Arc<Tool>],
-    settings: &Settings,
-    task: &Task,
-) -> Option<(Errors, Errors, RefineStatistics)> {
-    let workspace = Workspace { task, tools, later_stand_off: 0.0 };
-    let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
-    let mut search = Search::new(workspace, rollouts.situation(), settings.search());
-    let found = search.deepen(&mut rollouts, &mut |_, _| {});
-    let chosen: Vec<Candidate> =
-        kinds(&found, settings.refined).into_iter().map(|k| found[k].candidate.clone()).collect();
-    let best = |list: Vec<Evaluation>| {
-        let feasible = list.into_iter().filter(|e| e.is_feasible() && e.score.is_finite());
-        feasible.min_by(|a, b| a.score.total_cmp(&b.score))
+fn plan_errors(list: &[&SolvedTask]) -> PlanErrors {
+    let over = |end: &dyn Fn(&SolvedTask) -> Option<End>| {
+        let errors = list.iter().filter_map(|task| Some(end(task)?.error));
+        Summary::of(&errors.collect::<Vec<f64>>())
     };
-    let before: Vec<Evaluation> =
-        evaluate(&workspace, &mut rollouts, &chosen).into_iter().flatten().collect();
-    let before = best(before)?;
-    let refine_settings = RefineSettings {
-        rounds: settings.refine_rounds,
-        extra: settings.refine_extra,
-        seed: 0,
-        enough: settings.verified_at_once,
-    };
-    let mut statistics = RefineStatistics::default();
-    let refined = refine(
-        &workspace,
-        &mut rollouts,
-        &chosen,
-        refine_settings,
-        &mut statistics,
-        &mut |_, _| {},
-    );
-    let after = best(refined.into_iter().map(|one| one.best).collect())?;
-    Some((execute(&workspace, &before), execute(&workspace, &after), statistics))
-}
-
-fn execute(workspace: &Workspace, evaluation: &Evaluation) -> Errors {
-    let (task, candidate) = (workspace.task, &evaluation.candidate);
-    let motion = ToolMotion::pushes(
-        Arc::clone(&workspace.tools[candidate.tool]),
-        task.pushes.lift,
-        candidate.grip_yaw,
-        &evaluation.pushes,
-        workspace.is_placed(),
-    );
-    let run = |simulator: Simulator| {
-        let job = Job::stated(&task.scene, motion.clone());
-        let played = simulator.run(&task.scene, &job, Record::Outcome);
-        Outcome::judge(&task.goal, &played)
-    };
-    Errors {
-        predicted: task.goal.error(&evaluation.outcome),
-        planar: run(Simulator::planar()),
-        spatial: run(Simulator::spatial()),
-    }
-}
-
-fn plan_errors(list: &[&Errors]) -> PlanErrors {
-    let over = |value: &dyn Fn(&Errors) -> f64| {
-        Summary::of(&list.iter().map(|errors| value(errors)).collect::<Vec<f64>>())
+    let mean = |count: &dyn Fn(&SolvedTask) -> usize| {
+        list.iter().map(|task| count(task) as f64).sum::<f64>() / list.len().max(1) as f64
     };
     PlanErrors {
-        predicted: over(&|errors| errors.predicted),
-        planar: over(&|errors| errors.planar.error),
-        spatial: over(&|errors| errors.spatial.error),
-        reached_planar: list.iter().filter(|errors| errors.planar.reached).count(),
-        reached_spatial: list.iter().filter(|errors| errors.spatial.reached).count(),
+        predicted: over(&|task| task.predicted),
+        planar: over(&|task| task.planar),
+        spatial: over(&|task| task.spatial),
+        solved: list.iter().filter(|task| task.status == PlanStatus::Solved).count(),
+        attempts: mean(&|task| task.attempts),
+        rollouts: mean(&|task| task.rollouts),
     }
 }

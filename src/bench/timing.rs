@@ -1,15 +1,16 @@
 //! What a push costs: predicted, simulated in the plane and in 3-D, and a whole search of
 //! one-push candidates, all in one run so that the ratios mean something.
 
-use std::{sync::Arc, time::Instant};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    asset::ToolLibrary,
     effect::{EffectModel, Job, Simulated},
-    plan::{Rollouts, Search, SearchSettings, Workspace},
-    scene::{Record, Scene, Situation, Task, Tool},
+    scene::{Record, Scene, Task},
     sim::Simulator,
+    solve::{Planner, Settings, SolveError},
 };
 
 use super::{
@@ -119,45 +120,43 @@ pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
     cases.iter().map(|case| (&case.scene, repeated(case))).collect()
 }
 
-/// Times the search of at most `candidates` one-push candidates for `task` with each model, one
-/// after another on the current rayon pool.
+/// Times the planner's search of at most `candidates` one-push candidates for `task` with each
+/// model, one after another on the current rayon pool.
+///
+/// # Errors
+/// What the planner refuses.
 pub fn search_costs(
-    models: &[&dyn EffectModel],
+    models: &[Arc<dyn EffectModel>],
     task: &Task,
-    tools: &[Arc<Tool>],
+    library: &ToolLibrary,
     offsets: usize,
     candidates: usize,
-) -> Vec<SearchCost> {
-    let settings = SearchSettings { offsets, beam: 1, rollouts: candidates, kept: 32 };
+) -> Result<Vec<SearchCost>, SolveError> {
+    let settings = Settings {
+        offsets,
+        beam: 1,
+        search_rollouts: candidates,
+        refined: 1,
+        refine_rounds: 0,
+        refine_extra: 0,
+        verified_at_once: 1,
+        verify_batches: 1,
+        disturbed: 0,
+    };
     let mut task = task.clone();
     task.pushes.max_count = 1;
-    models
-        .iter()
-        .map(|model| {
-            let mut used = 0;
-            let seconds = shortest(|| {
-                let workspace = Workspace { task: &task, tools, later_stand_off: 0.0 };
-                let mut rollouts = Rollouts::new(*model, Situation::stated(&task.scene));
-                let mut search = Search::new(workspace, rollouts.situation(), settings);
-                std::hint::black_box(search.deepen(&mut rollouts, &mut |_, _| {}));
-                used = rollouts.used();
-            });
-            SearchCost {
-                model: model.name().to_owned(),
-                task: task.name.clone(),
-                threads: rayon::current_num_threads(),
-                rollouts: used,
-                seconds,
-            }
+    let cost = |model: &Arc<dyn EffectModel>| {
+        let planner = Planner::builder(Arc::clone(model)).settings(settings).build();
+        let solved = (0..REPEATS).map(|_| Ok(planner.solve(&task, library)?.statistics));
+        let solved = solved.collect::<Result<Vec<_>, SolveError>>()?;
+        let seconds = solved.iter().map(|statistics| statistics.timing.search);
+        Ok(SearchCost {
+            model: model.name().to_owned(),
+            task: task.name.clone(),
+            threads: rayon::current_num_threads(),
+            rollouts: solved.first().map_or(0, |statistics| statistics.search.rollouts),
+            seconds: seconds.fold(f64::INFINITY, f64::min),
         })
-        .collect()
-}
-
-fn shortest(mut run: impl FnMut()) -> f64 {
-    let times = (0..REPEATS).map(|_| {
-        let began = Instant::now();
-        run();
-        began.elapsed().as_secs_f64()
-    });
-    times.fold(f64::INFINITY, f64::min)
+    };
+    models.iter().map(cost).collect()
 }

@@ -85,8 +85,7 @@ const PAGE_HEAD: &str = "# Speed against accuracy
 
 Measured by `pushplan tradeoff --out DIR`, which writes this page, its charts and
 `tradeoff.json`. *A push* is processor time with what can be shared among 64 shared, *alone* with
-nothing shared, *network* the network's part; the rest is geometry, prior and features. *Solved*
-is a plan that passed its replay in 3-D.
+nothing shared. *Solved* is a plan that passed its replay in 3-D.
 
 ![Error against cost of a push](tradeoff-push.svg)
 ![Success against cost of a task](tradeoff-task.svg)

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::Vector,
-    scene::{Record, Scene, State, ToolMotion, Trajectory, Warning},
+    scene::{Physics, Record, Scene, State, ToolMotion, Trajectory, Warning},
 };
 
 use super::{EffectModel, Job};
@@ -40,7 +40,11 @@ impl Mistake {
                 Arc::make_mut(&mut wrong.motion.tool).friction *= factor;
                 wrong
             }
-            Mistake::Start(metres) => Job { start: shifted(job, metres), ..job.clone() },
+            Mistake::Start(metres) => {
+                let mut rng = directions(&job.start);
+                let start = shifted_start(&job.start, &job.physics, metres, &mut rng);
+                Job { start, ..job.clone() }
+            }
         }
     }
 }
@@ -84,16 +88,9 @@ impl<M: EffectModel> EffectModel for Disturbed<M> {
     }
 }
 
-/// The start with every group of joined objects shifted by `metres`.
-fn shifted(job: &Job, metres: f64) -> State {
-    let Job { start, physics, .. } = job;
-    // Directions come from the start itself, so that a job gives the same trajectory whatever
-    // jobs stand beside it.
-    let seed = start.poses.iter().fold(0u64, |seed, pose| {
-        (seed ^ pose.position.x.to_bits() ^ pose.position.y.to_bits().rotate_left(32))
-            .wrapping_mul(0x9E37_79B9_7F4A_7C15)
-    });
-    let mut rng = Pcg64::seed_from_u64(seed);
+/// A start with every object shifted by `metres` in a random direction; objects that joints
+/// connect move together, so that the joints still hold.
+pub fn shifted_start(start: &State, physics: &Physics, metres: f64, rng: &mut Pcg64) -> State {
     let shifts: Vec<Vector> = start
         .poses
         .iter()
@@ -107,4 +104,13 @@ fn shifted(job: &Job, metres: f64) -> State {
         pose.position += shifts[group];
     }
     state
+}
+
+/// Directions come from the start itself, so that a job gives the same trajectory whatever jobs
+/// stand beside it.
+fn directions(start: &State) -> Pcg64 {
+    Pcg64::seed_from_u64(start.poses.iter().fold(0u64, |seed, pose| {
+        (seed ^ pose.position.x.to_bits() ^ pose.position.y.to_bits().rotate_left(32))
+            .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+    }))
 }

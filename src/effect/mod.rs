@@ -17,7 +17,7 @@ mod trivial;
 pub use crate::scene::Job;
 pub use assume::{Assuming, Assumption};
 pub use crowded::Crowded;
-pub use disturbed::{Disturbed, Mistake};
+pub use disturbed::{Disturbed, Mistake, shifted_start};
 pub use model::EffectModel;
 pub use network::Network;
 pub use outside::{Guarded, Outside, consequence};

@@ -2,8 +2,7 @@
 //!
 //! [`Search`] enumerates pushes, rolls them out with an effect model and keeps a beam over
 //! sequences; [`refine()`] then moves offsets, directions and lengths of the best candidates
-//! with a quadratic programme on a fitted linear model. [`SequenceTree`] rolls out all chained
-//! sequences once and answers for any goal. [`Workspace`] says what a task allows.
+//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows.
 
 mod beam;
 mod candidate;
@@ -16,7 +15,6 @@ mod qp;
 mod refine;
 mod rollouts;
 mod search;
-mod sequences;
 mod statistics;
 mod workspace;
 
@@ -27,7 +25,6 @@ pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use search::{Found, Search, SearchSettings, kinds};
-pub use sequences::SequenceTree;
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{
     Infeasible, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,

@@ -9,6 +9,9 @@
 //! by their largest entry, which changes no minimiser: a goal far away, tiny columns or rows of
 //! another unit are then as good as any.
 
+#[cfg(test)]
+mod extremes;
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use serde::{Deserialize, Serialize};
@@ -227,41 +230,15 @@ mod tests {
     }
 
     #[test]
-    fn extreme_problems_return_a_status() {
+    fn what_is_no_problem_of_ours_has_a_status_too() {
         let mut solver = QpSolver::default();
-        // Zero trust region: only the origin is left.
-        let tight = solver.solve(&boxed(0.0));
-        assert!(tight.x.iter().all(|x| x.abs() < 1e-6), "{tight:?}");
-        // Contradictory bounds: x0 <= -1 and -x0 <= -1.
-        let mut against = boxed(1.0);
-        against.b = vec![-1.0; 4];
-        assert_eq!(solver.solve(&against).status, QpStatus::Infeasible);
-        // Zero columns: nothing pulls, any point within bounds will do.
-        let mut flat = boxed(1.0);
-        flat.p = vec![vec![0.0; 2]; 2];
-        flat.q = vec![0.0; 2];
-        let solution = solver.solve(&flat);
-        assert!(solution.x.iter().all(|x| x.abs() <= 1.0 + 1e-6), "{solution:?}");
         // No constraints and no curvature: no lower bound.
         let free = QpProblem { p: vec![vec![0.0]], q: vec![1.0], a: vec![], b: vec![] };
         assert!(solver.solve(&free).x.is_empty());
-        // Badly scaled, and numbers that are none.
-        let mut wild = boxed(1.0);
-        wild.p[0][0] = 1e11;
-        wild.p[1][1] = 1e-11;
-        let solution = solver.solve(&wild);
-        assert!(solution.x.iter().all(|x| x.is_finite()));
-        for bad in [f64::NAN, f64::INFINITY, 1e300] {
-            let mut problem = boxed(1.0);
-            problem.q[0] = bad;
-            assert_eq!(solver.solve(&problem).status, QpStatus::BadProblem);
-        }
         let mut ragged = boxed(1.0);
         ragged.a[1].pop();
         assert_eq!(solver.solve(&ragged).status, QpStatus::BadProblem);
         assert_eq!(solver.solve(&QpProblem::default()).status, QpStatus::Solved);
-        // And it still solves an ordinary one afterwards.
-        assert_eq!(solver.solve(&boxed(5.0)).status, QpStatus::Solved);
     }
 
     #[test]

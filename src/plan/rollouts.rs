@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use crate::effect::{EffectModel, Job};
-use crate::scene::{
-    GRAVITY, Goal, Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory,
-};
+use crate::scene::{Goal, Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory};
 
 /// An effect model in one situation, with a count of the rollouts made.
 pub struct Rollouts<'a> {
@@ -59,29 +57,6 @@ pub(super) fn final_score(goal: &Goal, trajectory: &Trajectory) -> f64 {
 pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
     let score = if state.is_finite() { goal.score(state) } else { f64::NAN };
     if score.is_nan() { f64::INFINITY } else { score }
-}
-
-/// Where the state would come to rest if the tool stopped now and nothing were in the way.
-///
-/// Sliding under the ellipsoidal limit surface slows down at about mu g along the generalised
-/// velocity s = sqrt(v^2 + c^2 omega^2), so it lasts s / (mu g) and covers half of what the
-/// present speeds would. Exact without spin; used to compare stops, never as a result.
-pub(super) fn coasted(situation: &Situation, state: &State) -> State {
-    let Situation { scene, physics, .. } = situation;
-    let mut rest = state.clone();
-    for (k, object) in scene.objects.iter().enumerate() {
-        let velocity = state.velocities[k];
-        let c = object.shape.footprint().mean_radius();
-        let s = velocity.linear.norm().hypot(c * velocity.angular);
-        let braking = physics.support_friction(k) * GRAVITY;
-        if s > 0.0 && braking > 0.0 {
-            let time = 0.5 * s / braking;
-            rest.poses[k].position += velocity.linear * time;
-            rest.poses[k].heading += velocity.angular * time;
-        }
-        rest.velocities[k] = Default::default();
-    }
-    rest
 }
 
 /// The moving frames of a recorded single stroke and the tool's travel up to each:

@@ -15,7 +15,7 @@ use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Tr
 use super::beam::{Stop, choose};
 use super::enumerate::{Extension, extensions};
 use super::field::Field;
-use super::rollouts::{coasted, final_score, finite_score, single_push, stops};
+use super::rollouts::{final_score, finite_score, single_push, stops};
 use super::statistics::SearchStatistics;
 use super::workspace::MIN_LENGTH;
 use super::{Candidate, Rollouts, Workspace};
@@ -96,16 +96,6 @@ impl<'a> Search<'a> {
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
-        Self::with_grips(workspace, situation, grips, settings)
-    }
-
-    /// The same with these tools and grip yaws only (index of the tool, radians).
-    pub fn with_grips(
-        workspace: Workspace<'a>,
-        situation: &Situation,
-        grips: Vec<(usize, f64)>,
-        settings: SearchSettings,
-    ) -> Self {
         let start = Node { candidate: None, state: situation.start.clone(), end: None };
         Self {
             workspace,
@@ -225,7 +215,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             let state = &trajectory.frames[frame].state;
-            let rest = coasted(&self.situation, state);
+            let rest = self.situation.coasted(state);
             let score = finite_score(&task.goal, &rest);
             if frame < moving && score < best.0 {
                 best = (score, travel);
@@ -247,7 +237,7 @@ impl<'a> Search<'a> {
             let index = if placed { trajectory.frames.len() - 1 } else { moving };
             let known = trajectory.frames.get(index).unwrap_or(last).state.clone();
             if known.is_finite() {
-                let rest = coasted(&self.situation, &known);
+                let rest = self.situation.coasted(&known);
                 let cost = self.field.cost(&rest);
                 let object = task.goal.object;
                 offers.push(Stop::new(extension, length, cost, &rest, object, Some(known)));

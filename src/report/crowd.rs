@@ -1,6 +1,7 @@
 //! Errors on crowds as tables and curves.
 
-use crate::bench::{CrowdErrors, CrowdFamily, CrowdModel, CrowdReport, Drift};
+use crate::bench::{CrowdFamily, CrowdModel, CrowdReport};
+use crate::judge::{Drift, RelativeErrors};
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
@@ -12,7 +13,7 @@ use super::{
 pub fn crowd_line(report: &CrowdReport) -> String {
     let seed = report.seed.map_or(String::new(), |seed| format!(" of seed {seed}"));
     let first = report.models.first();
-    let motion = |errors: Option<&CrowdErrors>| match errors {
+    let motion = |errors: Option<&RelativeErrors>| match errors {
         Some(errors) => format!("{} by {}", errors.objects, millimetres(errors.motion)),
         None => "none".to_owned(),
     };
@@ -157,7 +158,7 @@ fn name(model: &CrowdModel, trajectories: usize) -> String {
     }
 }
 
-fn share(errors: Option<&CrowdErrors>, value: impl Fn(&CrowdErrors) -> f64) -> String {
+fn share(errors: Option<&RelativeErrors>, value: impl Fn(&RelativeErrors) -> f64) -> String {
     errors.map_or(NONE.to_owned(), |errors| percent(errors.share(value(errors))))
 }
 

@@ -1,9 +1,10 @@
 //! Measured numbers as tables: errors on held-out pushes, refinement, costs.
 
+use crate::bench::SearchCost;
 use crate::bench::{
-    ErrorRow, HeldOutErrors, HeldOutReport, InferenceCost, PlanErrors, PushCost, RefinementReport,
+    ErrorRow, HeldOutErrors, HeldOutReport, InferenceCost, PushCost, RefinementReport,
 };
-use crate::bench::{SearchCost, Summary};
+use crate::judge::Summary;
 
 use super::number::{fine_millimetres, millimetres, seconds};
 use super::table::{Align, NONE, Table};
@@ -41,31 +42,32 @@ pub fn group_table(errors: &HeldOutErrors) -> Table {
     table
 }
 
-/// Final errors of plans before and after refinement.
+/// Final errors of plans without and with refinement.
 pub fn refinement_table(report: &RefinementReport) -> Table {
     let mut table = Table::new([
-        ("final error", Align::Left),
-        ("mean", Align::Right),
+        ("plans", Align::Left),
+        ("solved", Align::Right),
+        ("predicted", Align::Right),
+        ("planar", Align::Right),
+        ("3-D", Align::Right),
         ("median", Align::Right),
         ("p95", Align::Right),
-        ("within tolerance", Align::Right),
+        ("replays a task", Align::Right),
+        ("rollouts", Align::Right),
     ]);
-    let mut rows = |when: &str, errors: &PlanErrors| {
-        let mut row = |how: &str, summary: &Option<Summary>, reached: Option<usize>| {
-            table.row([
-                format!("{when}, {how}"),
-                pick(summary, |summary| summary.mean),
-                pick(summary, |summary| summary.median),
-                pick(summary, |summary| summary.p95),
-                reached.map_or(String::new(), |count| format!("{count} of {}", report.planned)),
-            ]);
-        };
-        row("predicted", &errors.predicted, None);
-        row("planar", &errors.planar, Some(errors.reached_planar));
-        row("3-D", &errors.spatial, Some(errors.reached_spatial));
-    };
-    rows("before", &report.before);
-    rows("after", &report.after);
+    for (name, errors) in [("as searched", &report.before), ("refined", &report.after)] {
+        table.row([
+            name.to_owned(),
+            format!("{} of {}", errors.solved, report.tasks),
+            pick(&errors.predicted, |summary| summary.mean),
+            pick(&errors.planar, |summary| summary.mean),
+            pick(&errors.spatial, |summary| summary.mean),
+            pick(&errors.spatial, |summary| summary.median),
+            pick(&errors.spatial, |summary| summary.p95),
+            format!("{:.2}", errors.attempts),
+            format!("{:.0}", errors.rollouts),
+        ]);
+    }
     table
 }
 

@@ -6,7 +6,6 @@ mod bars;
 mod chart;
 mod crowd;
 mod document;
-mod extremes;
 mod html;
 mod labels;
 mod measured;
@@ -28,10 +27,6 @@ pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
 pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
 pub use document::{Document, Figure, Section};
-pub use extremes::{
-    EXTREMES_RULE, extreme_task_table, extremes_line, extremes_page, extremes_table,
-    programme_table, yardstick_table,
-};
 pub use measured::{
     group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
     search_cost_table,
@@ -40,7 +35,7 @@ pub use number::{degrees, millimetres, seconds};
 pub use picture::{ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use random::{RandomRun, random_document};
-pub use scope::{far_chart, far_table, split_table};
+pub use scope::{far_chart, far_table};
 pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};

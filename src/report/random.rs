@@ -2,9 +2,8 @@
 
 use serde_json::json;
 
-use crate::bench::{
-    End, Finished, RandomRecord, RunManifest, Seconds, SolvedTask, TaskKind, mean, percentile,
-};
+use crate::bench::{End, Finished, RandomRecord, RunManifest, Seconds, SolvedTask, TaskKind};
+use crate::judge::{mean, percentile};
 use crate::solve::PlanStatus;
 
 use super::bars::{BarChart, Bars};

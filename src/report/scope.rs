@@ -1,34 +1,12 @@
-//! What a push's time goes into, and what objects cost that it cannot touch.
+//! What objects cost that a push cannot touch.
 
-use crate::bench::{FarCost, PushSplit};
+use crate::bench::FarCost;
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
     number::seconds,
     table::{Align, Table},
 };
-
-/// Where the time of one push goes.
-pub fn split_table(split: &PushSplit) -> Table {
-    let mut table = Table::new([("one push", Align::Left), (split.model.as_str(), Align::Right)]);
-    let rest = split.seconds - split.network;
-    for (what, value) in [
-        ("processor time", seconds(split.seconds)),
-        ("of it the network", seconds(split.network)),
-        ("of it geometry, prior, features", seconds(rest)),
-        ("frames with a moving tool", format!("{:.1}", split.moving)),
-        ("of them skipped by geometry", format!("{:.1}", split.skipped)),
-        ("frames coming to rest", format!("{:.1}", split.coasting)),
-        ("frames with a graph", format!("{:.1}", split.graphs)),
-        ("nodes", format!("{:.1}", split.nodes)),
-        ("relations", format!("{:.1}", split.relations)),
-        ("lists of what can move", format!("{:.1}", split.lists)),
-        ("objects on a list", format!("{:.2}", split.listed)),
-    ] {
-        table.row([what.to_owned(), value]);
-    }
-    table
-}
 
 /// Cost of a push by the number of far objects, one row a number, one column a model.
 pub fn far_table(costs: &[FarCost]) -> Table {

@@ -3,9 +3,10 @@
 use serde_json::json;
 
 use crate::bench::{
-    EngineErrors, Executed, Finished, Layout, Method, PROCESSOR, ReferenceSetup, RunManifest,
-    SinglePushes, Summary, ToolRecord, ToolRow, ToolTrial, summarise,
+    EngineErrors, Finished, Layout, Method, PROCESSOR, ReferenceSetup, RunManifest, SinglePushes,
+    ToolRecord, ToolRow, ToolTrial, summarise,
 };
+use crate::judge::Summary;
 
 use super::document::{Document, Section};
 use super::number::{millimetres, seconds};
@@ -15,24 +16,23 @@ use super::table::{Align, NONE, Table};
 /// What the reader must know, a paragraph each.
 const NOTES: [&str; 3] = [
     "First choice: the best of all chained sequences of up to three pushes and their stops every \
-     5 mm, by prediction alone; not pushing is one of them. Refined: the six best sequences, \
-     their directions and lengths refined. Placed: pushes that start anywhere in contact, in \
-     eight directions, searched and refined by prediction alone. Tried: the best of at most \
-     eight placed plans, tried in the planar engine for its column and in 3-D for the other; \
-     trying ends at 2 mm. Oracle: all sequences played in the planar engine.",
+     5 mm, by prediction alone; not pushing is one of them. Oracle: all sequences played in the \
+     planar engine. Planned: what `pushplan solve` makes of the same goal with the same tool \
+     poses: pushes that start anywhere in contact, in eight directions, searched, refined and \
+     replayed in 3-D until one ends within 5 cm (tried: replays a task).",
     "When the tool stops, it stands where it is while the cylinder glides to rest, in every model \
      and engine alike. The tool has no hand that could touch the cylinder.",
-    "For a tool pose alone all tasks count, those too that it cannot solve, and where it cannot \
-     be set down because the cylinder is in its way. Times are of one task by itself, its share \
-     of the rollouts that other tasks use too included; processor times need --threads 1.",
+    "For a tool pose alone all tasks count, those too that it cannot solve, and, for sequences, \
+     where it cannot be set down at home because the cylinder is in its way. Times are of one \
+     task by itself, its share of the rollouts that other tasks use too included; processor \
+     times need --threads 1.",
 ];
 
 /// Methods shown for each tool pose alone.
-const ALONE: [Method; 5] =
-    [Method::Oracle, Method::First, Method::Refined, Method::Placed, Method::Verified];
+const ALONE: [Method; 3] = [Method::Oracle, Method::First, Method::Planned];
 
 /// Names of the columns of a trial in CSV; lengths in metres.
-const COLUMNS: [(&str, Align); 16] = [
+const COLUMNS: [(&str, Align); 15] = [
     ("index", Align::Right),
     ("start", Align::Right),
     ("goal_x_m", Align::Right),
@@ -47,8 +47,7 @@ const COLUMNS: [(&str, Align); 16] = [
     ("spatial_m", Align::Right),
     ("planar_sound", Align::Left),
     ("spatial_sound", Align::Left),
-    ("planar_tried", Align::Right),
-    ("spatial_tried", Align::Right),
+    ("tried", Align::Right),
 ];
 
 /// The benchmark in every form.
@@ -72,6 +71,7 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
         notes: progress_note(run, tasks.len())
             .into_iter()
             .chain(NOTES.map(str::to_owned))
+            .chain(run.settings["planner"].as_str().map(|planner| format!("Planner: {planner}.")))
             .collect(),
         sections: vec![
             Section {
@@ -125,9 +125,7 @@ fn title(method: Method) -> &'static str {
         Method::Oracle => "oracle",
         Method::Planar => "first choice, planar engine",
         Method::First => "first choice",
-        Method::Refined => "refined",
-        Method::Placed => "placed",
-        Method::Verified => "tried",
+        Method::Planned => "planned",
     }
 }
 
@@ -150,7 +148,7 @@ fn row_table(rows: &[&ToolRow], first: &str, name: impl Fn(&ToolRow) -> String) 
             errors.as_ref().map_or(NONE.to_owned(), |errors| millimetres(errors.mean))
         };
         let share = |count: usize| format!("{:.1} %", 100.0 * count as f64 / row.tasks as f64);
-        let EngineErrors { errors, fine, coarse, attempts } = &row.spatial;
+        let EngineErrors { errors, fine, coarse } = &row.spatial;
         table.row([
             name(row),
             mean(&row.predicted),
@@ -162,7 +160,7 @@ fn row_table(rows: &[&ToolRow], first: &str, name: impl Fn(&ToolRow) -> String) 
             share(*fine),
             share(*coarse),
             format!("{:.2}", row.pushes),
-            attempts.map_or(NONE.to_owned(), |attempts| format!("{attempts:.2}")),
+            row.attempts.map_or(NONE.to_owned(), |attempts| format!("{attempts:.2}")),
         ]);
     }
     table
@@ -211,7 +209,6 @@ fn cells(
     let pose = |pose: Option<usize>, none: &str| {
         pose.map_or(none.to_owned(), |pose| setup.poses[pose].name.clone())
     };
-    let tried = |executed: &Executed| executed.attempts.map_or(String::new(), |n| n.to_string());
     vec![
         index.to_string(),
         record.start.to_string(),
@@ -227,7 +224,6 @@ fn cells(
         trial.spatial.error.to_string(),
         trial.planar.sound.to_string(),
         trial.spatial.sound.to_string(),
-        tried(&trial.planar),
-        tried(&trial.spatial),
+        trial.attempts.map_or(String::new(), |count| count.to_string()),
     ]
 }

@@ -1,6 +1,7 @@
 //! The trade of speed for accuracy as tables and charts.
 
-use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, Summary, TradeOffReport};
+use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport};
+use crate::judge::Summary;
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
@@ -48,19 +49,18 @@ pub fn tradeoff_predictors(report: &TradeOffReport) -> Table {
         ("p95", Align::Right),
         ("mean against 3-D", Align::Right),
         ("a push", Align::Right),
-        ("network", Align::Right),
         ("alone", Align::Right),
         ("front", Align::Left),
     ]);
     let spread = error_cells(&report.spread);
-    let mut row = |name: &str, errors: [String; 7], costs: [String; 3], front: &str| {
+    let mut row = |name: &str, errors: [String; 7], costs: [String; 2], front: &str| {
         let [a, b, c, d, e, f, g] = errors;
-        let [push, network, alone] = costs;
-        table.row([name.to_owned(), a, b, c, d, e, f, g, push, network, alone, front.to_owned()]);
+        let [push, alone] = costs;
+        table.row([name.to_owned(), a, b, c, d, e, f, g, push, alone, front.to_owned()]);
     };
-    row("planar, start off by 0.1 mm", spread, [NONE; 3].map(str::to_owned), "");
+    row("planar, start off by 0.1 mm", spread, [NONE; 2].map(str::to_owned), "");
     for level in &report.predictors {
-        let costs = [Some(level.seconds), level.network_seconds, level.seconds_alone].map(time);
+        let costs = [Some(level.seconds), level.seconds_alone].map(time);
         row(
             &level.model,
             error_cells(&level.suites),
@@ -77,8 +77,6 @@ pub fn tradeoff_objects(report: &TradeOffReport) -> Table {
         ("objects", Align::Right),
         ("predictor", Align::Left),
         ("a push", Align::Right),
-        ("network", Align::Right),
-        ("the rest", Align::Right),
         ("planar at 1/240 takes", Align::Right),
     ]);
     for cost in &report.objects {
@@ -86,8 +84,6 @@ pub fn tradeoff_objects(report: &TradeOffReport) -> Table {
             cost.objects.to_string(),
             cost.model.clone(),
             seconds(cost.seconds),
-            time(cost.network_seconds),
-            time(cost.network_seconds.map(|network| cost.seconds - network)),
             format!("{:.2} times", cost.planar_ratio),
         ]);
     }

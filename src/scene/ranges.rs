@@ -13,12 +13,12 @@ const SLACK: f64 = 1e-6;
 
 /// How far an object released at the speed of the push slides on in nearly all training pushes
 /// (all but 11 of 2000: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
-/// three times those of ordinary pushes (`pushplan bench extremes`, corners).
+/// three times those of ordinary pushes (`models/extremes.md`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
 /// Turn of the tool for each metre of travel that a model trained on straight pushes bears,
-/// rad/m: 6 degrees in 20 cm. At 20 degrees a fifth of the pushes go wrong (`pushplan bench
-/// extremes`).
+/// rad/m: 6 degrees in 20 cm. At 20 degrees a fifth of the pushes go wrong
+/// (`models/extremes.md`).
 pub const TRAINED_TURN: f64 = 0.5;
 
 /// A closed interval.

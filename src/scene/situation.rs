@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Physics, Scene, State};
+use super::{GRAVITY, Physics, Scene, State};
 
 /// What planning starts from: planning again from the middle, or under another belief, is the
 /// same call with another situation.
@@ -21,5 +21,29 @@ impl Situation {
     pub fn stated(scene: &Scene) -> Self {
         let physics = Arc::new(Physics::stated(scene));
         Self { start: scene.start(), physics, scene: Arc::new(scene.clone()) }
+    }
+
+    /// Where `state` would come to rest if no tool touched anything any more and nothing were in
+    /// the way.
+    ///
+    /// Sliding under the ellipsoidal limit surface slows down at about mu g along the generalised
+    /// velocity s = sqrt(v^2 + c^2 omega^2), so it lasts s / (mu g) and covers half of what the
+    /// present speeds would. Exact without spin; good for comparing the stops of a push, never
+    /// for a result.
+    pub fn coasted(&self, state: &State) -> State {
+        let mut rest = state.clone();
+        for (k, object) in self.scene.objects.iter().enumerate() {
+            let velocity = state.velocities[k];
+            let c = object.shape.footprint().mean_radius();
+            let s = velocity.linear.norm().hypot(c * velocity.angular);
+            let braking = self.physics.support_friction(k) * GRAVITY;
+            if s > 0.0 && braking > 0.0 {
+                let time = 0.5 * s / braking;
+                rest.poses[k].position += velocity.linear * time;
+                rest.poses[k].heading += velocity.angular * time;
+            }
+            rest.velocities[k] = Default::default();
+        }
+        rest
     }
 }

@@ -13,6 +13,7 @@ use thiserror::Error;
 use crate::{
     asset::{Faults, write_atomic},
     dataset::{Dataset, DatasetError},
+    effect::Network,
     network::{
         Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Weights, WeightsError,
     },
@@ -118,8 +119,8 @@ pub fn train(
         let step = run.optimiser.step;
         report.step(step, settings.steps);
         if step.is_multiple_of(settings.evaluate_every) || step == settings.steps {
-            let forward = Forward::new(&weights(&run, data, None));
-            let error = rollout_error(&forward, held_out.episodes(), step);
+            let model = Network::new(weights(&run, data, None));
+            let error = rollout_error(&model, held_out.episodes(), step);
             let count = since.1 as f64;
             let line = MetricLine {
                 step,

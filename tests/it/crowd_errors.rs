@@ -6,9 +6,10 @@ use std::process::{Command, Output};
 
 use pushplan::{
     asset::Recording,
-    bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, Trial, crowd_cases, evaluate_crowd},
+    bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd},
     dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, Assumption, EffectModel, Projection, Simulated, Still},
+    judge::Trial,
     report::{crowd_chart, crowd_line, crowd_summary, crowd_table},
     sim::Simulator,
 };
@@ -90,7 +91,8 @@ fn a_recorded_simulation_is_judged_like_the_simulation() {
     let trial = Trial::of_recording(&recording);
     let strokes = |trial: &Trial| trial.motion.strokes.iter().filter(|s| s.settle).count();
     assert_eq!(strokes(&trial), episode.motion.strokes.len() - 1, "lifted between the strokes");
-    let both = [trial, Trial::of_episode(&episode)];
+    let both =
+        [trial, Trial::of_frames(episode.scene.clone(), episode.motion.clone(), &episode.frames)];
     let planar = Simulated::new(Simulator::planar());
     let still = both.clone().map(|trial| measured(&Still, &[trial]).all.end.expect("objects"));
     assert!((still[0].motion - still[1].motion).abs() < 1e-9);

@@ -1,14 +1,17 @@
 //! Held-out evaluation: drawn from the seed alone, judged rightly, the same on any thread count.
 
+use std::sync::Arc;
+
 use pushplan::{
     asset::ToolLibrary,
     bench::{
-        HeldOut, HeldOutReport, MOVED, PlanErrors, Suite, SuiteKind, push_costs, random_task,
+        HeldOut, HeldOutReport, PlanErrors, Suite, SuiteKind, push_costs, random_task,
         refinement_report, search_costs,
     },
     effect::{EffectModel, Projection, Simulated, Still},
+    judge::MOVED,
     sim::Simulator,
-    solve::Effort,
+    solve::{Effort, Planner, Settings},
 };
 
 fn library() -> ToolLibrary {
@@ -74,20 +77,25 @@ fn one_and_two_threads_give_the_same_report_and_it_survives_json() {
 
 #[test]
 fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
-    let model = Simulated::new(Simulator::planar());
-    let settings = Effort::Draft.settings();
-    let with = |threads| {
+    let settings = Settings { disturbed: 0, ..Effort::Draft.settings() };
+    let planner =
+        |settings| Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
+    let without = planner(Settings { refine_rounds: 0, ..settings });
+    let with = planner(settings);
+    let measured = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| refinement_report(&model, &library(), &settings, 1, 6))
+        pool.install(|| refinement_report([&without, &with], &library(), 1, 6)).unwrap()
     };
-    let report = with(2);
-    assert_eq!(report.planned, 6);
-    assert_eq!(report.worse_predicted, 0);
+    let report = measured(2);
+    assert_eq!((report.tasks, report.worse, report.programmes_failed), (6, 0, 0));
+    assert!(report.programmes > 0 && report.after.solved >= report.before.solved, "{report:?}");
     // The model is the truth, so what it predicts is what happens.
-    assert_eq!(report.after.predicted, report.after.planar);
+    for errors in [&report.before, &report.after] {
+        assert_eq!(errors.predicted, errors.planar);
+    }
     let mean = |errors: &PlanErrors| errors.planar.as_ref().map_or(f64::NAN, |s| s.mean);
     assert!(mean(&report.after) < 0.5 * mean(&report.before), "{report:?}");
-    assert_eq!(report, with(1));
+    assert_eq!(report, measured(1));
 }
 
 #[test]
@@ -97,9 +105,9 @@ fn costs_are_measured_for_every_model_and_engine() {
     let costs = push_costs(&Projection, &suite, 4).unwrap();
     let names: Vec<&str> = costs.iter().map(|cost| cost.model.as_str()).collect();
     assert_eq!(names, ["projection", "projection", "planar", "3d"]);
-    let tools: Vec<_> = library.iter().cloned().collect();
     let task = random_task(&library, 1, 0);
-    let searched = search_costs(&[&Projection], &task, &tools, 3, 100);
+    let models: [Arc<dyn EffectModel>; 1] = [Arc::new(Projection)];
+    let searched = search_costs(&models, &task, &library, 3, 100).unwrap();
     assert!(searched[0].rollouts > 0 && searched[0].rollouts <= 100);
     assert!(searched[0].seconds > 0.0);
 }

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
-
-use super::trial::Trial;
+use crate::{
+    dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids},
+    judge::Trial,
+};
 
 /// Keeps the seeds of test sets apart from those of training and of its held-out data, which
 /// are small numbers.
@@ -108,7 +109,8 @@ impl CrowdSet {
         (0..config.episodes)
             .into_par_iter()
             .map(|index| {
-                let trial = Trial::of_episode(&Episode::draw(&config, index));
+                let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
+                let trial = Trial::of_frames(scene, motion, &frames);
                 tick();
                 trial
             })

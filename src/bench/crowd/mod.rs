@@ -6,12 +6,8 @@
 
 mod family;
 mod measure;
-mod physical;
 mod report;
-mod trial;
 
 pub use family::{CrowdFamily, CrowdSet};
 pub use measure::evaluate_crowd;
-pub use physical::Drift;
-pub use report::{CrowdErrors, CrowdModel, CrowdReport, CurvePoint, Phases};
-pub use trial::{Moment, Trial, When};
+pub use report::{CrowdModel, CrowdReport, CurvePoint, Phases};

@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{effect::EffectModel, scene::Span};
+use crate::{
+    effect::EffectModel,
+    judge::{Drift, RelativeErrors, Trial},
+};
 
 use super::{
     family::{CrowdFamily, CrowdSet},
     measure::evaluate_crowd,
-    physical::Drift,
-    trial::Trial,
 };
 
 /// Errors of several models on one test set.
@@ -87,40 +88,13 @@ pub struct CrowdModel {
     pub failed: usize,
 }
 
-/// Errors at the final frame and over all frames; nothing where there are no objects.
+/// Errors at the final frame and over all frames; `None` where there are no objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Phases {
     /// At the final frame, when everything rests.
-    pub end: Option<CrowdErrors>,
+    pub end: Option<RelativeErrors>,
     /// Averaged over the frames of each object.
-    pub averaged: Option<CrowdErrors>,
-}
-
-/// Position errors over a group of objects.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CrowdErrors {
-    /// Number of objects.
-    pub objects: usize,
-    /// Mean distance of the true positions from the start, metres.
-    pub motion: f64,
-    /// Mean distance of the predicted from the true positions, metres.
-    pub mean: f64,
-    /// Median over objects, metres.
-    pub median: f64,
-    /// 90th percentile over objects, metres.
-    pub p90: f64,
-    /// Mean error as a share of the mean motion.
-    pub relative: f64,
-    /// 95 % interval of that share, by bootstrap over trajectories, whose objects are not
-    /// independent of each other.
-    pub relative_interval: Span,
-}
-
-impl CrowdErrors {
-    /// A length in metres as a share of the mean motion.
-    pub fn share(&self, metres: f64) -> f64 {
-        metres / self.motion.max(f64::MIN_POSITIVE)
-    }
+    pub averaged: Option<RelativeErrors>,
 }
 
 /// A point of the curve of error by horizon.

@@ -1,4 +1,4 @@
-//! Plans as executed in both engines; one that is chosen twice is played once.
+//! What the tool does, as executed in both engines; what is chosen twice is played once.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -11,13 +11,13 @@ use crate::{
     sim::Simulator,
 };
 
-use super::setup::ReferenceSetup;
+use super::setup::{LIFT, ReferenceSetup};
 
 /// What the tool does: a tool pose and its pushes; none is standing still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
-    /// Tool and grip yaw.
-    pub grip: (usize, f64),
+    /// Index of the tool pose.
+    pub pose: usize,
     /// How the pushes start.
     pub form: PushForm,
     /// In order.
@@ -46,17 +46,16 @@ impl Action {
     }
 
     /// The tool's motion.
-    pub fn motion(&self, setup: &ReferenceSetup, lift: f64) -> ToolMotion {
-        let tool = Arc::clone(&setup.tools[self.grip.0]);
-        let placed = self.form == PushForm::Placed;
-        ToolMotion::pushes(tool, lift, self.grip.1, &self.pushes, placed)
+    pub fn motion(&self, setup: &ReferenceSetup) -> ToolMotion {
+        let tool = Arc::clone(&setup.poses[self.pose]);
+        ToolMotion::pushes(tool, LIFT, 0.0, &self.pushes, self.form == PushForm::Placed)
     }
 
     fn key(&self, engine: Engine) -> Vec<u64> {
         let numbers = |push: &Push| {
             [push.start.x, push.start.y, push.direction, push.length, push.speed].map(f64::to_bits)
         };
-        let head = [engine as u64, self.grip.0 as u64, self.grip.1.to_bits(), self.form as u64];
+        let head = [engine as u64, self.pose as u64, self.form as u64];
         head.into_iter().chain(self.pushes.iter().flat_map(numbers)).collect()
     }
 }
@@ -94,8 +93,8 @@ fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) ->
         Engine::Planar => Simulator::planar(),
         Engine::Spatial => Simulator::spatial(),
     };
-    let motion = action.motion(setup, task.pushes.lift);
-    landing(&simulator.run(scene, &Job::stated(scene, motion.clone()), Record::Outcome))
+    let job = Job::stated(scene, action.motion(setup));
+    landing(&simulator.run(scene, &job, Record::Outcome))
 }
 
 /// Where a trajectory leaves the cylinder.

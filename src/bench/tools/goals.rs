@@ -7,15 +7,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::{
-    effect::Simulated,
-    geometry::Vector,
-    plan::{Candidate, Rollouts, SequenceTree},
-    scene::Situation,
-    sim::Simulator,
-};
+use crate::{effect::Simulated, geometry::Vector, sim::Simulator};
 
-use super::setup::{Layout, ReferenceSetup, STEPS};
+use super::{
+    execute::Action,
+    sequences::Rolling,
+    setup::{Layout, ReferenceSetup, STEPS},
+};
 
 /// The goals of every layout.
 const GRID: &str = include_str!("goals-grid.json");
@@ -130,25 +128,23 @@ impl StartGoals {
     pub fn make(setup: &ReferenceSetup, start: Vector) -> Self {
         let task = setup.task(start, start);
         let planar = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
-        let grips = setup.grips(&setup.free_poses(start));
-        let workspace = setup.workspace(&task);
-        let tree = SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS);
-        let ends: Vec<(Candidate, Vector)> =
-            tree.ends().map(|(candidate, end)| (candidate, end.position)).collect();
-        let mut kept: Vec<(&Candidate, Vector)> = Vec::new();
-        for (candidate, end) in ends.iter().rev() {
+        let poses = setup.free_poses(start);
+        let rolling = Rolling { setup, task: &task, model: &planar, poses: &poses, steps: STEPS };
+        let sequences = rolling.whole();
+        let ends: Vec<(Action, Vector)> = sequences.ends().collect();
+        let mut kept: Vec<(&Action, Vector)> = Vec::new();
+        for (action, end) in ends.iter().rev() {
             let far = |other: Vector| (end - other).norm() > APART;
             if far(start) && kept.iter().all(|(_, other)| far(*other)) {
-                kept.push((candidate, *end));
+                kept.push((action, *end));
             }
         }
         let goals = kept
             .into_iter()
-            .map(|(candidate, end)| GoalMade {
+            .map(|(action, end)| GoalMade {
                 at: rounded(end),
-                pose: setup.pose_name((candidate.tool, candidate.grip_yaw)),
-                pushes: spelled(candidate),
+                pose: setup.poses[action.pose].name.clone(),
+                pushes: spelled(action),
             })
             .collect();
         Self { start: rounded(start), goals }
@@ -161,8 +157,8 @@ fn rounded(at: Vector) -> [f64; 2] {
 }
 
 /// `+x -y +x`: the directions of a sequence.
-fn spelled(candidate: &Candidate) -> String {
-    let ways: Vec<&str> = candidate
+fn spelled(action: &Action) -> String {
+    let ways: Vec<&str> = action
         .pushes
         .iter()
         .map(|push| {

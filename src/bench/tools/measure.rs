@@ -1,11 +1,13 @@
 //! Measuring the tasks one by one; those of one start share its rollouts.
 
+use thiserror::Error;
+
 use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
-    plan::{Rollouts, SequenceTree},
-    scene::{Situation, Task},
+    scene::Task,
     sim::Simulator,
+    solve::{Planner, SolveError},
 };
 
 use super::super::store::{Measured, Seconds};
@@ -13,16 +15,32 @@ use super::{
     execute::Executions,
     goals::GoalSet,
     record::ToolRecord,
+    sequences::{Rolling, Sequences},
     setup::{ReferenceSetup, STEPS},
     spent::Spent,
     trials::Trials,
 };
+
+/// Why a task was not measured.
+#[derive(Debug, Error)]
+pub enum ToolBenchError {
+    /// There is no such task.
+    #[error("there is no task {index}")]
+    NoTask {
+        /// Its index.
+        index: usize,
+    },
+    /// The planner refuses it.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
 
 /// The benchmark: goals, the model that is measured, and what tasks of the last start share.
 pub struct ToolBench<'a> {
     setup: ReferenceSetup,
     goals: GoalSet,
     model: &'a dyn EffectModel,
+    planner: &'a Planner,
     seed: u64,
     shared: Option<Shared>,
 }
@@ -34,11 +52,11 @@ pub(super) struct Shared {
     /// Indices of the poses that can be set down.
     pub free: Vec<usize>,
     /// All sequences as the model predicts them.
-    pub predicted: SequenceTree,
+    pub predicted: Sequences,
     /// The same with the planar engine as effect model, beginnings shared.
-    pub planar: SequenceTree,
+    pub planar: Sequences,
     /// The same as the planar engine plays them, each whole.
-    pub played: SequenceTree,
+    pub played: Sequences,
     /// What was executed so far.
     pub executions: Executions,
     /// What `predicted` took.
@@ -46,14 +64,16 @@ pub(super) struct Shared {
 }
 
 impl<'a> ToolBench<'a> {
-    /// Measures `model` on `goals` of `setup`; `seed` is of the random choices.
+    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner`
+    /// beside it; `seed` is of the random choices.
     pub fn new(
         setup: ReferenceSetup,
         goals: GoalSet,
         model: &'a dyn EffectModel,
+        planner: &'a Planner,
         seed: u64,
     ) -> Self {
-        Self { setup, goals, model, seed, shared: None }
+        Self { setup, goals, model, planner, seed, shared: None }
     }
 
     /// Number of tasks.
@@ -63,9 +83,11 @@ impl<'a> ToolBench<'a> {
 
     /// Measures task `index`: every method, for all tool poses together and each alone, on the
     /// current rayon pool. Tasks of one start share its rollouts if they follow each other.
-    /// Nothing if there is no such task.
-    pub fn measure(&mut self, index: usize) -> Option<Measured<ToolRecord>> {
-        let (start, goal) = self.goals.task(index)?;
+    ///
+    /// # Errors
+    /// What the planner refuses; an index without a task.
+    pub fn measure(&mut self, index: usize) -> Result<Measured<ToolRecord>, ToolBenchError> {
+        let (start, goal) = self.goals.task(index).ok_or(ToolBenchError::NoTask { index })?;
         let task = self.setup.task(Vector::from(self.goals.starts[start].start), goal);
         let kept = self.shared.take().filter(|shared| shared.start == start);
         let shared = match kept {
@@ -76,32 +98,24 @@ impl<'a> ToolBench<'a> {
         let mut record = ToolRecord { start, goal: goal.into(), trials: Vec::new() };
         let poses = (0..self.setup.poses.len()).map(Some);
         for pose in std::iter::once(None).chain(poses) {
-            let mut trials = Trials::new(&self.setup, self.model, &task, shared, pose);
+            let choosers = (self.model, self.planner);
+            let mut trials = Trials::new(&self.setup, choosers, &task, shared, pose);
             let times = pose.is_none().then_some(&mut seconds);
-            record.trials.extend(trials.run((self.seed, index as u64), times));
+            record.trials.extend(trials.run((self.seed, index as u64), times)?);
         }
-        Some(Measured { record, seconds })
+        Ok(Measured { record, seconds })
     }
 }
 
 impl Shared {
     fn new(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task, start: usize) -> Self {
-        let workspace = setup.workspace(task);
         let free = setup.free_poses(task.scene.objects[task.goal.object].pose.position);
-        let grips = setup.grips(&free);
-        let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
-        let (predicted, spent) =
-            Spent::on(|| SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS));
         let planar = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&planar, Situation::stated(&task.scene));
-        Self {
-            start,
-            free,
-            predicted,
-            planar: SequenceTree::roll(&workspace, &mut rollouts, &grips, STEPS),
-            played: SequenceTree::roll_whole(&workspace, &mut rollouts, &grips, STEPS),
-            executions: Executions::default(),
-            spent,
-        }
+        let rolling = Rolling { setup, task, model, poses: &free, steps: STEPS };
+        let (predicted, spent) = Spent::on(|| rolling.shared());
+        let rolling = Rolling { model: &planar, ..rolling };
+        let (planar, played) = (rolling.shared(), rolling.whole());
+        let executions = Executions::default();
+        Self { start, predicted, planar, played, executions, spent, free }
     }
 }

@@ -16,25 +16,19 @@ pub enum Method {
     Planar,
     /// The model's first choice among all sequences and stops.
     First,
-    /// The best sequences, their directions and lengths refined.
-    Refined,
-    /// Placed pushes with continuous offsets, searched and refined.
-    Placed,
-    /// The best of at most eight placed plans, tried in the engine that counts.
-    Verified,
+    /// The planner: placed pushes, searched, refined and verified.
+    Planned,
 }
 
 impl Method {
     /// All of them, in the order of tables.
-    pub const ALL: [Method; 8] = [
+    pub const ALL: [Method; 6] = [
         Method::Nothing,
         Method::Random,
         Method::Oracle,
         Method::Planar,
         Method::First,
-        Method::Refined,
-        Method::Placed,
-        Method::Verified,
+        Method::Planned,
     ];
 }
 
@@ -45,9 +39,6 @@ pub struct Executed {
     pub error: f64,
     /// Whether the cylinder stands, at rest, where it is said to be; no success otherwise.
     pub sound: bool,
-    /// Plans tried until one ended within 5 cm, or all that were; only where plans are tried.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub attempts: Option<usize>,
 }
 
 /// One choice for one task.
@@ -55,13 +46,13 @@ pub struct Executed {
 pub struct ToolTrial {
     /// Who chose.
     pub method: Method,
-    /// The tool pose that it had to take; nothing where it could choose among all.
+    /// The tool pose that it had to take; `None` where it could choose among all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<usize>,
-    /// The tool pose that was taken; nothing where it did not push.
+    /// The tool pose that was taken; `None` where it did not push.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub taken: Option<usize>,
-    /// Predicted distance from the goal, metres; nothing without a prediction.
+    /// Predicted distance from the goal, metres; `None` without a prediction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub predicted: Option<f64>,
     /// In the planar engine.
@@ -72,6 +63,10 @@ pub struct ToolTrial {
     pub pushes: usize,
     /// Travel of the tool, metres.
     pub travel: f64,
+    /// Plans that the planner had replayed until one passed or it gave up; `None` for who tries
+    /// nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attempts: Option<usize>,
 }
 
 /// One task: a start and a goal.
@@ -88,10 +83,6 @@ pub struct ToolRecord {
 impl ToolRecord {
     /// The methods whose wall time is kept, and its name among the times of a task: what
     /// choosing costs for a task by itself, nothing shared with others.
-    pub const TIMED: [(Method, &'static str); 4] = [
-        (Method::First, "first"),
-        (Method::Refined, "refined"),
-        (Method::Placed, "placed"),
-        (Method::Verified, "verified"),
-    ];
+    pub const TIMED: [(Method, &'static str); 2] =
+        [(Method::First, "first"), (Method::Planned, "planned")];
 }

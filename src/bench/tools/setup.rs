@@ -1,5 +1,4 @@
-//! The reference layout: tools of four cuboids in seven poses, one cylinder at 24 starts, and
-//! all sequences of three pushes from a fixed home.
+//! The reference layout: tools of four cuboids in seven poses, and one cylinder at 24 starts.
 //!
 //! After the tool experiments of Tekden et al. 2021 ("Object and relation centric
 //! representations for push effect prediction", arXiv 2102.02100). Their robot's hand can touch
@@ -15,7 +14,6 @@ use serde::{Deserialize, Serialize};
 use crate::{
     dataset::generator,
     geometry::{Pose, Shape, Vector, clearance},
-    plan::Workspace,
     scene::{
         Directions, Goal, Object, Offsets, Part, PushForm, PushRules, Robot, Scene, Task, Tool,
         ToolChoice,
@@ -45,7 +43,7 @@ const GROWN: f64 = 0.025;
 
 /// Height of the tools' underside above the table, metres: parts 0.05 m high with their centres
 /// 0.05 m above the table.
-const LIFT: f64 = 0.025;
+pub const LIFT: f64 = 0.025;
 
 /// The starts: four along x and six along y, ends included, over 0.6 x 1.0 m centred 0.425 m in
 /// front of the end effector.
@@ -91,22 +89,12 @@ impl Layout {
     }
 }
 
-/// A tool held at a yaw that stays as it is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ToolPose {
-    /// Index into the tools, and grip yaw in radians.
-    pub grip: (usize, f64),
-    /// `stick -90`, with the yaw in degrees.
-    pub name: String,
-}
-
-/// Tools, poses and starts.
+/// Tool poses and starts.
 #[derive(Clone, Debug)]
 pub struct ReferenceSetup {
-    /// Stick, L and inverse L.
-    pub tools: Vec<Arc<Tool>>,
-    /// The seven poses.
-    pub poses: Vec<ToolPose>,
+    /// The seven tool poses, each as a tool of its own that is held without turning it: stick, L
+    /// and inverse L. They are named `stick -90`, with the turn in degrees.
+    pub poses: Vec<Arc<Tool>>,
     /// Positions of the cylinder, metres.
     pub starts: Vec<Vector>,
 }
@@ -115,13 +103,14 @@ impl ReferenceSetup {
     /// Tools, poses and the starts of a layout.
     pub fn new(layout: Layout) -> Self {
         let tools = reference_tools();
-        let poses = POSES
-            .iter()
-            .map(|&(tool, quarters)| ToolPose {
-                grip: (tool, f64::from(quarters) * FRAC_PI_2),
-                name: format!("{} {}", tools[tool].name, i32::from(quarters) * 90),
-            })
-            .collect();
+        let posed = |&(tool, quarters): &(usize, i8)| {
+            let tool: &Tool = &tools[tool];
+            let name = format!("{} {}", tool.name, i32::from(quarters) * 90);
+            // The end effector's pose in the tool frame: the tool is turned the other way.
+            let grip = Pose::new(0.0, 0.0, -f64::from(quarters) * FRAC_PI_2);
+            Arc::new(Tool { name, grip, ..tool.clone() })
+        };
+        let poses = POSES.iter().map(posed).collect();
         let along = |k: usize, n: usize, size: f64| size * (k as f64 / (n - 1) as f64 - 0.5);
         let starts = (0..GRID.0)
             .flat_map(|i| (0..GRID.1).map(move |j| (i, j)))
@@ -131,7 +120,7 @@ impl ReferenceSetup {
                 layout.place(start, i * GRID.1 + j)
             })
             .collect();
-        Self { tools, poses, starts }
+        Self { poses, starts }
     }
 
     /// The task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
@@ -173,9 +162,8 @@ impl ReferenceSetup {
         let task = self.task(start, start);
         let cylinder = &task.scene.objects[0];
         let still = (&cylinder.shape.footprint(), &cylinder.pose);
-        let overlaps = |pose: &ToolPose| {
-            let tool = &self.tools[pose.grip.0];
-            let frame = tool.pose(Pose { position: task.robot.home, heading: pose.grip.1 });
+        let overlaps = |tool: &Tool| {
+            let frame = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
             (0..tool.parts.len()).any(|k| {
                 let grown = tool.parts[k].footprint().grown(GROWN);
                 clearance((&grown, &tool.part_pose(k, &frame)), still, GROWN) <= 0.0
@@ -184,26 +172,15 @@ impl ReferenceSetup {
         (0..self.poses.len()).filter(|&k| !overlaps(&self.poses[k])).collect()
     }
 
-    /// What planning for `task` may use.
-    pub fn workspace<'a>(&'a self, task: &'a Task) -> Workspace<'a> {
-        Workspace { task, tools: &self.tools, later_stand_off: 0.0 }
-    }
-
-    /// The name of the pose with this grip.
-    pub fn pose_name(&self, grip: (usize, f64)) -> String {
-        let pose = self.poses.iter().find(|pose| pose.grip == grip);
-        pose.map(|pose| pose.name.clone()).unwrap_or_default()
-    }
-
-    /// The grips of some poses.
-    pub fn grips(&self, poses: &[usize]) -> Vec<(usize, f64)> {
-        poses.iter().map(|&pose| self.poses[pose].grip).collect()
+    /// Index of the tool pose called `name`.
+    pub fn pose(&self, name: &str) -> Option<usize> {
+        self.poses.iter().position(|pose| pose.name == name)
     }
 }
 
 /// Three cuboids of 0.14 x 0.08 m in a row, centres at 0.12, 0.26 and 0.40 m from the end
 /// effector, and a fourth: another in the row at 0.54 m, or a head of 0.16 x 0.08 m across.
-fn reference_tools() -> Vec<Arc<Tool>> {
+fn reference_tools() -> Vec<Tool> {
     let handle =
         |name: &str, x: f64| Part::cuboid(name, [0.14, 0.08, 0.05], Pose::new(x, 0.0, 0.0));
     let head = |side: f64| {
@@ -217,14 +194,14 @@ fn reference_tools() -> Vec<Arc<Tool>> {
                 .map(|(name, x)| handle(name, x))
                 .collect();
             parts.push(fourth);
-            Arc::new(Tool {
+            Tool {
                 name: name.into(),
                 description: String::new(),
                 grip: Pose::default(),
                 friction: 0.4,
                 joints: (1..parts.len()).map(|k| [k - 1, k]).collect(),
                 parts,
-            })
+            }
         })
         .collect()
 }

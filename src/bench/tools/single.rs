@@ -13,13 +13,14 @@ use crate::{
     dataset::generator,
     effect::{EffectModel, Simulated},
     geometry::Vector,
-    plan::{Candidate, Rollouts, SequenceTree, evaluate},
-    scene::{Engine, Situation, Task},
+    scene::{Engine, Task},
     sim::Simulator,
 };
 
 use super::{
+    choose::rested,
     execute::{Action, Executions},
+    sequences::Rolling,
     setup::{COARSE, Layout, ReferenceSetup, TRAVEL},
 };
 
@@ -90,7 +91,7 @@ pub fn single_pushes(model: &dyn EffectModel, seed: u64, tasks: usize) -> Single
     }
 }
 
-/// One task; nothing where the goal is out of reach of any push.
+/// One task; `None` where the goal is out of reach of any push.
 fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize) -> Option<One> {
     let mut random = generator(seed ^ SALT, index as u64);
     let mut within = |low: f64, size: f64| low + size * random.random::<f64>();
@@ -124,27 +125,15 @@ fn one(setup: &ReferenceSetup, model: &dyn EffectModel, seed: u64, index: usize)
     })
 }
 
-/// The whole push that `model` predicts to end nearest to the goal, and how near; nothing where
+/// The whole push that `model` predicts to end nearest to the goal, and how near; `None` where
 /// not pushing is nearest.
 fn choose(setup: &ReferenceSetup, model: &dyn EffectModel, task: &Task) -> Option<(Action, f64)> {
     let goal = &task.goal;
     let start = task.scene.objects[goal.object].pose.position;
-    let grips = setup.grips(&setup.free_poses(start));
-    let workspace = setup.workspace(task);
-    let mut rollouts = Rollouts::new(model, Situation::stated(&task.scene));
-    let tree = SequenceTree::roll(&workspace, &mut rollouts, &grips, 1);
-    let candidates: Vec<Candidate> =
-        tree.best(goal, 1, |_| true).into_iter().map(|found| found.candidate).collect();
-    let best = evaluate(&workspace, &mut rollouts, &candidates).into_iter().flatten().next()?;
-    let error = goal.error(&best.outcome);
-    if !best.score.is_finite() || error >= (start - goal.position).norm() {
-        return None;
-    }
-    let candidate = &best.candidate;
-    let action = Action {
-        grip: (candidate.tool, candidate.grip_yaw),
-        form: task.pushes.form,
-        pushes: best.pushes,
-    };
-    Some((action, error))
+    let poses = setup.free_poses(start);
+    let sequences = Rolling { setup, task, model, poses: &poses, steps: 1 }.shared();
+    let (_, nearest) = sequences.best(goal, 1, &poses).pop()?;
+    let best = rested(setup, model, task, vec![nearest]).pop()?;
+    let error = best.predicted.filter(|error| *error < (start - goal.position).norm())?;
+    Some((best.action, error))
 }

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::judge::{self, Summary};
+
 use super::{
-    super::statistics::Summary,
     record::{Executed, Method, ToolRecord, ToolTrial},
     setup::{COARSE, FINE, ReferenceSetup},
 };
@@ -17,8 +18,6 @@ pub struct EngineErrors {
     pub fine: usize,
     /// Tasks that ended within 10 cm.
     pub coarse: usize,
-    /// Plans tried a task until one ended within 5 cm, where plans are tried.
-    pub attempts: Option<f64>,
 }
 
 /// One method over all tasks.
@@ -26,7 +25,7 @@ pub struct EngineErrors {
 pub struct ToolRow {
     /// Who chose.
     pub method: Method,
-    /// The tool pose that it had to take; nothing where it could choose among all.
+    /// The tool pose that it had to take; `None` where it could choose among all.
     pub pose: Option<String>,
     /// Number of tasks.
     pub tasks: usize,
@@ -40,6 +39,8 @@ pub struct ToolRow {
     pub pushes: f64,
     /// Travel of the tool in a plan, metres, on average.
     pub travel: f64,
+    /// Plans replayed a task, on average, where any are.
+    pub attempts: Option<f64>,
 }
 
 /// The rows of all methods: all tool poses first, then each alone.
@@ -64,6 +65,8 @@ fn row(method: Method, pose: Option<String>, trials: &[&ToolTrial]) -> ToolRow {
         trials.iter().map(|trial| value(trial)).sum::<f64>() / trials.len() as f64
     };
     let predicted: Vec<f64> = trials.iter().filter_map(|trial| trial.predicted).collect();
+    let attempts: Vec<f64> =
+        trials.iter().filter_map(|trial| trial.attempts).map(|count| count as f64).collect();
     ToolRow {
         method,
         pose,
@@ -73,21 +76,14 @@ fn row(method: Method, pose: Option<String>, trials: &[&ToolTrial]) -> ToolRow {
         spatial: engine(trials.iter().map(|trial| &trial.spatial)),
         pushes: mean(&|trial| trial.pushes as f64),
         travel: mean(&|trial| trial.travel),
+        attempts: (!attempts.is_empty()).then(|| judge::mean(&attempts)),
     }
 }
 
 fn engine<'a>(executed: impl Iterator<Item = &'a Executed> + Clone) -> EngineErrors {
     let errors: Vec<f64> = executed.clone().map(|one| one.error).collect();
     let within = |limit| executed.clone().filter(|one| one.sound && one.error <= limit).count();
-    let attempts: Vec<f64> =
-        executed.clone().filter_map(|one| one.attempts).map(|n| n as f64).collect();
-    EngineErrors {
-        errors: Summary::of(&errors),
-        fine: within(FINE),
-        coarse: within(COARSE),
-        attempts: (!attempts.is_empty())
-            .then(|| attempts.iter().sum::<f64>() / attempts.len() as f64),
-    }
+    EngineErrors { errors: Summary::of(&errors), fine: within(FINE), coarse: within(COARSE) }
 }
 
 #[cfg(test)]
@@ -96,7 +92,7 @@ mod tests {
 
     /// A record with one choice of one method, which ends `error` metres from the goal.
     fn record(error: f64, sound: bool, attempts: Option<usize>) -> ToolRecord {
-        let executed = Executed { error, sound, attempts };
+        let executed = Executed { error, sound };
         let trial = ToolTrial {
             method: Method::First,
             pose: None,
@@ -106,6 +102,7 @@ mod tests {
             spatial: executed,
             pushes: 3,
             travel: 0.5,
+            attempts,
         };
         ToolRecord { start: 0, goal: [0.0, 0.0], trials: vec![trial] }
     }
@@ -125,7 +122,7 @@ mod tests {
         let row = &rows[0];
         assert_eq!((row.method, row.pose.as_deref(), row.tasks), (Method::First, None, 5));
         assert_eq!((row.planar.fine, row.planar.coarse), (2, 3));
-        assert_eq!(row.spatial.attempts, Some(2.0));
+        assert_eq!(row.attempts, Some(2.0));
         let mean = |summary: &Option<Summary>| summary.as_ref().map(|summary| summary.mean);
         assert!((mean(&row.spatial.errors).unwrap_or(0.0) - 0.06).abs() < 1e-12);
         assert!((mean(&row.predicted).unwrap_or(0.0) - 0.03).abs() < 1e-12);

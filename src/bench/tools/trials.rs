@@ -4,35 +4,31 @@
 use rand::Rng;
 
 use crate::{
+    asset::ToolLibrary,
     dataset::generator,
     effect::{EffectModel, Simulated},
-    plan::{Candidate, CandidatePush, Rollouts, Start},
-    scene::{Engine, Push, PushForm, Situation, Task},
+    scene::{Directions, Engine, Push, PushForm, Task, Tool},
     sim::Simulator,
+    solve::{Planner, Solution, SolveError},
 };
 
 use super::super::store::Seconds;
 use super::{
-    choose::{Choice, first_choices, nothing, placed_choices, refined_choices},
+    choose::{Choice, first_choice, nothing},
     execute::{Action, Landing},
     measure::Shared,
     record::{Executed, Method, ToolTrial},
-    setup::{FINE, PUSHES, ReferenceSetup, STEPS, TRAVEL},
+    setup::{PUSHES, ReferenceSetup, STEPS, TRAVEL},
     spent::{PROCESSOR, Spent},
 };
-
-/// Plans that are tried at most.
-const TRIED: usize = 8;
-
-/// Plans that are tried at the same time.
-const AT_ONCE: usize = 2;
-
-/// A plan that ends this near to the goal ends the trying, metres.
-const GOOD: f64 = 2e-3;
 
 /// The best stops that the oracle plays to rest: which of them is best an estimate of where
 /// gliding ends cannot tell to the last millimetre.
 const ORACLE: usize = 16;
+
+/// Ways round the circle that the planner's search tries: refinement turns pushes by more than
+/// half their spacing.
+const WAYS: usize = 8;
 
 /// Distinguishes the random choices from other uses of a seed.
 const SALT: u64 = 0x7001;
@@ -41,75 +37,65 @@ const SALT: u64 = 0x7001;
 pub(super) struct Trials<'a> {
     setup: &'a ReferenceSetup,
     model: &'a dyn EffectModel,
+    planner: &'a Planner,
     task: &'a Task,
     shared: &'a mut Shared,
     /// The pose that must be taken, if it is not all.
     pose: Option<usize>,
-    /// Those of them that can be set down.
+    /// Those of them that can be set down at home.
     poses: Vec<usize>,
-    grips: Vec<(usize, f64)>,
 }
 
 impl<'a> Trials<'a> {
     pub fn new(
         setup: &'a ReferenceSetup,
-        model: &'a dyn EffectModel,
+        (model, planner): (&'a dyn EffectModel, &'a Planner),
         task: &'a Task,
         shared: &'a mut Shared,
         pose: Option<usize>,
     ) -> Self {
         let allowed = |free: &&usize| pose.is_none_or(|pose| pose == **free);
         let poses: Vec<usize> = shared.free.iter().filter(allowed).copied().collect();
-        let grips = setup.grips(&poses);
-        Self { setup, model, task, shared, pose, poses, grips }
+        Self { setup, model, planner, task, shared, pose, poses }
     }
 
     /// Every method. The random choice is the draw number `draw.1` of seed `draw.0`; wall times
     /// go to `seconds`, where they are wanted.
-    pub fn run(&mut self, draw: (u64, u64), seconds: Option<&mut Seconds>) -> Vec<ToolTrial> {
-        let (setup, task, shared) = (self.setup, self.task, self.shared.spent);
-        let (workspace, grips) = (setup.workspace(task), self.grips.clone());
-        let mut rollouts = Rollouts::new(self.model, Situation::stated(&task.scene));
+    ///
+    /// # Errors
+    /// What the planner refuses.
+    pub fn run(
+        &mut self,
+        draw: (u64, u64),
+        seconds: Option<&mut Seconds>,
+    ) -> Result<Vec<ToolTrial>, SolveError> {
+        let (setup, task) = (self.setup, self.task);
         let mut stopwatch = Stopwatch { seconds };
-        let tree = &self.shared.predicted;
-        let first = stopwatch.time("first", shared, || {
-            first_choices(setup, &workspace, &mut rollouts, tree, &grips, 1)
+        let first = stopwatch.time("first", self.shared.spent, || {
+            first_choice(setup, self.model, task, &self.shared.predicted, &self.poses)
         });
-        let refined = stopwatch.time("refined", shared, || {
-            refined_choices(setup, &workspace, &mut rollouts, tree, &grips, 1)
-        });
-        let placed = stopwatch.time("placed", Spent::default(), || {
-            placed_choices(setup, self.model, task, &grips, TRIED)
-        });
-        let searched = stopwatch.kept("placed");
-        let (best, spatial) =
-            stopwatch.time("verified", searched, || self.verify(Engine::Spatial, &placed));
-        let (_, planar) = self.verify(Engine::Planar, &placed);
-
+        let solution = stopwatch.time("planned", Spent::default(), || self.plan())?;
         let truth = Simulated::new(Simulator::planar());
-        let mut rollouts = Rollouts::new(&truth, Situation::stated(&task.scene));
-        let tree = &self.shared.planar;
-        let simulated = first_choices(setup, &workspace, &mut rollouts, tree, &grips, 1);
-        let still = nothing(setup, task);
+        let planar = first_choice(setup, &truth, task, &self.shared.planar, &self.poses);
+        let still = nothing(task);
         let choices = [
             (Method::Nothing, still.clone()),
             (Method::Random, self.random(draw).unwrap_or_else(|| still.clone())),
             (Method::Oracle, self.oracle()),
-            (Method::Planar, simulated[0].clone()),
-            (Method::First, first[0].clone()),
-            (Method::Refined, refined[0].clone()),
-            (Method::Placed, placed[0].clone()),
+            (Method::Planar, planar),
+            (Method::First, first),
+            (Method::Planned, self.planned(&solution).unwrap_or(still)),
         ];
         let mut trials: Vec<ToolTrial> =
             choices.iter().map(|(method, choice)| self.trial(*method, choice)).collect();
-        let verified = self.trial(Method::Verified, &placed[best]);
-        trials.push(ToolTrial { planar, spatial, ..verified });
-        trials
+        if let Some(planned) = trials.last_mut() {
+            planned.attempts = Some(solution.statistics.verified);
+        }
+        Ok(trials)
     }
 
     fn trial(&mut self, method: Method, choice: &Choice) -> ToolTrial {
         let action = &choice.action;
-        let taken = self.setup.poses.iter().position(|pose| pose.grip == action.grip);
         let [planar, spatial] = [Engine::Planar, Engine::Spatial].map(|engine| {
             let landing = self.play(engine, &[action])[0];
             self.executed(&landing)
@@ -117,12 +103,13 @@ impl<'a> Trials<'a> {
         ToolTrial {
             method,
             pose: self.pose,
-            taken: taken.filter(|_| !action.pushes.is_empty()),
+            taken: (!action.pushes.is_empty()).then_some(action.pose),
             predicted: choice.predicted,
             planar,
             spatial,
             pushes: action.pushes.len(),
             travel: action.travel(),
+            attempts: None,
         }
     }
 
@@ -132,42 +119,44 @@ impl<'a> Trials<'a> {
 
     fn executed(&self, landing: &Landing) -> Executed {
         let error = (landing.at - self.task.goal.position).norm();
-        Executed { error, sound: landing.sound, attempts: None }
+        Executed { error, sound: landing.sound }
     }
 
-    /// Tries plans in `engine` in their order until one ends well; the best one's index and
-    /// where it ended, with the number of plans until the first that ended within 5 cm.
-    fn verify(&mut self, engine: Engine, choices: &[Choice]) -> (usize, Executed) {
-        let mut tried: Vec<Executed> = Vec::with_capacity(choices.len());
-        for some in choices.chunks(AT_ONCE) {
-            let actions: Vec<&Action> = some.iter().map(|choice| &choice.action).collect();
-            for landing in self.play(engine, &actions) {
-                tried.push(self.executed(&landing));
-            }
-            if tried.iter().any(|one| one.sound && one.error <= GOOD) {
-                break;
-            }
-        }
-        let solved = tried.iter().position(|one| one.sound && one.error <= FINE);
-        let attempts = Some(solved.map_or(tried.len(), |index| index + 1));
-        let order = |one: &Executed| if one.sound { one.error } else { f64::INFINITY };
-        let best = (0..tried.len())
-            .min_by(|&a, &b| order(&tried[a]).total_cmp(&order(&tried[b])))
-            .unwrap_or(0);
-        (best, Executed { attempts, ..tried[best] })
+    /// The planner's solution with these tool poses. Its pushes are placed, so that a pose need
+    /// not be free at home.
+    fn plan(&self) -> Result<Solution, SolveError> {
+        let mut task = self.task.clone();
+        task.pushes.form = PushForm::Placed;
+        task.pushes.directions = Directions::Count(WAYS);
+        let poses = self.setup.poses.iter().enumerate();
+        let allowed = poses.filter(|(k, _)| self.pose.is_none_or(|pose| pose == *k));
+        let tools = allowed.map(|(_, tool)| Tool::clone(tool));
+        self.planner.solve(&task, &ToolLibrary::from_tools(tools))
     }
 
-    /// A sequence and a stop, all equally likely; nothing if no pose can be set down.
+    /// What the planner would do.
+    fn planned(&self, solution: &Solution) -> Option<Choice> {
+        let best = solution.best()?;
+        let pose = self.setup.pose(&best.plan.tool)?;
+        let pushes = best.plan.pushes.clone();
+        let action = Action { pose, form: PushForm::Placed, pushes };
+        Some(Choice { action, predicted: Some(best.outcome.error) })
+    }
+
+    /// A sequence and a stop, all equally likely; `None` if no pose can be set down.
     fn random(&self, (seed, index): (u64, u64)) -> Option<Choice> {
         // Another stream for every set of poses.
         let stream = self.poses.iter().fold(0u64, |bits, pose| bits | 1 << pose);
         let mut random = generator(seed ^ SALT ^ (stream << 32), index);
-        let (tool, grip_yaw) = *self.grips.get(random.random_range(0..self.grips.len().max(1)))?;
+        let pose = *self.poses.get(random.random_range(0..self.poses.len().max(1)))?;
         let ways = self.task.pushes.directions.headings();
-        let mut pushes: Vec<CandidatePush> = (0..PUSHES)
+        let (mut start, speed) = (self.task.robot.home, self.task.pushes.speed);
+        let mut pushes: Vec<Push> = (0..PUSHES)
             .map(|_| {
                 let direction = ways[random.random_range(0..ways.len())];
-                CandidatePush { start: Start::Chained, direction, length: TRAVEL }
+                let push = Push { start, direction, length: TRAVEL, speed };
+                start = push.end();
+                push
             })
             .collect();
         let stop = random.random_range(1..=PUSHES * STEPS);
@@ -175,37 +164,23 @@ impl<'a> Trials<'a> {
         if let Some(last) = pushes.last_mut() {
             last.length = TRAVEL * ((stop - 1) % STEPS + 1) as f64 / STEPS as f64;
         }
-        Some(self.chained(&Candidate { tool, grip_yaw, pushes }))
+        let action = Action { pose, form: PushForm::Chained, pushes };
+        Some(Choice { action, predicted: None })
     }
 
     /// The best of the stops that the planar engine brings nearest, as played.
     fn oracle(&mut self) -> Choice {
-        let tree = &self.shared.played;
-        let best = tree.best(&self.task.goal, ORACLE, |grip| self.grips.contains(&grip));
-        let mut choices = vec![nothing(self.setup, self.task)];
-        choices.extend(best.iter().map(|found| self.chained(&found.candidate)));
-        let actions: Vec<&Action> = choices.iter().map(|choice| &choice.action).collect();
-        let landings = self.play(Engine::Planar, &actions);
+        let best = self.shared.played.best(&self.task.goal, ORACLE, &self.poses);
+        let still = nothing(self.task).action;
+        let best = best.into_iter().map(|(_, action)| action);
+        let mut actions: Vec<Action> = std::iter::once(still).chain(best).collect();
+        let landings = self.play(Engine::Planar, &actions.iter().collect::<Vec<_>>());
         let errors = landings.iter().map(|landing| {
             if landing.sound { self.executed(landing).error } else { f64::INFINITY }
         });
         let best = errors.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
         let (index, error) = best.unwrap_or((0, f64::INFINITY));
-        Choice { predicted: Some(error), ..choices.swap_remove(index) }
-    }
-
-    /// A chained candidate, not predicted.
-    fn chained(&self, candidate: &Candidate) -> Choice {
-        let mut start = self.task.robot.home;
-        let mut pushes = Vec::with_capacity(candidate.pushes.len());
-        for &CandidatePush { direction, length, .. } in &candidate.pushes {
-            let push = Push { start, direction, length, speed: self.task.pushes.speed };
-            start = push.end();
-            pushes.push(push);
-        }
-        let grip = (candidate.tool, candidate.grip_yaw);
-        let action = Action { grip, form: PushForm::Chained, pushes };
-        Choice { action, predicted: None }
+        Choice { action: actions.swap_remove(index), predicted: Some(error) }
     }
 }
 
@@ -225,12 +200,5 @@ impl Stopwatch<'_> {
             seconds.extend(processor.map(|time| (format!("{what}{PROCESSOR}"), time)));
         }
         done
-    }
-
-    /// A time that was kept.
-    fn kept(&self, what: &str) -> Spent {
-        let kept = |name: &str| self.seconds.as_ref().and_then(|times| times.get(name)).copied();
-        let processor = kept(&format!("{what}{PROCESSOR}"));
-        Spent { wall: kept(what).unwrap_or_default(), processor }
     }
 }

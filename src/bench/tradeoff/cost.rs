@@ -1,7 +1,5 @@
 //! What a push costs at every level, all levels in turn.
 
-use std::time::{Duration, Instant};
-
 use crate::{
     asset::ToolLibrary,
     bench::{
@@ -11,7 +9,6 @@ use crate::{
         timing::push_seconds,
     },
     dataset::JointRule,
-    effect::{Job, Network},
 };
 
 use super::levels::Level;
@@ -64,10 +61,6 @@ impl Timed {
                     let alone = push_seconds(&model, cases, 1, ENOUGH);
                     seconds.insert(alone_key(level.name()), alone);
                 }
-                if let Level::Network(model) = level {
-                    let network = spent * network_share(model, cases);
-                    seconds.insert(network_key(objects, level.name()), network);
-                }
             }
         }
         seconds
@@ -82,22 +75,4 @@ pub(super) fn key(objects: usize, model: &str) -> String {
 /// The same for one push at a time.
 pub(super) fn alone_key(model: &str) -> String {
     format!("{model}, alone")
-}
-
-/// The same for the network's part.
-pub(super) fn network_key(objects: usize, model: &str) -> String {
-    format!("{}, network", key(objects, model))
-}
-
-/// Share of a batch's time that goes to the network. Wall time, but of both in one go.
-fn network_share(model: &Network, cases: &[Case]) -> f64 {
-    let (mut network, mut all) = (Duration::ZERO, Duration::ZERO);
-    for case in cases {
-        let job = Job::stated(&case.scene, case.motion.clone());
-        let jobs = vec![job; BATCH];
-        let began = Instant::now();
-        network += model.timed_rollout(&case.scene, &jobs).1;
-        all += began.elapsed();
-    }
-    network.as_secs_f64() / all.as_secs_f64().max(f64::MIN_POSITIVE)
 }

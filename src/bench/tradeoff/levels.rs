@@ -49,12 +49,10 @@ impl Level {
         matches!(self, Level::Network(_)) || self.name().starts_with("quasi-static")
     }
 
-    /// Whether it is measured on scenes of several objects too: whole models, and what leaving
-    /// objects out saves.
+    /// Whether it is measured on scenes of several objects too: whole models, and engines.
     pub(super) fn is_plain(&self) -> bool {
         let simulated = self.name().starts_with("planar") || self.name().starts_with("3d");
-        let variant = self.name().contains(',') && !self.name().ends_with("unpruned");
-        simulated || (self.batches() && !variant)
+        simulated || (self.batches() && !self.name().contains(','))
     }
 }
 
@@ -64,7 +62,6 @@ pub fn levels(shipped: &Weights, others: &[(String, Weights)]) -> Vec<Level> {
     let learned = |model: Network| Level::Network(Arc::new(model));
     let base = || Network::new(shipped.clone());
     let mut levels = vec![learned(base())];
-    levels.push(learned(base().unpruned()));
     levels.extend(STRIDES.map(|stride| learned(base().with_stride(stride))));
     levels.extend((0..shipped.card.config.steps).map(|steps| learned(base().with_steps(steps))));
     for (file, weights) in others {

@@ -6,13 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     asset::SCHEMA_VERSION,
-    bench::{End, Seconds, SolvedTask, SuiteKind, Summary, mean, percentile},
+    bench::{End, Seconds, SolvedTask, SuiteKind},
+    judge::{Summary, mean, percentile},
     solve::{Effort, EffortLevel, PlanStatus},
 };
 
 use super::{
     choice::choose_efforts,
-    cost::{OBJECTS, YARDSTICK, alone_key, key, network_key},
+    cost::{OBJECTS, YARDSTICK, alone_key, key},
     front::{Noise, Point, on_front},
     levels::{Level, PlanLevel},
     run::{CONTROL, TradeOffSettings, Unit, verification_key},
@@ -49,8 +50,6 @@ pub struct PredictorRow {
     pub seconds: f64,
     /// The same for one push at a time, where that differs.
     pub seconds_alone: Option<f64>,
-    /// The network's part of `seconds`; the rest is geometry, prior, features and integration.
-    pub network_seconds: Option<f64>,
     /// Whether no other predictor is both cheaper and more accurate (mean over one object).
     pub on_front: bool,
 }
@@ -64,8 +63,6 @@ pub struct ObjectCost {
     pub model: String,
     /// Processor time of a push, seconds.
     pub seconds: f64,
-    /// The network's part.
-    pub network_seconds: Option<f64>,
     /// How many times as long the planar engine takes at its default step.
     pub planar_ratio: f64,
 }
@@ -183,7 +180,6 @@ fn predictor_rows<'a>(
             suites,
             seconds: fastest(&key(1, model)).unwrap_or_default(),
             seconds_alone: fastest(&alone_key(model)),
-            network_seconds: fastest(&network_key(1, model)),
             on_front: false,
         })
         .collect();
@@ -213,7 +209,6 @@ fn object_costs<'a>(
                 objects,
                 model: model.to_owned(),
                 seconds,
-                network_seconds: fastest(&network_key(objects, model)),
                 planar_ratio: planar / seconds.max(f64::MIN_POSITIVE),
             })
         })

@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, extremes, random, refinement, saved, tasks, tools};
+use super::{cost, random, refinement, saved, tasks, tools};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -19,7 +19,6 @@ enum What {
     Random(random::RandomArgs),
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
-    Extremes(extremes::ExtremesArgs),
     Tools(tools::ToolsArgs),
     Merge(saved::MergeArgs),
     Report(saved::ReportArgs),
@@ -31,7 +30,6 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Random(args) => random::run(args, session)?,
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
-        What::Extremes(args) => extremes::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
         What::Report(args) => saved::report(args, session)?,

@@ -1,20 +1,18 @@
 //! `pushplan bench cost`: what pushes, networks and searches cost.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use serde_json::json;
 
 use crate::asset::load_task;
 use crate::bench::{
-    FAR_COUNTS, PushSplit, Suite, SuiteKind, crowd_cases, far_costs, inference_costs, push_costs,
-    push_split, search_costs,
+    FAR_COUNTS, Suite, SuiteKind, crowd_cases, far_costs, inference_costs, push_costs, search_costs,
 };
-use crate::cli::{error::CliError, model::ModelName, output, session::Session};
+use crate::cli::{error::CliError, model::ModelName, output, session::Session, solve::solve_error};
 use crate::effect::{EffectModel, Network};
-use crate::report::{
-    far_chart, far_table, inference_table, push_cost_table, search_cost_table, split_table,
-};
+use crate::report::{far_chart, far_table, inference_table, push_cost_table, search_cost_table};
 use crate::solve::Effort;
 
 use super::common::Common;
@@ -66,7 +64,6 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     };
     let library = args.common.library.load()?;
     let task = load_task(task, &library)?;
-    let tools = task.tools(&library)?;
     let model = args.common.load_model()?;
     let planar = ModelName::Planar.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
@@ -77,21 +74,18 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
         Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES),
         None => Vec::new(),
     };
-    let split = split(args, &suite, usize::from(args.batch), session)?;
-    let models: [&dyn EffectModel; 2] = [&*model, &*planar];
+    let models = [Arc::clone(&model), planar];
     let standard = Effort::Standard.settings().offsets;
     let offsets = args.offsets.map_or(standard, usize::from);
-    let searches =
-        session.compute(|| search_costs(&models, &task, &tools, offsets, args.candidates as usize));
+    let searches = session
+        .compute(|| search_costs(&models, &task, &library, offsets, args.candidates as usize));
     spinner.finish_and_clear();
+    let searches = searches.map_err(solve_error)?;
     let mut tables = vec![push_cost_table(&pushes), search_cost_table(&searches)];
     if !networks.is_empty() {
         tables.insert(0, inference_table(&networks));
     }
-    tables.extend(split.as_ref().map(split_table));
-    let report = json!({
-        "networks": networks, "pushes": pushes, "split": split, "searches": searches,
-    });
+    let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
     args.common.form.print(session, "cost", &report, "", &tables)
 }
 
@@ -109,20 +103,6 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     args.common.form.print(session, "cost", &report, &head, &[inference_table(&networks)])
 }
 
-/// What the time of a push goes into, where the model is a network.
-fn split(
-    args: &CostArgs,
-    suite: &Suite,
-    batch: usize,
-    session: &Session,
-) -> Result<Option<PushSplit>, CliError> {
-    let weights = args.common.model_or_network().weights()?;
-    Ok(weights.map(|weights| {
-        let model = Network::new(weights);
-        session.compute(|| push_split(&model, suite, batch))
-    }))
-}
-
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let weights = args.common.model_or_network().weights()?.ok_or_else(|| {
         CliError::usage("only a network leaves out what it cannot touch", "leave --model out")
@@ -132,10 +112,10 @@ fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     }
     let library = args.common.library.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
-    let (pruned, whole) = (Network::new(weights.clone()), Network::new(weights).unpruned());
+    let network = Network::new(weights);
     let planar = ModelName::Planar.load()?;
     let batch = usize::from(args.batch);
-    let models: [(&dyn EffectModel, usize); 3] = [(&pruned, batch), (&whole, batch), (&planar, 1)];
+    let models: [(&dyn EffectModel, usize); 2] = [(&network, batch), (&planar, 1)];
     let spinner = session.spinner("timing");
     let costs = far_costs(&models, &suite, &FAR_COUNTS)
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;

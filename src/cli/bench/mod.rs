@@ -3,7 +3,6 @@
 mod command;
 mod common;
 mod cost;
-mod extremes;
 mod keep;
 mod random;
 mod refinement;

@@ -1,15 +1,21 @@
 //! `pushplan bench refinement`: what refinement brings.
 
+use std::sync::Arc;
+
 use clap::Args;
 
 use crate::bench::refinement_report;
-use crate::cli::{error::CliError, session::Session};
+use crate::cli::{
+    error::CliError,
+    session::Session,
+    solve::{EffortName, solve_error},
+};
 use crate::report::refinement_table;
-use crate::solve::Effort;
+use crate::solve::{Effort, Planner, Settings};
 
 use super::common::Common;
 
-/// Final errors of plans before and after refinement, over random solvable tasks
+/// Random solvable tasks with and without refinement of what the search finds
 #[derive(Args, Debug)]
 pub struct RefinementArgs {
     #[command(flatten)]
@@ -18,6 +24,9 @@ pub struct RefinementArgs {
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: u32,
+    /// How hard to try otherwise
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortName,
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
@@ -25,15 +34,23 @@ pub struct RefinementArgs {
 
 pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
-    let model = args.common.load_model()?;
-    let settings = Effort::Standard.settings();
+    let effort: Effort = args.effort.into();
+    let model = args.common.model(effort).load()?;
+    let settings = Settings { disturbed: 0, ..effort.settings() };
+    let planner = |settings| {
+        let planner = Planner::builder(Arc::clone(&model)).settings(settings);
+        planner.outside(args.common.outside.outside()).build()
+    };
+    let without = planner(Settings { refine_rounds: 0, ..settings });
+    let with = planner(settings);
     let spinner = session.spinner("refining");
     let report = session
-        .compute(|| refinement_report(&model, &library, &settings, args.seed, args.tasks as usize));
+        .compute(|| refinement_report([&without, &with], &library, args.seed, args.tasks as usize));
     spinner.finish_and_clear();
+    let report = report.map_err(solve_error)?;
     let head = format!(
-        "{} random tasks of seed {}, {} at standard effort; {} with a push to refine\n\n",
-        report.tasks, report.seed, report.model, report.planned
+        "{} random tasks of seed {}, effort {effort} with {}\n\n",
+        report.tasks, report.seed, report.model
     );
     args.common.form.print(session, "refinement", &report, &head, &[refinement_table(&report)])
 }

@@ -6,13 +6,17 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::write_atomic;
-use crate::bench::{GoalSet, Layout, ReferenceSetup, RunManifest, ToolBench, single_pushes};
+use crate::bench::{
+    GoalSet, Layout, ReferenceSetup, RunManifest, ToolBench, ToolBenchError, single_pushes,
+};
 use crate::cli::{
     error::CliError,
-    model::{self, ModelName, OutsideArgs},
+    model::{ModelName, OutsideArgs},
     session::Session,
+    solve::{EffortName, solve_error},
 };
 use crate::report::{single_table, tools_document};
+use crate::solve::{Effort, Planner};
 
 use super::common::Form;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
@@ -24,8 +28,9 @@ pub const SUITE: &str = "tools";
 #[derive(Args, Debug)]
 #[command(after_help = keep::HELP)]
 pub struct ToolsArgs {
-    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    model: ModelName,
+    /// Effect model of all rows; by default the network, and for the planner that of the effort
+    #[arg(long, value_name = "MODEL")]
+    model: Option<ModelName>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Where the cylinder starts
@@ -34,6 +39,9 @@ pub struct ToolsArgs {
     /// The pushes
     #[arg(long, value_enum, default_value_t)]
     form: FormName,
+    /// How hard the planner tries
+    #[arg(long, value_enum, default_value_t)]
+    effort: EffortName,
     /// Number of tasks of single pushes
     #[arg(long, value_name = "N", default_value_t = 10_000,
           value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
@@ -94,17 +102,31 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     }
     let goals = GoalSet::shipped(layout)
         .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
-    let model = args.outside.guard(args.model.load()?);
-    let mut settings = json!({"layout": layout, "goals": value_digest(&goals)?});
+    let name = args.model.clone().unwrap_or(ModelName::Brdpn);
+    let model = args.outside.guard(name.load()?);
+    let effort: Effort = args.effort.into();
+    let planner = args.model.clone().unwrap_or(ModelName::OfEffort(effort));
+    let planner = Planner::builder(planner.load()?)
+        .effort(effort)
+        .seed(args.seed)
+        .outside(args.outside.outside())
+        .build();
+    let mut settings = json!({
+        "layout": layout,
+        "goals": value_digest(&goals)?,
+        "planner": format!("effort {effort} with {}", planner.model().name()),
+        "budget": planner.settings(),
+    });
     args.outside.note(&mut settings);
     let manifest = RunManifest::new(SUITE, goals.len(), args.seed, model.name())
-        .with_weights(weights_digest(&args.model)?)
+        .with_weights(weights_digest(&name)?)
         .with_settings(settings);
-    let mut bench = ToolBench::new(setup, goals, &model, args.seed);
+    let mut bench = ToolBench::new(setup, goals, &model, &planner, args.seed);
     let store = args.keep.measure(session, manifest, |index| {
-        session
-            .compute(|| bench.measure(index))
-            .ok_or_else(|| CliError::Unexpected(format!("there is no task {index}")))
+        session.compute(|| bench.measure(index)).map_err(|error| match error {
+            ToolBenchError::Solve(error) => solve_error(error),
+            error @ ToolBenchError::NoTask { .. } => CliError::Unexpected(error.to_string()),
+        })
     })?;
     let document = tools_document(store.manifest(), store.finished());
     args.shown.show(session, &document, args.keep.out.as_deref())
@@ -117,7 +139,8 @@ fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
             "leave --out out, or --form single",
         ));
     }
-    let model = args.outside.guard(args.model.load()?);
+    let name = args.model.clone().unwrap_or(ModelName::Brdpn);
+    let model = args.outside.guard(name.load()?);
     let spinner = session.spinner("pushing");
     let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
     spinner.finish_and_clear();

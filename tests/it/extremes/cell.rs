@@ -1,17 +1,32 @@
 //! A cell of the grid: pushes that have one extreme in common.
 
-use crate::bench::suite::Case;
+use pushplan::bench::Case;
 
-use super::report::ExtremeKind;
+/// Which ordinary pushes the errors of a cell are measured by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One cylinder.
+    Cylinder,
+    /// One cuboid.
+    Cuboid,
+    /// Several objects that touch.
+    Several,
+    /// Objects in a row, joined.
+    Jointed,
+}
+
+impl Kind {
+    pub const ALL: [Self; 4] = [Self::Cylinder, Self::Cuboid, Self::Several, Self::Jointed];
+}
 
 /// Pushes that have one extreme in common.
-pub(super) struct Cell {
+pub struct Cell {
     /// What is extreme.
     pub factor: &'static str,
     /// How extreme it is.
     pub value: String,
     /// Which ordinary pushes its errors are measured by.
-    pub kind: ExtremeKind,
+    pub kind: Kind,
     /// The pushes.
     pub cases: Vec<Case>,
     /// Why the planar engine cannot be trusted here either, where that is known.
@@ -20,7 +35,7 @@ pub(super) struct Cell {
 
 /// Why, and in which pushes, the planar engine is not to be trusted.
 #[derive(Clone, Copy)]
-pub(super) struct Doubt {
+pub struct Doubt {
     pub why: &'static str,
     /// Only where an object touches the tool and an obstacle.
     pub crushed: bool,
@@ -30,7 +45,7 @@ impl Cell {
     pub fn new(
         factor: &'static str,
         value: impl Into<String>,
-        kind: ExtremeKind,
+        kind: Kind,
         cases: Vec<Case>,
     ) -> Self {
         Self { factor, value: value.into(), kind, cases, doubt: None }

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use rand::Rng;
 
-use crate::{
-    bench::suite::Case,
+use pushplan::{
+    bench::Case,
     dataset::{Crowd, Preset, Solids, random_scene},
     geometry::{Pose, Vector},
     scene::{Joint, JointKind, Object, Obstacle, Scene, Span},
@@ -13,8 +13,7 @@ use crate::{
 
 use super::{
     base::{Draw, Solid, Way, shifted, table, wound},
-    cell::Cell,
-    report::ExtremeKind,
+    cell::{Cell, Kind},
 };
 
 /// Gap between the cans of a row, metres.
@@ -25,18 +24,18 @@ const THROWN: &str = "the engine throws overlapping bodies apart";
 const CRUSHED: &str = "nothing gives way: the engine presses the object into tool or wall";
 
 /// Objects that touch, as many as wanted, drawn from the trained ranges.
-pub(super) fn touching(draw: &Draw, count: usize) -> Vec<Case> {
+pub fn touching(draw: &Draw, count: usize) -> Vec<Case> {
     let crowd = Crowd { count, solids: Solids::Any, touching: 0.8 };
     draw.pushes(&Way::default(), |rng| random_scene(rng, &Preset::Tools.ranges(), crowd))
 }
 
 /// A row of cans, each joined to the next.
-pub(super) fn row(draw: &Draw, count: usize, kind: fn(Vector) -> JointKind) -> Vec<Case> {
+pub fn row(draw: &Draw, count: usize, kind: fn(Vector) -> JointKind) -> Vec<Case> {
     draw.pushes(&Way::default(), |rng| turned(rng, row_scene(count, kind)))
 }
 
 /// A joint about a free axis at the point between two neighbours.
-pub(super) fn hinge(at: Vector) -> JointKind {
+pub fn hinge(at: Vector) -> JointKind {
     JointKind::Revolute { at, limits: None }
 }
 
@@ -49,9 +48,9 @@ fn rigid(_: Vector) -> JointKind {
 }
 
 /// All cells of several objects.
-pub(super) fn cells(draw: &Draw) -> Vec<Cell> {
+pub fn cells(draw: &Draw) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let several = ExtremeKind::Several;
+    let several = Kind::Several;
     for count in [2, 5, 8, 12, 20, 30] {
         let cases = touching(draw, count);
         cells.push(Cell::new("number of objects", count.to_string(), several, cases));
@@ -75,7 +74,7 @@ fn mass_ratios(draw: &Draw, cells: &mut Vec<Cell>) {
             scene.objects[0].mass = 0.1 * ratio;
             scene
         });
-        let cell = Cell::new("ratio of masses", format!("1:{ratio}"), ExtremeKind::Several, cases);
+        let cell = Cell::new("ratio of masses", format!("1:{ratio}"), Kind::Several, cases);
         cells.push(if ratio > 10.0 { cell.doubted(SINKING) } else { cell });
     }
     // Light between heavy: what task files are not allowed to hold.
@@ -88,7 +87,7 @@ fn mass_ratios(draw: &Draw, cells: &mut Vec<Cell>) {
         }
         turned(rng, scene)
     });
-    let cell = Cell::new("ratio of masses", "10 kg, 10 g in turn", ExtremeKind::Several, cases);
+    let cell = Cell::new("ratio of masses", "10 kg, 10 g in turn", Kind::Several, cases);
     cells.push(cell.doubted(SINKING));
 }
 
@@ -101,7 +100,7 @@ fn overlaps(draw: &Draw, cells: &mut Vec<Cell>) {
         (0.1, "one in the other"),
     ] {
         let cases = draw.pushes(&Way::default(), |rng| pair(rng, depth));
-        let cell = Cell::new("objects overlap at the start", name, ExtremeKind::Several, cases);
+        let cell = Cell::new("objects overlap at the start", name, Kind::Several, cases);
         cells.push(if depth > 0.02 { cell.doubted(THROWN) } else { cell });
     }
 }
@@ -121,8 +120,8 @@ fn walls(draw: &Draw, cells: &mut Vec<Cell>) {
                 wall(case, gap);
             }
             let kind = match solid {
-                Solid::Cylinder => ExtremeKind::Cylinder,
-                Solid::Cuboid => ExtremeKind::Cuboid,
+                Solid::Cylinder => Kind::Cylinder,
+                Solid::Cuboid => Kind::Cuboid,
             };
             let cell = Cell::new("a wall ahead", name, kind, cases);
             cells.push(if gap < 0.18 { cell.doubted_if_crushed(CRUSHED) } else { cell });
@@ -146,7 +145,7 @@ fn wall(case: &mut Case, gap: f64) {
 }
 
 fn chains(draw: &Draw, cells: &mut Vec<Cell>) {
-    let jointed = ExtremeKind::Jointed;
+    let jointed = Kind::Jointed;
     for joints in [1, 5, 8, 11, 12] {
         let cases = row(draw, joints + 1, hinge);
         cells.push(Cell::new("revolute joints in a row", joints.to_string(), jointed, cases));

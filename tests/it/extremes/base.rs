@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use rand_pcg::Pcg64;
 
-use crate::{
+use pushplan::{
     asset::ToolLibrary,
-    bench::suite::Case,
+    bench::Case,
     dataset::{Aim, aimed_stroke, generator, random_direction, random_heading},
     geometry::{Pose, Shape, Vector},
     scene::{Object, Scene, Tool, ToolMotion},
@@ -16,10 +16,10 @@ use crate::{
 const TRIES: usize = 1000;
 
 /// Height of the tools' underside above the table, metres.
-pub(super) const LIFT: f64 = 0.002;
+pub const LIFT: f64 = 0.002;
 
 /// Where pushes come from.
-pub(super) struct Draw<'a> {
+pub struct Draw<'a> {
     /// The shipped tools, which take turns.
     pub library: &'a ToolLibrary,
     /// Pushes a cell.
@@ -30,7 +30,7 @@ pub(super) struct Draw<'a> {
 
 /// How a push goes.
 #[derive(Clone)]
-pub(super) struct Way {
+pub struct Way {
     /// Travel, metres.
     pub travel: f64,
     /// Speed, m/s.
@@ -80,7 +80,7 @@ impl Draw<'_> {
 
 /// The two solids that single pushes are made on.
 #[derive(Clone, Copy)]
-pub(super) enum Solid {
+pub enum Solid {
     Cylinder,
     Cuboid,
 }
@@ -104,13 +104,13 @@ impl Solid {
 }
 
 /// A table of friction 0.5 with these objects.
-pub(super) fn table(objects: Vec<Object>) -> Scene {
+pub fn table(objects: Vec<Object>) -> Scene {
     Scene { table_friction: 0.5, objects, ..Scene::default() }
 }
 
 /// A scene and its motion, shifted by `shift` metres.
-pub(super) fn shifted(mut case: Case, shift: Vector) -> Case {
-    use crate::scene::JointKind;
+pub fn shifted(mut case: Case, shift: Vector) -> Case {
+    use pushplan::scene::JointKind;
     let objects = case.scene.objects.iter_mut().map(|object| &mut object.pose);
     let obstacles = case.scene.obstacles.iter_mut().map(|obstacle| &mut obstacle.pose);
     let strokes = case.motion.strokes.iter_mut().flat_map(|s| [&mut s.from, &mut s.to]);
@@ -126,7 +126,7 @@ pub(super) fn shifted(mut case: Case, shift: Vector) -> Case {
 }
 
 /// A scene and its motion with `turn` radians added to every heading, which turns nothing.
-pub(super) fn wound(mut case: Case, turn: f64) -> Case {
+pub fn wound(mut case: Case, turn: f64) -> Case {
     for object in &mut case.scene.objects {
         object.pose.heading += turn;
     }

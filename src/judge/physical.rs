@@ -24,7 +24,7 @@ pub struct Drift {
 
 /// Sums of drifts, by kind: fixed, revolute, prismatic.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct DriftSums {
+pub struct DriftSums {
     joints: [usize; 3],
     samples: [usize; 3],
     apart: [f64; 3],
@@ -62,7 +62,8 @@ impl Joints {
 }
 
 impl DriftSums {
-    pub(super) fn add(&mut self, other: &Self) {
+    /// Adds those of another trial.
+    pub fn add(&mut self, other: &Self) {
         for k in 0..3 {
             self.joints[k] += other.joints[k];
             self.samples[k] += other.samples[k];
@@ -72,8 +73,8 @@ impl DriftSums {
         }
     }
 
-    /// Fixed, revolute, prismatic.
-    pub(super) fn by_kind(&self) -> [Drift; 3] {
+    /// Means and maxima of fixed, revolute and prismatic joints.
+    pub fn by_kind(&self) -> [Drift; 3] {
         [0, 1, 2].map(|k| Drift {
             joints: self.joints[k],
             mean: self.apart[k] / self.samples[k].max(1) as f64,

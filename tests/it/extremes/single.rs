@@ -5,16 +5,15 @@ use std::sync::Arc;
 
 use rand::Rng;
 
-use crate::{
-    bench::suite::Case,
+use pushplan::{
+    bench::Case,
     geometry::{Pose, Shape, Vector},
     scene::{Object, Part, Tool},
 };
 
 use super::{
     base::{Draw, Solid, Way, shifted, table, wound},
-    cell::Cell,
-    report::ExtremeKind,
+    cell::{Cell, Kind},
 };
 
 /// Pushes of the cells that take minutes of simulated time each.
@@ -23,10 +22,10 @@ const FEW: usize = 6;
 const NEVER_STOPS: &str = "without friction nothing comes to rest";
 
 impl Solid {
-    fn kind(self) -> ExtremeKind {
+    fn kind(self) -> Kind {
         match self {
-            Solid::Cylinder => ExtremeKind::Cylinder,
-            Solid::Cuboid => ExtremeKind::Cuboid,
+            Solid::Cylinder => Kind::Cylinder,
+            Solid::Cuboid => Kind::Cuboid,
         }
     }
 }
@@ -42,12 +41,12 @@ fn on(draw: &Draw, solid: Solid, way: &Way, change: impl Fn(&mut Object)) -> Vec
 }
 
 /// The ordinary pushes of `solid`.
-pub(super) fn ordinary(draw: &Draw, solid: Solid) -> Vec<Case> {
+pub fn ordinary(draw: &Draw, solid: Solid) -> Vec<Case> {
     on(draw, solid, &Way::default(), |_| {})
 }
 
 /// All cells of one object.
-pub(super) fn cells(draw: &Draw) -> Vec<Cell> {
+pub fn cells(draw: &Draw) -> Vec<Cell> {
     let mut cells = Vec::new();
     for solid in Solid::BOTH {
         bodies(draw, solid, &mut cells);

@@ -29,7 +29,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The summary of `values`; nothing for an empty list or one with an undefined number.
+    /// The summary of `values`; `None` for an empty list or one with an undefined number.
     pub fn of(values: &[f64]) -> Option<Self> {
         if values.is_empty() || values.iter().any(|value| !value.is_finite()) {
             return None;
@@ -39,7 +39,7 @@ impl Summary {
         Some(Self {
             count: sorted.len(),
             mean: mean(&sorted),
-            mean_interval: bootstrap_mean(&sorted),
+            mean_interval: mean_interval(&sorted),
             median: percentile(&sorted, 50.0),
             p90: percentile(&sorted, 90.0),
             p95: percentile(&sorted, 95.0),
@@ -62,6 +62,58 @@ impl Summary {
     }
 }
 
+/// Position errors of objects beside how far they truly moved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RelativeErrors {
+    /// Number of objects.
+    pub objects: usize,
+    /// Mean distance of the true positions from the start, metres.
+    pub motion: f64,
+    /// Mean distance of the predicted from the true positions, metres.
+    pub mean: f64,
+    /// Median over objects, metres.
+    pub median: f64,
+    /// 90th percentile over objects, metres.
+    pub p90: f64,
+    /// Mean error as a share of the mean motion.
+    pub relative: f64,
+    /// 95 % interval of that share, by bootstrap over trials, whose objects are not independent
+    /// of each other.
+    pub relative_interval: Span,
+}
+
+impl RelativeErrors {
+    /// From pairs of error and motion, trial by trial; `None` without any.
+    pub fn of(trials: &[Vec<[f64; 2]>]) -> Option<Self> {
+        let mut sorted: Vec<f64> = trials.iter().flatten().map(|pair| pair[0]).collect();
+        if sorted.is_empty() {
+            return None;
+        }
+        sorted.sort_by(f64::total_cmp);
+        let motions: Vec<f64> = trials.iter().flatten().map(|pair| pair[1]).collect();
+        let (error, motion) = (mean(&sorted), mean(&motions));
+        let add = |sum: [f64; 2], pair: &[f64; 2]| [sum[0] + pair[0], sum[1] + pair[1]];
+        let sums: Vec<[f64; 2]> =
+            trials.iter().map(|pairs| pairs.iter().fold([0.0; 2], add)).collect();
+        Some(Self {
+            objects: sorted.len(),
+            motion,
+            mean: error,
+            median: percentile(&sorted, 50.0),
+            p90: percentile(&sorted, 90.0),
+            relative: ratio([error, motion]),
+            relative_interval: interval(sums.len(), |draw| {
+                ratio(draw.fold([0.0; 2], |sum, k| add(sum, &sums[k])))
+            }),
+        })
+    }
+
+    /// A length in metres as a share of the mean motion.
+    pub fn share(&self, metres: f64) -> f64 {
+        metres / self.motion.max(f64::MIN_POSITIVE)
+    }
+}
+
 /// Arithmetic mean; 0 for an empty list.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
@@ -78,18 +130,26 @@ pub fn percentile(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (sorted[above] - sorted[below]) * (rank - below as f64)
 }
 
-/// 95 % interval of the mean by the percentile bootstrap (Efron 1979,
-/// doi:10.1214/aos/1176344552), with a fixed seed so that a table is the same every time.
-fn bootstrap_mean(values: &[f64]) -> Span {
-    let mut rng = Pcg64::seed_from_u64(values.len() as u64);
-    let mut means: Vec<f64> = (0..RESAMPLES)
-        .map(|_| {
-            let draw = |_| values[rng.random_range(0..values.len())];
-            (0..values.len()).map(draw).sum::<f64>() / values.len() as f64
-        })
+/// 95 % interval of the mean.
+fn mean_interval(values: &[f64]) -> Span {
+    interval(values.len(), |draw| draw.map(|k| values[k]).sum::<f64>() / values.len() as f64)
+}
+
+/// 95 % interval of a statistic of `count` independent things by the percentile bootstrap (Efron
+/// 1979, doi:10.1214/aos/1176344552), with a fixed seed so that a table is the same every time.
+/// `statistic` is given which of them are drawn.
+fn interval(count: usize, statistic: impl Fn(&mut dyn Iterator<Item = usize>) -> f64) -> Span {
+    let mut rng = Pcg64::seed_from_u64(count as u64);
+    let mut values: Vec<f64> = (0..RESAMPLES)
+        .map(|_| statistic(&mut (0..count).map(|_| rng.random_range(0..count))))
         .collect();
-    means.sort_by(f64::total_cmp);
-    Span::new(percentile(&means, 2.5), percentile(&means, 97.5))
+    values.sort_by(f64::total_cmp);
+    Span::new(percentile(&values, 2.5), percentile(&values, 97.5))
+}
+
+/// `error / motion`; 0 where nothing moved, so that no infinity travels.
+fn ratio([error, motion]: [f64; 2]) -> f64 {
+    if motion > 0.0 { error / motion } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -2,9 +2,8 @@
 
 use crate::{
     asset::Recording,
-    dataset::Episode,
     geometry::Pose,
-    scene::{Scene, State, ToolMotion, Trajectory},
+    scene::{Frame, Job, Scene, State, ToolMotion, Trajectory},
 };
 
 /// A scene, a tool motion, and what really happened.
@@ -41,26 +40,25 @@ pub enum When {
 }
 
 impl Trial {
-    /// What a data set holds, every frame of it.
-    pub fn of_episode(episode: &Episode) -> Self {
+    /// A motion of which only the end is known: the poses at rest after all of it.
+    pub fn to_rest(scene: Scene, motion: ToolMotion, poses: Vec<Pose>) -> Self {
+        let stroke = motion.strokes.len().saturating_sub(1);
+        let headings = vec![true; scene.objects.len()];
+        Self { scene, motion, truth: vec![Moment { stroke, when: When::Rest, poses }], headings }
+    }
+
+    /// A motion that was followed frame by frame, the start first.
+    pub fn of_frames(scene: Scene, motion: ToolMotion, frames: &[Frame]) -> Self {
         let mut truth = Vec::new();
         let (mut stroke, mut count) = (0, 0);
-        // The first frame is the start.
-        for frame in episode.frames.iter().skip(1) {
+        for frame in frames.iter().skip(1) {
             count = if frame.stroke == stroke { count + 1 } else { 1 };
             stroke = frame.stroke;
-            truth.push(Moment {
-                stroke,
-                when: When::Frame(count),
-                poses: frame.state.poses.clone(),
-            });
+            let poses = frame.state.poses.clone();
+            truth.push(Moment { stroke, when: When::Frame(count), poses });
         }
-        Self {
-            scene: episode.scene.clone(),
-            motion: episode.motion.clone(),
-            truth,
-            headings: vec![true; episode.scene.objects.len()],
-        }
+        let headings = vec![true; scene.objects.len()];
+        Self { scene, motion, truth, headings }
     }
 
     /// What was recorded, at the ends of strokes.
@@ -81,6 +79,25 @@ impl Trial {
             .collect();
         let headings = recording.headings.clone();
         Self { scene: recording.scene.clone(), motion: replay.motion, truth, headings }
+    }
+
+    /// What a model is asked.
+    pub fn job(&self) -> Job {
+        Job::stated(&self.scene, self.motion.clone())
+    }
+
+    /// Distances of the last true positions from the start, metres.
+    pub fn motions(&self) -> Vec<f64> {
+        let last = self.truth.last().map_or(&[][..], |moment| &moment.poses);
+        let pairs = last.iter().zip(&self.scene.objects);
+        pairs.map(|(pose, object)| (pose.position - object.pose.position).norm()).collect()
+    }
+
+    /// Whether only the end is known, at rest.
+    pub(super) fn is_of_the_end(&self) -> bool {
+        let last = self.motion.strokes.len().saturating_sub(1);
+        let end = |moment: &Moment| moment.when == When::Rest && moment.stroke == last;
+        self.truth.iter().all(end)
     }
 
     /// The predicted state at every moment of the truth. Models and truth come to rest after
@@ -118,7 +135,7 @@ mod tests {
     use super::*;
     use crate::{
         geometry::Shape,
-        scene::{Frame, Object, Part, Stroke, Tool},
+        scene::{Object, Part, Stroke, Tool},
     };
 
     /// A frame of stroke `stroke` in which the one object is at `x`.
@@ -155,7 +172,7 @@ mod tests {
         let truth =
             [(0, 0.0), (0, 1.0), (0, 2.0), (0, 3.0), (0, 4.0), (1, 5.0), (1, 6.0), (1, 7.0)];
         let frames = trajectory(&truth).frames;
-        let mut trial = Trial::of_episode(&Episode { index: 0, scene, motion, frames });
+        let mut trial = Trial::of_frames(scene, motion, &frames);
         assert_eq!(trial.truth.len(), 7);
         // The prediction takes one and three, and stops early in the last case.
         let predicted = trajectory(&[

@@ -2,16 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::{
+use pushplan::{
     asset::ToolLibrary,
     bench::random_task,
     effect::EffectModel,
     geometry::{Pose, Vector},
     scene::{Obstacle, Task},
-    solve::{Effort, PlanStatus, Planner},
+    solve::{Effort, PlanStatus, Planner, Solution},
 };
-
-use super::report::TaskCell;
 
 /// What should come of a task.
 #[derive(Clone, Copy)]
@@ -29,8 +27,20 @@ enum Expected {
 /// Something that makes a task extreme.
 type Change = fn(&mut Task);
 
-/// Numbers of [`tasks`].
-pub(super) const COUNT: usize = TASKS.len();
+/// A task, solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskCell {
+    pub name: &'static str,
+    /// How solving ended; `None` where the task was refused.
+    pub status: Option<PlanStatus>,
+    /// Pushes of the first plan.
+    pub pushes: Option<usize>,
+    /// Its predicted error, metres.
+    pub error: Option<f64>,
+    pub rollouts: usize,
+    /// Whether that is what it should be.
+    pub sound: bool,
+}
 
 const TASKS: [(&str, Expected, Change); 20] = [
     ("an ordinary one", Expected::Solved(1), |_| {}),
@@ -78,7 +88,7 @@ const TASKS: [(&str, Expected, Change); 20] = [
         task.pushes.length = 100.0;
     }),
     ("64 directions, 9 grip yaws", Expected::Solved(1), |task| {
-        task.pushes.directions = crate::scene::Directions::Count(64);
+        task.pushes.directions = pushplan::scene::Directions::Count(64);
         task.pushes.grip_yaws = (0..9).map(f64::from).collect();
     }),
     ("friction 0", Expected::Anything, |task| {
@@ -92,50 +102,42 @@ const TASKS: [(&str, Expected, Change); 20] = [
     ("negative mass", Expected::Refused, |task| task.scene.objects[0].mass = -1.0),
 ];
 
-/// Solves task `index` with a first look's effort.
-pub(super) fn solve(
-    model: &Arc<dyn EffectModel>,
-    library: &ToolLibrary,
-    seed: u64,
-    index: usize,
-) -> TaskCell {
-    let (name, expected, change) = TASKS[index];
-    // A cuboid: headings count.
-    let mut task = random_task(library, seed, 1);
-    change(&mut task);
+/// Solves all of them with a first look's effort.
+pub fn solved(model: &Arc<dyn EffectModel>, library: &ToolLibrary, seed: u64) -> Vec<TaskCell> {
     let planner = Planner::builder(Arc::clone(model)).effort(Effort::Draft).build();
-    let mut cell = TaskCell {
-        name: name.into(),
-        status: None,
-        refused: None,
-        pushes: None,
-        error: None,
-        rollouts: 0,
-        sound: false,
+    TASKS
+        .into_iter()
+        .map(|(name, expected, change)| {
+            // A cuboid: headings count.
+            let mut task = random_task(library, seed, 1);
+            change(&mut task);
+            judged(name, expected, planner.solve(&task, library).ok())
+        })
+        .collect()
+}
+
+/// `None` for a task that was refused.
+fn judged(name: &'static str, expected: Expected, solution: Option<Solution>) -> TaskCell {
+    let best = solution.as_ref().and_then(Solution::best);
+    let status = solution.as_ref().map(|solution| solution.status);
+    let pushes = best.map(|plan| plan.plan.pushes.len());
+    let finite =
+        best.is_none_or(|plan| plan.outcome.error.is_finite() && plan.outcome.state.is_finite());
+    let sound = match (expected, status) {
+        (Expected::Refused, status) => status.is_none(),
+        (_, None) => false,
+        (Expected::Solved(most), status) => {
+            status == Some(PlanStatus::Solved) && pushes.is_some_and(|pushes| pushes <= most)
+        }
+        (Expected::Unsolved, status) => status != Some(PlanStatus::Solved),
+        (Expected::Anything, _) => true,
     };
-    match planner.solve(&task, library) {
-        Err(refused) => {
-            cell.refused = Some(refused.to_string());
-            cell.sound = matches!(expected, Expected::Refused);
-        }
-        Ok(solution) => {
-            let best = solution.best();
-            let finite = best.is_none_or(|plan| {
-                plan.outcome.error.is_finite() && plan.outcome.state.is_finite()
-            });
-            cell.status = Some(solution.status);
-            cell.pushes = best.map(|plan| plan.plan.pushes.len());
-            cell.error = best.map(|plan| plan.outcome.error);
-            cell.rollouts = solution.statistics.rollouts;
-            let solved = solution.status == PlanStatus::Solved;
-            cell.sound = finite
-                && match expected {
-                    Expected::Solved(most) => solved && cell.pushes.is_some_and(|n| n <= most),
-                    Expected::Unsolved => !solved,
-                    Expected::Anything => true,
-                    Expected::Refused => false,
-                };
-        }
+    TaskCell {
+        name,
+        status,
+        pushes,
+        error: best.map(|plan| plan.outcome.error),
+        rollouts: solution.as_ref().map_or(0, |solution| solution.statistics.rollouts),
+        sound: sound && finite,
     }
-    cell
 }
