@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use super::printable::printable;
+
 /// A line and a column, both counted from one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
@@ -66,14 +68,15 @@ impl Fault {
 }
 
 impl fmt::Display for Fault {
+    /// As lines for a terminal: words of the file stay words, see [`printable`].
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file)?;
+        write!(f, "{}", printable(&self.file))?;
         if let Some(place) = self.place {
             write!(f, ":{}:{}", place.line, place.column)?;
         }
-        write!(f, ": error: {}", self.message)?;
+        write!(f, ": error: {}", printable(&self.message))?;
         if !self.advice.is_empty() {
-            write!(f, "\n  help: {}", self.advice)?;
+            write!(f, "\n  help: {}", printable(&self.advice))?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 //!
 //! Strict, with source positions and all faults of a file at once; the only room that names
 //! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
-//! their place (`node`), the tree is checked against what such a file may hold (`spec`,
+//! their place (`node`, `reader`), the tree is checked against what such a file may hold (`spec`,
 //! `strict`), and the rules that span several keys are applied while the domain's type is
 //! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
 
@@ -10,6 +10,8 @@ mod fault;
 mod kind;
 mod library;
 mod node;
+mod printable;
+mod reader;
 mod recording;
 mod saved;
 mod schema;
@@ -24,6 +26,7 @@ mod write;
 pub use fault::{Fault, Faults, Place};
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;
+pub use printable::printable;
 pub use recording::{Instant, RECORDING_FORMAT, RecordedFrame, Recording, Replay};
 pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
 pub use schema::{plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema};

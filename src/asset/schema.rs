@@ -46,7 +46,7 @@ fn schema(value: &Value) -> Json {
         Value::Switch => json!({"type": "boolean"}),
         Value::Text => json!({"type": "string"}),
         Value::Name => {
-            json!({"type": "string", "minLength": 1, "maxLength": 64, "pattern": "^[\\p{L}\\p{N}_-]+$"})
+            json!({"type": "string", "minLength": 1, "maxLength": 64, "pattern": name_pattern()})
         }
         Value::Word(words) => json!({"enum": words}),
         Value::Number(range) => json!({
@@ -78,6 +78,35 @@ fn schema(value: &Value) -> Json {
     }
 }
 
+/// What no name holds: every character of ASCII, Latin-1 and general punctuation that is neither a
+/// letter nor a digit, `-` or `_`. Classes of letters such as `\p{L}` are unknown to Python and, without a flag
+/// that schemas cannot set, to JavaScript; so a pattern names what is left out. It lets through
+/// some signs of other scripts, which the reader then refuses.
+const NOT_IN_NAMES: [(char, char); 15] = [
+    ('\0', ','),
+    ('.', '/'),
+    (':', '@'),
+    ('[', '^'),
+    ('`', '`'),
+    ('{', '\u{a9}'),
+    ('\u{ab}', '\u{b1}'),
+    ('\u{b4}', '\u{b4}'),
+    ('\u{b6}', '\u{b8}'),
+    ('\u{bb}', '\u{bb}'),
+    ('\u{bf}', '\u{bf}'),
+    ('\u{d7}', '\u{d7}'),
+    ('\u{f7}', '\u{f7}'),
+    ('\u{2000}', '\u{206f}'),
+    ('\u{3000}', '\u{3004}'),
+];
+
+/// A pattern that Python's `re` and ECMA-262 without flags read alike.
+fn name_pattern() -> String {
+    let escaped = |c: char| format!("\\u{:04x}", u32::from(c));
+    let ranges = NOT_IN_NAMES.map(|(from, to)| format!("{}-{}", escaped(from), escaped(to)));
+    format!("^[^{}]+$", ranges.concat())
+}
+
 fn properties(keys: &[Key]) -> Json {
     let mut properties = Map::new();
     for key in keys {
@@ -90,7 +119,35 @@ fn properties(keys: &[Key]) -> Json {
 
 #[cfg(test)]
 mod tests {
+    use super::super::strict::is_in_names;
     use super::*;
+
+    #[test]
+    fn the_pattern_of_names_leaves_out_no_name() {
+        let left_out = |c: char| NOT_IN_NAMES.iter().any(|(from, to)| (*from..=*to).contains(&c));
+        for c in (0..=0xffff).filter_map(char::from_u32) {
+            let allowed = is_in_names(c);
+            assert!(!(allowed && left_out(c)), "{c:?}");
+            assert!(allowed || left_out(c) || c > '\u{ff}', "{c:?}");
+        }
+        // Only escapes that every engine knows.
+        let pattern = name_pattern();
+        assert!(pattern.starts_with(r"^[^\u0000-\u002c\u002e-\u002f") && pattern.ends_with("]+$"));
+        let escapes = pattern.split('\\').skip(1);
+        assert!(escapes.map(|escape| escape.chars().next()).all(|kind| kind == Some('u')));
+    }
+
+    #[test]
+    fn names_alone_have_a_pattern() {
+        let schemas =
+            [tool_schema(), task_schema(), plan_schema(), trajectory_schema(), recording_schema()];
+        for schema in schemas {
+            let text = schema.to_string();
+            let name = json!(name_pattern()).to_string();
+            assert_eq!(text.matches("\"pattern\":").count(), text.matches(&name).count());
+            assert!(!text.contains("\\p{"));
+        }
+    }
 
     #[test]
     fn schemas_describe_every_key() {

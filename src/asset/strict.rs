@@ -1,7 +1,8 @@
 //! The strict check of a tree against what a file may hold, and the ledger of faults.
 
 use super::fault::{Fault, Faults, did_you_mean, one_of};
-use super::node::{Content, Node, locate};
+use super::node::{Content, Node};
+use super::reader::locate;
 use super::spec::{Key, Range, Value};
 use super::text::Source;
 
@@ -147,10 +148,14 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
 
 fn check_name(node: &mut Node, ledger: &mut Ledger) {
     let name = node.text().unwrap_or_default();
-    let allowed = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    if name.is_empty() || name.chars().count() > 64 || !name.chars().all(allowed) {
+    if name.is_empty() || name.chars().count() > 64 || !name.chars().all(is_in_names) {
         reject(node, &Value::Name, ledger);
     }
+}
+
+/// Whether a name may hold `c`.
+pub(super) fn is_in_names(c: char) -> bool {
+    c.is_alphanumeric() || c == '-' || c == '_'
 }
 
 fn check_word(node: &mut Node, words: &[&str], ledger: &mut Ledger) {
@@ -175,12 +180,21 @@ fn check_range(node: &mut Node, range: &Range, ledger: &mut Ledger) {
 
 /// Notes that `node` is not a `value`, and empties it.
 fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
-    let message = format!("expected {}, found {}", describe(value), node.content);
     let numeric = matches!(value, Value::Number(_) | Value::Count(_));
+    let number = node.text().filter(|_| numeric).and_then(|text| text.trim().parse::<f64>().ok());
+    let found = match (&node.content, number) {
+        // YAML reads what no number can hold, such as 1e999, as text.
+        (_, Some(x)) if x.is_infinite() => "a number beyond 1e308".into(),
+        (content, _) => content.to_string(),
+    };
+    let message = format!("expected {}, found {found}", describe(value));
     let advice = match (&node.content, value) {
-        (Content::Text(text), _) if numeric && text.trim().parse::<f64>().is_ok() => {
-            "remove the quotes".into()
+        (_, Value::Number(range) | Value::Count(range))
+            if number.is_some_and(|x| !x.is_finite()) =>
+        {
+            range.advice.into()
         }
+        _ if number.is_some() => "remove the quotes".into(),
         (Content::Text(_), Value::Number(range) | Value::Count(range)) => {
             format!("write the bare number, without a unit; {}", range.advice)
         }

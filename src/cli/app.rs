@@ -12,7 +12,7 @@ use super::{
     bench, check, completions,
     error::CliError,
     evaluate, exit_code, generate, interrupt, predict, schema,
-    session::{GlobalArgs, Session},
+    session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
 
@@ -92,6 +92,7 @@ fn report(error: &CliError) {
         CliError::Interrupted(message) => message.clone(),
         _ => format!("error: {error}"),
     };
+    let text = shown(&text);
     let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let text = if colour { text.replace("error:", "\u{1b}[1;31merror:\u{1b}[0m") } else { text };
     let _ = writeln!(std::io::stderr(), "{text}");

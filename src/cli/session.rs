@@ -7,6 +7,8 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::asset::printable;
+
 use super::error::CliError;
 
 /// Options of every subcommand.
@@ -53,13 +55,14 @@ impl Session {
         self.pool.install(work)
     }
 
-    /// Writes results to stdout.
+    /// Writes results to stdout, with control characters written out: names and descriptions come
+    /// from files that anybody may have made. In JSON that is the same text.
     ///
     /// # Errors
     /// [`CliError::Closed`] if the reader went away, [`CliError::Unexpected`] for anything else.
     pub fn print(&self, text: &str) -> Result<(), CliError> {
         let mut out = std::io::stdout().lock();
-        out.write_all(text.as_bytes())
+        out.write_all(shown(text).as_bytes())
             .and_then(|()| out.flush())
             .map_err(|error| CliError::output(&error))
     }
@@ -68,7 +71,7 @@ impl Session {
     pub fn warn(&self, text: &str) {
         if !self.quiet {
             // Were stderr gone, there would be nobody left to tell.
-            let _ = writeln!(std::io::stderr(), "warning: {text}");
+            let _ = writeln!(std::io::stderr(), "warning: {}", shown(text));
         }
     }
 
@@ -101,6 +104,11 @@ impl Session {
         }
         bar
     }
+}
+
+/// `text` line by line without anything that a terminal would obey.
+pub fn shown(text: &str) -> String {
+    text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 
 fn style(template: &str) -> ProgressStyle {

@@ -87,11 +87,13 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, &task, best, model, suffix)?,
-        None => Vec::new(),
+        Some(best) => write(args, session, &task, best, model, suffix),
+        None => Ok(Vec::new()),
     };
-    print(args, session, &task, &solution, model, &written)?;
-    Ok(code)
+    // A plan that took minutes is shown also where the disk has no place for it.
+    let files = written.as_deref().unwrap_or_default();
+    print(args, session, &task, &solution, model, files)?;
+    written.map(|_| code)
 }
 
 /// What a task that cannot be tried means for the exit code.

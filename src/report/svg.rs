@@ -5,6 +5,7 @@
 
 use std::fmt::Write;
 
+use crate::asset::printable;
 use crate::geometry::Vector;
 
 /// Fonts in the order tried; all ship with common systems, none is embedded.
@@ -319,9 +320,14 @@ fn px(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text that cannot break out of an element or a quoted attribute.
+/// Text that cannot break out of an element or a quoted attribute; XML has no control characters,
+/// so they are written out.
 pub(super) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    printable(text)
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -331,8 +337,9 @@ mod tests {
     #[test]
     fn names_cannot_break_out_of_the_document() {
         let mut svg = Svg::new(10.0, 10.0, "a <b> & \"c\"");
-        svg.text(Vector::new(1.0, 2.0), "</svg>", Font::new(8.0, "#000"));
+        svg.text(Vector::new(1.0, 2.0), "</svg>\u{1b}[2J", Font::new(8.0, "#000"));
         let text = svg.finish();
+        assert!(text.contains("&lt;/svg&gt;\\u001b[2J</text>"), "{text}");
         assert_eq!(text.matches("</svg>").count(), 1);
         assert!(text.contains("a &lt;b&gt; &amp; &quot;c&quot;"));
     }

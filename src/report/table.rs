@@ -1,5 +1,7 @@
 //! Tables for the terminal and for Markdown.
 
+use crate::asset::printable;
+
 /// What stands in a cell that has no value.
 pub const NONE: &str = "\u{2013}";
 
@@ -26,9 +28,11 @@ impl Table {
         Self { columns, rows: Vec::new() }
     }
 
-    /// Adds a row; missing cells stay empty and surplus ones are dropped.
+    /// Adds a row; missing cells stay empty, surplus ones are dropped, and control characters are
+    /// written out.
     pub fn row(&mut self, cells: impl IntoIterator<Item = impl Into<String>>) -> &mut Self {
-        let mut row: Vec<String> = cells.into_iter().map(Into::into).collect();
+        let mut row: Vec<String> =
+            cells.into_iter().map(|cell| printable(&cell.into()).into_owned()).collect();
         row.resize(self.columns.len(), String::new());
         self.rows.push(row);
         self

@@ -94,6 +94,53 @@ fn a_full_disk_is_an_error_and_not_a_panic() {
 }
 
 #[test]
+fn a_plan_that_cannot_be_written_is_printed_all_the_same() {
+    let folder = TempDir::new().expect("a folder");
+    // A folder where the plan should go: refused to everybody, root as well.
+    std::fs::create_dir(folder.path().join("pull-back.plan.json")).expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let output = pushplan(&["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("pull-back.plan.json: error: cannot write the file"));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("solved") && !text.contains("wrote"), "{text}");
+
+    let json = ["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out, "--json"];
+    let output = pushplan(&json);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let report: Json = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["files"], serde_json::json!([]));
+}
+
+#[test]
+fn control_characters_of_a_file_never_reach_the_terminal() {
+    let folder = TempDir::new().expect("a folder");
+    let solve = |extra: &[&str]| {
+        let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
+        let name = "red\u{1b}[31m\u{9b}2J";
+        let path = folder.path().join(format!("{name}.yaml"));
+        std::fs::write(&path, format!("{text}\n# \u{85}\n")).expect("a task");
+        let path = path.to_str().expect("UTF-8").to_owned();
+        let out = folder.path().to_str().expect("UTF-8");
+        pushplan(&[&["solve", &path, "--effort", "draft", "--out", out], extra].concat())
+    };
+    for extra in [&[][..], &["--json"], &["--tools", "a\u{1b}b"]] {
+        let output = solve(extra);
+        for text in [&output.stdout, &output.stderr] {
+            let text = String::from_utf8_lossy(text);
+            assert!(!text.chars().any(|c| c.is_control() && c != '\n'), "{text:?}");
+        }
+        assert!(
+            output.stdout.is_empty() || String::from_utf8_lossy(&output.stdout).contains("u009b2J")
+        );
+    }
+    let svg =
+        files(folder.path()).into_iter().find(|name| name.ends_with(".svg")).expect("a picture");
+    let svg = std::fs::read_to_string(folder.path().join(svg)).expect("a picture");
+    assert!(svg.contains("red\\u001b[31m") && !svg.contains('\u{1b}'));
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_error() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_pushplan"))
         .args(["completions", "zsh"])

@@ -2,7 +2,7 @@
 //! with its place, what was expected, what was found and what to try.
 
 use insta::assert_snapshot;
-use pushplan::asset::ToolLibrary;
+use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::scene::{Task, Tool};
 
 /// A sound task; the tests spoil it.
@@ -120,6 +120,23 @@ fn numbers_out_of_range() {
       help: 10 cm/s is 0.10
     t.yaml:14:82: error: expected a number of pushes from 1 to 8, found the number 99
       help: three pushes bring an object around a corner
+    "#);
+}
+
+#[test]
+fn numbers_that_no_computer_holds() {
+    assert_snapshot!(task(&[("radius: 0.05", "radius: -1e999"), ("mass: 0.5", "mass: 1e999"), ("max_count: 2", "max_count: nan")]), @r#"
+    t.yaml:4:46: error: expected a size in metres from 0.001 to 10, found a number beyond 1e308
+      help: lengths are in metres: 50 mm is 0.05
+    t.yaml:7:13: error: expected a mass in kg from 0.001 to 1000, found a number beyond 1e308
+      help: masses are in kilograms: 250 g is 0.25
+    t.yaml:14:83: error: expected a number of pushes from 1 to 8, found the text "nan"
+      help: three pushes bring an object around a corner
+    "#);
+    let file = r#"{"schema_version": 1, "kind": "plan", "model": 1e999}"#;
+    assert_snapshot!(PlanFile::parse(file, "t").unwrap_err(), @r#"
+    t:1:52: error: not valid JSON: number out of range
+      help: write a number that is smaller than 1e308
     "#);
 }
 
@@ -276,6 +293,23 @@ fn an_unknown_tool_has_its_place() {
     assert_snapshot!(faults, @r#"
     t.yaml:13:16: error: unknown tool `lhook`
       help: did you mean `hook`?
+    "#);
+}
+
+#[test]
+fn control_characters_are_shown_and_not_sent_to_the_terminal() {
+    assert_snapshot!(task(&[("mass: 0.4", "\"ma\\e[31mss\": 0.4"), ("object: can", "object: \"can\\u202e\\nt.yaml:1:1: error: forged\"")]), @r#"
+    t.yaml:4:7: error: missing key `mass`
+      help: Mass in kg.
+    t.yaml:4:68: error: unknown key `ma\u001b[31mss`
+      help: use `name`, `shape`, `mass`, `friction`, `position` or `yaw_deg`
+    t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
+      help: use letters, digits, `-` and `_`, at most 64
+    "#);
+    let file = "a\u{9b}2J.yaml";
+    assert_snapshot!(Tool::load(file).unwrap_err(), @r#"
+    a\u009b2J.yaml: error: cannot read the file: No such file or directory (os error 2)
+      help: check the path; it is relative to the folder you are in
     "#);
 }
 

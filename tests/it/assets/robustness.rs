@@ -1,5 +1,7 @@
 //! No text, however damaged, makes a reader panic; what it refuses it explains.
 
+use std::time::{Duration, Instant};
+
 use proptest::prelude::*;
 use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile};
 use pushplan::scene::{Task, Tool};
@@ -87,9 +89,49 @@ proptest! {
 }
 
 #[test]
-fn deep_nesting_and_alias_bombs_are_refused() {
-    read(&"[".repeat(100_000));
-    read(&"{a: ".repeat(100_000));
+fn deep_nesting_is_refused_at_once_with_its_place() {
+    let closed = |open: &str, close: &str, count: usize| open.repeat(count) + &close.repeat(count);
+    let shallow = "- {a: [1, 'x']}\n".repeat(3000);
+    let texts = [
+        ("brackets", closed("[", "]", 100_000), (1, 33)),
+        ("open brackets", "[".repeat(200_000), (1, 33)),
+        ("maps", closed("{a: ", "}", 20_000), (1, 129)),
+        ("open maps", "{a: ".repeat(60_000), (1, 129)),
+        ("keys", closed("{? ", "}", 50_000), (1, 97)),
+        ("dashes", "- ".repeat(100_000), (1, 65)),
+        ("question marks", "? ".repeat(100_000), (1, 65)),
+        ("behind a tag", format!("[!t x, {}", "{a: ".repeat(60_000)), (1, 2)),
+        ("behind a wrong float", format!("[!!float x, {}", "{a: ".repeat(60_000)), (1, 2)),
+        ("in a second document", format!("a: 1\n---\n{}", "{a: ".repeat(60_000)), (2, 1)),
+        ("behind much that is shallow", shallow + "- " + &"{a: ".repeat(50_000), (3001, 127)),
+        ("behind what is broken", format!("a: ]\n{}", "{a: ".repeat(60_000)), (1, 4)),
+    ];
+    for (what, text, place) in texts {
+        let begun = Instant::now();
+        for file in ["t.yaml", "t.json"] {
+            let faults = Recording::parse(&text, file).unwrap_err();
+            assert_eq!(faults.0.len(), 1, "{what}: {faults}");
+            if file == "t.yaml" {
+                let found = faults.0[0].place.map(|place| (place.line, place.column));
+                assert_eq!(found, Some(place), "{what}: {faults}");
+            }
+            assert!(faults.to_string().contains("help:"), "{what}: {faults}");
+        }
+        // Without the check some of these take minutes; with it, some hundredths of a second.
+        assert!(begun.elapsed() < Duration::from_secs(10), "{what}: {:?}", begun.elapsed());
+    }
+    let faults = Tool::parse(&"[".repeat(100_000), "t").unwrap_err();
+    assert_eq!(
+        faults.to_string(),
+        "t:1:33: error: lists and maps are nested too deeply: more than 32 levels\n  help: look for \
+         brackets that are never closed; is this the right file?"
+    );
+    let faults = PlanFile::parse(&closed("[", "]", 100_000), "t").unwrap_err();
+    assert!(faults.to_string().starts_with("t:1:33: error: lists and maps"), "{faults}");
+}
+
+#[test]
+fn alias_bombs_are_refused() {
     let mut bomb = String::from("a0: &a0 [x, x, x, x, x, x, x, x, x]\n");
     for k in 1..12 {
         let aliases = vec![format!("*a{}", k - 1); 9].join(", ");

@@ -1,0 +1,41 @@
+//! Text of a user's file on its way to a terminal.
+
+use std::borrow::Cow;
+
+/// `text` with every character that a terminal would obey rather than show written as `\u001b`,
+/// which is also how JSON writes it: control characters but for the tab, and those that turn the
+/// direction of writing. A line feed is one of them: what is one line stays one.
+pub fn printable(text: &str) -> Cow<'_, str> {
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for c in text.chars() {
+        match obeyed(c) {
+            true => shown.push_str(&format!("\\u{:04x}", u32::from(c))),
+            false => shown.push(c),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+fn obeyed(c: char) -> bool {
+    let turns =
+        matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    turns || matches!(c, '\u{2028}' | '\u{2029}') || c.is_control() && c != '\t'
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_cursor_is_written_out() {
+        assert_eq!(
+            printable("a\u{1b}[2Jb\u{9b}c\u{7f}\r\n"),
+            "a\\u001b[2Jb\\u009bc\\u007f\\u000d\\u000a"
+        );
+        assert_eq!(printable("\u{202e}evil\u{2066}"), "\\u202eevil\\u2066");
+        assert!(matches!(printable("Hüte, 木\t2 \u{2212} 1"), Cow::Borrowed(_)));
+    }
+}
