@@ -17,6 +17,7 @@ use pushplan::plan::{
 };
 use pushplan::scene::{FrameStep, Job, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
+use pushplan::watch::Unwatched;
 
 /// Candidates that a search predicts together.
 const BATCH: usize = 64;
@@ -136,7 +137,7 @@ fn planning(criterion: &mut Criterion) {
     let settings = SearchSettings { offsets: 5, beam: 1, rollouts: 500, kept: 8 };
     let search = || {
         let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
-        Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &mut |_, _| {})
+        Search::new(workspace, rollouts.situation(), settings).deepen(&mut rollouts, &Unwatched)
     };
     criterion.bench_function("search of 500 pushes", |b| b.iter(search));
 
@@ -146,7 +147,7 @@ fn planning(criterion: &mut Criterion) {
         b.iter(|| {
             let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
             let mut statistics = RefineStatistics::default();
-            refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &mut |_, _| {})
+            refine(&workspace, &mut rollouts, &best, settings, &mut statistics, &Unwatched)
         });
     });
 }

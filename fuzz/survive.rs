@@ -7,10 +7,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use pushplan::asset::{Faults, PlanFile, Recording, ToolLibrary, TrajectoryFile};
+use pushplan::asset::{Faults, PlanFile, ToolLibrary, TrajectoryFile};
 use pushplan::effect::{EffectModel, Network, Prior};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::network::Weights;
+use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::scene::{
     Job, Object, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,

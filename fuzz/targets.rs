@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile, check};
+use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
 use pushplan::network::Weights;
+use pushplan::recording::Recording;
 use pushplan::scene::{Task, Tool};
 
 use crate::survive;

@@ -42,11 +42,14 @@ pub mod graph;
 pub mod judge;
 pub mod network;
 pub mod plan;
+pub mod recording;
 pub mod report;
 pub mod rollout;
 pub mod scene;
 pub mod sim;
 pub mod solve;
+pub mod store;
 #[cfg(feature = "train")]
 pub mod train;
 pub mod verify;
+pub mod watch;

@@ -3,12 +3,13 @@
 use std::fmt;
 use std::path::Path;
 
+use crate::recording::Recording;
 use crate::scene::Tool;
 
 use super::fault::{Fault, Faults};
 use super::library::ToolLibrary;
 use super::node::Node;
-use super::recording::{RECORDING_KEYS, Recording};
+use super::recording::RECORDING_KEYS;
 use super::saved::{PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
 use super::{spec::Key, task, tool};

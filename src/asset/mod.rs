@@ -27,7 +27,7 @@ pub use fault::{Fault, Faults, Place};
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;
 pub use printable::printable;
-pub use recording::{Instant, RECORDING_FORMAT, RecordedFrame, Recording, Replay};
+pub use recording::RECORDING_FORMAT;
 pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
 pub use schema::{plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema};
 pub use task::load_task;

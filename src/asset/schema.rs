@@ -4,6 +4,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::spec::{Key, Value};
 use super::strict::describe;
+use super::text::LONGEST_NAME;
 
 /// The schema of tool files.
 pub fn tool_schema() -> Json {
@@ -46,7 +47,7 @@ fn schema(value: &Value) -> Json {
         Value::Switch => json!({"type": "boolean"}),
         Value::Text => json!({"type": "string"}),
         Value::Name => {
-            json!({"type": "string", "minLength": 1, "maxLength": 64, "pattern": name_pattern()})
+            json!({"type": "string", "minLength": 1, "maxLength": LONGEST_NAME, "pattern": name_pattern()})
         }
         Value::Word(words) => json!({"enum": words}),
         Value::Number(range) => json!({
@@ -119,7 +120,7 @@ fn properties(keys: &[Key]) -> Json {
 
 #[cfg(test)]
 mod tests {
-    use super::super::strict::is_in_names;
+    use super::super::text::is_in_names;
     use super::*;
 
     #[test]

@@ -4,7 +4,7 @@ use super::fault::{Fault, Faults, did_you_mean, one_of};
 use super::node::{Content, Node};
 use super::reader::locate;
 use super::spec::{Key, Range, Value};
-use super::text::Source;
+use super::text::{LONGEST_NAME, Source, is_in_names};
 
 /// More faults than this are counted rather than shown; a wrong file would bury the reader.
 const MAX_SHOWN: usize = 50;
@@ -148,14 +148,9 @@ fn check_keys(node: &mut Node, keys: &[Key], ledger: &mut Ledger) -> Vec<String>
 
 fn check_name(node: &mut Node, ledger: &mut Ledger) {
     let name = node.text().unwrap_or_default();
-    if name.is_empty() || name.chars().count() > 64 || !name.chars().all(is_in_names) {
+    if name.is_empty() || name.chars().count() > LONGEST_NAME || !name.chars().all(is_in_names) {
         reject(node, &Value::Name, ledger);
     }
-}
-
-/// Whether a name may hold `c`.
-pub(super) fn is_in_names(c: char) -> bool {
-    c.is_alphanumeric() || c == '-' || c == '_'
 }
 
 fn check_word(node: &mut Node, words: &[&str], ledger: &mut Ledger) {

@@ -49,6 +49,22 @@ impl<'a> Source<'a> {
     }
 }
 
+/// Most characters of a name.
+pub(super) const LONGEST_NAME: usize = 64;
+
+/// Whether a name may hold `c`.
+pub(super) fn is_in_names(c: char) -> bool {
+    c.is_alphanumeric() || c == '-' || c == '_'
+}
+
+/// The name of what a file holds that gives none: the `stem` of the file, with a dash for whatever
+/// a name cannot hold.
+pub(super) fn named_after(stem: &str) -> String {
+    let dashed = |c: char| if is_in_names(c) { c } else { '-' };
+    let name: String = stem.chars().map(dashed).take(LONGEST_NAME).collect();
+    if name.is_empty() { "unnamed".to_owned() } else { name }
+}
+
 /// The file's name for messages, and its text.
 pub(super) fn read_text(path: &Path) -> Result<(String, String), Fault> {
     let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);

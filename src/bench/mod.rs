@@ -11,7 +11,6 @@ mod inference;
 mod random;
 mod refinement;
 mod solved;
-mod store;
 mod suite;
 mod timing;
 mod tools;
@@ -28,10 +27,6 @@ pub use random::{
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};
-pub use store::{
-    Finished, Measured, RunManifest, Seconds, Shard, ShardError, Store, StoreError, digest,
-    merge_runs,
-};
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
 pub use tools::{

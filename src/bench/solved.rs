@@ -4,9 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Engine, Evidence, Outcome, Plan, Situation, Task, Warning};
 use crate::solve::{PlanStatus, Solution};
+use crate::store::Seconds;
 use crate::verify::{Verifier, VerifySettings};
-
-use super::store::Seconds;
 
 /// The result of solving one task, everything but the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

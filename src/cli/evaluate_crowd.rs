@@ -6,11 +6,12 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::asset::{self, Kind, Recording, SCHEMA_VERSION, TrajectoryFile};
+use crate::asset::{self, Kind, SCHEMA_VERSION, TrajectoryFile};
 use crate::bench::{CrowdFamily, CrowdReport, CrowdSet, DISTURBANCE};
 use crate::dataset::{JointRule, Solids};
 use crate::effect::{Assuming, Assumption, Disturbed, EffectModel, Mistake};
 use crate::judge::Trial;
+use crate::recording::Recording;
 use crate::report::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
 
 use super::{

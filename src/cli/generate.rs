@@ -3,19 +3,18 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use indicatif::ProgressBar;
 
 use crate::dataset::{
-    Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, Watch, generate,
+    Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, generate,
 };
 
-use super::{error::CliError, exit_code, interrupt, session::Session};
+use super::{error::CliError, exit_code, follow::Following, interrupt, session::Session};
 
 /// Make training data: random scenes, tools and pushes, simulated in the plane
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
-files; the same command goes on from there.
+episodes; the same command goes on from there.
 
 A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
 for test sets such as the published ones (hand at 0.21 m/s).
@@ -50,9 +49,6 @@ pub struct GenerateArgs {
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
-    /// Episodes in one file; an interruption loses at most one file's worth
-    #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes_per_shard)]
-    episodes_per_shard: u64,
 }
 
 /// [`JointRule`] with words for `--help`.
@@ -80,7 +76,6 @@ impl GenerateArgs {
         DatasetConfig {
             seed: self.seed,
             episodes: self.episodes,
-            episodes_per_shard: self.episodes_per_shard,
             preset: self.preset,
             constraints: Constraints {
                 objects: self.objects,
@@ -99,55 +94,17 @@ impl GenerateArgs {
     }
 }
 
-/// Shows how far a generation is, and stops it on Ctrl-C.
-pub struct Following<'a> {
-    session: &'a Session,
-    bar: ProgressBar,
-}
-
-impl<'a> Following<'a> {
-    pub fn new(session: &'a Session, what: &str) -> Self {
-        Self { session, bar: session.bar(what) }
-    }
-
-    /// Says beside the bar what is being done.
-    pub fn say(&self, what: &str) {
-        self.bar.set_message(what.to_owned());
-    }
-
-    pub fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl Watch for Following<'_> {
-    fn progress(&self, done: u64, total: u64) {
-        self.bar.set_length(total);
-        self.bar.set_position(done);
-    }
-
-    fn note(&self, message: &str) {
-        self.bar.suspend(|| self.session.warn(message));
-    }
-
-    fn cancelled(&self) -> bool {
-        interrupt::requested()
-    }
-}
-
 pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     let config = args.config();
     interrupt::watch();
-    let following = Following::new(session, "episodes");
+    let following = Following::bar(session, "episodes");
     let made = session.compute(|| generate(&config, &args.folder, &following));
-    following.finish();
-    let manifest = made.map_err(data_error)?;
-    let bytes: u64 = manifest.shards.iter().map(|shard| shard.bytes).sum();
+    following.finish()?;
+    let bytes = made.map_err(data_error)?;
     session.print(&format!(
-        "{} episodes of seed {} in {} files, {:.1} MB, in {}\n",
+        "{} episodes of seed {}, {:.1} MB, in {}\n",
         config.episodes,
         config.seed,
-        manifest.shards.len(),
         bytes as f64 / 1e6,
         args.folder.display()
     ))?;
@@ -163,13 +120,7 @@ pub fn data_error(error: DatasetError) -> CliError {
             error.to_string(),
             "`pushplan generate --help` says what each preset has",
         ),
-        DatasetError::OtherSettings { .. } => {
-            CliError::usage(error.to_string(), "the same settings go on with an unfinished set")
-        }
-        DatasetError::Io { .. } => CliError::Unexpected(error.to_string()),
-        DatasetError::Manifest { .. }
-        | DatasetError::Damaged { .. }
-        | DatasetError::Missing { .. }
-        | DatasetError::Unfinished { .. } => CliError::File(error.to_string()),
+        DatasetError::Foreign { .. } => CliError::File(error.to_string()),
+        DatasetError::Store(error) => error.into(),
     }
 }

@@ -11,6 +11,7 @@ mod error;
 mod evaluate;
 mod evaluate_crowd;
 pub mod exit_code;
+mod follow;
 mod generate;
 mod interrupt;
 mod model;

@@ -89,10 +89,19 @@ impl Session {
     /// A spinner for work whose length is not known, shown once it has taken a while. Invisible
     /// unless stderr is a terminal.
     pub fn spinner(&self, what: &str) -> ProgressBar {
+        self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}")
+    }
+
+    /// The same for work in stages, each of so many units.
+    pub fn staged(&self, what: &str) -> ProgressBar {
+        self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}")
+    }
+
+    fn spinning(&self, what: &str, template: &str) -> ProgressBar {
         let bar = ProgressBar::hidden();
         if !self.quiet && std::io::stderr().is_terminal() {
             bar.set_prefix(what.to_owned());
-            bar.set_style(style("{spinner} {prefix}, {elapsed} {msg}"));
+            bar.set_style(style(template));
             let later = bar.clone();
             std::thread::spawn(move || {
                 std::thread::sleep(SHOW_AFTER);

@@ -15,6 +15,7 @@ use super::{
     action::LibraryArgs,
     error::CliError,
     exit_code,
+    follow::Following,
     model::{self, ModelName, OutsideArgs},
     output,
     session::Session,
@@ -63,15 +64,9 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         .seed(args.seed)
         .outside(args.outside.outside())
         .build();
-    let bar = session.spinner("solving");
-    let solved = session.compute(|| {
-        planner.solve_with(&task, &library, &mut |progress| {
-            let pushes = progress.pushes;
-            let (stage, done, total) = (progress.stage, progress.done, progress.total);
-            bar.set_message(format!("{stage}, plans of {pushes} push(es), {done}/{total}"));
-        })
-    });
-    bar.finish_and_clear();
+    let following = Following::spinner(session, "solving");
+    let solved = session.compute(|| planner.solve_with(&task, &library, &following));
+    following.finish()?;
     let solution = solved.map_err(solve_error)?;
     for warning in &solution.warnings {
         session.warn(&warning.to_string());

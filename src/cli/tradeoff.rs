@@ -4,19 +4,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{
-    RunManifest, Seconds, Store, TradeOff, TradeOffReport, TradeOffSettings, Unit, digest, levels,
-    plan_levels,
-};
+use crate::bench::{TradeOff, TradeOffReport, TradeOffSettings, Unit, levels, plan_levels};
 use crate::effect::EffectModels;
 use crate::network::Weights;
 use crate::report::{
     Table, tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
     tradeoff_push_chart, tradeoff_task_chart,
 };
+use crate::store::{RunManifest, Seconds, Store, digest};
+use crate::watch::Watch;
 
 use super::{
-    action::LibraryArgs, error::CliError, exit_code, generate::Following, interrupt,
+    action::LibraryArgs, error::CliError, exit_code, follow::Following, interrupt,
     model::ModelName, output, session::Session,
 };
 
@@ -159,19 +158,19 @@ fn measure(
     manifest: RunManifest,
 ) -> Result<TradeOffReport, CliError> {
     interrupt::watch();
-    let following = Following::new(session, "units");
+    let following = Following::bar(session, "units");
     let mut store: Store<Unit> = match &args.out {
         Some(folder) => Store::open(folder, manifest, &following)?,
         None => Store::in_memory(manifest),
     };
     let done = session.compute(|| {
         store.run::<CliError>(&following, |index| {
-            following.say(&run.title(index));
+            following.stage(&run.title(index));
             run.measure(index)
                 .map_err(|error| CliError::usage(error.to_string(), "try it with other tools"))
         })
     });
-    following.finish();
+    following.finish()?;
     done?;
     let finished = store.finished().iter();
     let units: Vec<(Unit, Seconds)> =

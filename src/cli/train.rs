@@ -3,19 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use indicatif::ProgressBar;
 
 use crate::asset::write_atomic;
 use crate::dataset::{Dataset, DatasetConfig, Preset};
 use crate::network::Config;
-use crate::report::{millimetres, training_chart};
-use crate::train::{CheckpointError, Exposure, MetricLine, Report, Settings, TrainError, train};
+use crate::report::training_chart;
+use crate::store::FolderLock;
+use crate::train::{CheckpointError, Exposure, MetricLine, Settings, TrainError, train};
+use crate::watch::Watch;
 
 use super::{
-    error::CliError,
-    exit_code,
-    generate::{Following, data_error},
-    interrupt,
+    error::CliError, exit_code, follow::Following, generate::data_error, interrupt,
     session::Session,
 };
 
@@ -103,19 +101,17 @@ enum ExposureName {
     MultiStep,
 }
 
-/// Shows how far training is, and stops it on Ctrl-C.
+/// Follows training, and draws its curves again with every line.
 struct Followed<'a> {
     folder: &'a Path,
-    session: &'a Session,
-    bar: ProgressBar,
-    /// What went wrong while showing; training itself goes on.
-    trouble: Option<CliError>,
+    following: Following<'a>,
 }
 
 pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
     let settings = args.settings()?;
     interrupt::watch();
-    let following = Following::new(session, "data");
+    let folder = FolderLock::take(&args.folder)?;
+    let following = Following::bar(session, "data");
     let made = session.compute(|| {
         let data = match &args.data {
             Some(folder) => Dataset::open(folder)?,
@@ -128,21 +124,18 @@ pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
         let held_out = data.config().split(args.held_out_seed, args.held_out);
         Ok((Dataset::in_memory(&held_out, &following)?, data))
     });
-    following.finish();
+    following.finish()?;
     let (held_out, data) = made.map_err(data_error)?;
     if data.config().seed == args.held_out_seed {
         let message = "the held-out episodes have the seed of the data";
         return Err(CliError::usage(message, "choose another --held-out-seed"));
     }
-    let mut followed =
-        Followed { folder: &args.folder, session, bar: session.bar("steps"), trouble: None };
-    let best = session.compute(|| train(&settings, &data, &held_out, &args.folder, &mut followed));
-    followed.bar.finish_and_clear();
+    let followed = Followed { folder: &args.folder, following: Following::bar(session, "steps") };
+    let best = session.compute(|| train(&settings, &data, &held_out, &folder, &followed));
+    let drawn = followed.draw();
+    followed.following.finish()?;
     let best = best.map_err(train_error)?;
-    followed.draw()?;
-    if let Some(trouble) = followed.trouble {
-        return Err(trouble);
-    }
+    drawn?;
     if interrupt::requested() {
         let message = "stopped; the run is saved, the same command goes on with it";
         return Err(CliError::Interrupted(message.to_owned()));
@@ -194,30 +187,18 @@ impl TrainArgs {
     }
 }
 
-impl Report for Followed<'_> {
-    fn line(&mut self, line: &MetricLine) {
-        let error = &line.held_out;
-        let text = format!(
-            "step {:>7}  loss {:.4}  held out: mean {}, median {}, p95 {}  {:.0} graphs/s\n",
-            line.step,
-            line.loss,
-            millimetres(error.mean),
-            millimetres(error.median),
-            millimetres(error.p95),
-            line.graphs_per_second
-        );
-        let shown = self.bar.suspend(|| self.session.print(&text));
-        let drawn = self.draw();
-        self.trouble = self.trouble.take().or(shown.and(drawn).err());
+impl Watch for Followed<'_> {
+    fn progress(&self, done: u64, total: u64) {
+        self.following.progress(done, total);
     }
 
-    fn step(&mut self, step: u64, of: u64) {
-        self.bar.set_length(of);
-        self.bar.set_position(step);
+    fn line(&self, text: &str) {
+        self.following.line(text);
+        self.following.keep(self.draw());
     }
 
     fn cancelled(&self) -> bool {
-        interrupt::requested() || self.trouble.is_some()
+        self.following.cancelled()
     }
 }
 

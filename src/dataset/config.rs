@@ -1,10 +1,32 @@
 //! What a data set is made of: everything that decides its bits.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use crate::scene::Ranges;
+use crate::store::RunManifest;
 
 use super::{constraints::Constraints, error::DatasetError, preset::Preset};
+
+/// The suite of a folder of episodes.
+const SUITE: &str = "episodes";
+
+/// What the episodes show.
+const TRUTH: &str = "planar";
+
+/// Version of the sampler: another one draws other episodes for the same settings.
+const SAMPLER: u32 = 3;
+
+/// The settings in a manifest.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sampled {
+    sampler: u32,
+    preset: Preset,
+    constraints: Constraints,
+}
 
 /// Everything that decides the bits of a data set.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,9 +36,6 @@ pub struct DatasetConfig {
     pub seed: u64,
     /// Number of episodes.
     pub episodes: u64,
-    /// Episodes in one file: an interrupted generation loses at most one file's worth, about a
-    /// second of work (of tools; up to half a minute of sparse scenes) at the default of 512.
-    pub episodes_per_shard: u64,
     /// What is sampled.
     pub preset: Preset,
     /// What is fixed rather than sampled.
@@ -29,7 +48,6 @@ impl Default for DatasetConfig {
         Self {
             seed: 1,
             episodes: 60_000,
-            episodes_per_shard: 512,
             preset: Preset::Tools,
             constraints: Constraints::default(),
         }
@@ -50,18 +68,32 @@ impl DatasetConfig {
     /// Whether it asks for anything, and for nothing impossible.
     ///
     /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes, in all or in a file;
-    /// [`DatasetError::Constraint`] for constraints that the preset cannot fulfil.
+    /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that the preset cannot fulfil.
     pub fn check(&self) -> Result<(), DatasetError> {
-        match (self.episodes, self.episodes_per_shard) {
-            (0, _) => Err(DatasetError::Empty("episodes")),
-            (_, 0) => Err(DatasetError::Empty("episodes_per_shard")),
+        match self.episodes {
+            0 => Err(DatasetError::Empty("episodes")),
             _ => self.constraints.check(self.preset),
         }
     }
 
-    /// Number of shard files.
-    pub fn shards(&self) -> u64 {
-        self.episodes.div_ceil(self.episodes_per_shard.max(1))
+    /// The same as what a folder of episodes holds.
+    pub(super) fn manifest(&self) -> RunManifest {
+        let settings =
+            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
+        RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
+            .with_settings(json!(settings))
+    }
+
+    /// What the folder `dir` holds according to its manifest.
+    pub(super) fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
+        let other = || DatasetError::Foreign { path: dir.to_owned() };
+        let settings: Option<Sampled> = serde_json::from_value(manifest.settings.clone()).ok();
+        let sampled =
+            settings.filter(|settings| manifest.suite == SUITE && settings.sampler == SAMPLER);
+        let Sampled { preset, constraints, .. } = sampled.ok_or_else(other)?;
+        let config =
+            Self { seed: manifest.seed, episodes: manifest.tasks as u64, preset, constraints };
+        config.check()?;
+        Ok(config)
     }
 }

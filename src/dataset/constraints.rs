@@ -31,7 +31,6 @@ pub enum JointRule {
 ///     episodes: 200,
 ///     preset: Preset::Dense,
 ///     constraints: Constraints::test(9, JointRule::Mixed, Solids::Cylinders),
-///     ..DatasetConfig::default()
 /// };
 /// assert!(test_set.check().is_ok());
 /// ```

@@ -1,76 +1,57 @@
-//! Data sets on disk: shards and their manifest, made so that an interruption loses little.
+//! Data sets on disk: runs whose records are episodes, see [`crate::store`].
 
-use std::{
-    fs,
-    path::Path,
-    sync::atomic::{AtomicU64, Ordering},
-};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{
-    config::DatasetConfig,
-    error::DatasetError,
-    manifest::{MANIFEST, Manifest, ShardEntry},
-    shard::{read_shard, shard_path, shard_range, verify_shard, write_shard},
-    store::{Dataset, draw_range},
-    watch::Watch,
-};
+use crate::scene::{Frame, Scene, Stroke, Tool, ToolMotion};
+use crate::store::{Form, Journal, RunManifest, StoreError, read_records};
+use crate::watch::Watch;
 
-/// Makes a data set in the folder `dir`, or finishes one that was interrupted: shards that are
-/// there and whole are kept, damaged ones are made again with a note. The files are the same
-/// bits for any number of threads and interruptions.
+use super::config::DatasetConfig;
+use super::episode::Episode;
+use super::error::DatasetError;
+use super::set::{Dataset, draw_range};
+
+/// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about a
+/// second of work (of tools; up to half a minute of sparse scenes).
+const AT_ONCE: u64 = 512;
+
+/// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
+/// a number.
+type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
+
+/// Makes a data set in the folder `dir`, or finishes one that was interrupted: what is there and
+/// whole is kept. The files are the same bits for any number of threads and interruptions. Gives
+/// the size of the episodes, bytes.
 ///
 /// # Errors
-/// If the configuration asks for nothing, the folder holds a data set of other settings, a file
-/// cannot be written, or `watch` says to stop. Finished shards are kept in every case, and no
-/// unfinished file stands under a final name.
+/// If the configuration asks for nothing, the folder holds a data set of other settings or another
+/// process writes to it, a file cannot be written, or `watch` says to stop. Finished episodes are
+/// kept in every case.
 pub fn generate(
     config: &DatasetConfig,
     dir: &Path,
     watch: &dyn Watch,
-) -> Result<Manifest, DatasetError> {
+) -> Result<u64, DatasetError> {
     config.check()?;
-    fs::create_dir_all(dir).map_err(|source| DatasetError::Io {
-        doing: "create",
-        path: dir.to_owned(),
-        source,
-    })?;
-    if let Some(there) = Manifest::load(dir)?
-        && there.config != *config
-    {
-        return Err(DatasetError::OtherSettings { path: dir.join(MANIFEST) });
+    let mut journal =
+        Journal::open(dir, config.manifest(), Form::Frames, watch, &mut |record| index(record))?;
+    let done = AtomicU64::new(journal.done() as u64);
+    watch.progress(done.load(Ordering::Relaxed), config.episodes);
+    while (journal.done() as u64) < config.episodes {
+        let first = journal.done() as u64;
+        let range = first..(first + AT_ONCE).min(config.episodes);
+        let drawn = draw_range(config, range.clone(), &done, watch);
+        // Of what is stopped, the beginning without a hole can be kept.
+        let whole = drawn.iter().map_while(Option::as_ref);
+        let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;
+        journal.append(records.iter().map(Vec::as_slice))?;
+        if (journal.done() as u64) < range.end {
+            return Err(DatasetError::Cancelled);
+        }
     }
-    let mut manifest = Manifest::new(config);
-    let done = AtomicU64::new(0);
-    for number in 0..config.shards() {
-        let path = shard_path(dir, number);
-        let range = shard_range(config, number);
-        let count = range.end - range.start;
-        let checksum = match verify_shard(&path, config, number) {
-            Ok(checksum) => {
-                let done = done.fetch_add(count, Ordering::Relaxed) + count;
-                watch.progress(done, config.episodes);
-                checksum
-            }
-            Err(error) => {
-                if let DatasetError::Damaged { .. } = error {
-                    watch.note(&format!("{error}; making it again"));
-                }
-                let episodes = draw_range(config, range, &done, watch)?;
-                write_shard(&path, config, &episodes)?
-            }
-        };
-        let bytes = fs::metadata(&path)
-            .map_err(|source| DatasetError::Io { doing: "read", path: path.clone(), source })?
-            .len();
-        manifest.shards.push(ShardEntry {
-            file: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            episodes: count,
-            bytes,
-            checksum: format!("{checksum:016x}"),
-        });
-        manifest.save(dir)?;
-    }
-    Ok(manifest)
+    Ok(journal.bytes())
 }
 
 impl Dataset {
@@ -79,18 +60,40 @@ impl Dataset {
     /// # Errors
     /// If there is none, it is unfinished, or a file is damaged.
     pub fn open(dir: &Path) -> Result<Self, DatasetError> {
-        let Some(manifest) = Manifest::load(dir)? else {
-            return Err(DatasetError::Missing { path: dir.to_owned() });
-        };
-        let config = manifest.config;
-        let (there, wanted) = (manifest.shards.len() as u64, config.shards());
-        if there < wanted {
-            return Err(DatasetError::Unfinished { path: dir.to_owned(), there, wanted });
-        }
+        let manifest = RunManifest::expect(dir)?;
+        let config = DatasetConfig::of(&manifest, dir)?;
         let mut episodes = Vec::new();
-        for number in 0..wanted {
-            episodes.extend(read_shard(&shard_path(dir, number), &config, number)?);
+        let held = read_records(dir, &manifest, Form::Frames, &mut |record| {
+            let episode = decode(record)?;
+            let index = episode.index as usize;
+            episodes.push(episode);
+            Ok(index)
+        })?;
+        let (done, total) = (held.count, manifest.tasks);
+        if done < total {
+            return Err(StoreError::Unfinished { path: dir.to_owned(), done, total }.into());
         }
         Ok(Self::from_parts(config, episodes))
+    }
+}
+
+fn encode(episode: &Episode) -> Result<Vec<u8>, StoreError> {
+    let Episode { index, scene, motion: ToolMotion { tool, lift, strokes }, frames } = episode;
+    postcard::to_allocvec(&(index, scene, &**tool, lift, strokes, frames))
+        .map_err(|error| StoreError::Record { index: *index as usize, why: error.to_string() })
+}
+
+fn decode(record: &[u8]) -> Result<Episode, String> {
+    let (index, scene, tool, lift, strokes, frames): Fields =
+        postcard::from_bytes(record).map_err(|error| error.to_string())?;
+    let motion = ToolMotion { tool: Arc::new(tool), lift, strokes };
+    Ok(Episode { index, scene, motion, frames })
+}
+
+/// The index of the episode that a record holds.
+fn index(record: &[u8]) -> Result<usize, String> {
+    match postcard::take_from_bytes::<u64>(record) {
+        Ok((index, _)) => Ok(index as usize),
+        Err(error) => Err(error.to_string()),
     }
 }

@@ -1,7 +1,7 @@
 //! Training data: random scenes and pushes with the planar truth of what they do.
 //!
 //! Every episode is a pure function of the configuration's seed and its own index, so data are
-//! never committed but made again, in memory or as resumable shards of files, with the same
+//! never committed but made again, in memory or in a folder, resumable, with the same
 //! bits for any number of threads. Either tools on tables with few objects (`tools`), or crowds of
 //! objects, some joined, pushed by a round hand (`sparse`, `dense`). The shipped tools never occur
 //! in it. Trains nothing.
@@ -9,7 +9,6 @@
 mod aim;
 mod assembly;
 mod chance;
-mod codec;
 mod config;
 mod constraints;
 mod crowd;
@@ -21,16 +20,13 @@ mod generate;
 mod hand;
 mod jam;
 mod joints;
-mod manifest;
 mod novelty;
 mod obstacle;
 mod preset;
-mod shard;
+mod set;
 mod sparse;
-mod store;
 mod tabletop;
 mod tools;
-mod watch;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
@@ -42,12 +38,9 @@ pub use error::DatasetError;
 pub use generate::generate;
 pub use hand::HAND_RADIUS;
 pub use joints::NEAR;
-pub use manifest::{Manifest, ShardEntry};
 pub use novelty::is_shipped;
 pub use preset::Preset;
-pub use shard::checksum;
-pub use store::Dataset;
+pub use set::Dataset;
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
-pub use watch::{Unwatched, Watch};
 
 pub use crate::scene::{Ranges, Span};

@@ -1,7 +1,7 @@
 //! One trajectory to predict, with the truth, and how the two are brought side by side.
 
+use crate::recording::Recording;
 use crate::{
-    asset::Recording,
     geometry::Pose,
     scene::{Frame, Job, Scene, State, ToolMotion, Trajectory},
 };

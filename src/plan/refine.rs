@@ -15,6 +15,7 @@ use rand_pcg::Pcg64;
 
 use crate::geometry::wrap_angle;
 use crate::scene::{State, Task};
+use crate::watch::Watch;
 
 use super::linear::slopes;
 use super::parameters::Parameters;
@@ -81,14 +82,14 @@ struct Work {
 }
 
 /// Refines candidates that keep all rules; those that do not are left out of the answer, which
-/// is otherwise in the order given. `progress` is told the rounds done and to do.
+/// is otherwise in the order given. `watch` is told the rounds done and to do.
 pub fn refine(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
     candidates: &[Candidate],
     settings: RefineSettings,
     statistics: &mut RefineStatistics,
-    progress: &mut dyn FnMut(usize, usize),
+    watch: &dyn Watch,
 ) -> Vec<Refined> {
     let before = rollouts.used();
     let mut solver = QpSolver::default();
@@ -110,7 +111,7 @@ pub fn refine(
         })
         .collect();
     for round in 0..settings.rounds {
-        progress(round, settings.rounds);
+        watch.progress(round as u64, settings.rounds as u64);
         let left = settings.rounds - round;
         if work.iter().filter(|w| w.is_good()).count() >= settings.enough {
             break;
@@ -121,7 +122,7 @@ pub fn refine(
         }
         step(workspace, rollouts, &mut active, settings, &mut solver, statistics);
     }
-    progress(settings.rounds, settings.rounds);
+    watch.progress(settings.rounds as u64, settings.rounds as u64);
     statistics.rollouts += rollouts.used() - before;
     work.into_iter().map(|w| w.refined).collect()
 }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use crate::geometry::Vector;
 use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Trajectory};
+use crate::watch::Watch;
 
 use super::beam::{Stop, choose};
 use super::enumerate::{Extension, extensions};
@@ -125,12 +126,8 @@ impl<'a> Search<'a> {
     }
 
     /// Looks at all sequences of one push more and returns the best of them, best first.
-    /// `progress` is told the rollouts done and to do.
-    pub fn deepen(
-        &mut self,
-        rollouts: &mut Rollouts,
-        progress: &mut dyn FnMut(usize, usize),
-    ) -> Vec<Found> {
+    /// `watch` is told the rollouts done and to do.
+    pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<Found> {
         let before = rollouts.used();
         let mut list = extensions(
             &self.workspace,
@@ -144,7 +141,7 @@ impl<'a> Search<'a> {
         let mut found = Vec::with_capacity(list.len());
         let mut offers = Vec::new();
         for (batch, chunk) in list.chunks(BATCH).enumerate() {
-            progress(batch * BATCH, list.len());
+            watch.progress((batch * BATCH) as u64, list.len() as u64);
             let jobs: Vec<_> = chunk.iter().map(|extension| self.job(extension)).collect();
             let trajectories = rollouts.run(&jobs, Record::Frames);
             let rated: Vec<_> = chunk
@@ -161,7 +158,7 @@ impl<'a> Search<'a> {
                 offers.extend(stops.into_iter().map(|stop| stop.of(index)));
             }
         }
-        progress(list.len(), list.len());
+        watch.progress(list.len() as u64, list.len() as u64);
         self.depth += 1;
         if self.depth < self.workspace.task.pushes.max_count {
             self.nodes = self.continue_from(rollouts, &list, offers);

@@ -2,9 +2,10 @@
 
 use serde_json::json;
 
-use crate::bench::{End, Finished, RandomRecord, RunManifest, Seconds, SolvedTask, TaskKind};
+use crate::bench::{End, RandomRecord, SolvedTask, TaskKind};
 use crate::judge::{mean, percentile};
 use crate::solve::PlanStatus;
+use crate::store::{Finished, RunManifest, Seconds};
 
 use super::bars::{BarChart, Bars};
 use super::document::{Document, Figure, Section};

@@ -2,8 +2,9 @@
 
 use serde_json::json;
 
-use crate::bench::{End, Finished, RunManifest, Seconds, SolvedTask};
+use crate::bench::{End, SolvedTask};
 use crate::solve::PlanStatus;
+use crate::store::{Finished, RunManifest, Seconds};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Figure, Section};

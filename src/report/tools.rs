@@ -3,10 +3,11 @@
 use serde_json::json;
 
 use crate::bench::{
-    EngineErrors, Finished, Layout, Method, PROCESSOR, ReferenceSetup, RunManifest, SinglePushes,
-    ToolRecord, ToolRow, ToolTrial, summarise,
+    EngineErrors, Layout, Method, PROCESSOR, ReferenceSetup, SinglePushes, ToolRecord, ToolRow,
+    ToolTrial, summarise,
 };
 use crate::judge::Summary;
+use crate::store::{Finished, RunManifest};
 
 use super::document::{Document, Section};
 use super::number::{millimetres, seconds};

@@ -10,10 +10,11 @@ use crate::scene::{
     Frame, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
     Warning,
 };
+use crate::watch::{Unwatched, Watch};
 
 use super::check::check;
 use super::solving::Solving;
-use super::{Effort, Progress, Settings, Solution, SolveError};
+use super::{Effort, Settings, Solution, SolveError};
 
 /// Finds tools and pushes for tasks, with one effect model and one effort.
 ///
@@ -122,10 +123,10 @@ impl Planner {
     /// # Errors
     /// [`SolveError`] for bad input only.
     pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
-        self.solve_with(task, library, &mut |_| {})
+        self.solve_with(task, library, &Unwatched)
     }
 
-    /// [`Planner::solve`], telling `progress` what it does.
+    /// [`Planner::solve`], telling `watch` what it does.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
@@ -133,9 +134,9 @@ impl Planner {
         &self,
         task: &Task,
         library: &ToolLibrary,
-        progress: &mut dyn FnMut(Progress),
+        watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
-        self.solve_from(&Situation::stated(&task.scene), task, library, progress)
+        self.solve_from(&Situation::stated(&task.scene), task, library, watch)
     }
 
     /// [`Planner::solve_with`] from another situation than the one that the task states: where
@@ -149,13 +150,13 @@ impl Planner {
         situation: &Situation,
         task: &Task,
         library: &ToolLibrary,
-        progress: &mut dyn FnMut(Progress),
+        watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
         let tools = task.tools(library)?;
         check(task, situation, &tools)?;
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
-        Ok(Solving::new(self, task, situation, &tools, progress).run())
+        Ok(Solving::new(self, task, situation, &tools, watch).run())
     }
 
     /// What the effect model predicts for a plan made with `tool`.

@@ -10,10 +10,11 @@ use crate::plan::{
 };
 use crate::scene::{Goal, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
+use crate::watch::Watch;
 
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
-use super::{PlanStatus, Planner, Progress, RankedPlan, Refinement, Solution, Stage, Statistics};
+use super::{PlanStatus, Planner, RankedPlan, Refinement, Solution, Statistics};
 
 /// The stand-off of later pushes grows by the model's error, but by no more than this, metres:
 /// a longer approach costs reach and time.
@@ -42,7 +43,7 @@ pub(super) struct Solving<'a> {
     pub workspace: Workspace<'a>,
     pub rollouts: Rollouts<'a>,
     verifier: Verifier,
-    progress: &'a mut dyn FnMut(Progress),
+    watch: &'a dyn Watch,
     pub statistics: Statistics,
     pub tried: Vec<Tried>,
     /// What replays have shown not to work.
@@ -55,7 +56,7 @@ impl<'a> Solving<'a> {
         task: &'a Task,
         situation: &'a Situation,
         tools: &'a [Arc<Tool>],
-        progress: &'a mut dyn FnMut(Progress),
+        watch: &'a dyn Watch,
     ) -> Self {
         let (model, settings) = (planner.model(), planner.settings());
         let later_stand_off = model.error_p95().clamp(0.0, MOST_LATER_STAND_OFF);
@@ -67,7 +68,7 @@ impl<'a> Solving<'a> {
             workspace: Workspace { task, tools, later_stand_off },
             rollouts: Rollouts::new(model, situation.clone()),
             verifier: Verifier::new(verify),
-            progress,
+            watch,
             statistics: Statistics::default(),
             tried: Vec::new(),
             refuted: Vec::new(),
@@ -111,13 +112,9 @@ impl<'a> Solving<'a> {
     fn attempt(&mut self, search: &mut Search) -> Option<usize> {
         let settings = *self.planner.settings();
         let pushes = search.depth() + 1;
-        let tell = |progress: &mut dyn FnMut(Progress), stage, done, total| {
-            progress(Progress { stage, pushes, done, total });
-        };
         let began = Instant::now();
-        let found = search.deepen(&mut self.rollouts, &mut |done, total| {
-            tell(self.progress, Stage::Search, done, total);
-        });
+        self.tell("search", pushes);
+        let found = search.deepen(&mut self.rollouts, self.watch);
         self.statistics.timing.search += began.elapsed().as_secs_f64();
 
         let began = Instant::now();
@@ -140,7 +137,8 @@ impl<'a> Solving<'a> {
             }
             let began = Instant::now();
             let left = settings.verify_batches * at_once;
-            tell(self.progress, Stage::Verify, batch * at_once, left);
+            self.tell("verify", pushes);
+            self.watch.progress((batch * at_once) as u64, left as u64);
             passed = self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
             if passed.is_some() {
@@ -149,6 +147,12 @@ impl<'a> Solving<'a> {
             failed = indices;
         }
         passed
+    }
+
+    /// Says what is done to plans of so many pushes.
+    fn tell(&self, stage: &str, pushes: usize) {
+        let s = if pushes == 1 { "" } else { "es" };
+        self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
     /// Refines candidates towards `aim`, the task's goal or one beside it, keeps what came out, and
@@ -161,7 +165,7 @@ impl<'a> Solving<'a> {
     ) -> Vec<usize> {
         let task = Task { goal: aim, ..self.task.clone() };
         let settings = *self.planner.settings();
-        let progress = &mut *self.progress;
+        self.tell("refine", pushes);
         let refine_settings = RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
@@ -175,7 +179,7 @@ impl<'a> Solving<'a> {
             candidates,
             refine_settings,
             &mut self.statistics.refinement,
-            &mut |done, total| progress(Progress { stage: Stage::Refine, pushes, done, total }),
+            self.watch,
         );
         sort(&mut refined);
         let error_p95 = self.planner.model().error_p95();

@@ -1,5 +1,7 @@
 //! What a run reports, one JSON line at a time.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// Final position errors of rollouts over held-out episodes; objects whose true motion exceeds
@@ -45,4 +47,18 @@ pub struct MetricLine {
     pub seconds: f64,
     /// Held-out rollout error of the averaged weights.
     pub held_out: HeldOutError,
+}
+
+impl fmt::Display for MetricLine {
+    /// What a person wants to follow.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let HeldOutError { mean, median, p95, .. } = self.held_out;
+        let [mean, median, p95] = [mean, median, p95].map(|metres| 1e3 * metres);
+        write!(
+            f,
+            "step {:>7}  loss {:.4}  held out: mean {mean:.1} mm, median {median:.1} mm, p95 {p95:.1} mm  \
+             {:.0} graphs/s",
+            self.step, self.loss, self.graphs_per_second
+        )
+    }
 }

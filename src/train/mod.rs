@@ -22,4 +22,4 @@ pub use optimiser::AdamW;
 pub use rollout_error::rollout_error;
 pub use schedule::learning_rate;
 pub use settings::Settings;
-pub use trainer::{Report, TrainError, train};
+pub use trainer::{TrainError, train};

@@ -17,6 +17,8 @@ use crate::{
     network::{
         Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Weights, WeightsError,
     },
+    store::FolderLock,
+    watch::Watch,
 };
 
 use super::{
@@ -67,17 +69,7 @@ pub enum TrainError {
     NotFinite(u64),
 }
 
-/// Follows a training run.
-pub trait Report {
-    /// After every evaluation.
-    fn line(&mut self, line: &MetricLine);
-    /// After every step.
-    fn step(&mut self, step: u64, of: u64);
-    /// Whether to save and stop now.
-    fn cancelled(&self) -> bool;
-}
-
-/// Trains in `folder` until the schedule ends or the report cancels; goes on from the folder's
+/// Trains in `folder` until the schedule ends or `watch` says to stop; goes on from the folder's
 /// checkpoint if there is one. Returns the best weights, or `None` if cancelled before the first evaluation.
 ///
 /// # Errors
@@ -86,12 +78,12 @@ pub fn train(
     settings: &Settings,
     data: &Dataset,
     held_out: &Dataset,
-    folder: &Path,
-    report: &mut dyn Report,
+    folder: &FolderLock,
+    watch: &dyn Watch,
 ) -> Result<Option<PathBuf>, TrainError> {
     // Parallel matrix products inside parallel replicas only wait for each other.
     gemm::set_threading_threshold(usize::MAX);
-    fs::create_dir_all(folder).map_err(|e| TrainError::File(folder.to_owned(), e))?;
+    let folder = folder.path();
     let examples = Examples::new(data.episodes());
     if examples.count() == 0 {
         return Err(TrainError::NoExamples);
@@ -105,7 +97,7 @@ pub fn train(
     while run.optimiser.step < settings.steps {
         let step = run.optimiser.step;
         if step.is_multiple_of(REFRESH) {
-            if report.cancelled() {
+            if watch.cancelled() {
                 break;
             }
             lead = (settings.noise.lead > 0).then(|| Forward::new(&weights(&run, data, None)));
@@ -117,7 +109,7 @@ pub fn train(
         }
         since = (since.0, since.1 + 1, since.2 + loss, since.3 + norm);
         let step = run.optimiser.step;
-        report.step(step, settings.steps);
+        watch.progress(step, settings.steps);
         if step.is_multiple_of(settings.evaluate_every) || step == settings.steps {
             let model = Network::new(weights(&run, data, None));
             let error = rollout_error(&model, held_out.episodes(), step);
@@ -139,7 +131,7 @@ pub fn train(
             }
             log.write(&line)?;
             save(&run, &path)?;
-            report.line(&line);
+            watch.line(&line.to_string());
             since = (Instant::now(), 0, 0.0, 0.0);
         }
     }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pushplan::bench::{Measured, RunManifest, Seconds, Store, StoreError, merge_runs};
-use pushplan::dataset::{Unwatched, Watch};
+use pushplan::store::{Measured, RunManifest, Seconds, Store, StoreError, merge_runs};
+use pushplan::watch::{Unwatched, Watch};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -106,8 +106,8 @@ fn shards_that_do_not_make_one_run_are_not_merged() {
     // A shard whose last record is torn is one task short.
     shorten(&second.join("records.jsonl"), 3);
     match refused(&[first, second, third]) {
-        StoreError::Unfinished { shard, done, total, .. } => {
-            assert_eq!((shard.to_string().as_str(), done, total), ("2/3", 3, 4));
+        StoreError::Unfinished { path, done, total } => {
+            assert_eq!((&path, done, total), (second, 3, 4));
         }
         error => panic!("{error}"),
     }
@@ -156,9 +156,9 @@ fn damage_before_the_last_line_is_named_and_never_mended_in_silence() {
     let broken = records.replacen("\"index\":2", "\"index\":", 1);
     let doubled = format!("{records}{}", records.lines().last().expect("a line").to_owned() + "\n");
     for (text, line, words) in [
-        (swapped, 3, "task 3 where task 2 belongs"),
+        (swapped, 3, "record 3 where record 2 belongs"),
         (broken, 3, "expected value"),
-        (doubled, TASKS + 1, "task 10 where no more belongs"),
+        (doubled, TASKS + 1, "record 10 where no more belongs"),
     ] {
         fs::write(run.join("records.jsonl"), &text).expect("a file");
         let error = measure(&run, manifest(), &Unwatched).expect_err("damaged").to_string();
@@ -239,7 +239,7 @@ fn task(index: usize) -> Result<Measured<Record>, StoreError> {
     Ok(Measured { record, seconds: Seconds::from([("total".to_owned(), value)]) })
 }
 
-type Tasks = Vec<pushplan::bench::Finished<Record>>;
+type Tasks = Vec<pushplan::store::Finished<Record>>;
 
 fn measure(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Tasks, StoreError> {
     let mut store = Store::open(dir, manifest, watch)?;

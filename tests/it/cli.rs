@@ -115,29 +115,34 @@ fn a_plan_that_cannot_be_written_is_printed_all_the_same() {
 #[test]
 fn control_characters_of_a_file_never_reach_the_terminal() {
     let folder = TempDir::new().expect("a folder");
-    let solve = |extra: &[&str]| {
-        let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
-        let name = "red\u{1b}[31m\u{9b}2J";
-        let path = folder.path().join(format!("{name}.yaml"));
-        std::fs::write(&path, format!("{text}\n# \u{85}\n")).expect("a task");
-        let path = path.to_str().expect("UTF-8").to_owned();
-        let out = folder.path().to_str().expect("UTF-8");
-        pushplan(&[&["solve", &path, "--effort", "draft", "--out", out], extra].concat())
-    };
-    for extra in [&[][..], &["--json"], &["--tools", "a\u{1b}b"]] {
-        let output = solve(extra);
+    let out = folder.path().to_str().expect("UTF-8");
+    let path = folder.path().join("red\u{1b}[31m \u{9b}2J.yaml");
+    std::fs::copy("tasks/pull-back.yaml", &path).expect("a task");
+    let path = path.to_str().expect("UTF-8");
+    let bad = folder.path().join("a\u{1b}b.yaml");
+    let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
+    std::fs::write(&bad, text.replace("mass:", "\"\\e[2Jmass\":")).expect("a task");
+    let bad = bad.to_str().expect("UTF-8");
+    for (arguments, code) in [
+        (&["solve", path, "--effort", "draft", "--out", out][..], 0),
+        (&["solve", path, "--effort", "draft", "--out", out, "--json"], 0),
+        (&["check", path, bad], 3),
+        (&["solve", path, "--tools", bad], 3),
+    ] {
+        let output = pushplan(arguments);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         for text in [&output.stdout, &output.stderr] {
             let text = String::from_utf8_lossy(text);
             assert!(!text.chars().any(|c| c.is_control() && c != '\n'), "{text:?}");
         }
-        assert!(
-            output.stdout.is_empty() || String::from_utf8_lossy(&output.stdout).contains("u009b2J")
-        );
     }
-    let svg =
-        files(folder.path()).into_iter().find(|name| name.ends_with(".svg")).expect("a picture");
-    let svg = std::fs::read_to_string(folder.path().join(svg)).expect("a picture");
-    assert!(svg.contains("red\\u001b[31m") && !svg.contains('\u{1b}'));
+    // What the files hold is named after the file as far as a name can be.
+    assert!(files(folder.path()).contains(&"red--31m--2J.plan.json".to_owned()));
+    let output = pushplan(&["check", path, bad]);
+    assert!(
+        String::from_utf8_lossy(&output.stdout).contains("red\\u001b[31m \\u009b2J.yaml: task")
+    );
+    assert!(stderr(&output).contains("unknown key `\\u001b[2Jmass`"), "{}", stderr(&output));
 }
 
 #[test]
@@ -228,21 +233,21 @@ fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
         "0.21",
     ]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(files(folder.path()), ["manifest.json", "shard-00000.bin"]);
+    assert_eq!(files(folder.path()), ["manifest.json", "records.bin"]);
     let manifest = std::fs::read(folder.path().join("manifest.json")).expect("a manifest");
     let manifest: Json = serde_json::from_slice(&manifest).expect("JSON");
-    let config = &manifest["config"];
-    assert_eq!(config["preset"], "sparse_line");
+    let settings = &manifest["settings"];
+    assert_eq!(settings["preset"], "sparse_line");
     let wanted = serde_json::json!(
         {"objects": 6, "joints": "mixed", "solids": "cylinders", "speed": 0.21}
     );
-    assert_eq!(config["constraints"], wanted);
+    assert_eq!(settings["constraints"], wanted);
 }
 
 #[cfg(unix)]
 #[test]
 fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
-    goes_on_after_an_interruption("generate", "--episodes 64 --episodes-per-shard 4");
+    goes_on_after_an_interruption("generate", "--episodes 64");
 }
 
 #[cfg(unix)]
@@ -250,6 +255,29 @@ fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
 fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
     let run = "--episodes 40 --held-out 6 --steps 60 --evaluate-every 5 --width 8 --batch 32";
     goes_on_after_an_interruption("train", run);
+}
+
+#[cfg(unix)]
+#[test]
+fn two_commands_never_write_to_one_folder() {
+    let folder = TempDir::new().expect("a folder");
+    let lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
+    let dir = folder.path().to_str().expect("UTF-8");
+    let short = ["--episodes", "1", "--held-out", "1", "--steps", "1"];
+    for command in [
+        &["generate", dir, "--episodes", "1"][..],
+        &[&["train", dir][..], &short].concat(),
+        &["bench", "tasks", "tasks/pull-back.yaml", "--out", dir],
+    ] {
+        let output = pushplan(command);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        let wanted = format!("error: another pushplan is writing to {dir}; wait for it, or");
+        assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
+    }
+    assert_eq!(files(folder.path()), [""; 0], "nothing is written");
+    drop(lock);
+    let output = pushplan(&["generate", dir, "--episodes", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
 /// Runs a resumable command once whole and once with an interruption, and compares the files.

@@ -4,8 +4,8 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use pushplan::recording::Recording;
 use pushplan::{
-    asset::Recording,
     bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd},
     dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, Assumption, EffectModel, Projection, Simulated, Still},

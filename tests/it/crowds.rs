@@ -1,10 +1,12 @@
 //! Crowds, scattered or in a grid: what they hold, that every draw is sound, and that joints
 //! and constraints are as stated.
 
+use pushplan::store::StoreError;
+use pushplan::watch::Unwatched;
 use pushplan::{
     dataset::{
         Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, NEAR,
-        Preset, Solids, TEST_SPEED, Unwatched, generate,
+        Preset, Solids, TEST_SPEED, generate,
     },
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
     scene::{Job, JointKind, Record, Trajectory},
@@ -226,5 +228,8 @@ fn files_give_back_joints_and_round_parts_and_belong_to_their_constraints() {
     assert!(read.episodes().iter().any(|e| !e.scene.joints.is_empty()));
     let other = test_set(Preset::Dense, 9, JointRule::Fixed, Solids::Any);
     let refused = generate(&other, dir.path(), &Unwatched);
-    assert!(matches!(refused, Err(DatasetError::OtherSettings { .. })), "{refused:?}");
+    assert!(
+        matches!(refused, Err(DatasetError::Store(StoreError::OtherRun { .. }))),
+        "{refused:?}"
+    );
 }

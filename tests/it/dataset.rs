@@ -10,11 +10,11 @@ use std::{
     },
 };
 
+use pushplan::store::{FolderLock, RunManifest, Store, StoreError};
+use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     asset::ToolLibrary,
-    dataset::{
-        Dataset, DatasetConfig, DatasetError, Episode, Unwatched, Watch, generate, is_shipped,
-    },
+    dataset::{Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped},
     geometry::{Footprint, Pose, clearance},
     scene::{ToolMotion, Warning},
 };
@@ -158,7 +158,7 @@ impl Watch for Script {
 }
 
 fn small() -> DatasetConfig {
-    DatasetConfig { seed: 3, episodes: 44, episodes_per_shard: 10, ..DatasetConfig::default() }
+    DatasetConfig { seed: 3, episodes: 44, ..DatasetConfig::default() }
 }
 
 /// Every file of a folder by name, with its bytes.
@@ -172,63 +172,91 @@ fn files(dir: &Path) -> Vec<(String, Vec<u8>)> {
     found
 }
 
+/// Enough for two turns of keeping.
+fn large() -> DatasetConfig {
+    DatasetConfig { episodes: 700, ..small() }
+}
+
 #[test]
 fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memory_holds() {
     let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    generate(&small(), whole.path(), &Unwatched).unwrap();
+    let bytes = generate(&large(), whole.path(), &Unwatched).unwrap();
     let names: Vec<String> = files(whole.path()).into_iter().map(|f| f.0).collect();
-    assert_eq!(names.len(), 6, "{names:?}");
+    assert_eq!(names, ["manifest.json", "records.bin"]);
+    assert_eq!(fs::metadata(whole.path().join("records.bin")).unwrap().len(), bytes);
 
-    let script = Script { stop_after: Some(23), ..Script::default() };
-    let stopped = generate(&small(), broken.path(), &script);
+    let script = Script { stop_after: Some(600), ..Script::default() };
+    let stopped = generate(&large(), broken.path(), &script);
     assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
-    let left = files(broken.path());
-    assert_eq!(left.len(), 3, "two shards and the manifest");
-    assert!(left.iter().all(|(name, _)| !name.contains("partial")));
-    assert!(matches!(Dataset::open(broken.path()), Err(DatasetError::Unfinished { .. })));
+    match Dataset::open(broken.path()) {
+        Err(DatasetError::Store(StoreError::Unfinished { done, total, .. })) => {
+            assert!((512..700).contains(&done) && total == 700, "{done} of {total}");
+        }
+        opened => panic!("{opened:?}"),
+    }
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    pool.install(|| generate(&small(), broken.path(), &Unwatched)).unwrap();
+    pool.install(|| generate(&large(), broken.path(), &Unwatched)).unwrap();
     assert!(files(whole.path()) == files(broken.path()), "the files differ");
     let (read, made) =
-        (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&small(), &Unwatched).unwrap());
+        (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&large(), &Unwatched).unwrap());
     assert_eq!(read, made);
 }
 
 #[test]
-fn a_damaged_or_cut_shard_is_found_named_and_made_again() {
+fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
     let dir = tempfile::tempdir().unwrap();
     generate(&small(), dir.path(), &Unwatched).unwrap();
     let before = files(dir.path());
-    let (flipped, cut) = (dir.path().join("shard-00001.bin"), dir.path().join("shard-00003.bin"));
-    let mut bytes = fs::read(&flipped).unwrap();
-    bytes[5000] ^= 4;
-    fs::write(&flipped, &bytes).unwrap();
-    fs::write(&cut, &fs::read(&cut).unwrap()[..777]).unwrap();
-    let opened = Dataset::open(dir.path());
-    assert!(matches!(opened, Err(DatasetError::Damaged { .. })), "{opened:?}");
-
-    let script = Script::default();
-    generate(&small(), dir.path(), &script).unwrap();
-    let notes = script.notes.into_inner().unwrap();
-    assert_eq!(notes.len(), 2, "{notes:?}");
-    assert!(notes[0].contains("shard-00001.bin") && notes[1].contains("shard-00003.bin"));
-    assert!(files(dir.path()) == before, "the files differ");
+    let path = dir.path().join("records.bin");
+    let sound = fs::read(&path).unwrap();
+    let mut flipped = sound.clone();
+    flipped[sound.len() / 2] ^= 4;
+    for damaged in [flipped, sound[..sound.len() - 777].to_vec(), sound[..3].to_vec()] {
+        fs::write(&path, &damaged).unwrap();
+        let opened = Dataset::open(dir.path());
+        let unfinished = matches!(opened, Err(DatasetError::Store(StoreError::Unfinished { .. })));
+        assert!(unfinished, "{opened:?}");
+        let script = Script::default();
+        generate(&small(), dir.path(), &script).unwrap();
+        let notes = script.notes.into_inner().unwrap();
+        assert_eq!(notes.len(), 1, "{notes:?}");
+        assert!(notes[0].contains("records.bin is not whole behind record "), "{notes:?}");
+        assert!(files(dir.path()) == before, "the files differ");
+    }
 }
 
 #[test]
-fn a_folder_of_other_settings_an_empty_order_and_a_blocked_path_are_refused() {
+fn other_settings_a_second_writer_an_empty_order_and_a_blocked_path_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     let one = DatasetConfig { episodes: 2, ..small() };
     generate(&one, dir.path(), &Unwatched).unwrap();
-    let other = generate(&small(), dir.path(), &Unwatched);
-    assert!(matches!(other, Err(DatasetError::OtherSettings { .. })), "{other:?}");
+    match generate(&small(), dir.path(), &Unwatched) {
+        Err(DatasetError::Store(StoreError::OtherRun { differences, .. })) => {
+            assert_eq!(differences, ["tasks is 2 there, 44 was asked for"]);
+        }
+        other => panic!("{other:?}"),
+    }
+    let lock = FolderLock::take(dir.path()).unwrap();
+    let busy = generate(&one, dir.path(), &Unwatched);
+    assert!(matches!(busy, Err(DatasetError::Store(StoreError::Busy { .. }))), "{busy:?}");
+    drop(lock);
+    generate(&one, dir.path(), &Unwatched).unwrap();
     let nothing = generate(&DatasetConfig { episodes: 0, ..small() }, dir.path(), &Unwatched);
     assert!(matches!(nothing, Err(DatasetError::Empty("episodes"))), "{nothing:?}");
     let blocked = generate(&one, &dir.path().join("manifest.json"), &Unwatched);
-    assert!(matches!(blocked, Err(DatasetError::Io { .. })), "{blocked:?}");
+    assert!(matches!(blocked, Err(DatasetError::Store(StoreError::Io { .. }))), "{blocked:?}");
     let nowhere = Dataset::open(&dir.path().join("nowhere"));
-    assert!(matches!(nowhere, Err(DatasetError::Missing { .. })), "{nowhere:?}");
+    assert!(matches!(nowhere, Err(DatasetError::Store(StoreError::Missing { .. }))), "{nowhere:?}");
+}
+
+#[test]
+fn a_benchmark_is_not_data() {
+    let dir = tempfile::tempdir().unwrap();
+    let manifest = RunManifest::new("random", 3, 1, "planar");
+    drop(Store::<f64>::open(dir.path(), manifest, &Unwatched).unwrap());
+    let opened = Dataset::open(dir.path());
+    assert!(matches!(opened, Err(DatasetError::Foreign { .. })), "{opened:?}");
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use pushplan::watch::Unwatched;
 use pushplan::{
     contact::{Bodies, FrameProblem, FrameSolver},
-    dataset::{Dataset, DatasetConfig, Unwatched},
+    dataset::{Dataset, DatasetConfig},
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
     graph::Batch,

@@ -15,6 +15,7 @@ use pushplan::scene::{
     Situation, Task, Tool, ToolChoice,
 };
 use pushplan::sim::Simulator;
+use pushplan::watch::Unwatched;
 
 const SETTINGS: SearchSettings = SearchSettings { offsets: 5, beam: 16, rollouts: 600, kept: 32 };
 
@@ -169,7 +170,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let model = planar();
     let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
     let mut search = Search::new(space, rollouts.situation(), SETTINGS);
-    let found = search.deepen(&mut rollouts, &mut |_, _| {});
+    let found = search.deepen(&mut rollouts, &Unwatched);
     let best = &found[0];
     assert!(best.score < 0.3, "{best:?}");
     assert_eq!(best.candidate.pushes[0].direction, PI);
@@ -218,8 +219,8 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
     let model = planar();
     let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
     let mut search = Search::new(space, rollouts.situation(), SETTINGS);
-    search.deepen(&mut rollouts, &mut |_, _| {});
-    let found = search.deepen(&mut rollouts, &mut |_, _| {});
+    search.deepen(&mut rollouts, &Unwatched);
+    let found = search.deepen(&mut rollouts, &Unwatched);
     assert!(rollouts.used() <= 2 * (4 + 16));
 
     let headings = task.pushes.directions.headings();
@@ -260,8 +261,8 @@ fn a_search_finds_the_same_for_any_number_of_threads_and_within_its_budget() {
             let model = planar();
             let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));
             let mut search = Search::new(workspace(&task, &tools), rollouts.situation(), settings);
-            let first = search.deepen(&mut rollouts, &mut |_, _| {});
-            let second = search.deepen(&mut rollouts, &mut |_, _| {});
+            let first = search.deepen(&mut rollouts, &Unwatched);
+            let second = search.deepen(&mut rollouts, &Unwatched);
             assert!(!search.can_deepen());
             let all = first.into_iter().chain(second);
             let list: Vec<(Candidate, f64)> = all.map(|f| (f.candidate, f.score)).collect();
@@ -309,14 +310,14 @@ fn refinement_never_makes_a_candidate_worse() {
         let mut search = Search::new(space, rollouts.situation(), SETTINGS);
         let mut found = Vec::new();
         while search.can_deepen() {
-            found = search.deepen(&mut rollouts, &mut |_, _| {});
+            found = search.deepen(&mut rollouts, &Unwatched);
         }
         let candidates: Vec<Candidate> =
             found.iter().take(6).map(|f| f.candidate.clone()).collect();
         let settings = RefineSettings { rounds: 3, extra: 2, seed: 1, enough: 6 };
         let mut statistics = RefineStatistics::default();
         let refined =
-            refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &mut |_, _| {});
+            refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &Unwatched);
         assert!(!refined.is_empty(), "{goal:?}");
         for one in &refined {
             assert!(one.best.score <= one.before.score);

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
+use pushplan::watch::Unwatched;
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, Preset, Unwatched},
+    dataset::{Dataset, DatasetConfig, Preset},
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,

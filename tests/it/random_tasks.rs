@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{RandomSuite, Shard, SuiteTask, TaskKind};
+use pushplan::bench::{RandomSuite, SuiteTask, TaskKind};
 use pushplan::geometry::{Footprint, swept_clearance, wrap_angle};
 use pushplan::scene::{Engine, Situation, Task};
+use pushplan::store::Shard;
 use pushplan::verify::{Verifier, VerifySettings};
 
 /// Tasks of each kind.

@@ -1,6 +1,7 @@
 //! The planner from end to end, with the planar engine as effect model.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Simulated};
@@ -9,7 +10,8 @@ use pushplan::scene::{
     Frame, Joint, JointKind, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory, Warning,
 };
 use pushplan::sim::Simulator;
-use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution, Stage};
+use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
+use pushplan::watch::Watch;
 
 fn planner() -> Planner {
     Planner::builder(Simulated::new(Simulator::planar())).build()
@@ -180,13 +182,28 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
         assert!(planner().solve(&task, &library).is_err(), "fault {k}");
     }
     assert!(planner().solve(&task, &ToolLibrary::default()).is_err());
-    let progress = std::cell::RefCell::new(Vec::new());
-    let told = planner().solve_with(&task, &library, &mut |p| progress.borrow_mut().push(p));
-    assert!(told.is_ok());
-    for stage in [Stage::Search, Stage::Refine, Stage::Verify] {
-        assert!(progress.borrow().iter().any(|p| p.stage == stage));
+    let told = Told::default();
+    assert!(planner().solve_with(&task, &library, &told).is_ok());
+    let stages = told.stages.into_inner().unwrap();
+    for stage in ["search", "refine", "verify"] {
+        assert!(stages.contains(&format!("{stage}, plans of 1 push")), "{stages:?}");
     }
-    assert!(progress.borrow().iter().all(|p| p.done <= p.total));
+}
+
+/// What a planner says that it does.
+#[derive(Default)]
+struct Told {
+    stages: Mutex<Vec<String>>,
+}
+
+impl Watch for Told {
+    fn stage(&self, what: &str) {
+        self.stages.lock().unwrap().push(what.to_owned());
+    }
+
+    fn progress(&self, done: u64, total: u64) {
+        assert!(done <= total, "{done} of {total}");
+    }
 }
 
 #[test]

@@ -1,12 +1,13 @@
 //! Speed against accuracy: coarser levels keep the interface of the finer ones.
 
+use pushplan::store::{Seconds, Store, StoreError};
+use pushplan::watch::Watch;
 use pushplan::{
     asset::ToolLibrary,
     bench::{
-        Level, PlanRow, Seconds, Store, StoreError, Suite, SuiteKind, TradeOff, TradeOffReport,
-        TradeOffSettings, Unit, dominates, levels, plan_levels,
+        Level, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings, Unit,
+        dominates, levels, plan_levels,
     },
-    dataset::Watch,
     effect::{EffectModel, EffectModels, Job, Network, Prior},
     report::{tradeoff_efforts, tradeoff_push_chart, tradeoff_task_chart},
     scene::Record,

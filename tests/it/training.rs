@@ -1,13 +1,18 @@
 //! Training: resumable to the bit, the same on any number of threads, and it learns.
 
-use std::{fs, path::Path};
+use std::{
+    fs,
+    path::Path,
+    sync::atomic::{AtomicU64, Ordering},
+};
 
+use pushplan::store::{FolderLock, StoreError};
+use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, Unwatched},
+    dataset::{Dataset, DatasetConfig},
     network::{Config, Weights},
     train::{
-        Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Report, Settings, TrainError,
-        train,
+        Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Settings, TrainError, train,
     },
 };
 
@@ -30,32 +35,44 @@ fn data(seed: u64, episodes: u64) -> Dataset {
     Dataset::in_memory(&config, &Unwatched).expect("data")
 }
 
-/// Keeps the lines, and stops at a step.
+/// Counts the lines, and stops at a step.
 #[derive(Default)]
 struct Listener {
     stop_at: Option<u64>,
-    step: u64,
-    lines: Vec<MetricLine>,
+    step: AtomicU64,
+    lines: AtomicU64,
 }
 
-impl Report for Listener {
-    fn line(&mut self, line: &MetricLine) {
-        self.lines.push(line.clone());
+impl Watch for Listener {
+    fn line(&self, text: &str) {
+        assert!(text.starts_with("step "), "{text}");
+        self.lines.fetch_add(1, Ordering::SeqCst);
     }
 
-    fn step(&mut self, step: u64, _: u64) {
-        self.step = step;
+    fn progress(&self, step: u64, _: u64) {
+        self.step.store(step, Ordering::SeqCst);
     }
 
     fn cancelled(&self) -> bool {
-        self.stop_at.is_some_and(|stop| self.step >= stop)
+        self.stop_at.is_some_and(|stop| self.step.load(Ordering::SeqCst) >= stop)
     }
 }
 
-fn run(folder: &Path, data: &Dataset, held_out: &Dataset, stop_at: Option<u64>) -> Listener {
-    let mut listener = Listener { stop_at, ..Listener::default() };
-    train(&settings(), data, held_out, folder, &mut listener).expect("training");
-    listener
+fn lock(folder: &Path) -> FolderLock {
+    FolderLock::take(folder).expect("the folder is free")
+}
+
+/// Trains until a step, and gives the number of lines that were told.
+fn run(folder: &Path, data: &Dataset, held_out: &Dataset, stop_at: Option<u64>) -> u64 {
+    let listener = Listener { stop_at, ..Listener::default() };
+    train(&settings(), data, held_out, &lock(folder), &listener).expect("training");
+    listener.lines.into_inner()
+}
+
+/// The lines of a run's `metrics.jsonl`.
+fn metrics(folder: &Path) -> Vec<MetricLine> {
+    let written = fs::read_to_string(folder.join("metrics.jsonl")).expect("metrics");
+    written.lines().map(|line| serde_json::from_str(line).expect("a metric line")).collect()
 }
 
 fn files(folder: &Path) -> (Vec<u8>, Vec<u8>) {
@@ -70,7 +87,7 @@ fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
     let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
     let pool =
         |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-    let lines = pool(2).install(|| run(&whole, &data, &held_out, None)).lines;
+    assert_eq!(pool(2).install(|| run(&whole, &data, &held_out, None)), 4);
     pool(1).install(|| run(&parts, &data, &held_out, Some(70)));
     let stopped = fs::read(parts.join("checkpoint.safetensors")).expect("checkpoint");
     // A run stops only where going on needs nothing but the checkpoint.
@@ -78,14 +95,11 @@ fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
     pool(1).install(|| run(&parts, &data, &held_out, None));
     assert!(files(&whole) == files(&parts), "the resumed run ended with other bits");
 
-    assert_eq!(lines.iter().map(|l| l.step).collect::<Vec<_>>(), [50, 100, 150, 200]);
-    assert!(lines[3].loss < lines[0].loss, "{} {}", lines[0].loss, lines[3].loss);
-    let written = fs::read_to_string(parts.join("metrics.jsonl")).expect("metrics");
-    let steps: Vec<u64> = written
-        .lines()
-        .map(|line| serde_json::from_str::<MetricLine>(line).expect("a metric line").step)
-        .collect();
-    assert_eq!(steps, [50, 100, 150, 200]);
+    for folder in [&whole, &parts] {
+        let lines = metrics(folder);
+        assert_eq!(lines.iter().map(|line| line.step).collect::<Vec<_>>(), [50, 100, 150, 200]);
+        assert!(lines[3].loss < lines[0].loss, "{} {}", lines[0].loss, lines[3].loss);
+    }
 
     let best = Weights::from_bytes(&files(&whole).1).expect("weights");
     assert_eq!(best.card.data_seed, 1);
@@ -101,8 +115,8 @@ fn every_exposure_to_own_states_resumes_to_the_same_bits() {
         let folder = tempfile::tempdir().expect("folder");
         let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
         let run = |folder: &Path, stop_at| {
-            let mut listener = Listener { stop_at, ..Listener::default() };
-            train(&settings, &data, &held_out, folder, &mut listener).expect("training");
+            let listener = Listener { stop_at, ..Listener::default() };
+            train(&settings, &data, &held_out, &lock(folder), &listener).expect("training");
         };
         run(&whole, None);
         run(&parts, Some(20));
@@ -116,18 +130,19 @@ fn a_checkpoint_of_another_run_or_a_damaged_one_is_refused_and_kept() {
     let (data, held_out) = (data(1, 5), data(2, 2));
     let folder = tempfile::tempdir().expect("folder");
     let short = Settings { steps: 1, evaluate_every: 1, ..settings() };
-    let mut listener = Listener::default();
-    train(&short, &data, &held_out, folder.path(), &mut listener).expect("training");
+    let lock = lock(folder.path());
+    assert!(matches!(FolderLock::take(folder.path()), Err(StoreError::Busy { .. })));
+    train(&short, &data, &held_out, &lock, &Unwatched).expect("training");
     let path = folder.path().join("checkpoint.safetensors");
     let before = fs::read(&path).expect("checkpoint");
 
     let other = Settings { seed: 9, ..short.clone() };
-    let error = train(&other, &data, &held_out, folder.path(), &mut listener);
+    let error = train(&other, &data, &held_out, &lock, &Unwatched);
     assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Other("settings")))));
     assert_eq!(fs::read(&path).expect("checkpoint"), before);
 
     fs::write(&path, &before[..100]).expect("damage");
-    let error = train(&short, &data, &held_out, folder.path(), &mut listener);
+    let error = train(&short, &data, &held_out, &lock, &Unwatched);
     assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Format(_)))));
     assert_eq!(fs::read(&path).expect("checkpoint").len(), 100, "nothing was overwritten");
 }

@@ -1,7 +1,6 @@
-//! Writing recordings, from what was read or from what was simulated.
+//! Writing recordings.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use serde_json::{Value as Json, json};
 
@@ -9,46 +8,9 @@ use crate::asset::fault::{Fault, Faults};
 use crate::asset::saved::{SCHEMA_VERSION, emit};
 use crate::asset::write_atomic;
 use crate::geometry::Pose;
-use crate::scene::{COAST_FRAME, Frame, Scene, ToolMotion};
-
-use super::load::{RecordedFrame, Recording};
+use crate::recording::Recording;
 
 impl Recording {
-    /// What `frames` show of `motion` on `scene`, headings included: a simulation as if it had
-    /// been recorded. The first frame must be the scene's start.
-    pub fn of_frames(name: &str, scene: &Scene, motion: &ToolMotion, frames: &[Frame]) -> Self {
-        let mut recorded: Vec<RecordedFrame> = Vec::new();
-        let mut late = 0.0;
-        for (k, frame) in frames.iter().enumerate() {
-            let before = k.checked_sub(1).map(|before| &frames[before]);
-            if let Some(before) = before.filter(|before| before.stroke != frame.stroke)
-                && motion.strokes.get(before.stroke).is_some_and(|stroke| stroke.settle)
-                && let Some(stroke) = motion.strokes.get(frame.stroke)
-            {
-                // Setting the tool down takes no time in a simulation; here it must take some.
-                let time = before.time + late + COAST_FRAME;
-                let poses = before.state.poses.clone();
-                recorded.push(RecordedFrame { time, tool: stroke.from, lifted: true, poses });
-                late += COAST_FRAME;
-            }
-            recorded.push(RecordedFrame {
-                time: frame.time + late,
-                tool: frame.tool,
-                lifted: false,
-                poses: frame.state.poses.clone(),
-            });
-        }
-        Self {
-            name: name.into(),
-            description: String::new(),
-            scene: scene.clone(),
-            tool: Arc::clone(&motion.tool),
-            lift: motion.lift,
-            headings: vec![true; scene.objects.len()],
-            frames: recorded,
-        }
-    }
-
     /// Writes the recording as JSON; a partial file is never left behind.
     ///
     /// # Errors

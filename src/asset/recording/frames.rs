@@ -1,22 +1,10 @@
-//! The frames of a recording: their times and poses, and what no real table does between them.
+//! The frames of a recording: their times and poses, and where they break a rule.
 
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, vector};
-use crate::geometry::{Pose, clearance, wrap_angle};
-
-use super::load::{NOISE, RecordedFrame, Recording};
-
-/// A body that moves farther than this between two frames was lost by the tracker, metres.
-const JUMP: f64 = 0.10;
-
-/// The same for turns: a right angle, as when a tracker mixes up the sides of a square.
-const TURN: f64 = 0.45 * std::f64::consts::PI;
-
-/// Frames are missing where a time step is this many times the usual one and something moved
-/// farther than [`MOVED`] metres meanwhile.
-const GAP: f64 = 2.5;
-const MOVED: f64 = 0.002;
+use crate::geometry::Pose;
+use crate::recording::{Body, Gap, Jump, RecordedFrame, Recording, Strange, gaps, jumps};
 
 /// The time of every frame, the first at 0 s; `None` if they are not known.
 pub(super) fn times(root: &Node, ledger: &mut Ledger) -> Option<Vec<f64>> {
@@ -155,91 +143,52 @@ fn steps(
     for k in 1..frames.len() {
         let (before, now) = frames.split_at_mut(k);
         let (Some(before), Some(now)) = (&before[k - 1], &mut now[0]) else { continue };
-        let node = &nodes[k];
-        if now.lifted {
-            now.tool.heading = unwrapped(now.tool.heading, before.tool.heading);
-        } else if let Some(jump) = jump(&before.tool, &mut now.tool) {
-            ledger.fault(
-                node.get("pusher").unwrap_or(node),
-                format!("the pusher {jump} between frames {} and {k}", k - 1),
-                "where it was lifted and set down again, write `\"lifted\": true`; else frames \
-                 are missing",
-            );
-        }
-        let poses = before.poses.iter().zip(&mut now.poses).zip(names);
-        for (index, ((before, now), name)) in poses.enumerate() {
-            if let Some(jump) = jump(before, now) {
-                let place = node.get("objects").and_then(|list| list.items().get(index));
-                ledger.fault(
-                    place.unwrap_or(node),
-                    format!("`{name}` {jump} between frames {} and {k}", k - 1),
+        now.unwrap_after(before);
+        for Jump { body, what } in jumps(before, now) {
+            let (name, place, advice) = match body {
+                Body::Pusher => (
+                    "the pusher".to_owned(),
+                    nodes[k].get("pusher"),
+                    "where it was lifted and set down again, write `\"lifted\": true`; else \
+                     frames are missing",
+                ),
+                Body::Object(index) => (
+                    format!("`{}`", names[index]),
+                    nodes[k].get("objects").and_then(|list| list.items().get(index)),
                     "frames are missing here, or the tracker has mixed up bodies",
-                );
-            }
+                ),
+            };
+            let what = match what {
+                Strange::Moves(travel) => format!("moves {:.0} cm", travel * 100.0),
+                Strange::Turns(turn) => format!("turns by {:.0} degrees", turn.to_degrees()),
+            };
+            let message = format!("{name} {what} between frames {} and {k}", k - 1);
+            ledger.fault(place.unwrap_or(&nodes[k]), message, advice);
         }
     }
-}
-
-/// What a body does that cannot be, in words.
-fn jump(before: &Pose, now: &mut Pose) -> Option<String> {
-    now.heading = unwrapped(now.heading, before.heading);
-    let travel = (now.position - before.position).norm();
-    let turn = (now.heading - before.heading).abs();
-    if travel > JUMP {
-        Some(format!("moves {:.0} cm", travel * 100.0))
-    } else if turn > TURN {
-        Some(format!("turns by {:.0} degrees", turn.to_degrees()))
-    } else {
-        None
-    }
-}
-
-/// `heading` plus whole turns, nearest to `before`.
-fn unwrapped(heading: f64, before: f64) -> f64 {
-    before + wrap_angle(heading - before)
 }
 
 /// Notes time steps that are much longer than the others although something moves.
 fn missing(frames: &[RecordedFrame], nodes: &[Node], ledger: &mut Ledger) {
-    let mut steps: Vec<f64> = frames.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
-    steps.sort_by(f64::total_cmp);
-    let Some(usual) = steps.get(steps.len() / 2).copied() else { return };
-    for (k, pair) in frames.windows(2).enumerate().filter(|(_, pair)| !pair[1].lifted) {
-        let step = pair[1].time - pair[0].time;
-        let bodies = pair[0].poses.iter().zip(&pair[1].poses);
-        let moved = bodies
-            .chain([(&pair[0].tool, &pair[1].tool)])
-            .any(|(before, now)| (now.position - before.position).norm() > MOVED);
-        if step > GAP * usual && moved {
-            let message = format!(
-                "frames are missing between frames {k} and {}: {step:.3} s instead of {usual:.3} s",
-                k + 1
-            );
-            let advice = "record without gaps, or cut the recording here into two files";
-            ledger.fault(&nodes[k + 1], message, advice);
-        }
+    for Gap { frame, step, usual } in gaps(frames) {
+        let message = format!(
+            "frames are missing between frames {} and {frame}: {step:.3} s instead of {usual:.3} s",
+            frame - 1
+        );
+        let advice = "record without gaps, or cut the recording here into two files";
+        ledger.fault(&nodes[frame], message, advice);
     }
 }
 
 /// Notes objects that the pusher stands on where it is set down.
 pub(super) fn set_down(root: &Node, recording: &Recording, ledger: &mut Ledger) {
     let Some(nodes) = root.get("frames").map(Node::items) else { return };
-    for (k, frame) in recording.frames.iter().enumerate().filter(|(k, f)| *k == 0 || f.lifted) {
-        for (object, pose) in recording.scene.objects.iter().zip(&frame.poses) {
-            let solid = object.shape.footprint().shrunk(NOISE);
-            let parts = recording.tool.parts.iter().enumerate();
-            let on = recording.lift < object.shape.height()
-                && parts.into_iter().any(|(index, part)| {
-                    let at = recording.tool.part_pose(index, &frame.tool);
-                    clearance((&part.footprint(), &at), (&solid, pose), NOISE) <= 0.0
-                });
-            if on {
-                ledger.fault(
-                    nodes[k].get("pusher").unwrap_or(&nodes[k]),
-                    format!("in frame {k} the pusher stands inside `{}`", object.name),
-                    "check its size and the origin of its positions: they are those of centres",
-                );
-            }
-        }
+    for (frame, object) in recording.set_down_inside() {
+        let name = &recording.scene.objects[object].name;
+        ledger.fault(
+            nodes[frame].get("pusher").unwrap_or(&nodes[frame]),
+            format!("in frame {frame} the pusher stands inside `{name}`"),
+            "check its size and the origin of its positions: they are those of centres",
+        );
     }
 }

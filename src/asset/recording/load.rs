@@ -7,49 +7,14 @@ use crate::asset::fault::Faults;
 use crate::asset::node::{Content, Node};
 use crate::asset::strict::{Ledger, check};
 use crate::asset::take::{name_of, number_or, shape};
-use crate::asset::text::Source;
+use crate::asset::text::{Source, named_after};
 use crate::asset::{read_text, task, tool};
 use crate::geometry::Pose;
-use crate::scene::{Part, Scene, State, Tool};
+use crate::recording::Recording;
+use crate::scene::{Part, Scene, Tool};
 
 use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};
-
-/// Measured bodies may be this deep in each other in a frame, metres: what trackers and the
-/// rounding of radii leave.
-pub(super) const NOISE: f64 = 0.005;
-
-/// What happened on a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
-    /// From the file's name or its `name` key.
-    pub name: String,
-    /// One line for people.
-    pub description: String,
-    /// What stood on the table, in the poses of the first frame.
-    pub scene: Scene,
-    /// The pusher.
-    pub tool: Arc<Tool>,
-    /// Height of its underside above the table, metres.
-    pub lift: f64,
-    /// Whether the heading of each object was recorded.
-    pub headings: Vec<bool>,
-    /// At least two, in order of time, the first at 0 s.
-    pub frames: Vec<RecordedFrame>,
-}
-
-/// One recorded instant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RecordedFrame {
-    /// Since the first frame, seconds.
-    pub time: f64,
-    /// Pose of the tool frame.
-    pub tool: Pose,
-    /// Whether the pusher was lifted before this frame and set down here.
-    pub lifted: bool,
-    /// Poses of the objects; headings that were not recorded are those of the start.
-    pub poses: Vec<Pose>,
-}
 
 impl Recording {
     /// Reads a recording; JSON if the file's name ends so, else YAML.
@@ -77,11 +42,6 @@ impl Recording {
         let recording = read(&root, file, &mut ledger);
         ledger.finish(recording)
     }
-
-    /// Everything at its start, at rest.
-    pub fn start(&self) -> State {
-        self.scene.start()
-    }
 }
 
 fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
@@ -107,7 +67,7 @@ fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
 /// `push` of `data/push.recording.json`.
 fn stem(file: &str) -> String {
     let name = Path::new(file).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    name.split('.').next().unwrap_or_default().to_owned()
+    named_after(name.split('.').next().unwrap_or_default())
 }
 
 /// The scene with the first frame's poses and the defaults of what is not said.
@@ -122,7 +82,7 @@ fn scene(root: &Node, ledger: &mut Ledger) -> Option<Scene> {
             }
         }
     }
-    task::scene_of(&scene, NOISE, ledger)
+    task::scene_of(&scene, Recording::NOISE, ledger)
 }
 
 /// Fills in what an object leaves open; faults of the position are told at the first frame.

@@ -1,16 +1,12 @@
-//! Recordings: the user's own data, a scene and the poses of all bodies frame by frame.
+//! Recording files: the user's own data, a scene and the poses of all bodies frame by frame.
 //!
 #![doc = include_str!("format.md")]
 
 mod emit;
 mod frames;
 mod load;
-mod motion;
 mod spec;
 mod units;
-
-pub use load::{RecordedFrame, Recording};
-pub use motion::{Instant, Replay};
 
 pub(super) use spec::{RECORDING, RECORDING_KEYS};
 

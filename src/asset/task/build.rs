@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::asset::node::{Content, Node};
 use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
+use crate::asset::text::named_after;
 use crate::geometry::Vector;
 use crate::scene::{
     Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Task,
@@ -15,11 +16,11 @@ use super::spec::default;
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
-    let stem = || Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let scene = scene(root.get("scene")?)?;
     let goal = goal(root.get("goal")?, &scene)?;
     Some(Task {
-        name: name_of(root).map(str::to_owned).or_else(stem).unwrap_or_default(),
+        name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         scene,
         robot: robot(root.get("robot")?)?,

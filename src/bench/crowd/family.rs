@@ -104,7 +104,6 @@ impl CrowdSet {
             episodes: count as u64,
             preset,
             constraints: Constraints::test(self.objects, self.joints, self.solids),
-            ..DatasetConfig::default()
         };
         (0..config.episodes)
             .into_par_iter()

@@ -5,11 +5,11 @@ use thiserror::Error;
 
 use crate::asset::ToolLibrary;
 use crate::bench::solved::{End, SolvedTask};
-use crate::bench::store::Measured;
 use crate::dataset::generator;
 use crate::geometry::Pose;
 use crate::scene::{Engine, Frame, Outcome, Situation, Trajectory};
 use crate::solve::{Planner, SolveError};
+use crate::store::Measured;
 use crate::verify::{Verifier, VerifySettings};
 
 use super::kind::TaskKind;

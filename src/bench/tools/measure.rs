@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::store::{Measured, Seconds};
 use crate::{
     effect::{EffectModel, Simulated},
     geometry::Vector,
@@ -10,7 +11,6 @@ use crate::{
     solve::{Planner, SolveError},
 };
 
-use super::super::store::{Measured, Seconds};
 use super::{
     execute::Executions,
     goals::GoalSet,

@@ -3,6 +3,7 @@
 
 use rand::Rng;
 
+use crate::store::Seconds;
 use crate::{
     asset::ToolLibrary,
     dataset::generator,
@@ -12,7 +13,6 @@ use crate::{
     solve::{Planner, Solution, SolveError},
 };
 
-use super::super::store::Seconds;
 use super::{
     choose::{Choice, first_choice, nothing},
     execute::{Action, Landing},

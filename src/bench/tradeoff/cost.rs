@@ -1,9 +1,10 @@
 //! What a push costs at every level, all levels in turn.
 
+use crate::store::Seconds;
 use crate::{
     asset::ToolLibrary,
     bench::{
-        Seconds, Suite, SuiteKind,
+        Suite, SuiteKind,
         inference::peak,
         suite::{Case, jointed_crowd_cases},
         timing::push_seconds,

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::store::Seconds;
 use crate::{
     asset::SCHEMA_VERSION,
-    bench::{End, Seconds, SolvedTask, SuiteKind},
+    bench::{End, SolvedTask, SuiteKind},
     judge::{Summary, mean, percentile},
     solve::{Effort, EffortLevel, PlanStatus},
 };

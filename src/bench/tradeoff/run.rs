@@ -6,11 +6,12 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
+use crate::store::{Measured, RunManifest, Seconds};
 use crate::{
     asset::ToolLibrary,
     bench::{
-        HeldOut, HeldOutErrors, Measured, RandomError, RandomSuite, RunManifest, Seconds,
-        SolvedTask, SuiteKind, TaskKind, cpu_clock::timed,
+        HeldOut, HeldOutErrors, RandomError, RandomSuite, SolvedTask, SuiteKind, TaskKind,
+        cpu_clock::timed,
     },
     scene::Task,
     solve::{Planner, Solution, SolveError},

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::bench::{Measured, RunManifest, Shard, Store, StoreError, digest};
 use crate::cli::{
-    error::CliError, generate::Following, interrupt, model::ModelName, output, session::Session,
+    error::CliError, follow::Following, interrupt, model::ModelName, output, session::Session,
 };
 use crate::report::Document;
+use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 
 /// Names of the files that a report leaves beside the records.
 const PAGE: &str = "report.html";
@@ -54,13 +54,13 @@ impl KeepArgs {
             None => manifest,
         };
         interrupt::watch();
-        let following = Following::new(session, "tasks");
+        let following = Following::bar(session, "tasks");
         let mut store = match &self.out {
             Some(dir) => Store::open(dir, manifest, &following)?,
             None => Store::in_memory(manifest),
         };
         let measured = store.run(&following, measure);
-        following.finish();
+        following.finish()?;
         match measured {
             Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {
                 Some(_) => format!("{message}; the same command goes on from there"),

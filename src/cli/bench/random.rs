@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::bench::{RandomError, RandomSuite, RunManifest, TaskKind};
+use crate::bench::{RandomError, RandomSuite, TaskKind};
 use crate::cli::{
     error::CliError,
     interrupt, output,
@@ -14,6 +14,7 @@ use crate::cli::{
 };
 use crate::report::random_document;
 use crate::solve::{Effort, Planner};
+use crate::store::RunManifest;
 
 use super::common::Common;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};

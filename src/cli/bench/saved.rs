@@ -4,11 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bench::{
-    RandomRecord, RunManifest, SolvedTask, Store, StoreError, ToolRecord, merge_runs,
-};
+use crate::bench::{RandomRecord, SolvedTask, ToolRecord};
 use crate::cli::{error::CliError, output, session::Session};
 use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
+use crate::store::{RunManifest, Store, StoreError, merge_runs};
 
 use super::common::Form;
 use super::{random, tasks, tools};
@@ -61,9 +60,7 @@ pub fn report(args: &ReportArgs, session: &Session) -> Result<(), CliError> {
 fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
     let mut suites = Vec::new();
     for dir in runs {
-        let manifest = RunManifest::load(dir)?;
-        let manifest = manifest.ok_or_else(|| StoreError::Missing { path: dir.clone() })?;
-        suites.push(manifest.suite);
+        suites.push(RunManifest::expect(dir)?.suite);
     }
     let suite = suites[0].as_str();
     if let Some(other) = suites.iter().position(|other| other != suite) {

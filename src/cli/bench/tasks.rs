@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::asset::load_task;
-use crate::bench::{Measured, RunManifest, SolvedTask};
+use crate::bench::SolvedTask;
 use crate::cli::{
     error::CliError,
     session::Session,
@@ -15,6 +15,7 @@ use crate::cli::{
 use crate::report::solved_document;
 use crate::scene::Task;
 use crate::solve::Planner;
+use crate::store::{Measured, RunManifest};
 
 use super::common::Common;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};

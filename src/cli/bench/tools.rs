@@ -6,9 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::write_atomic;
-use crate::bench::{
-    GoalSet, Layout, ReferenceSetup, RunManifest, ToolBench, ToolBenchError, single_pushes,
-};
+use crate::bench::{GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, single_pushes};
 use crate::cli::{
     error::CliError,
     model::{ModelName, OutsideArgs},
@@ -17,6 +15,7 @@ use crate::cli::{
 };
 use crate::report::{single_table, tools_document};
 use crate::solve::{Effort, Planner};
+use crate::store::RunManifest;
 
 use super::common::Form;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};

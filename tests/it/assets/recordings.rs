@@ -5,9 +5,10 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-use pushplan::asset::{Kind, RECORDING_FORMAT, Recording, check};
+use pushplan::asset::{Kind, RECORDING_FORMAT, check};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::recording::Recording;
 use pushplan::scene::{
     Joint, JointKind, Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory,
 };

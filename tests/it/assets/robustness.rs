@@ -3,7 +3,8 @@
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use pushplan::asset::{Faults, PlanFile, Recording, TrajectoryFile};
+use pushplan::asset::{Faults, PlanFile, TrajectoryFile};
+use pushplan::recording::Recording;
 use pushplan::scene::{Task, Tool};
 
 use super::recordings;

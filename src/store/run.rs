@@ -1,20 +1,18 @@
-//! A run: what is finished, what is left, and keeping each task as it is done.
+//! A run of tasks measured one by one: what is finished, what is left, and keeping each as it is
+//! done.
 
-use std::collections::{BTreeMap, HashMap};
-use std::{fs, path::Path};
+use std::collections::HashMap;
+use std::path::Path;
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::dataset::Watch;
+use crate::watch::Watch;
 
-use super::{
-    error::StoreError,
-    files::{Files, RecordLine, TimesLine, line, read_records, read_times},
-    manifest::RunManifest,
-};
-
-/// Wall times of a task by what they were spent on, seconds.
-pub type Seconds = BTreeMap<String, f64>;
+use super::error::StoreError;
+use super::form::Form;
+use super::journal::{Journal, read_records};
+use super::manifest::RunManifest;
+use super::times::{Seconds, Times, TimesLine, read_times};
 
 /// What measuring a task gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,11 +34,18 @@ pub struct Finished<R> {
     pub seconds: Seconds,
 }
 
-/// The records of a benchmark, in a folder or only in memory.
+/// A line of the records' file.
+#[derive(Serialize, Deserialize)]
+struct RecordLine<R> {
+    index: usize,
+    record: R,
+}
+
+/// The records of a run, in a folder or only in memory.
 #[derive(Debug)]
 pub struct Store<R> {
     manifest: RunManifest,
-    files: Option<Files>,
+    files: Option<(Journal, Times)>,
     finished: Vec<Finished<R>>,
 }
 
@@ -54,39 +59,20 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// is dropped with a note to `watch`, and its task is measured again.
     ///
     /// # Errors
-    /// If the folder holds a run with another manifest (the error says what differs) or a damaged
-    /// one, another process writes to it, or it cannot be written.
+    /// Those of [`Journal::open`].
     pub fn open(dir: &Path, manifest: RunManifest, watch: &dyn Watch) -> Result<Self, StoreError> {
-        fs::create_dir_all(dir).map_err(|source| StoreError::Io {
-            doing: "create",
-            path: dir.to_owned(),
-            source,
-        })?;
-        match RunManifest::load(dir)? {
-            Some(there) if there != manifest => {
-                let differences = there.differences(&manifest);
-                return Err(StoreError::OtherRun { path: dir.to_owned(), differences });
-            }
-            Some(_) => {}
-            None if dir.join(super::files::RECORDS).exists() => {
-                return Err(StoreError::Stray { path: dir.to_owned() });
-            }
-            None => manifest.save(dir)?,
-        }
-        let (lines, records) = read_records(dir, &manifest)?;
-        if lines.torn {
-            watch.note(&format!(
-                "the last record in {} is not whole; its task is measured again",
-                dir.display()
-            ));
-        }
+        let mut records = Vec::new();
+        let journal = {
+            let look = &mut reading(&mut records);
+            Journal::open(dir, manifest.clone(), Form::Lines, watch, look)?
+        };
         let indices: Vec<usize> = manifest.indices().take(records.len()).collect();
         let times = read_times(dir)?;
         let times = times.into_iter().filter(|(times, _)| indices.contains(&times.index));
         let (times, kept): (Vec<TimesLine>, Vec<String>) = times.unzip();
-        let files = Files::open(dir, &lines, &kept)?;
+        let files = Some((journal, Times::open(dir, &kept)?));
         let finished = join(&manifest, records, times);
-        Ok(Self { manifest, files: Some(files), finished })
+        Ok(Self { manifest, files, finished })
     }
 
     /// Reads a run, finished or not, for reports. Writes nothing.
@@ -94,9 +80,9 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// # Errors
     /// If the folder holds none or a damaged one.
     pub fn load(dir: &Path) -> Result<Self, StoreError> {
-        let manifest = RunManifest::load(dir)?;
-        let manifest = manifest.ok_or_else(|| StoreError::Missing { path: dir.to_owned() })?;
-        let (_, records) = read_records(dir, &manifest)?;
+        let manifest = RunManifest::expect(dir)?;
+        let mut records = Vec::new();
+        read_records(dir, &manifest, Form::Lines, &mut reading(&mut records))?;
         let times = read_times(dir)?.into_iter().map(|(times, _)| times).collect();
         let finished = join(&manifest, records, times);
         Ok(Self { manifest, files: None, finished })
@@ -139,7 +125,7 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
         &self.finished
     }
 
-    /// What is measured and the finished tasks; gives the folder free.
+    /// What is measured and the finished tasks; releases the folder.
     pub fn into_parts(self) -> (RunManifest, Vec<Finished<R>>) {
         (self.manifest, self.finished)
     }
@@ -152,16 +138,31 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
     /// Keeps a record as it will be read again, so that a report is the same whether or not the
     /// run was interrupted.
     fn keep(&mut self, index: usize, measured: Measured<R>) -> Result<(), StoreError> {
-        let unkept = |source| StoreError::Record { index, source };
+        let unkept =
+            |error: serde_json::Error| StoreError::Record { index, why: error.to_string() };
         let Measured { record, seconds } = measured;
-        let text = line(&RecordLine { index, record }).map_err(unkept)?;
-        let read: RecordLine<R> = serde_json::from_str(&text).map_err(unkept)?;
+        let line = serde_json::to_vec(&RecordLine { index, record }).map_err(unkept)?;
+        let read: RecordLine<R> = serde_json::from_slice(&line).map_err(unkept)?;
         let times = TimesLine { index, seconds };
-        if let Some(files) = &mut self.files {
-            files.append(&text, &line(&times).map_err(unkept)?)?;
+        if let Some((journal, file)) = &mut self.files {
+            // Times first, so that every record has some.
+            file.append(&serde_json::to_string(&times).map_err(unkept)?)?;
+            journal.append([line.as_slice()])?;
         }
         self.finished.push(Finished { index, record: read.record, seconds: times.seconds });
         Ok(())
+    }
+}
+
+/// Reads each line into `records`.
+fn reading<R: DeserializeOwned>(
+    records: &mut Vec<R>,
+) -> impl FnMut(&[u8]) -> Result<usize, String> {
+    |line| {
+        let read: RecordLine<R> =
+            serde_json::from_slice(line).map_err(|error| error.to_string())?;
+        records.push(read.record);
+        Ok(read.index)
     }
 }
 

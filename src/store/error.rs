@@ -1,6 +1,7 @@
-//! What can go wrong with a benchmark run on disk.
+//! What can go wrong with a run on disk.
 
-use std::{io, path::PathBuf};
+use std::io;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -32,8 +33,8 @@ pub enum StoreError {
     /// A whole file could not be written.
     #[error("{0}")]
     Write(Faults),
-    /// A manifest that is none of ours.
-    #[error("{} is no manifest of a benchmark: {source}", path.display())]
+    /// A manifest of something else.
+    #[error("{} is not a manifest of pushplan: {source}", path.display())]
     Manifest {
         /// The file.
         path: PathBuf,
@@ -53,12 +54,12 @@ pub enum StoreError {
         differences: Vec<String>,
     },
     /// A file that is not what was written.
-    #[error("{}:{line}: {why}; move the folder away and measure again", path.display())]
+    #[error("{}:{record}: {why}; move the folder away and run the command again", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
-        line: usize,
+        /// The record, from 1; of lines of text it is the line.
+        record: usize,
         /// What is wrong with it.
         why: String,
     },
@@ -69,7 +70,11 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// The folder holds no run.
-    #[error("{} holds no benchmark run; `pushplan bench ... --out DIR` makes one", path.display())]
+    #[error(
+        "{} holds neither data nor a benchmark; `pushplan generate DIR` and `pushplan bench ... \
+         --out DIR` make them",
+        path.display()
+    )]
     Missing {
         /// The folder.
         path: PathBuf,
@@ -81,23 +86,21 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// A record that would not be read as it was written, such as one with an undefined number.
-    #[error("the record of task {index} cannot be kept: {source}")]
+    #[error("the record of task {index} cannot be kept: {why}")]
     Record {
         /// Index of the task.
         index: usize,
         /// Why not.
-        source: serde_json::Error,
+        why: String,
     },
-    /// A shard with tasks still to do.
+    /// A run with tasks still to do.
     #[error(
-        "shard {shard} in {} has {done} of {total} tasks; run its command again to finish it",
+        "the run in {} has {done} of {total} tasks; run its command again to finish it",
         path.display()
     )]
     Unfinished {
         /// The folder.
         path: PathBuf,
-        /// Which shard.
-        shard: Shard,
         /// Finished tasks.
         done: usize,
         /// Tasks that it should have.
@@ -130,6 +133,13 @@ pub enum StoreError {
     /// No shard was given.
     #[error("there is nothing to merge")]
     NothingToMerge,
+}
+
+impl StoreError {
+    /// What the file system's refusal of `doing` something to `path` is here.
+    pub(super) fn io(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> Self {
+        move |source| StoreError::Io { doing, path: path.to_owned(), source }
+    }
 }
 
 fn list(lines: &[String]) -> String {

@@ -4,7 +4,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
 
-use super::{config::DatasetConfig, episode::Episode, error::DatasetError, watch::Watch};
+use crate::watch::Watch;
+
+use super::{config::DatasetConfig, episode::Episode, error::DatasetError};
 
 /// All episodes of a data set, in order of their index.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +24,8 @@ impl Dataset {
     pub fn in_memory(config: &DatasetConfig, watch: &dyn Watch) -> Result<Self, DatasetError> {
         config.check()?;
         let done = AtomicU64::new(0);
-        let episodes = draw_range(config, 0..config.episodes, &done, watch)?;
+        let drawn = draw_range(config, 0..config.episodes, &done, watch);
+        let episodes = drawn.into_iter().collect::<Option<_>>().ok_or(DatasetError::Cancelled)?;
         Ok(Self { config: config.clone(), episodes })
     }
 
@@ -41,22 +44,23 @@ impl Dataset {
     }
 }
 
-/// Draws the episodes of a range of indices in parallel, counting them in `done`.
+/// Draws the episodes of a range of indices in parallel, counting them in `done`; `None` for those
+/// that were left when `watch` said to stop.
 pub(super) fn draw_range(
     config: &DatasetConfig,
     indices: std::ops::Range<u64>,
     done: &AtomicU64,
     watch: &dyn Watch,
-) -> Result<Vec<Episode>, DatasetError> {
+) -> Vec<Option<Episode>> {
     indices
         .into_par_iter()
         .map(|index| {
             if watch.cancelled() {
-                return Err(DatasetError::Cancelled);
+                return None;
             }
             let episode = Episode::draw(config, index);
             watch.progress(done.fetch_add(1, Ordering::Relaxed) + 1, config.episodes);
-            Ok(episode)
+            Some(episode)
         })
         .collect()
 }

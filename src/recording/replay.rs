@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::geometry::Pose;
 use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
 
-use super::load::{RecordedFrame, Recording};
+use super::observed::{RecordedFrame, Recording};
 
 /// A pusher that moves less than this between frames stands still, metres and radians: what
 /// trackers tremble by.

@@ -3,16 +3,22 @@
 use std::path::{Path, PathBuf};
 use std::{collections::BTreeMap, fs};
 
-use serde::de::IgnoredAny;
+use serde::Deserialize;
 
 use crate::asset::write_atomic;
 
-use super::{
-    error::StoreError,
-    files::{RECORDS, TIMES, read_records, read_times},
-    manifest::RunManifest,
-    shard::Shard,
-};
+use super::error::StoreError;
+use super::form::Form;
+use super::journal::read_records;
+use super::manifest::RunManifest;
+use super::shard::Shard;
+use super::times::{TIMES, read_times};
+
+/// The index of a line of records, whatever the record.
+#[derive(Deserialize)]
+struct Index {
+    index: usize,
+}
 
 /// Merges finished shards, given in any order, into a run in the folder `out`: the same
 /// `manifest.json` and `records.jsonl` as measuring all tasks in one run would have left there.
@@ -28,8 +34,7 @@ pub fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreEr
     let mut folders: BTreeMap<Shard, &PathBuf> = BTreeMap::new();
     let (mut records, mut times) = (BTreeMap::new(), BTreeMap::new());
     for dir in shards {
-        let manifest = RunManifest::load(dir)?;
-        let manifest = manifest.ok_or_else(|| StoreError::Missing { path: dir.clone() })?;
+        let manifest = RunManifest::expect(dir)?;
         let shard = manifest.shard.unwrap_or(Shard::WHOLE);
         let merged = RunManifest { shard: None, ..manifest.clone() };
         let first = whole.get_or_insert_with(|| merged.clone());
@@ -46,12 +51,16 @@ pub fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreEr
             let (first, second) = (other.clone(), dir.clone());
             return Err(StoreError::DuplicateShard { shard, first, second });
         }
-        let (lines, _) = read_records::<IgnoredAny>(dir, &manifest)?;
-        let (done, total) = (lines.whole.len(), manifest.indices().len());
+        let held = read_records(dir, &manifest, Form::Lines, &mut |line| {
+            let Index { index } =
+                serde_json::from_slice(line).map_err(|error| error.to_string())?;
+            records.insert(index, String::from_utf8_lossy(&Form::Lines.frame(line)).into_owned());
+            Ok(index)
+        })?;
+        let (done, total) = (held.count, manifest.indices().len());
         if done < total {
-            return Err(StoreError::Unfinished { path: dir.clone(), shard, done, total });
+            return Err(StoreError::Unfinished { path: dir.clone(), done, total });
         }
-        records.extend(manifest.indices().zip(lines.whole));
         times.extend(read_times(dir)?.into_iter().map(|(times, line)| (times.index, line)));
     }
     let whole = whole.ok_or(StoreError::NothingToMerge)?;
@@ -61,12 +70,8 @@ pub fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreEr
     if !missing.is_empty() {
         return Err(StoreError::MissingShards { of, missing });
     }
-    fs::create_dir_all(out).map_err(|source| StoreError::Io {
-        doing: "create",
-        path: out.to_owned(),
-        source,
-    })?;
-    for (name, lines) in [(TIMES, times), (RECORDS, records)] {
+    fs::create_dir_all(out).map_err(StoreError::io("create", out))?;
+    for (name, lines) in [(TIMES, times), (Form::Lines.file(), records)] {
         let text: String = lines.into_values().collect();
         write_atomic(out.join(name), text.as_bytes()).map_err(StoreError::Write)?;
     }

@@ -6,20 +6,16 @@ use std::{fs, path::Path};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use crate::{asset::write_atomic, dataset::checksum};
+use crate::asset::write_atomic;
 
-use super::{error::StoreError, shard::Shard};
+use super::error::StoreError;
+use super::shard::Shard;
 
 /// Name of the file.
 pub(super) const MANIFEST: &str = "manifest.json";
 
 /// Version of the folder's layout.
 const FORMAT_VERSION: u32 = 1;
-
-/// Tells a file's bytes from all others in a manifest: 64 bits, hexadecimal.
-pub fn digest(bytes: &[u8]) -> String {
-    format!("{:016x}", checksum(bytes))
-}
 
 /// What a folder of records holds. Two runs with the same manifest have the same records.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,9 +25,9 @@ pub struct RunManifest {
     pub format_version: u32,
     /// Version of the program: another one may plan differently.
     pub program: String,
-    /// Name of the benchmark, which says what its records hold.
+    /// What is measured or made, such as the name of a benchmark; says what the records hold.
     pub suite: String,
-    /// Number of tasks, those of all shards together.
+    /// Number of tasks, those of all shards together: one record each.
     pub tasks: usize,
     /// Seed of the tasks.
     pub seed: u64,
@@ -83,7 +79,15 @@ impl RunManifest {
         self.shard.unwrap_or(Shard::WHOLE).indices(self.tasks)
     }
 
-    /// Reads the manifest of a folder; nothing if there is none.
+    /// Reads the manifest of a folder that holds a run.
+    ///
+    /// # Errors
+    /// [`StoreError::Missing`] if it holds none; those of [`RunManifest::load`].
+    pub fn expect(dir: &Path) -> Result<Self, StoreError> {
+        Self::load(dir)?.ok_or_else(|| StoreError::Missing { path: dir.to_owned() })
+    }
+
+    /// Reads the manifest of a folder; `None` if there is none.
     ///
     /// # Errors
     /// If it cannot be read or is not one of ours.
@@ -92,7 +96,7 @@ impl RunManifest {
         let text = match fs::read(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(source) => return Err(StoreError::Io { doing: "read", path, source }),
+            Err(error) => return Err(StoreError::io("read", &path)(error)),
         };
         let manifest: Self = serde_json::from_slice(&text)
             .map_err(|source| StoreError::Manifest { path: path.clone(), source })?;
@@ -101,7 +105,7 @@ impl RunManifest {
                 "it has format {}, this program reads {FORMAT_VERSION}",
                 manifest.format_version
             );
-            return Err(StoreError::Damaged { path, line: 1, why });
+            return Err(StoreError::Damaged { path, record: 1, why });
         }
         Ok(Some(manifest))
     }
