@@ -5,8 +5,8 @@
 //!
 //! ```text
 //! geometry ─ scene ─ asset
-//!              ├─ sim ─ effect ─ plan ─ verify ─ solve ─ bench ─ report ─ cli
-//!              └─ graph ─ network ─ rollout ─┘
+//!              ├─ sim ──────────────────────────────── effect ─ plan ─ verify ─ solve ─ bench ─ report ─ cli
+//!              └─ contact ─ graph ─ network ─ rollout ─┘
 //!                  dataset ─ train ─ (weights in models/)
 //! ```
 //!

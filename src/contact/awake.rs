@@ -17,13 +17,24 @@ use super::{
 #[derive(Clone, Debug, Default)]
 pub(super) struct Awake {
     flags: Vec<bool>,
-    /// Whether some of the objects sleep, so that the others are gathered.
-    some_sleep: bool,
+    share: Share,
     /// What touches or is joined.
     sets: DisjointSets,
     subset: Subset<ListIndex, AwakeIndex>,
     state: State,
     coasts: Vec<Motion>,
+    /// Where nothing is awake.
+    nothing: (Bodies, State),
+}
+
+/// How many of the objects are awake.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Share {
+    #[default]
+    None,
+    /// They are gathered.
+    Some,
+    All,
 }
 
 /// Bodies under numbers of their own, with their state and how they would coast.
@@ -76,23 +87,28 @@ impl Awake {
         }
     }
 
-    /// Whether nothing is awake.
-    pub fn is_empty(&self) -> bool {
-        !self.flags.contains(&true)
-    }
-
-    /// Takes the objects that are awake by themselves; `contacts` are reduced to theirs.
+    /// Takes the objects that are awake by themselves and reduces `contacts` to theirs; returns
+    /// whether there are any.
     pub fn gather(
         &mut self,
         bodies: &Bodies,
         state: &State,
         coasts: &[Motion],
         contacts: &mut Vec<Contact>,
-    ) {
-        let Self { flags, some_sleep, subset, state: own, coasts: own_coasts, .. } = self;
-        *some_sleep = flags.contains(&false);
-        if !*some_sleep {
-            return;
+    ) -> bool {
+        let Self { flags, share, subset, state: own, coasts: own_coasts, .. } = self;
+        *share = match (flags.contains(&true), flags.contains(&false)) {
+            (false, _) => Share::None,
+            (true, true) => Share::Some,
+            (true, false) => Share::All,
+        };
+        match share {
+            Share::None => {
+                contacts.clear();
+                return false;
+            }
+            Share::All => return true,
+            Share::Some => {}
         }
         contacts.retain(|contact| flags[contact.object]);
         subset.objects.clear();
@@ -112,6 +128,7 @@ impl Awake {
         subset.gather_state(state, own);
         own_coasts.clear();
         own_coasts.extend(subset.objects.iter().map(|k| coasts[k.0]));
+        true
     }
 
     /// Those of the given objects that were gathered.
@@ -121,14 +138,20 @@ impl Awake {
         state: &'a State,
         coasts: &'a [Motion],
     ) -> View<'a> {
-        match self.some_sleep {
-            true => View { bodies: &self.subset.bodies, state: &self.state, coasts: &self.coasts },
-            false => View { bodies, state, coasts },
+        match self.share {
+            Share::None => View { bodies: &self.nothing.0, state: &self.nothing.1, coasts: &[] },
+            Share::Some => {
+                View { bodies: &self.subset.bodies, state: &self.state, coasts: &self.coasts }
+            }
+            Share::All => View { bodies, state, coasts },
         }
     }
 
     /// The number on the list of an object that was gathered.
     pub fn listed(&self, object: AwakeIndex) -> ListIndex {
-        if self.some_sleep { self.subset.outer(object) } else { ListIndex(object.0) }
+        match self.share {
+            Share::Some => self.subset.outer(object),
+            Share::None | Share::All => ListIndex(object.0),
+        }
     }
 }
