@@ -4,9 +4,9 @@ use crate::scene::{DisjointSets, FrameStep, State};
 
 use super::{
     bodies::{Bodies, Partner},
-    contact::Contact,
     index::{AwakeIndex, ListIndex},
     motion::Motion,
+    points::Contact,
     subset::Subset,
 };
 

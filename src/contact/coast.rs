@@ -36,7 +36,7 @@ pub fn coast(body: &Movable, velocity: &Velocity, duration: f64) -> Motion {
     }
     // The direction of travel never changes; only the two speeds do.
     let direction = if speed > 0.0 { velocity.linear / speed } else { velocity.linear };
-    let rest = body.fall.to_rest(body.deceleration, speed, spin);
+    let rest = body.fall.come_to_rest(body.deceleration, speed, spin);
     if rest.time <= duration {
         let (shift, turn) = (direction * rest.travel, rest.turn / body.support);
         return Motion { shift, turn, ..Motion::default() };
@@ -158,7 +158,7 @@ mod tests {
     fn nothing_jumps_where_an_object_just_comes_to_rest() {
         let body = body();
         let start = Velocity { linear: Vector::new(0.25, 0.0), angular: 6.0 };
-        let time = body.fall.to_rest(body.deceleration, 0.25, 6.0 * body.support).time;
+        let time = body.fall.come_to_rest(body.deceleration, 0.25, 6.0 * body.support).time;
         let [before, after] = [0.999, 1.001].map(|share| coast(&body, &start, share * time));
         assert!((before.shift - after.shift).norm() < 1e-3 * after.shift.norm());
         assert!((before.turn - after.turn).abs() < 1e-3 * after.turn);

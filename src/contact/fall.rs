@@ -40,7 +40,7 @@ impl Fall {
 
     /// What becomes of an object left alone with this speed and `spin`, c times the angular
     /// velocity, both in m/s; `deceleration`, mu g, in m/s^2.
-    pub fn to_rest(&self, deceleration: f64, speed: f64, spin: f64) -> Rest {
+    pub fn come_to_rest(&self, deceleration: f64, speed: f64, spin: f64) -> Rest {
         let mut rest = Rest { time: 0.0, travel: 0.0, turn: 0.0 };
         for ((u, weight), power) in NODES.into_iter().zip(self.0) {
             let (v, w) = (speed * u, spin * power);
@@ -75,7 +75,7 @@ mod tests {
         };
         for k in [0.7, 0.75, 0.8, 8.0 / 9.0, 1.0] {
             for (v, w) in [(1.0, 0.01), (1.0, 0.3), (1.0, 1.0), (0.3, 1.0), (0.01, 1.0)] {
-                let (rest, exact) = (Fall::new(k).to_rest(1.0, v, w), many(k, v, w));
+                let (rest, exact) = (Fall::new(k).come_to_rest(1.0, v, w), many(k, v, w));
                 let off = |found: f64, exact: f64| (found / exact - 1.0).abs();
                 assert!(off(rest.time, exact[0]) < 3e-3, "{k} {v} {w}");
                 assert!(off(rest.travel, exact[1]) < 4e-5, "{k} {v} {w}");

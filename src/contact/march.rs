@@ -10,8 +10,8 @@ use crate::{
 
 use super::{
     coast::coast,
-    contact::{Contact, Scenery, find_again},
     motion::Motion,
+    points::{Contact, Scenery, find_again},
     prior::Prior,
 };
 

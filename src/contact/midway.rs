@@ -12,7 +12,7 @@ use crate::{
 
 use super::{
     bodies::{Bodies, Partner},
-    contact::Contact,
+    points::Contact,
     unknown::Unknown,
 };
 

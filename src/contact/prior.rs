@@ -8,11 +8,11 @@ use crate::geometry::{Vector, perpendicular};
 use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
-    contact::{Contact, Scenery},
     index::GroupIndex,
     joint::{rows, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
+    points::{Contact, Scenery},
     system::System,
     twist::{along, shift},
     unknown::{Quantity, Unknown},
@@ -257,7 +257,7 @@ fn sliding_in_touch(
 mod tests {
     use super::*;
     use crate::{
-        contact::{bodies::Bodies, coast::coast, contact::find_contacts},
+        contact::{bodies::Bodies, coast::coast, points::find_contacts},
         geometry::{Pose, Shape},
         scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
     };

@@ -2,7 +2,7 @@
 
 use crate::geometry::Vector;
 
-use super::{bodies::Partner, contact::Contact, motion::Motion};
+use super::{bodies::Partner, motion::Motion, points::Contact};
 
 /// A contact as one of its two bodies, the receiver, sees it.
 #[derive(Clone, Copy, Debug)]

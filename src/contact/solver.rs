@@ -9,11 +9,11 @@ use super::{
     awake::{Awake, View},
     bodies::Bodies,
     coast::coast,
-    contact::{Contact, Scenery, find_contacts},
     index::{AwakeIndex, ListIndex},
     march::March,
     motion::Motion,
     pairs::PairId,
+    points::{Contact, Scenery, find_contacts},
     prior::Prior,
 };
 
