@@ -6,7 +6,7 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 
 use crate::asset::{PlanFile, load_task};
-use crate::report::{plan_picture, solution_json, solution_text};
+use crate::report::{moving_picture, plan_picture, solution_json, solution_text};
 use crate::scene::{Engine, Job, Record, Task, Trajectory};
 use crate::sim::Simulator;
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
@@ -48,6 +48,9 @@ pub struct SolveArgs {
     out: PathBuf,
     #[command(flatten)]
     library: LibraryArgs,
+    /// Draw a moving picture of the 3-D replay as well
+    #[arg(long)]
+    animate: bool,
     /// Print JSON instead of text
     #[arg(long)]
     json: bool,
@@ -133,8 +136,15 @@ fn write(
         verdict: best.verdict.clone(),
     };
     file.write(&path).map_err(CliError::Output)?;
-    let picture = output::write(&args.out, &format!("{stem}.svg"), picture.as_bytes())?;
-    Ok(vec![path, picture])
+    let mut written = vec![path];
+    written.push(output::write(&args.out, &format!("{stem}.svg"), picture.as_bytes())?);
+    let replay = simulated.iter().find(|(engine, _)| *engine == Engine::Spatial);
+    if let Some((engine, replay)) = replay.filter(|_| args.animate) {
+        let moving = moving_picture(task, &best.plan, &motion, (*engine, replay)).to_svg();
+        let name = format!("{stem}.animated.svg");
+        written.push(output::write(&args.out, &name, moving.as_bytes())?);
+    }
+    Ok(written)
 }
 
 fn print(

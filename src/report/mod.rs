@@ -7,6 +7,7 @@ mod chart;
 mod crowd;
 mod document;
 mod html;
+mod keyframes;
 mod labels;
 mod measured;
 mod number;
@@ -32,11 +33,11 @@ pub use measured::{
     search_cost_table,
 };
 pub use number::{degrees, millimetres, seconds};
-pub use picture::{ScenePicture, Source, Track};
+pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use random::{RandomRun, random_document};
 pub use scope::{far_chart, far_table};
-pub use solution::{outcomes_text, plan_picture, solution_json, solution_text};
+pub use solution::{moving_picture, outcomes_text, plan_picture, solution_json, solution_text};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};
 pub use tools::{single_table, tools_document};

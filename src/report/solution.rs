@@ -3,12 +3,12 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::SCHEMA_VERSION;
-use crate::scene::{Engine, Evidence, Outcome, Task, ToolMotion, Trajectory, Verdict};
+use crate::scene::{Engine, Evidence, Outcome, Plan, Task, ToolMotion, Trajectory, Verdict};
 use crate::solve::{PlanStatus, RankedPlan, Solution};
 
 use super::{
     number::{millimetres, seconds},
-    picture::{ScenePicture, Source, Track},
+    picture::{MovingPicture, ScenePicture, Source, Track},
     plan_text::{goal_line, outcome_table, plan_line, point, push_table},
 };
 
@@ -114,6 +114,29 @@ pub fn plan_picture<'a>(
         robot: Some(&task.robot),
         motion: Some(motion),
         tracks,
+    }
+}
+
+/// A plan's replay in an engine as a picture that moves.
+pub fn moving_picture<'a>(
+    task: &'a Task,
+    plan: &Plan,
+    motion: &'a ToolMotion,
+    (engine, replay): (Engine, &'a Trajectory),
+) -> MovingPicture<'a> {
+    let title = match task.description.as_str() {
+        "" => task.name.clone(),
+        description => description.to_owned(),
+    };
+    let simulated = format!("{} simulation", engine_name(engine));
+    MovingPicture {
+        title,
+        notes: vec![format!("{}; {simulated}", plan_line(plan))],
+        scene: &task.scene,
+        goal: &task.goal,
+        robot: &task.robot,
+        motion,
+        trajectory: replay,
     }
 }
 

@@ -8,6 +8,8 @@ use std::fmt::Write;
 use crate::asset::printable;
 use crate::geometry::Vector;
 
+use super::keyframes::short;
+
 /// Fonts in the order tried; all ship with common systems, none is embedded.
 const FONTS: &str = "Inter, 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif";
 
@@ -174,6 +176,41 @@ impl Svg {
         let _ = writeln!(self.body, "<g opacity=\"{}\">", px(opacity));
     }
 
+    /// Puts a style sheet at the current place.
+    pub fn style(&mut self, css: &str) {
+        let _ = writeln!(self.body, "<style>\n{css}\n</style>");
+    }
+
+    /// Opens a group of the given class, which a style sheet animates, shifted by `shift` pixels
+    /// and turned by `degrees` clockwise while it is not; close it with [`Svg::close`].
+    pub fn open_moved(&mut self, class: &str, shift: Vector, degrees: f64) {
+        let _ = write!(self.body, "<g class=\"{class}\"");
+        let mut moves = Vec::new();
+        if shift != Vector::zeros() {
+            moves.push(format!("translate({} {})", px(shift.x), px(shift.y)));
+        }
+        if degrees != 0.0 {
+            moves.push(format!("rotate({})", px(degrees)));
+        }
+        if !moves.is_empty() {
+            let _ = write!(self.body, " transform=\"{}\"", moves.join(" "));
+        }
+        self.body.push_str(">\n");
+    }
+
+    /// Opens a group of the given class, which a style sheet animates, see-through as a whole (0
+    /// to 1) while it is not; close it with [`Svg::close`].
+    pub fn open_shown(&mut self, class: &str, opacity: f64) {
+        let _ = writeln!(self.body, "<g class=\"{class}\" opacity=\"{}\">", px(opacity));
+    }
+
+    /// A line through points of the given class, whose length counts as 1, so that a style sheet
+    /// can draw it by its `stroke-dashoffset` from 1 to 0.
+    pub fn drawn_line(&mut self, class: &str, points: &[Vector], style: Style) {
+        let head = format!("polyline class=\"{class}\" pathLength=\"1\"");
+        self.points(&head, points, style.dashed("1"));
+    }
+
     /// Closes the last opened group.
     pub fn close(&mut self) {
         self.body.push_str("</g>\n");
@@ -312,12 +349,7 @@ impl Svg {
 /// A number of pixels to a hundredth, without trailing zeros; what is not finite becomes 0, so
 /// that a broken prediction still leaves a readable picture.
 fn px(value: f64) -> String {
-    if !value.is_finite() {
-        return "0".to_owned();
-    }
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    short(value, 2)
 }
 
 /// Text that cannot break out of an element or a quoted attribute; XML has no control characters,

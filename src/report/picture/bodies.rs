@@ -1,10 +1,16 @@
 //! Objects, obstacles, the goal and the robot's reach.
 
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::report::svg::{Anchor, Font, Style, Svg};
 use crate::scene::{Goal, Object, Obstacle, Robot};
 
 use super::{palette, view::View};
+
+/// Objects that end nearer than this to their start, metres, and turned by less than
+/// [`STILL_TURN`] have not moved: a second outline would only blur the first.
+const STILL: f64 = 5e-4;
+/// Radians, about half a degree.
+const STILL_TURN: f64 = 0.01;
 
 /// The ring that the end effector can stand in, with the robot's base in its middle.
 pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
@@ -63,6 +69,14 @@ pub fn object(svg: &mut Svg, view: &View, object: &Object, is_goal: bool) {
     let mark = if is_goal { "#1c6fbf" } else { "#868e96" };
     heading_mark(svg, view, &object.shape, &object.pose, Style::stroke(mark, 1.6));
     svg.close();
+}
+
+/// Whether an object that ended at `end` is seen to have moved.
+pub fn moved(object: &Object, end: &Pose) -> bool {
+    let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
+        && !object.shape.is_cylinder();
+    let shifted = (end.position - object.pose.position).norm() > STILL;
+    (shifted || turned) && end.is_finite()
 }
 
 /// An object where it ended.

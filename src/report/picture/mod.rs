@@ -4,11 +4,15 @@
 //! It draws what it is given and computes nothing: no rollouts, no verdicts.
 
 mod bodies;
+mod extent;
 mod joints;
 mod legend;
+mod moving_picture;
 mod palette;
 mod scene_picture;
 mod strokes;
+mod timeline;
 mod view;
 
+pub use moving_picture::MovingPicture;
 pub use scene_picture::{ScenePicture, Source, Track};

@@ -1,7 +1,7 @@
 //! Colours of the scene picture, far enough apart for colour-blind readers, and doubled by dashes
 //! and fills, so that none carries a meaning alone.
 
-use crate::report::svg::Style;
+use crate::report::svg::{Font, Style};
 
 pub const INK: &str = "#212529";
 pub const FAINT_INK: &str = "#6c757d";
@@ -10,6 +10,11 @@ pub const TOOL: &str = "#7f5539";
 pub const PREDICTED: &str = "#e8590c";
 pub const PLANAR: &str = "#2b8a3e";
 pub const SPATIAL: &str = "#1864ab";
+pub const GOOD: &str = "#2b8a3e";
+pub const BAD: &str = "#c92a2a";
+
+/// Lines below the title.
+pub const NOTE: Font = Font::new(12.5, FAINT_INK);
 
 pub const PLOT: Style = Style::fill("#fbfcfd").outlined("#dee2e6", 1.0);
 pub const GRID: Style = Style::stroke("#e9ecef", 1.0);
@@ -19,6 +24,8 @@ pub const REACH_RIM: Style = Style::stroke("#4dabf7", 1.2).dashed("2 4");
 pub const OBSTACLE: Style = Style::fill("url(#hatch)").outlined("#495057", 1.4);
 pub const GOAL_OBJECT: Style = Style::fill("#74b3f0").outlined("#1c6fbf", 1.6);
 pub const OTHER_OBJECT: Style = Style::fill("#dee2e6").outlined("#868e96", 1.4);
+pub const GOAL_WAY: Style = Style::stroke("#1c6fbf", 2.4);
+pub const OTHER_WAY: Style = Style::stroke("#868e96", 1.4);
 pub const GOAL_AREA: Style = Style::fill(GOAL).opacity(0.10);
 pub const GOAL_RIM: Style = Style::stroke(GOAL, 1.6);
 pub const GOAL_MISS: Style = Style::stroke(GOAL, 1.2).dashed("1 4");
@@ -26,6 +33,9 @@ pub const TOOL_FILL: &str = "#d0ab83";
 /// Opacity of the tool before and after a push.
 pub const TOOL_BEFORE: f64 = 0.28;
 pub const TOOL_AFTER: f64 = 0.72;
+/// The same of one that moves, and of one that is lifted over what lies below it.
+pub const TOOL_AT_WORK: f64 = 0.9;
+pub const TOOL_LIFTED: f64 = 0.4;
 pub const TOOL_HOLD: Style = Style::stroke(TOOL, 2.4);
 
 /// Diagonal lines for what cannot move.

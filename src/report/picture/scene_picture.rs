@@ -1,32 +1,21 @@
 //! The whole picture: title, plot, legend.
 
-use crate::geometry::{Pose, Vector, wrap_angle};
+use crate::geometry::{Pose, Vector};
 use crate::report::svg::{Font, Style, Svg};
 use crate::scene::{Engine, Goal, Robot, Scene, ToolMotion, Trajectory};
 
 use super::{
     bodies,
+    extent::Extent,
     joints::{self, Symbol},
     legend::{self, Sample},
     palette, strokes,
-    view::{Bounds, View},
+    view::View,
 };
 
-/// Objects that end nearer than this to their start, metres, and turned by less than
-/// [`STILL_TURN`] have not moved: a second outline would only blur the first.
-const STILL: f64 = 5e-4;
-/// Radians, about half a degree.
-const STILL_TURN: f64 = 0.01;
-
-/// Tracks are followed this far beyond the scene, metres; a wild prediction must not shrink
-/// everything else to a dot.
-const FOLLOW: f64 = 1.0;
-
-/// Pixels left of and above the plot, for the axis numbers.
+/// Pixels left of the plot, for the axis numbers.
 const LEFT: f64 = 46.0;
 const RIGHT: f64 = 16.0;
-
-const NOTE: Font = Font::new(12.5, palette::FAINT_INK);
 
 /// Who says where the objects went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,9 +57,9 @@ pub struct ScenePicture<'a> {
 impl ScenePicture<'_> {
     /// The picture as an SVG document.
     pub fn to_svg(&self) -> String {
-        let mut view = View::fit(self.bounds(), Vector::new(LEFT, 0.0));
+        let mut view = View::fit(self.extent().bounds(), Vector::new(LEFT, 0.0));
         let notes: Vec<String> =
-            self.notes.iter().flat_map(|note| NOTE.wrap(note, view.size.x)).collect();
+            self.notes.iter().flat_map(|note| palette::NOTE.wrap(note, view.size.x)).collect();
         let top = 40.0 + 18.0 * notes.len() as f64;
         view.corner.y = top;
         let entries = self.entries();
@@ -83,12 +72,22 @@ impl ScenePicture<'_> {
         svg.text(Vector::new(LEFT, 27.0), &self.title, Font::new(16.0, palette::INK).bold());
         for (k, note) in notes.iter().enumerate() {
             let at = Vector::new(LEFT, 46.0 + 18.0 * k as f64);
-            svg.text(at, note, NOTE);
+            svg.text(at, note, palette::NOTE);
         }
         svg.rect(view.corner, view.size, 0.0, palette::PLOT);
         self.plot(&mut svg, &view);
         legend::draw(&mut svg, &entries, Vector::new(LEFT, below), view.size.x);
         svg.finish()
+    }
+
+    fn extent(&self) -> Extent<'_> {
+        Extent {
+            scene: self.scene,
+            goal: self.goal,
+            robot: self.robot,
+            motion: self.motion,
+            trajectories: self.tracks.iter().map(|track| track.trajectory).collect(),
+        }
     }
 
     fn plot(&self, svg: &mut Svg, view: &View) {
@@ -140,10 +139,7 @@ impl ScenePicture<'_> {
         let style = style(track.source);
         let mut drawn = vec![false; self.scene.objects.len()];
         for (k, (object, end)) in self.scene.objects.iter().zip(&last.state.poses).enumerate() {
-            let turned = wrap_angle(end.heading - object.pose.heading).abs() > STILL_TURN
-                && !object.shape.is_cylinder();
-            let moved = (end.position - object.pose.position).norm() > STILL;
-            if !(moved || turned) || !end.is_finite() {
+            if !bodies::moved(object, end) {
                 continue;
             }
             drawn[k] = true;
@@ -167,40 +163,6 @@ impl ScenePicture<'_> {
 
     fn is_goal(&self, object: usize) -> bool {
         self.goal.is_some_and(|goal| goal.object == object)
-    }
-
-    fn bounds(&self) -> Bounds {
-        let mut bounds = Bounds::empty();
-        for object in &self.scene.objects {
-            bounds.add_body(&object.shape.footprint(), &object.pose);
-        }
-        for obstacle in &self.scene.obstacles {
-            bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
-        }
-        if let Some(goal) = self.goal {
-            bounds.add(goal.position, goal.tolerance);
-        }
-        if let Some(robot) = self.robot {
-            bounds.add(Vector::zeros(), robot.reach_min);
-        }
-        for stroke in self.motion.iter().flat_map(|motion| &motion.strokes) {
-            let Some(motion) = self.motion else { break };
-            for pose in [&stroke.from, &stroke.to] {
-                bounds.add((*pose * motion.tool.grip).position, 0.01);
-                for (k, part) in motion.tool.parts.iter().enumerate() {
-                    bounds.add_body(&part.footprint(), &motion.tool.part_pose(k, pose));
-                }
-            }
-        }
-        let near = bounds;
-        for frame in self.tracks.iter().flat_map(|track| &track.trajectory.frames) {
-            for (object, pose) in self.scene.objects.iter().zip(&frame.state.poses) {
-                if near.holds(pose.position, FOLLOW) {
-                    bounds.add_body(&object.shape.footprint(), pose);
-                }
-            }
-        }
-        bounds
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {

@@ -26,18 +26,28 @@ pub fn tool(svg: &mut Svg, view: &View, motion: &ToolMotion) {
 
 /// Numbered arrows along the end effector's way, with the grip at every end.
 pub fn pushes(svg: &mut Svg, view: &View, motion: &ToolMotion) {
-    let grip = |tool: &Pose| *tool * motion.tool.grip;
-    for stroke in &motion.strokes {
-        let (from, to) =
-            (view.map(grip(&stroke.from).position), view.map(grip(&stroke.to).position));
-        svg.arrow(from, to, 12.0, palette::INK, 2.2);
-    }
-    for (k, stroke) in motion.strokes.iter().enumerate() {
-        let at = view.map(grip(&stroke.from).position);
-        svg.circle(at, 9.0, Style::fill(palette::INK).outlined("#ffffff", 1.5));
-        let font = Font::new(11.5, "#ffffff").bold().anchored(Anchor::Middle);
-        svg.text(at + Vector::new(0.0, 4.0), &(k + 1).to_string(), font);
-    }
+    // All numbers over all arrows.
+    (0..motion.strokes.len()).for_each(|k| arrow(svg, view, motion, k));
+    (0..motion.strokes.len()).for_each(|k| number(svg, view, motion, k));
+}
+
+/// The way of the end effector in push `k`.
+pub fn arrow(svg: &mut Svg, view: &View, motion: &ToolMotion, k: usize) {
+    let stroke = &motion.strokes[k];
+    let [from, to] = [&stroke.from, &stroke.to].map(|pose| grip(view, motion, pose));
+    svg.arrow(from, to, 12.0, palette::INK, 2.2);
+}
+
+/// The number of push `k` at its start.
+pub fn number(svg: &mut Svg, view: &View, motion: &ToolMotion, k: usize) {
+    let at = grip(view, motion, &motion.strokes[k].from);
+    svg.circle(at, 9.0, Style::fill(palette::INK).outlined("#ffffff", 1.5));
+    let font = Font::new(11.5, "#ffffff").bold().anchored(Anchor::Middle);
+    svg.text(at + Vector::new(0.0, 4.0), &(k + 1).to_string(), font);
+}
+
+fn grip(view: &View, motion: &ToolMotion, tool: &Pose) -> Vector {
+    view.map((*tool * motion.tool.grip).position)
 }
 
 /// The way of object `index`, with a dot at its end.
@@ -54,7 +64,7 @@ pub fn path(svg: &mut Svg, view: &View, trajectory: &Trajectory, index: usize, s
 
 /// The parts as one piece: wide outlines first, fills over them, so that only the outer rim of
 /// the outlines is left.
-fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity: f64) {
+pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity: f64) {
     svg.open_faded(opacity);
     for style in [Style::stroke(palette::TOOL, 2.8), Style::fill(palette::TOOL_FILL)] {
         for (k, part) in tool.parts.iter().enumerate() {
@@ -65,7 +75,7 @@ fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity: f64
 }
 
 /// A line from the end effector to the nearest part, for tools held away from their parts.
-fn hold(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose) {
+pub fn hold(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose) {
     let grip = *pose * tool.grip;
     let point = Footprint::Disc { radius: 0.0 };
     let nearest = (0..tool.parts.len())

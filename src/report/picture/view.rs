@@ -96,36 +96,55 @@ impl View {
         }
     }
 
+    /// The same scale about the origin of a body's own frame.
+    pub fn centred(&self) -> Self {
+        let zero = Vector::zeros();
+        Self { low: zero, high: zero, corner: zero, size: zero, scale: self.scale }
+    }
+
+    /// Grid lines every step.
+    pub fn grid_lines(&self, svg: &mut Svg) {
+        let end = self.corner + self.size;
+        for k in self.steps(self.low.x, self.high.x) {
+            let x = self.map(Vector::new(k * self.grid_step(), 0.0)).x;
+            svg.line(Vector::new(x, self.corner.y), Vector::new(x, end.y), line_style(k));
+        }
+        for k in self.steps(self.low.y, self.high.y) {
+            let y = self.map(Vector::new(0.0, k * self.grid_step())).y;
+            svg.line(Vector::new(self.corner.x, y), Vector::new(end.x, y), line_style(k));
+        }
+    }
+
     /// Grid lines every step, with numbers along the left and lower edge.
     pub fn grid(&self, svg: &mut Svg) {
+        self.grid_lines(svg);
         let step = self.grid_step();
         let font = Font::new(11.0, palette::FAINT_INK);
-        let bottom = self.corner.y + self.size.y;
-        let lines = |low: f64, high: f64| {
-            ((low / step).ceil() as i64..=(high / step).floor() as i64).map(move |k| k as f64)
-        };
-        for k in lines(self.low.x, self.high.x) {
+        let end = self.corner + self.size;
+        let below = end.y + 16.0;
+        for k in self.steps(self.low.x, self.high.x).filter(|k| k % 2.0 == 0.0) {
             let x = self.map(Vector::new(k * step, 0.0)).x;
-            svg.line(Vector::new(x, self.corner.y), Vector::new(x, bottom), line_style(k));
-            if k % 2.0 == 0.0 && x < self.corner.x + self.size.x - 40.0 {
-                let at = Vector::new(x, bottom + 16.0);
-                svg.text(at, &label(k * step), font.anchored(Anchor::Middle));
+            if x < end.x - 40.0 {
+                svg.text(Vector::new(x, below), &label(k * step), font.anchored(Anchor::Middle));
             }
         }
-        for k in lines(self.low.y, self.high.y) {
+        for k in self.steps(self.low.y, self.high.y).filter(|k| k % 2.0 == 0.0) {
             let y = self.map(Vector::new(0.0, k * step)).y;
-            let right = self.corner.x + self.size.x;
-            svg.line(Vector::new(self.corner.x, y), Vector::new(right, y), line_style(k));
             // The top is left to the axis' name.
-            if k % 2.0 == 0.0 && y > self.corner.y + 24.0 {
+            if y > self.corner.y + 24.0 {
                 let at = Vector::new(self.corner.x - 7.0, y + 4.0);
                 svg.text(at, &label(k * step), font.anchored(Anchor::End));
             }
         }
-        let end = Vector::new(self.corner.x + self.size.x, bottom + 16.0);
-        svg.text(end, "x, m", font.anchored(Anchor::End));
+        svg.text(Vector::new(end.x, below), "x, m", font.anchored(Anchor::End));
         let top = Vector::new(self.corner.x - 7.0, self.corner.y + 10.0);
         svg.text(top, "y, m", font.anchored(Anchor::End));
+    }
+
+    /// The numbers of the grid lines between two coordinates.
+    fn steps(&self, low: f64, high: f64) -> impl Iterator<Item = f64> + use<> {
+        let step = self.grid_step();
+        ((low / step).ceil() as i64..=(high / step).floor() as i64).map(|k| k as f64)
     }
 
     /// A bar of one grid step in the lower right corner of the plot.
