@@ -1,16 +1,18 @@
-//! A report in every form that it is asked for: text, Markdown, CSV, JSON, HTML.
+//! A report in every form that it is asked for: text, Markdown, CSV, JSON, HTML, files.
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
+
+use crate::asset::SCHEMA_VERSION;
 
 use super::bars::BarChart;
 use super::chart::Chart;
 use super::html;
 use super::table::Table;
 
-/// Tables and charts under a title, with the rows behind them.
+/// Tables and pictures under a title, with the rows behind them.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
-    /// What it is about.
+    /// What it is about; empty where it continues the one before.
     pub title: String,
     /// What a reader must know to understand the numbers, a paragraph each.
     pub notes: Vec<String>,
@@ -18,39 +20,57 @@ pub struct Document {
     pub sections: Vec<Section>,
     /// One row for each measured thing with numbers in full, for CSV.
     pub rows: Table,
-    /// Everything, for programs.
+    /// Everything, for programs: an object.
     pub json: Json,
 }
 
-/// A table with charts of the same numbers.
+/// A table, what follows from it, and pictures of the same numbers.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
     /// What the numbers are.
     pub title: String,
     /// The numbers.
     pub table: Table,
-    /// Only in HTML.
+    /// Below them, a line each.
+    pub lines: Vec<String>,
+    /// In HTML and as files.
     pub figures: Vec<Figure>,
 }
 
-/// A picture of numbers.
+/// A picture with the name that its file gets.
 #[derive(Clone, Debug)]
-pub enum Figure {
+pub struct Figure {
+    /// Name of the file without its ending.
+    pub name: String,
+    /// What it shows.
+    pub drawing: Drawing,
+}
+
+/// What a figure shows.
+#[derive(Clone, Debug)]
+pub enum Drawing {
     /// Lines or dots.
     Chart(Chart),
     /// Bars.
     Bars(BarChart),
+    /// A finished SVG document.
+    Svg(String),
 }
 
 impl Document {
-    /// Title, notes and tables for a terminal.
+    /// Title, notes, tables and lines for a terminal.
     pub fn to_text(&self) -> String {
-        self.words(Table::to_text, "")
+        self.words(Table::to_text, "", false)
     }
 
-    /// Title, notes and tables in Markdown.
+    /// Title, notes, tables and lines in Markdown, as part of a page.
     pub fn to_markdown(&self) -> String {
-        self.words(Table::to_markdown, "## ")
+        self.words(Table::to_markdown, "## ", false)
+    }
+
+    /// The same as a page of its own beside the files of its figures.
+    pub fn to_page(&self) -> String {
+        self.words(Table::to_markdown, "# ", true)
     }
 
     /// The rows with a header line.
@@ -58,21 +78,78 @@ impl Document {
         self.rows.to_csv()
     }
 
+    /// Everything, for programs.
+    pub fn to_json(&self) -> String {
+        let mut report = self.json.clone();
+        report["schema_version"] = json!(SCHEMA_VERSION);
+        format!("{report:#}\n")
+    }
+
     /// A page that needs nothing but itself: no script, no font, no picture from elsewhere.
     pub fn to_html(&self) -> String {
         html::page(self)
     }
 
-    fn words(&self, show: impl Fn(&Table) -> String, heading: &str) -> String {
-        let mut parts = vec![format!("{heading}{}\n", self.title)];
+    /// The figures as files: name and content.
+    pub fn pictures(&self) -> impl Iterator<Item = (String, String)> {
+        let figures = self.sections.iter().flat_map(|section| &section.figures);
+        figures.map(|figure| (format!("{}.svg", figure.name), figure.to_svg()))
+    }
+
+    fn words(&self, show: impl Fn(&Table) -> String, heading: &str, figures: bool) -> String {
+        let mut parts = Vec::new();
+        if !self.title.is_empty() {
+            parts.push(format!("{heading}{}\n", self.title));
+        }
         parts.extend(self.notes.iter().map(|note| format!("{note}\n")));
         for section in &self.sections {
-            let title = match section.title.as_str() {
-                "" => String::new(),
-                title => format!("{title}:\n\n"),
-            };
-            parts.push(format!("{title}{}", show(&section.table)));
+            if !section.title.is_empty() {
+                parts.push(format!("{}:\n", section.title));
+            }
+            if section.table.has_columns() {
+                parts.push(show(&section.table));
+            }
+            if !section.lines.is_empty() {
+                parts.push(section.lines.iter().map(|line| format!("{line}\n")).collect());
+            }
+            for figure in section.figures.iter().filter(|_| figures) {
+                parts.push(format!("![{}]({}.svg)\n", figure.title(), figure.name));
+            }
         }
         parts.join("\n")
+    }
+}
+
+impl Figure {
+    /// A chart that gets the file name `name`.
+    pub fn chart(name: impl Into<String>, chart: Chart) -> Self {
+        Self { name: name.into(), drawing: Drawing::Chart(chart) }
+    }
+
+    /// Bars that get the file name `name`.
+    pub fn bars(name: impl Into<String>, bars: BarChart) -> Self {
+        Self { name: name.into(), drawing: Drawing::Bars(bars) }
+    }
+
+    /// A finished SVG document that gets the file name `name`.
+    pub fn svg(name: impl Into<String>, svg: String) -> Self {
+        Self { name: name.into(), drawing: Drawing::Svg(svg) }
+    }
+
+    /// The picture as an SVG document.
+    pub fn to_svg(&self) -> String {
+        match &self.drawing {
+            Drawing::Chart(chart) => chart.to_svg(),
+            Drawing::Bars(bars) => bars.to_svg(),
+            Drawing::Svg(svg) => svg.clone(),
+        }
+    }
+
+    fn title(&self) -> &str {
+        match &self.drawing {
+            Drawing::Chart(chart) => &chart.title,
+            Drawing::Bars(bars) => &bars.title,
+            Drawing::Svg(_) => &self.name,
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::document::{Document, Figure};
+use super::document::{Document, Drawing};
 use super::svg::escape;
 use super::table::{Align, Table};
 
@@ -38,11 +38,14 @@ pub(super) fn page(document: &Document) -> String {
             let _ = writeln!(out, "<h2>{}</h2>", escape(&section.title));
         }
         table(&mut out, &section.table);
+        for line in &section.lines {
+            let _ = writeln!(out, "<p>{}</p>", escape(line));
+        }
         for figure in &section.figures {
             charts += 1;
-            let svg = match figure {
-                Figure::Chart(chart) => chart.to_svg_with_id(&format!("plot-{charts}")),
-                Figure::Bars(bars) => bars.to_svg(),
+            let svg = match &figure.drawing {
+                Drawing::Chart(chart) => chart.to_svg_with_id(&format!("plot-{charts}")),
+                Drawing::Bars(_) | Drawing::Svg(_) => figure.to_svg(),
             };
             let _ = writeln!(out, "<figure>\n{svg}</figure>");
         }
@@ -77,7 +80,7 @@ fn table(out: &mut String, table: &Table) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BarChart, Chart, Section};
+    use super::super::{BarChart, Chart, Figure, Section};
     use super::*;
 
     const EVIL: &str = "</td><script src=\"https://example.org/x.js\">alert('&')</script>";
@@ -89,8 +92,13 @@ mod tests {
         let chart = Chart { title: EVIL.to_owned(), ..Chart::default() };
         let bars =
             BarChart { title: EVIL.to_owned(), groups: vec![EVIL.into()], ..BarChart::default() };
-        let figures = vec![Figure::Chart(chart.clone()), Figure::Chart(chart), Figure::Bars(bars)];
-        let section = Section { title: EVIL.to_owned(), table: table.clone(), figures };
+        let figures = vec![
+            Figure::chart("one", chart.clone()),
+            Figure::chart("other", chart),
+            Figure::bars("bars", bars),
+        ];
+        let lines = vec![EVIL.to_owned()];
+        let section = Section { title: EVIL.to_owned(), table: table.clone(), lines, figures };
         let document = Document {
             title: EVIL.to_owned(),
             notes: vec![EVIL.to_owned()],

@@ -27,7 +27,7 @@ mod training;
 pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
 pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
-pub use document::{Document, Figure, Section};
+pub use document::{Document, Drawing, Figure, Section};
 pub use measured::{
     group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
     search_cost_table,

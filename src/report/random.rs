@@ -78,11 +78,12 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
                 title: "By kind and method".to_owned(),
                 table: summary(&methods, &kinds),
                 figures,
+                ..Section::default()
             },
             Section {
                 title: "Time and effort of the planner".to_owned(),
                 table: effort(&methods, &kinds),
-                figures: Vec::new(),
+                ..Section::default()
             },
         ],
         rows: rows(runs),
@@ -264,12 +265,13 @@ fn success_chart(methods: &[Method], kinds: &[TaskKind]) -> Figure {
             })
             .collect(),
     });
-    Figure::Bars(BarChart {
+    let chart = BarChart {
         title: "Tasks that end within the tolerance in 3-D".to_owned(),
         label: "share of tasks".to_owned(),
         groups: groups.iter().map(|group| group_name(*group).to_owned()).collect(),
         bars: bars.collect(),
-    })
+    };
+    Figure::bars("success", chart)
 }
 
 fn rows(runs: &[RandomRun]) -> Table {

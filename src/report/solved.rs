@@ -53,7 +53,8 @@ pub fn solved_document(run: &RunManifest, tasks: &[Finished<SolvedTask>]) -> Doc
     for task in tasks {
         rows.row(solved_cells(task.index, &task.record, &task.seconds));
     }
-    let section = Section { title: String::new(), table: task_table(tasks), figures: vec![chart] };
+    let section =
+        Section { table: task_table(tasks), figures: vec![chart], ..Section::default() };
     Document {
         title: format!("{solved} of {} tasks solved with {}", tasks.len(), run.model),
         notes: vec![progress_note(run, tasks.len())].into_iter().flatten().collect(),
@@ -139,12 +140,13 @@ pub(super) fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure 
             labels: Vec::new(),
         }
     });
-    Figure::Chart(Chart {
+    let chart = Chart {
         title: title.to_owned(),
         x: Axis::log("final error, mm"),
         y: Axis::linear("tasks within it, %"),
         series: series.collect(),
-    })
+    };
+    Figure::chart("errors", chart)
 }
 
 /// A finished task as one JSON object, its index and times beside the record's own keys.

@@ -43,6 +43,11 @@ impl Table {
         self.rows.is_empty()
     }
 
+    /// Whether there is a header, at least.
+    pub fn has_columns(&self) -> bool {
+        !self.columns.is_empty()
+    }
+
     /// Columns padded with spaces, two between them, no line longer than its last word.
     pub fn to_text(&self) -> String {
         let widths = self.widths();

@@ -79,6 +79,7 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
                 title: "All tool poses together".into(),
                 table: row_table(&together, "choice", |row| title(row.method).to_owned()),
                 figures: vec![error_chart("Final errors in 3-D", &errors(&records))],
+                ..Section::default()
             },
             Section {
                 title: "Each tool pose alone".into(),
@@ -86,13 +87,13 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
                     let pose = row.pose.as_deref().unwrap_or_default();
                     format!("{pose}, {}", title(row.method))
                 }),
-                figures: Vec::new(),
+                ..Section::default()
             },
             Section {
                 title: "Time of a task with all tool poses, on the wall and on the processor"
                     .into(),
                 table: time_table(tasks),
-                figures: Vec::new(),
+                ..Section::default()
             },
         ],
         rows,
