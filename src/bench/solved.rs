@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Engine, Evidence, Outcome, Plan, Situation, Task, Warning};
+use crate::scene::{Engine, Outcome, Plan, Situation, Task, Warning};
 use crate::solve::{PlanStatus, Solution};
 use crate::store::Seconds;
-use crate::verify::{Verifier, VerifySettings};
 
 /// The result of solving one task, everything but the times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,17 +49,11 @@ impl SolvedTask {
     /// so that every plan has its error in both engines.
     pub fn of(task: &Task, solution: &Solution) -> Self {
         let best = solution.best();
-        let replayed;
-        let verdict = match best {
-            Some(best) if best.verdict.is_none() => {
-                replayed = replay(task, solution);
-                replayed.as_ref()
-            }
-            _ => best.and_then(|best| best.verdict.as_ref()),
-        };
+        let situation = Situation::stated(&task.scene);
+        let replays = best.map(|best| best.replays(task, &situation));
+        let verdict = replays.as_deref();
         let end = |engine: Engine| {
-            let wanted = |e: &&Evidence| e.engine == engine && e.disturbance == "nominal";
-            let found = verdict.and_then(|verdict| verdict.evidence.iter().find(wanted));
+            let found = verdict.and_then(|verdict| verdict.nominal(engine));
             found.map(|evidence| End::of(&evidence.outcome))
         };
         Self {
@@ -97,10 +90,4 @@ impl End {
         let Outcome { error, heading_error, reached, .. } = *outcome;
         Self { error, heading_error, reached }
     }
-}
-
-fn replay(task: &Task, solution: &Solution) -> Option<crate::scene::Verdict> {
-    let best = solution.best()?;
-    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-    Some(verifier.nominal(task, &Situation::stated(&task.scene), &best.tool, &best.plan))
 }

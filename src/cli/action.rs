@@ -6,17 +6,10 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::asset::ToolLibrary;
-use crate::effect::{EffectModel, Job, Simulated};
-use crate::geometry::Vector;
-use crate::plan::{CandidatePush, Start, Workspace};
-use crate::scene::{Plan, Push, PushForm, Record, State, Task, Tool};
-use crate::sim::Simulator;
+use crate::plan::{ActionError, AskedPush, asked_plan};
+use crate::scene::{Plan, Situation, Task, Tool};
 
-use super::{
-    error::CliError,
-    push_argument::{PushArgument, StartArgument},
-    session::Session,
-};
+use super::{error::CliError, push_argument::push_argument, session::Session};
 
 /// Where tools come from.
 #[derive(Args, Debug)]
@@ -43,8 +36,9 @@ pub struct ActionArgs {
     #[arg(long, value_name = "NAME", requires = "pushes")]
     tool: Option<String>,
     /// A push, or several in order; see below
-    #[arg(long = "push", value_name = "PUSH", requires = "tool", allow_hyphen_values = true)]
-    pushes: Vec<PushArgument>,
+    #[arg(long = "push", value_name = "PUSH", requires = "tool", allow_hyphen_values = true,
+          value_parser = push_argument)]
+    pushes: Vec<AskedPush>,
     /// Turn of the end effector against +x; by default the first of the task's that fits
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     grip_yaw_deg: Option<f64>,
@@ -56,8 +50,11 @@ impl ActionArgs {
         self.tool.is_some()
     }
 
-    /// The action as a plan, with the tool that it names. What breaks a rule of the task (reach,
-    /// obstacles) is made all the same, with a warning: seeing what would happen is the point.
+    /// The action as a plan, with the tool that it names; rules of the task that it breaks are
+    /// warned of.
+    ///
+    /// # Errors
+    /// [`CliError::Usage`] if no such plan can be made.
     pub fn plan(
         &self,
         task: &Task,
@@ -73,121 +70,32 @@ impl ActionArgs {
             Some(_) => return Err(CliError::usage("--grip-yaw-deg must be finite", "try 90")),
             None => task.pushes.grip_yaws.clone(),
         };
-        let mut refused = None;
-        for grip_yaw in yaws {
-            match self.with_yaw(task, tool, grip_yaw, session) {
-                Ok(plan) => return Ok((plan, Arc::clone(tool))),
-                Err(error) => refused = refused.or(Some(error)),
-            }
+        let situation = Situation::stated(&task.scene);
+        let asked = session
+            .compute(|| asked_plan(task, &situation, tool, &yaws, &self.pushes))
+            .map_err(|error| refused(&error, task))?;
+        for (push, rule) in &asked.broken {
+            session.warn(&format!("push {}: {rule}; a plan would not contain it", push + 1));
         }
-        Err(refused.unwrap_or_else(|| CliError::usage("the task has no grip yaw", "add one")))
-    }
-
-    fn with_yaw(
-        &self,
-        task: &Task,
-        tool: &Arc<Tool>,
-        grip_yaw: f64,
-        session: &Session,
-    ) -> Result<Plan, CliError> {
-        let rules = &task.pushes;
-        let (form, lift) = (rules.form, rules.lift);
-        let mut plan = Plan { tool: tool.name.clone(), grip_yaw, form, lift, pushes: Vec::new() };
-        for (k, argument) in self.pushes.iter().enumerate() {
-            let state = after(task, tool, &plan, session);
-            let previous = plan.pushes.last().map(Push::end);
-            let start = start(task, tool, grip_yaw, argument, &state, previous)?;
-            let push = Push {
-                start,
-                direction: argument.direction,
-                length: argument.length.unwrap_or(rules.length),
-                speed: argument.speed.unwrap_or(rules.speed),
-            };
-            let set_down = k == 0 || form == PushForm::Placed;
-            let tools = std::slice::from_ref(tool);
-            let workspace = Workspace { task, tools, later_stand_off: 0.0 };
-            if let Some(rule) = workspace.margins((0, grip_yaw), &state, &push, set_down).broken() {
-                session.warn(&format!("push {}: {rule}; a plan would not contain it", k + 1));
-            }
-            plan.pushes.push(push);
-        }
-        Ok(plan)
+        Ok((asked.plan, Arc::clone(tool)))
     }
 }
 
-/// Where the pushes so far leave the objects: later placed pushes are placed there.
-fn after(task: &Task, tool: &Arc<Tool>, plan: &Plan, session: &Session) -> State {
-    if plan.pushes.is_empty() {
-        return task.scene.start();
-    }
-    let job = Job::stated(&task.scene, plan.motion(tool));
-    let model = Simulated::new(Simulator::planar());
-    let found = session.compute(|| model.rollout(&task.scene, &[job], Record::Outcome));
-    found.first().map_or_else(|| task.scene.start(), |trajectory| trajectory.outcome().clone())
-}
-
-fn start(
-    task: &Task,
-    tool: &Arc<Tool>,
-    grip_yaw: f64,
-    argument: &PushArgument,
-    state: &State,
-    previous: Option<Vector>,
-) -> Result<Vector, CliError> {
-    let chained = task.pushes.form == PushForm::Chained;
-    let (object, offset) = match &argument.start {
-        StartArgument::At(at) => {
-            if chained && previous.is_some_and(|end| (end - at).norm() > 1e-6) {
-                return Err(CliError::usage(
-                    "chained pushes go on where the last one ended",
-                    "leave the start out after the first push",
-                ));
-            }
-            return Ok(*at);
+fn refused(error: &ActionError, task: &Task) -> CliError {
+    let advice = match error {
+        ActionError::ChainBroken => "leave the start out after the first push".to_owned(),
+        ActionError::Chained => "write direction_deg=.. length=..".to_owned(),
+        ActionError::NoStart => "write start=x,y, or use the form OBJECT:DIRECTION_DEG".to_owned(),
+        ActionError::NoObject { .. } => {
+            let names: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
+            format!("use {}", names.join(", "))
         }
-        StartArgument::Last => {
-            if chained {
-                return Ok(previous.unwrap_or(task.robot.home));
-            }
-            return Err(CliError::usage(
-                "a push of this task needs a start",
-                "write start=x,y, or use the form OBJECT:DIRECTION_DEG",
-            ));
+        ActionError::CannotPush { .. } => {
+            "try another direction, offset or grip yaw, or give the start".to_owned()
         }
-        StartArgument::Before { .. } if chained => {
-            return Err(CliError::usage(
-                "the pushes of this task are chained: the first starts at home",
-                "write direction_deg=.. length=..",
-            ));
-        }
-        StartArgument::Before { object, offset } => (object, *offset),
+        ActionError::NoYaw => "add one".to_owned(),
     };
-    let index = task.scene.object(object).ok_or_else(|| {
-        let names: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
-        CliError::usage(
-            format!("no object is called `{object}`"),
-            format!("use {}", names.join(", ")),
-        )
-    })?;
-    let mut of_object = task.clone();
-    of_object.goal.object = index;
-    let tools = std::slice::from_ref(tool);
-    let workspace = Workspace { task: &of_object, tools, later_stand_off: 0.0 };
-    let length = argument.length.unwrap_or(task.pushes.length);
-    let mut refused = None;
-    for part in 0..tool.parts.len() {
-        let start = Start::Placed { part, offset };
-        let push = CandidatePush { start, direction: argument.direction, length };
-        match workspace.place((0, grip_yaw), state, &push, 0, previous) {
-            Ok(start) => return Ok(start),
-            Err(why) => refused = Some(why),
-        }
-    }
-    let why = refused.map_or_else(String::new, |why| format!(": {why}"));
-    Err(CliError::usage(
-        format!("`{}` cannot push `{object}` that way{why}", tool.name),
-        "try another direction, offset or grip yaw, or give the start",
-    ))
+    CliError::usage(error.to_string(), advice)
 }
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> CliError {

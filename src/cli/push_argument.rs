@@ -1,8 +1,7 @@
 //! The argument of `--push`: a push given by where it starts, or by the object it meets.
 
-use std::str::FromStr;
-
 use crate::geometry::Vector;
+use crate::plan::{AskedPush, AskedStart};
 
 /// Help shown wherever a push can be given.
 pub const FORMS: &str = "\
@@ -14,44 +13,15 @@ Pushes, in the order they are made:
   --push can:180:0.01     with its centre 1 cm left of the centre line of the tool's face
   --push can:180:0:0.15   15 cm far";
 
-/// One push as the user gave it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PushArgument {
-    /// Where it starts.
-    pub start: StartArgument,
-    /// Radians from world +x.
-    pub direction: f64,
-    /// Travel, metres; the task's if not given.
-    pub length: Option<f64>,
-    /// Speed, m/s; the task's if not given.
-    pub speed: Option<f64>,
+/// Reads one push.
+///
+/// # Errors
+/// What is wrong with it, and what to write instead.
+pub fn push_argument(text: &str) -> Result<AskedPush, String> {
+    if text.contains('=') { keyed(text) } else { colons(text) }
 }
 
-/// Where a push starts.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StartArgument {
-    /// The end effector's position, metres.
-    At(Vector),
-    /// At home, or where the last push ended (chained pushes).
-    Last,
-    /// Just before this object.
-    Before {
-        /// Its name.
-        object: String,
-        /// Lateral offset, metres.
-        offset: f64,
-    },
-}
-
-impl FromStr for PushArgument {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text.contains('=') { keyed(text) } else { colons(text) }
-    }
-}
-
-fn keyed(text: &str) -> Result<PushArgument, String> {
+fn keyed(text: &str) -> Result<AskedPush, String> {
     let (mut start, mut direction, mut length, mut speed) = (None, None, None, None);
     for word in text.split_whitespace() {
         let Some((key, value)) = word.split_once('=') else {
@@ -80,10 +50,10 @@ fn keyed(text: &str) -> Result<PushArgument, String> {
         }
     }
     let direction: f64 = direction.ok_or("direction_deg is missing")?;
-    finish(start.map_or(StartArgument::Last, StartArgument::At), direction, length, speed)
+    finish(start.map_or(AskedStart::Last, AskedStart::At), direction, length, speed)
 }
 
-fn colons(text: &str) -> Result<PushArgument, String> {
+fn colons(text: &str) -> Result<AskedPush, String> {
     let mut parts = text.split(':');
     let object = parts.next().unwrap_or_default().trim().to_owned();
     let direction = parts.next().ok_or("use OBJECT:DIRECTION_DEG[:OFFSET[:LENGTH]]")?;
@@ -93,22 +63,22 @@ fn colons(text: &str) -> Result<PushArgument, String> {
     if object.is_empty() || parts.next().is_some() {
         return Err("use OBJECT:DIRECTION_DEG[:OFFSET[:LENGTH]]".to_owned());
     }
-    finish(StartArgument::Before { object, offset }, direction, length, None)
+    finish(AskedStart::Before { object, offset }, direction, length, None)
 }
 
 fn finish(
-    start: StartArgument,
+    start: AskedStart,
     direction_deg: f64,
     length: Option<f64>,
     speed: Option<f64>,
-) -> Result<PushArgument, String> {
+) -> Result<AskedPush, String> {
     // The ranges of task files.
     for (name, value, largest) in [("length", length, 2.0), ("speed", speed, 2.0)] {
         if value.is_some_and(|value| !(value > 0.0 && value <= largest)) {
             return Err(format!("{name} must be above 0 and at most {largest}"));
         }
     }
-    Ok(PushArgument { start, direction: direction_deg.to_radians(), length, speed })
+    Ok(AskedPush { start, direction: direction_deg.to_radians(), length, speed })
 }
 
 fn number(name: &str, text: &str) -> Result<f64, String> {
@@ -124,18 +94,18 @@ mod tests {
 
     #[test]
     fn both_forms_are_read() {
-        let push: PushArgument = "start=0.4,-0.1 direction_deg=180 length=0.2".parse().unwrap();
-        assert_eq!(push.start, StartArgument::At(Vector::new(0.4, -0.1)));
+        let push = push_argument("start=0.4,-0.1 direction_deg=180 length=0.2").unwrap();
+        assert_eq!(push.start, AskedStart::At(Vector::new(0.4, -0.1)));
         assert_eq!(push.direction, std::f64::consts::PI);
         assert_eq!((push.length, push.speed), (Some(0.2), None));
-        let push: PushArgument = "can:-90:0.01".parse().unwrap();
-        let before = StartArgument::Before { object: "can".to_owned(), offset: 0.01 };
+        let push = push_argument("can:-90:0.01").unwrap();
+        let before = AskedStart::Before { object: "can".to_owned(), offset: 0.01 };
         assert_eq!((push.start, push.length), (before, None));
     }
 
     #[test]
     fn mistakes_are_named() {
-        let error = |text: &str| text.parse::<PushArgument>().unwrap_err();
+        let error = |text: &str| push_argument(text).unwrap_err();
         assert_eq!(error("start=0.4,0 length=1"), "direction_deg is missing");
         assert_eq!(error("can:nan"), "direction: `nan` is not a finite number");
         assert_eq!(error("can:0:0:-1"), "length must be above 0 and at most 2");

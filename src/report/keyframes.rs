@@ -62,7 +62,10 @@ impl Keyframes {
 
     /// The style sheet.
     pub fn finish(self) -> String {
-        format!("{}@media (prefers-reduced-motion:reduce){{*{{animation:none!important}}}}", self.css)
+        format!(
+            "{}@media (prefers-reduced-motion:reduce){{*{{animation:none!important}}}}",
+            self.css
+        )
     }
 }
 

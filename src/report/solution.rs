@@ -128,10 +128,10 @@ pub fn moving_picture<'a>(
         "" => task.name.clone(),
         description => description.to_owned(),
     };
-    let simulated = format!("{} simulation", engine_name(engine));
     MovingPicture {
         title,
-        notes: vec![format!("{}; {simulated}", plan_line(plan))],
+        plan: plan_line(plan),
+        source: Source::Simulated(engine),
         scene: &task.scene,
         goal: &task.goal,
         robot: &task.robot,

@@ -53,8 +53,7 @@ pub fn solved_document(run: &RunManifest, tasks: &[Finished<SolvedTask>]) -> Doc
     for task in tasks {
         rows.row(solved_cells(task.index, &task.record, &task.seconds));
     }
-    let section =
-        Section { table: task_table(tasks), figures: vec![chart], ..Section::default() };
+    let section = Section { table: task_table(tasks), figures: vec![chart], ..Section::default() };
     Document {
         title: format!("{solved} of {} tasks solved with {}", tasks.len(), run.model),
         notes: vec![progress_note(run, tasks.len())].into_iter().flatten().collect(),

@@ -34,7 +34,7 @@ pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use physics::Physics;
-pub use plan::{Engine, Evidence, Outcome, Plan, Verdict};
+pub use plan::{Disturbance, Engine, Evidence, Outcome, Plan, Verdict};
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 pub use separation::{JOINT_ARM, Misfit, Separation};
 pub use sets::DisjointSets;

@@ -16,6 +16,11 @@ pub enum Engine {
     Spatial,
 }
 
+impl Engine {
+    /// Both, in the order in which they are shown: predictions are compared with the planar one.
+    pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
+}
+
 /// A tool, how it is held, and the pushes to make with it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
@@ -67,18 +72,35 @@ impl Outcome {
     }
 }
 
+/// What a replay changes against the task as written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Disturbance {
+    /// Nothing.
+    Nominal,
+    /// Where objects start and every friction value, by little and at random.
+    Disturbed {
+        /// Number of the draw, from 1; the same for the same seed in both engines.
+        draw: usize,
+    },
+}
+
 /// One replay of a plan in an engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// Which engine.
     pub engine: Engine,
-    /// What was changed against the task as written; `nominal` for nothing.
-    pub disturbance: String,
+    /// What was changed against the task as written.
+    pub disturbance: Disturbance,
     /// Where it ended.
     pub outcome: Outcome,
     /// What happened on the way that a reader should know.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<Warning>,
+    /// What happened frame by frame, of a nominal replay. Not written to files: replaying the
+    /// plan brings it back.
+    #[serde(skip)]
+    pub trajectory: Option<Trajectory>,
 }
 
 /// Whether a plan works, with what shows it.
@@ -90,4 +112,20 @@ pub struct Verdict {
     pub evidence: Vec<Evidence>,
     /// Share of the disturbed 3-D replays that reach the goal, 0 to 1; `None` if none was made.
     pub robustness: Option<f64>,
+}
+
+impl Verdict {
+    /// The replay as written in an engine.
+    pub fn nominal(&self, engine: Engine) -> Option<&Evidence> {
+        self.of(engine).find(|evidence| evidence.disturbance == Disturbance::Nominal)
+    }
+
+    /// The disturbed replays in an engine, in the order of their draws.
+    pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
+        self.of(engine).filter(|evidence| evidence.disturbance != Disturbance::Nominal)
+    }
+
+    fn of(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
+        self.evidence.iter().filter(move |evidence| evidence.engine == engine)
+    }
 }

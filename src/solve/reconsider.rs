@@ -3,7 +3,7 @@
 
 use crate::geometry::wrap_angle;
 use crate::plan::{Candidate, CandidatePush, Found};
-use crate::scene::{Engine, Evidence, Goal, Verdict};
+use crate::scene::{Engine, Goal, Verdict};
 
 use super::rank::distinct;
 use super::solving::{Solving, Tried};
@@ -129,7 +129,7 @@ impl Solving<'_> {
 /// By how many tolerances the 3-D replay of a failed plan misses the goal; infinite where its end
 /// does not count at all.
 fn missed(goal: &Goal, tried: &Tried) -> f64 {
-    let spatial = tried.verdict.as_ref().and_then(spatial);
+    let spatial = tried.verdict.as_ref().and_then(|verdict| verdict.nominal(Engine::Spatial));
     spatial.map_or(f64::INFINITY, |evidence| {
         let counts = evidence.warnings.iter().all(|warning| !warning.forbids_success());
         let score = goal.score(&evidence.outcome.state);
@@ -141,7 +141,7 @@ fn missed(goal: &Goal, tried: &Tried) -> f64 {
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
 /// the effect model's own slopes.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
-    let end = spatial(verdict)?.outcome.state.poses[goal.object];
+    let end = verdict.nominal(Engine::Spatial)?.outcome.state.poses[goal.object];
     let heading = match (goal.heading, aim.heading) {
         (Some((wanted, tolerance)), Some((aimed, _))) => {
             Some((aimed - wrap_angle(end.heading - wanted), tolerance))
@@ -151,17 +151,12 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
     Some(Goal { position: aim.position - (end.position - goal.position), heading, ..*goal })
 }
 
-fn spatial(verdict: &Verdict) -> Option<&Evidence> {
-    let mut evidence = verdict.evidence.iter();
-    evidence.find(|e| e.engine == Engine::Spatial && e.disturbance == "nominal")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::{Pose, Vector};
     use crate::plan::Start;
-    use crate::scene::{Outcome, State};
+    use crate::scene::{Disturbance, Evidence, Outcome, State};
 
     fn candidate(pushes: &[(f64, f64)]) -> Candidate {
         let push = |&(direction, length): &(f64, f64)| CandidatePush {
@@ -195,9 +190,10 @@ mod tests {
             let outcome = Outcome { error: 0.0, heading_error: None, reached: false, state };
             let evidence = Evidence {
                 engine: Engine::Spatial,
-                disturbance: "nominal".into(),
+                disturbance: Disturbance::Nominal,
                 outcome,
                 warnings: Vec::new(),
+                trajectory: None,
             };
             Verdict { passed: false, evidence: vec![evidence], robustness: None }
         };

@@ -1,12 +1,14 @@
 //! What comes back from solving a task.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 use crate::plan::{RefineStatistics, SearchStatistics};
-use crate::scene::{Outcome, Plan, Tool, Trajectory, Verdict, Warning};
+use crate::scene::{Outcome, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
+use crate::verify::{Verifier, VerifySettings};
 
 /// How solving ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -52,6 +54,20 @@ pub struct RankedPlan {
     pub verdict: Option<Verdict>,
     /// What refinement did.
     pub refinement: Refinement,
+}
+
+impl RankedPlan {
+    /// Its nominal replays in both engines: those of the verdict, or ones made now from
+    /// `situation` where the plan was not worth verifying.
+    pub fn replays(&self, task: &Task, situation: &Situation) -> Cow<'_, Verdict> {
+        match &self.verdict {
+            Some(verdict) => Cow::Borrowed(verdict),
+            None => {
+                let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+                Cow::Owned(verifier.nominal(task, situation, &self.tool, &self.plan))
+            }
+        }
+    }
 }
 
 /// Wall-clock time of each stage, seconds. Reported, never used to decide anything.

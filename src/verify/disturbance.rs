@@ -1,6 +1,5 @@
 //! Small errors of the world against the task as written: what a camera and a data sheet miss by.
 
-use std::fmt;
 use std::sync::Arc;
 
 use rand::{Rng, SeedableRng};
@@ -19,15 +18,14 @@ const TURN: f64 = std::f64::consts::PI / 180.0;
 const FRICTION: f64 = 0.1;
 
 /// One draw of disturbances, uniform within their ranges; the same for the same seed and draw.
-pub(super) struct Disturbance {
-    draw: usize,
+pub(super) struct Disturbed {
     /// Where the objects start and what they are like instead.
     situation: Situation,
     /// The tool instead.
     tool: Arc<Tool>,
 }
 
-impl Disturbance {
+impl Disturbed {
     pub fn draw(situation: &Situation, tool: &Tool, seed: u64, draw: usize) -> Self {
         let mut random = Pcg64::new(u128::from(seed), draw as u128);
         // A fresh stream's first numbers resemble those of its neighbours.
@@ -48,7 +46,7 @@ impl Disturbance {
         for friction in values {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }
-        Self { draw, situation, tool: Arc::new(tool) }
+        Self { situation, tool: Arc::new(tool) }
     }
 
     /// `motion` as it happens under the disturbance.
@@ -68,19 +66,6 @@ fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, tur
     for &k in group {
         let arm = Pose { position: poses[k].position - about, ..poses[k] };
         poses[k] = turned * arm;
-    }
-}
-
-impl fmt::Display for Disturbance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "start +-{:.0} mm +-{:.0} deg, friction +-{:.0} %, draw {}",
-            SHIFT * 1e3,
-            TURN.to_degrees(),
-            FRICTION * 1e2,
-            self.draw + 1
-        )
     }
 }
 
@@ -112,7 +97,7 @@ mod tests {
                 .unwrap();
         let situation = Situation::stated(&scene);
         for draw in 0..20 {
-            let start = Disturbance::draw(&situation, &tool, 1, draw).situation.start;
+            let start = Disturbed::draw(&situation, &tool, 1, draw).situation.start;
             let relative = |poses: &[Pose], k: usize| poses[1].inverse() * poses[k];
             let stated: Vec<Pose> = scene.objects.iter().map(|object| object.pose).collect();
             for k in [3, 4] {

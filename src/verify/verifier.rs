@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::geometry::{Pose, clearance};
 use crate::scene::{
-    Evidence, Frame, Goal, Job, Outcome, Plan, Record, Scene, Situation, State, Task, Tool,
-    ToolMotion, Trajectory, Verdict, Warning,
+    Disturbance, Engine, Evidence, Goal, Job, Outcome, Plan, Record, Scene, Situation, Task, Tool,
+    Verdict,
 };
 use crate::sim::Simulator;
 
-use super::disturbance::Disturbance;
+use super::disturbance::Disturbed;
 
 /// How thoroughly to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +48,7 @@ impl Verifier {
         let job = Job::new(situation, plan.motion(tool));
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| replay(engine, &task.goal, &situation.scene, &job, None))
+            .map(|engine| replay(engine, &task.goal, &situation.scene, &job, Disturbance::Nominal))
             .collect();
         let passed = evidence[0].outcome.reached;
         // The planar engine is the one that people compare predictions with: it comes first.
@@ -77,15 +76,14 @@ impl Verifier {
         let replays: Vec<Evidence> = draws
             .into_par_iter()
             .map(|(engine, draw)| {
-                let disturbance = Disturbance::draw(situation, tool, self.settings.seed, draw);
-                let job = disturbance.job(&motion);
-                replay(engine, &task.goal, &situation.scene, &job, Some(&disturbance))
+                let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(&motion);
+                let disturbance = Disturbance::Disturbed { draw: draw + 1 };
+                replay(engine, &task.goal, &situation.scene, &job, disturbance)
             })
             .collect();
-        let spatial = replays.iter().filter(|e| e.engine == self.spatial.engine());
-        let reached = spatial.filter(|e| e.outcome.reached).count();
-        verdict.robustness = Some(reached as f64 / self.settings.disturbed as f64);
         verdict.evidence.extend(replays);
+        let reached = verdict.disturbed(Engine::Spatial).filter(|e| e.outcome.reached).count();
+        verdict.robustness = Some(reached as f64 / self.settings.disturbed as f64);
     }
 
     /// All replays of a plan: nominal, then disturbed.
@@ -102,65 +100,22 @@ impl Verifier {
     }
 }
 
+/// Plays a job; one without pushes leaves everything where it is.
 fn replay(
     engine: &Simulator,
     goal: &Goal,
     scene: &Scene,
     job: &Job,
-    disturbance: Option<&Disturbance>,
+    disturbance: Disturbance,
 ) -> Evidence {
-    let Job { start, motion, .. } = job;
-    // Frames are needed to see on what the tool comes down for a later stroke.
-    let record = if motion.strokes.len() > 1 { Record::Frames } else { Record::Outcome };
-    let mut trajectory = if motion.strokes.is_empty() {
-        Trajectory { frames: vec![standing(start)], ..Trajectory::default() }
-    } else {
-        engine.run(scene, job, record)
-    };
-    let landings = set_down_on(scene, start, motion, &trajectory);
-    trajectory.warnings.extend(landings);
+    let nominal = disturbance == Disturbance::Nominal;
+    let record = if nominal { Record::Frames } else { Record::Outcome };
+    let trajectory = engine.run(scene, job, record);
     Evidence {
         engine: engine.engine(),
-        disturbance: disturbance.map_or("nominal".into(), Disturbance::to_string),
+        disturbance,
         outcome: Outcome::judge(goal, &trajectory),
-        warnings: trajectory.warnings,
+        warnings: trajectory.warnings.clone(),
+        trajectory: nominal.then_some(trajectory),
     }
-}
-
-/// What a plan without pushes leaves.
-fn standing(start: &State) -> Frame {
-    Frame { time: 0.0, stroke: 0, tool: Pose::default(), state: start.clone() }
-}
-
-/// Objects that the tool comes down on, at the first stroke and after every settled one.
-fn set_down_on(
-    scene: &Scene,
-    start: &State,
-    motion: &ToolMotion,
-    trajectory: &Trajectory,
-) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    for (index, stroke) in motion.strokes.iter().enumerate() {
-        let state = match index.checked_sub(1) {
-            None => Some(start),
-            Some(before) if motion.strokes[before].settle => {
-                let frames = trajectory.frames.iter().rev();
-                frames.into_iter().find(|frame| frame.stroke == before).map(|frame| &frame.state)
-            }
-            Some(_) => None,
-        };
-        let Some(state) = state else { continue };
-        for (object, pose) in scene.objects.iter().zip(&state.poses) {
-            let still = (&object.shape.footprint(), pose);
-            let overlaps = motion.lift < object.shape.height()
-                && motion.tool.parts.iter().enumerate().any(|(k, part)| {
-                    let pose = motion.tool.part_pose(k, &stroke.from);
-                    clearance((&part.footprint(), &pose), still, 1e-3) <= 0.0
-                });
-            if overlaps {
-                warnings.push(Warning::SetDownOn { object: object.name.clone(), stroke: index });
-            }
-        }
-    }
-    warnings
 }

@@ -52,7 +52,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert_eq!(verdict.evidence.len(), 2 + 2 * 3);
     assert_eq!(verdict.evidence[0].engine, Engine::Planar);
     assert_eq!(verdict.evidence[1].engine, Engine::Spatial);
-    assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == "nominal"));
+    assert!(verdict.evidence[..2].iter().all(|e| e.disturbance == Disturbance::Nominal));
     assert!(verdict.evidence[..2].iter().all(|e| e.outcome.error < 5e-3));
     assert_eq!(verdict.robustness, Some(1.0));
     // Draws differ, and the same seed draws the same.
@@ -84,7 +84,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
-        assert!(evidence.warnings.contains(&landed), "{evidence:?}");
+        assert_eq!(evidence.warnings, [landed], "said once");
     }
 }
 

@@ -68,6 +68,13 @@ const UNSIGNED: Value = Value::Number(Range {
 const INDEX: Value =
     Value::Count(Range { what: "an index", low: 0.0, high: 1e6, advice: "is the file damaged?" });
 
+const DRAW: Value = Value::Count(Range {
+    what: "the number of a draw",
+    low: 1.0,
+    high: 1e6,
+    advice: "is the file damaged?",
+});
+
 const SHARE: Value =
     Value::Number(Range { what: "a share", low: 0.0, high: 1.0, advice: "half is 0.5" });
 
@@ -146,9 +153,19 @@ const VERDICT: Value = Value::Map(&[
     ),
 ]);
 
+const DISTURBED: Key = Key::required(
+    "disturbed",
+    Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
+    "Starts and frictions were, by little and at random.",
+);
+
 const EVIDENCE: Value = Value::Map(&[
     Key::required("engine", Value::Word(&["planar", "spatial"]), "Which engine replayed it."),
-    Key::required("disturbance", Value::Text, "What was changed; `nominal` for nothing."),
+    Key::required(
+        "disturbance",
+        Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[DISTURBED])]),
+        "What was changed: `nominal` for nothing.",
+    ),
     Key::required("outcome", OUTCOME, "Where it ended."),
     Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
 ]);

@@ -94,10 +94,8 @@ impl RandomSuite {
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
         let verdict =
             verifier.nominal(&made.task, &Situation::stated(&made.task.scene), tool, &plan);
-        let end = |engine: Engine| {
-            let found = verdict.evidence.iter().find(|evidence| evidence.engine == engine);
-            found.map(|evidence| End::of(&evidence.outcome))
-        };
+        let end =
+            |engine: Engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
         Some(Choice {
             tool: plan.tool,
             planar: end(Engine::Planar)?,

@@ -30,6 +30,10 @@ pub const GOAL_AREA: Style = Style::fill(GOAL).opacity(0.10);
 pub const GOAL_RIM: Style = Style::stroke(GOAL, 1.6);
 pub const GOAL_MISS: Style = Style::stroke(GOAL, 1.2).dashed("1 4");
 pub const TOOL_FILL: &str = "#d0ab83";
+pub const PROGRESS: Style = Style::fill(SPATIAL);
+pub const PROGRESS_BED: Style = Style::fill("#e9ecef");
+/// Opacity of where an object stood in a picture that moves.
+pub const START: f64 = 0.3;
 /// Opacity of the tool before and after a push.
 pub const TOOL_BEFORE: f64 = 0.28;
 pub const TOOL_AFTER: f64 = 0.72;

@@ -1,5 +1,7 @@
 //! The whole picture: title, plot, legend.
 
+use std::fmt;
+
 use crate::geometry::{Pose, Vector};
 use crate::report::svg::{Font, Style, Svg};
 use crate::scene::{Engine, Goal, Robot, Scene, ToolMotion, Trajectory};
@@ -24,6 +26,16 @@ pub enum Source {
     Predicted,
     /// A replay in an engine.
     Simulated(Engine),
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Source::Predicted => "predicted",
+            Source::Simulated(Engine::Planar) => "simulated in the plane",
+            Source::Simulated(Engine::Spatial) => "simulated in 3-D",
+        })
+    }
 }
 
 /// Ways of the objects by one source.

@@ -66,7 +66,9 @@ pub fn path(svg: &mut Svg, view: &View, trajectory: &Trajectory, index: usize, s
 /// the outlines is left.
 pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity: f64) {
     svg.open_faded(opacity);
-    for style in [Style::stroke(palette::TOOL, 2.8), Style::fill(palette::TOOL_FILL)] {
+    // The fill's own thin rim closes the hairlines between parts.
+    let fill = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL_FILL, 0.6);
+    for style in [Style::stroke(palette::TOOL, 3.2), fill] {
         for (k, part) in tool.parts.iter().enumerate() {
             view.footprint(svg, &part.footprint(), &tool.part_pose(k, pose), style);
         }

@@ -6,8 +6,8 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Engine, Evidence, Frame, Outcome, Plan, Push, Task, Tool, Trajectory, Verdict,
-    Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Frame, Outcome, Plan, Push, Task, Tool,
+    Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -29,11 +29,15 @@ pub fn plan_file(name: &str) -> PlanFile {
         Outcome { state: task.scene.start(), error: 0.1, heading_error: Some(0.2), reached: false };
     let evidence = Evidence {
         engine: Engine::Spatial,
-        disturbance: "nominal".into(),
+        disturbance: Disturbance::Nominal,
         outcome: outcome.clone(),
         warnings: vec![Warning::NotAtRest { waited: 3.0 }],
+        trajectory: None,
     };
-    let verdict = Verdict { passed: false, evidence: vec![evidence], robustness: Some(0.5) };
+    let disturbed =
+        Evidence { disturbance: Disturbance::Disturbed { draw: 2 }, ..evidence.clone() };
+    let verdict =
+        Verdict { passed: false, evidence: vec![evidence, disturbed], robustness: Some(0.5) };
     PlanFile {
         task,
         tool,

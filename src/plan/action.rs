@@ -1,0 +1,190 @@
+//! A plan as a person asks for it: pushes given by where they start, or by the object they meet.
+//!
+//! Nothing is searched. A push before an object is placed where the pushes before it leave the
+//! objects, by the planar simulation.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use crate::geometry::Vector;
+use crate::scene::{Job, Plan, Push, PushForm, Record, Situation, State, Task, Tool};
+use crate::sim::Simulator;
+
+use super::{CandidatePush, Infeasible, Start, Workspace};
+
+/// How far a chained push may be said to start from where the last one ended, metres.
+const SAME_PLACE: f64 = 1e-6;
+
+/// One push as it is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedPush {
+    /// Where it starts.
+    pub start: AskedStart,
+    /// Radians from world +x.
+    pub direction: f64,
+    /// Travel, metres; the task's if not given.
+    pub length: Option<f64>,
+    /// Speed, m/s; the task's if not given.
+    pub speed: Option<f64>,
+}
+
+/// Where a push starts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AskedStart {
+    /// The end effector's position, metres.
+    At(Vector),
+    /// At home, or where the last push ended (chained pushes).
+    Last,
+    /// Just before this object.
+    Before {
+        /// Its name.
+        object: String,
+        /// Lateral offset, metres.
+        offset: f64,
+    },
+}
+
+/// Why no plan can be made of what is asked for.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ActionError {
+    /// A chained push with a start of its own.
+    #[error("chained pushes go on where the last one ended")]
+    ChainBroken,
+    /// A chained push before an object.
+    #[error("the pushes of this task are chained: the first starts at home")]
+    Chained,
+    /// A placed push without a start.
+    #[error("a push of this task needs a start")]
+    NoStart,
+    /// A name that no object has.
+    #[error("no object is called `{object}`")]
+    NoObject {
+        /// The name.
+        object: String,
+    },
+    /// An object that no part of the tool can push that way.
+    #[error("`{tool}` cannot push `{object}` that way: {why}")]
+    CannotPush {
+        /// The tool's name.
+        tool: String,
+        /// The object's name.
+        object: String,
+        /// Why the tool's last part cannot.
+        why: Infeasible,
+    },
+    /// A list of grip yaws without an entry.
+    #[error("the task has no grip yaw")]
+    NoYaw,
+}
+
+/// A plan with the rules of its task that it breaks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// The plan.
+    pub plan: Plan,
+    /// Index of a push and a rule that it breaks; a plan that is searched for breaks none.
+    pub broken: Vec<(usize, Infeasible)>,
+}
+
+/// The plan of `pushes` with the first of `grip_yaws` (radians) with which they can be made.
+///
+/// # Errors
+/// Why it cannot be made with the first grip yaw. A push that breaks a rule of the task (reach,
+/// obstacles) is made all the same: seeing what would happen is the point.
+pub fn asked_plan(
+    task: &Task,
+    situation: &Situation,
+    tool: &Arc<Tool>,
+    grip_yaws: &[f64],
+    pushes: &[AskedPush],
+) -> Result<Asked, ActionError> {
+    let mut refused = ActionError::NoYaw;
+    for (k, &grip_yaw) in grip_yaws.iter().enumerate() {
+        match with_yaw(task, situation, tool, grip_yaw, pushes) {
+            Ok(asked) => return Ok(asked),
+            Err(error) if k == 0 => refused = error,
+            Err(_) => {}
+        }
+    }
+    Err(refused)
+}
+
+fn with_yaw(
+    task: &Task,
+    situation: &Situation,
+    tool: &Arc<Tool>,
+    grip_yaw: f64,
+    pushes: &[AskedPush],
+) -> Result<Asked, ActionError> {
+    let rules = &task.pushes;
+    let (form, lift) = (rules.form, rules.lift);
+    let mut plan = Plan { tool: tool.name.clone(), grip_yaw, form, lift, pushes: Vec::new() };
+    let mut broken = Vec::new();
+    for (k, asked) in pushes.iter().enumerate() {
+        let state = after(situation, tool, &plan);
+        let previous = plan.pushes.last().map(Push::end);
+        let push = Push {
+            start: start(task, (tool, grip_yaw), asked, &state, previous)?,
+            direction: asked.direction,
+            length: asked.length.unwrap_or(rules.length),
+            speed: asked.speed.unwrap_or(rules.speed),
+        };
+        let set_down = k == 0 || form == PushForm::Placed;
+        let tools = std::slice::from_ref(tool);
+        let workspace = Workspace { task, tools, later_stand_off: 0.0 };
+        let rule = workspace.margins((0, grip_yaw), &state, &push, set_down).broken();
+        broken.extend(rule.map(|rule| (k, rule)));
+        plan.pushes.push(push);
+    }
+    Ok(Asked { plan, broken })
+}
+
+/// Where the pushes so far leave the objects.
+fn after(situation: &Situation, tool: &Arc<Tool>, plan: &Plan) -> State {
+    if plan.pushes.is_empty() {
+        return situation.start.clone();
+    }
+    let job = Job::new(situation, plan.motion(tool));
+    Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
+}
+
+fn start(
+    task: &Task,
+    (tool, grip_yaw): (&Arc<Tool>, f64),
+    asked: &AskedPush,
+    state: &State,
+    previous: Option<Vector>,
+) -> Result<Vector, ActionError> {
+    let chained = task.pushes.form == PushForm::Chained;
+    let (object, offset) = match &asked.start {
+        AskedStart::At(at) => {
+            let elsewhere = |end: Vector| (end - at).norm() > SAME_PLACE;
+            let broken = chained && previous.is_some_and(elsewhere);
+            return if broken { Err(ActionError::ChainBroken) } else { Ok(*at) };
+        }
+        AskedStart::Last if chained => return Ok(previous.unwrap_or(task.robot.home)),
+        AskedStart::Last => return Err(ActionError::NoStart),
+        AskedStart::Before { .. } if chained => return Err(ActionError::Chained),
+        AskedStart::Before { object, offset } => (object, *offset),
+    };
+    let index = task
+        .scene
+        .object(object)
+        .ok_or_else(|| ActionError::NoObject { object: object.clone() })?;
+    let mut of_object = task.clone();
+    of_object.goal.object = index;
+    let tools = std::slice::from_ref(tool);
+    let workspace = Workspace { task: &of_object, tools, later_stand_off: 0.0 };
+    let length = asked.length.unwrap_or(task.pushes.length);
+    let mut why = Infeasible::NoContact;
+    for part in 0..tool.parts.len() {
+        let start = Start::Placed { part, offset };
+        let push = CandidatePush { start, direction: asked.direction, length };
+        match workspace.place((0, grip_yaw), state, &push, 0, previous) {
+            Ok(start) => return Ok(start),
+            Err(infeasible) => why = infeasible,
+        }
+    }
+    Err(ActionError::CannotPush { tool: tool.name.clone(), object: object.clone(), why })
+}
