@@ -7,8 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::asset::{PlanFile, load_task};
 use crate::report::{moving_picture, plan_picture, solution_json, solution_text};
-use crate::scene::{Engine, Job, Record, Task, Trajectory};
-use crate::sim::Simulator;
+use crate::scene::{Engine, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
@@ -113,18 +112,9 @@ fn write(
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
     let motion = best.plan.motion(&best.tool);
-    let job = Job::stated(&task.scene, motion.clone());
-    let simulated: Vec<(Engine, Trajectory)> = session.compute(|| {
-        [Simulator::planar(), Simulator::spatial()]
-            .iter()
-            .filter(|_| !motion.strokes.is_empty())
-            .map(|engine| {
-                let run = engine.run(&task.scene, &job, Record::Frames);
-                (engine.engine(), run)
-            })
-            .collect()
-    });
-    let picture = plan_picture(task, best, &motion, &simulated).to_svg();
+    let situation = Situation::stated(&task.scene);
+    let replays = session.compute(|| best.replays(task, &situation));
+    let picture = plan_picture(task, best, &motion, &replays).to_svg();
     let stem = format!("{}{suffix}", task.name);
     let path = args.out.join(format!("{stem}.plan.json"));
     let file = PlanFile {
@@ -138,9 +128,9 @@ fn write(
     file.write(&path).map_err(CliError::Output)?;
     let mut written = vec![path];
     written.push(output::write(&args.out, &format!("{stem}.svg"), picture.as_bytes())?);
-    let replay = simulated.iter().find(|(engine, _)| *engine == Engine::Spatial);
-    if let Some((engine, replay)) = replay.filter(|_| args.animate) {
-        let moving = moving_picture(task, &best.plan, &motion, (*engine, replay)).to_svg();
+    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
+    if let Some(replay) = replay.filter(|_| args.animate) {
+        let moving = moving_picture(task, &best.plan, &motion, (Engine::Spatial, replay)).to_svg();
         let name = format!("{stem}.animated.svg");
         written.push(output::write(&args.out, &name, moving.as_bytes())?);
     }

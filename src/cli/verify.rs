@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::asset::{PlanFile, SCHEMA_VERSION};
-use crate::report::{goal_line, outcomes_text, plan_line, push_table};
+use crate::report::{goal_line, outcomes_text, plan_line, push_table, replay_warnings};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 
@@ -42,10 +42,8 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let verdict =
         session.compute(|| verifier.verify(&file.task, &situation, &file.tool, &file.plan));
     spinner.finish_and_clear();
-    for evidence in verdict.evidence.iter().filter(|e| e.disturbance == "nominal") {
-        for warning in &evidence.warnings {
-            session.warn(&warning.to_string());
-        }
+    for warning in replay_warnings(&verdict) {
+        session.warn(&warning);
     }
     if args.json {
         let report = json!({

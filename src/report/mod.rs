@@ -37,7 +37,9 @@ pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
 pub use random::{RandomRun, random_document};
 pub use scope::{far_chart, far_table};
-pub use solution::{moving_picture, outcomes_text, plan_picture, solution_json, solution_text};
+pub use solution::{
+    moving_picture, outcomes_text, plan_picture, replay_warnings, solution_json, solution_text,
+};
 pub use solved::{solved_document, task_table};
 pub use table::{Align, NONE, Table};
 pub use tools::{single_table, tools_document};

@@ -3,7 +3,9 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::SCHEMA_VERSION;
-use crate::scene::{Engine, Evidence, Outcome, Plan, Task, ToolMotion, Trajectory, Verdict};
+use crate::scene::{
+    Engine, Evidence, Outcome, Plan, Task, ToolMotion, Trajectory, Verdict, Warning,
+};
 use crate::solve::{PlanStatus, RankedPlan, Solution};
 
 use super::{
@@ -85,23 +87,23 @@ pub fn outcomes_text(
     text
 }
 
-/// A picture of a plan, with the ways by prediction and in the given simulations.
+/// A picture of a plan, with the ways by prediction and in its replays.
 pub fn plan_picture<'a>(
     task: &'a Task,
     plan: &'a RankedPlan,
     motion: &'a ToolMotion,
-    simulated: &'a [(Engine, Trajectory)],
+    replays: &'a Verdict,
 ) -> ScenePicture<'a> {
     let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
-    errors.extend(simulated.iter().map(|(engine, trajectory)| {
-        let error = task.goal.error(trajectory.outcome());
-        format!("{} {}", engine_name(*engine), millimetres(error))
-    }));
+    let mut tracks = Vec::new();
+    // What does not move has no way to be drawn.
+    for evidence in nominal(replays).filter(|_| !motion.strokes.is_empty()) {
+        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
+        errors.push(format!("{engine} {}", millimetres(error)));
+        let source = Source::Simulated(evidence.engine);
+        tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
+    }
     let allowed = millimetres(task.goal.tolerance);
-    let mut tracks: Vec<Track> = simulated
-        .iter()
-        .map(|(engine, trajectory)| Track { source: Source::Simulated(*engine), trajectory })
-        .collect();
     tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
     ScenePicture {
         title: format!("{}: {}", task.name, plan_line(&plan.plan)),
@@ -166,10 +168,7 @@ fn verdict_line(verdict: Option<&Verdict>) -> String {
     };
     let word = if verdict.passed { "passed" } else { "failed" };
     let does = if verdict.passed { "reaches" } else { "misses" };
-    let disturbed = |evidence: &&Evidence| {
-        evidence.engine == Engine::Spatial && evidence.disturbance != "nominal"
-    };
-    let draws: Vec<&Evidence> = verdict.evidence.iter().filter(disturbed).collect();
+    let draws: Vec<&Evidence> = verdict.disturbed(Engine::Spatial).collect();
     let reached = draws.iter().filter(|evidence| evidence.outcome.reached).count();
     let robust = match draws.len() {
         0 => String::new(),
@@ -178,8 +177,26 @@ fn verdict_line(verdict: Option<&Verdict>) -> String {
     format!("{word}: {does} the goal in the 3-D simulation{robust}")
 }
 
+/// What a reader should know of the nominal replays, once each and with the engines that say so.
+pub fn replay_warnings(verdict: &Verdict) -> Vec<String> {
+    let mut found: Vec<(&Warning, Vec<&'static str>)> = Vec::new();
+    for evidence in nominal(verdict) {
+        for warning in &evidence.warnings {
+            let name = engine_name(evidence.engine);
+            match found.iter_mut().find(|(known, _)| *known == warning) {
+                Some((_, engines)) if engines.contains(&name) => {}
+                Some((_, engines)) => engines.push(name),
+                None => found.push((warning, vec![name])),
+            }
+        }
+    }
+    let line =
+        |(warning, engines): (&Warning, Vec<&str>)| format!("{}: {warning}", engines.join(" and "));
+    found.into_iter().map(line).collect()
+}
+
 fn nominal(verdict: &Verdict) -> impl Iterator<Item = &Evidence> {
-    verdict.evidence.iter().filter(|evidence| evidence.disturbance == "nominal")
+    Engine::ALL.into_iter().filter_map(|engine| verdict.nominal(engine))
 }
 
 fn engine_name(engine: Engine) -> &'static str {

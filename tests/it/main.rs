@@ -15,6 +15,7 @@ mod jointed;
 mod network;
 mod outside;
 mod pairs;
+mod pictures;
 mod planning;
 mod pruning;
 mod random_tasks;

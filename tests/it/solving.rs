@@ -7,7 +7,8 @@ use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::scene::{
-    Frame, Joint, JointKind, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory, Warning,
+    Engine, Frame, Joint, JointKind, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory,
+    Warning,
 };
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{Engine, Plan, Push, PushForm, Situation, Task, Tool, Warning};
+use pushplan::scene::{Disturbance, Engine, Plan, Push, PushForm, Situation, Task, Tool, Warning};
 use pushplan::verify::{Verifier, VerifySettings};
 
 const TASK: &str = "

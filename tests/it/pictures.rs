@@ -1,0 +1,38 @@
+//! The shipped pictures are what the command writes.
+
+use std::path::Path;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// The task whose pictures the README shows.
+const TASK: &str = "tasks/pull-back-behind-wall";
+
+/// Larger pictures make a README slow to load, bytes.
+const LARGEST: usize = 100_000;
+
+#[test]
+fn the_shipped_pictures_are_what_solve_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let out = TempDir::new().expect("a folder");
+    let status = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+        .args(["solve", &format!("{TASK}.yaml"), "--animate", "--quiet", "--out"])
+        .arg(out.path())
+        .current_dir(root)
+        .output()
+        .expect("the command runs")
+        .status;
+    assert_eq!(status.code(), Some(0));
+    for ending in ["svg", "animated.svg"] {
+        let shipped = root.join(format!("{TASK}.{ending}"));
+        let name = shipped.file_name().expect("a name");
+        let read = |path: &Path| std::fs::read_to_string(path).expect("a picture");
+        let written = read(&out.path().join(name));
+        assert!(written.len() < LARGEST, "{ending}: {} bytes", written.len());
+        assert!(
+            read(&shipped) == written,
+            "{TASK}.{ending} is old: run `pushplan solve {TASK}.yaml --animate --out tasks` and \
+             remove the plan file that it leaves there"
+        );
+    }
+}
