@@ -6,8 +6,8 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::asset::ToolLibrary;
-use crate::plan::{ActionError, AskedPush, asked_plan};
 use crate::scene::{Plan, Situation, Task, Tool};
+use crate::solve::{ActionError, AskedPush, asked_plan};
 
 use super::{error::CliError, push_argument::push_argument, session::Session};
 

@@ -1,7 +1,7 @@
 //! The argument of `--push`: a push given by where it starts, or by the object it meets.
 
 use crate::geometry::Vector;
-use crate::plan::{AskedPush, AskedStart};
+use crate::solve::{AskedPush, AskedStart};
 
 /// Help shown wherever a push can be given.
 pub const FORMS: &str = "\

@@ -2,10 +2,8 @@
 //!
 //! [`Search`] enumerates pushes, rolls them out with an effect model and keeps a beam over
 //! sequences; [`refine()`] then moves offsets, directions and lengths of the best candidates
-//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows;
-//! [`asked_plan`] makes a plan of pushes that a person asks for.
+//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows.
 
-mod action;
 mod beam;
 mod candidate;
 mod enumerate;
@@ -20,7 +18,6 @@ mod search;
 mod statistics;
 mod workspace;
 
-pub use action::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
 pub use candidate::{Candidate, CandidatePush, Start};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;

@@ -2,8 +2,10 @@
 //!
 //! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
 //! searches, refines the best and has them verified, and it returns the first plan that passes.
-//! Not finding one is a [`PlanStatus`], not an error.
+//! Not finding one is a [`PlanStatus`], not an error. [`asked_plan`] makes a plan of pushes that a
+//! person asks for.
 
+mod asked;
 mod check;
 mod efforts;
 mod error;
@@ -14,6 +16,7 @@ mod settings;
 mod solution;
 mod solving;
 
+pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
 pub use efforts::EffortLevel;
 pub use error::SolveError;
 pub use planner::{Planner, PlannerBuilder, Prediction};

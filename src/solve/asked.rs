@@ -8,10 +8,9 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::geometry::Vector;
+use crate::plan::{CandidatePush, Infeasible, Start, Workspace};
 use crate::scene::{Job, Plan, Push, PushForm, Record, Situation, State, Task, Tool};
 use crate::sim::Simulator;
-
-use super::{CandidatePush, Infeasible, Start, Workspace};
 
 /// How far a chained push may be said to start from where the last one ended, metres.
 const SAME_PLACE: f64 = 1e-6;
