@@ -1,55 +1,131 @@
-//! `pushplan` chooses a tool and pushes that bring objects on a table to goals, and shows that
-//! the plan works.
+//! Chooses a tool and pushes that bring an object on a table to a goal, and shows that the plan
+//! works.
 //!
-//! The modules form one line; each imports only from those before it:
+//! # The problem
+//!
+//! Given a scene with its physics `θ` (masses, frictions, joints), a set of tools `T` and a goal
+//! pose `g` for one object,
 //!
 //! ```text
-//! geometry ─ scene ─ asset
-//!              ├─ sim ──────────────────────────────── effect ─ plan ─ verify ─ solve ─ bench ─ report ─ cli
-//!              └─ contact ─ graph ─ network ─ rollout ─┘
-//!                  dataset ─ train ─ (weights in models/)
+//! minimise    d( f_θ(x₀, τ, u), g )        over tools τ ∈ T and pushes u = (u₁ … u_n), n ≤ N
+//! subject to  reach       the end effector stays between its smallest and largest distance
+//!             clearance   the tool meets no obstacle, and comes down on nothing
+//!             verified    a replay in a 3-D engine ends within the tolerance of g, at rest
 //! ```
+//!
+//! where `x₀` is where everything stands, `d` the distance of the object from the goal in units of
+//! its tolerance (position, and heading where one is asked for), and `f_θ` where everything comes
+//! to rest after the pushes `u`, each a start, a direction, a length and a speed. Of plans of
+//! different length the shortest that passes is taken.
+//!
+//! `f` is an [`EffectModel`]: a closed-form model of contacts (the *prior*), that prior corrected
+//! by a trained network, or a physics engine, each slower and more exact than the one before. A
+//! [`Planner`] searches candidates with it, refines the best of them by small quadratic programs
+//! and has them replayed in 3-D, by code that shares nothing with the search. Not finding a plan
+//! is an answer, [`PlanStatus`], and not an error.
 //!
 //! # Example
 //!
-//! ```
-//! use pushplan::asset::ToolLibrary;
-//! use pushplan::scene::Task;
-//! use pushplan::solve::{Effort, PlanStatus, Planner};
+//! A can behind a wall is pulled 17 cm towards the robot, with one of the tools that come with the
+//! library:
 //!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let library = ToolLibrary::embedded()?;
-//! let task = Task::load("tasks/pull-back.yaml")?;
-//! let planner = Planner::for_effort(Effort::Standard)?.build();
-//! let solution = planner.solve(&task, &library)?;
-//! assert_eq!(solution.status, PlanStatus::Solved);
-//! println!("use the {}", solution.plans[0].plan.tool);
-//! # Ok(())
-//! # }
 //! ```
+//! use pushplan::{Effort, PlanStatus, Planner, Task, ToolLibrary};
+//!
+//! fn main() -> Result<(), pushplan::Error> {
+//!     let library = ToolLibrary::embedded()?;
+//!     let task = Task::load("tasks/pull-back-behind-wall.yaml")?;
+//!     let planner = Planner::for_effort(Effort::Standard)?.build();
+//!     let solution = planner.solve(&task, &library)?;
+//!     assert_eq!(solution.status, PlanStatus::Solved);
+//!     if let Some(best) = solution.best() {
+//!         println!("use the {}: off by {:.1} mm", best.plan.tool, 1000.0 * best.outcome.error);
+//!     }
+//!     Ok(())
+//! }
+//! ```
+//!
+//! Lengths are metres, angles radians, masses kilograms and times seconds throughout; the table is
+//! the plane z = 0 with z up, and x points forward from the robot's base at the origin.
+//!
+//! # Features
+//!
+//! All are on by default; a library needs none of them, and then no C compiler either. CI counts
+//! the crates that are left, at most 120, with `cargo tree -e normal,build --no-default-features
+//! --prefix none --no-dedupe | sort -u | wc -l`.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `cli` | the command `pushplan` |
+//! | `train` | training of the network, on candle |
+//! | `mimalloc` | a faster allocator for the command, written in C |
+//!
+//! # Internals
+//!
+//! What planning is made of is in [`internals`]: one module for each step, open to read and to
+//! use, but without promises.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+mod error;
+pub mod internals;
+
+#[doc(hidden)]
 pub mod asset;
+#[doc(hidden)]
 pub mod bench;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod contact;
+#[doc(hidden)]
 pub mod dataset;
+#[doc(hidden)]
 pub mod effect;
+#[doc(hidden)]
 pub mod geometry;
+#[doc(hidden)]
 pub mod graph;
+#[doc(hidden)]
 pub mod judge;
+#[doc(hidden)]
 pub mod network;
+#[doc(hidden)]
 pub mod plan;
+#[doc(hidden)]
 pub mod recording;
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod rollout;
+#[doc(hidden)]
 pub mod scene;
+#[doc(hidden)]
 pub mod sim;
+#[doc(hidden)]
 pub mod solve;
+#[doc(hidden)]
 pub mod store;
 #[cfg(feature = "train")]
+#[doc(hidden)]
 pub mod train;
+#[doc(hidden)]
 pub mod verify;
+#[doc(hidden)]
 pub mod watch;
+
+pub use asset::{Faults, ToolLibrary};
+pub use effect::{EffectModel, Prior, Simulated};
+pub use error::Error;
+pub use geometry::{Pose, Shape, Vector};
+pub use scene::{
+    Directions, Goal, Job, Joint, JointKind, Object, Obstacle, Outcome, Part, Plan, Push, PushForm,
+    PushRules, Record, Robot, Scene, State, Task, Tool, ToolChoice, ToolError, ToolMotion,
+    Trajectory, Verdict, Warning,
+};
+pub use sim::Simulator;
+pub use solve::{
+    Effort, PlanStatus, Planner, PlannerBuilder, RankedPlan, Settings, Solution, SolveError,
+};
+pub use verify::Verifier;

@@ -1,5 +1,6 @@
-//! A collection of tools: those shipped with the program, or those of a folder.
+//! A collection of tools: those shipped with the program, those of folders, those made in code.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,6 +24,16 @@ const SHIPPED: &[(&str, &str)] = &[
 ];
 
 /// Tools with unique names, sorted by name.
+///
+/// ```
+/// use pushplan::{Part, Pose, Tool, ToolLibrary};
+///
+/// // 30 cm long, 4 cm wide and 5 cm high, held at its near end.
+/// let bar = Part::cuboid("bar", [0.30, 0.04, 0.05], Pose::new(0.15, 0.0, 0.0));
+/// let library = ToolLibrary::embedded()?.with(Tool::new("bar", [bar])?)?;
+/// assert!(library.get("bar").is_some() && library.get("rake").is_some());
+/// # Ok::<(), pushplan::Error>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct ToolLibrary {
     tools: Vec<Arc<Tool>>,
@@ -34,14 +45,41 @@ impl ToolLibrary {
     /// # Errors
     /// None in a released program: its tests read every shipped tool.
     pub fn embedded() -> Result<Self, Faults> {
-        Self::collect(SHIPPED.iter().map(|(file, text)| (*file, Tool::parse(text, file))))
+        Self::default().and(SHIPPED.iter().map(|(file, text)| (*file, Tool::parse(text, file))))
     }
 
     /// Every `.yaml` or `.yml` file of the folder `path`.
     ///
     /// # Errors
-    /// All faults of all files; a folder that cannot be read or holds no tool.
+    /// All faults of all files; a folder that cannot be read or holds no tool; two tools of one
+    /// name.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        Self::default().with_folder(path)
+    }
+
+    /// These tools and one more.
+    ///
+    /// # Errors
+    /// If the library has a tool of this name already.
+    pub fn with(mut self, tool: Tool) -> Result<Self, Faults> {
+        match self.place(&tool.name) {
+            Ok(_) => {
+                let message = "the library already has a tool of this name";
+                let advice = "rename one of the two";
+                Err(Fault::of_file(&format!("tool `{}`", tool.name), message, advice).into())
+            }
+            Err(place) => {
+                self.tools.insert(place, Arc::new(tool));
+                Ok(self)
+            }
+        }
+    }
+
+    /// These tools and those of every `.yaml` or `.yml` file of the folder `path`.
+    ///
+    /// # Errors
+    /// As [`ToolLibrary::load`]; a file whose tool has the name of one that is here already.
+    pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
         let listing = |error: std::io::Error| Fault::io(path, "read the folder", &error);
         let mut files = Vec::new();
@@ -58,21 +96,12 @@ impl ToolLibrary {
             return Err(Fault::of_file(&path.display().to_string(), message, advice).into());
         }
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        Self::collect(names.iter().map(String::as_str).zip(files.iter().map(Tool::load)))
-    }
-
-    /// A library of these tools; of several with one name only the first is kept.
-    pub fn from_tools(tools: impl IntoIterator<Item = Tool>) -> Self {
-        let mut tools: Vec<Arc<Tool>> = tools.into_iter().map(Arc::new).collect();
-        tools.sort_by(|a, b| a.name.cmp(&b.name));
-        tools.dedup_by(|later, first| later.name == first.name);
-        Self { tools }
+        self.and(names.iter().map(String::as_str).zip(files.iter().map(Tool::load)))
     }
 
     /// The tool called `name`.
     pub fn get(&self, name: &str) -> Option<&Arc<Tool>> {
-        let index = self.tools.binary_search_by(|tool| tool.name.as_str().cmp(name)).ok()?;
-        Some(&self.tools[index])
+        Some(&self.tools[self.place(name).ok()?])
     }
 
     /// All tools, sorted by name.
@@ -90,28 +119,42 @@ impl ToolLibrary {
         self.tools.is_empty()
     }
 
-    fn collect<'a>(
+    /// Where the tool called `name` is, or would have to be.
+    fn place(&self, name: &str) -> Result<usize, usize> {
+        self.tools.binary_search_by(|tool| tool.name.as_str().cmp(name))
+    }
+
+    /// These tools and those read from files, with all faults of all files.
+    fn and<'a>(
+        mut self,
         read: impl IntoIterator<Item = (&'a str, Result<Tool, Faults>)>,
     ) -> Result<Self, Faults> {
         let mut faults = Vec::new();
-        let mut tools: Vec<(&str, Tool)> = Vec::new();
+        let mut files: BTreeMap<String, &str> = BTreeMap::new();
         for (file, tool) in read {
-            match tool {
-                Ok(tool) => match tools.iter().find(|(_, known)| known.name == tool.name) {
-                    Some((first, _)) => faults.push(Fault::of_file(
+            let tool = match tool {
+                Ok(tool) => tool,
+                Err(found) => {
+                    faults.extend(found.0);
+                    continue;
+                }
+            };
+            match self.place(&tool.name) {
+                Ok(_) => {
+                    let first = files.get(&tool.name).copied().unwrap_or("the library");
+                    faults.push(Fault::of_file(
                         file,
                         format!("its tool `{}` is already in {first}", tool.name),
                         "rename one of the two",
-                    )),
-                    None => tools.push((file, tool)),
-                },
-                Err(found) => faults.extend(found.0),
+                    ));
+                }
+                Err(place) => {
+                    files.insert(tool.name.clone(), file);
+                    self.tools.insert(place, Arc::new(tool));
+                }
             }
         }
-        if !faults.is_empty() {
-            return Err(Faults(faults));
-        }
-        Ok(Self::from_tools(tools.into_iter().map(|(_, tool)| tool)))
+        if faults.is_empty() { Ok(self) } else { Err(Faults(faults)) }
     }
 }
 

@@ -130,11 +130,8 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     let name = name_of(root).unwrap_or_default().to_owned();
     let description = root.get("description").and_then(Node::text).unwrap_or_default().to_owned();
     let friction = root.get("friction").and_then(Node::number);
-    // Whether the parts hold together does not depend on the friction value.
-    let assembled =
-        Tool::assemble(name, description, grip, friction.unwrap_or(1.0), parts, &by_hand);
-    match assembled {
-        Ok(tool) => friction.map(|_| tool),
+    match Tool::joined(name, parts, &by_hand) {
+        Ok(tool) => Some(tool.held_at(grip).friction(friction?).described(description)),
         Err(error) => {
             let advice = match error {
                 ToolError::Apart { .. } => {

@@ -17,14 +17,21 @@ pub struct LibraryArgs {
     /// Folder of tool files to choose from instead of the built-in tools
     #[arg(long, value_name = "DIR")]
     tools: Option<PathBuf>,
+    /// Folder of further tool files to choose from
+    #[arg(long, value_name = "DIR")]
+    more_tools: Option<PathBuf>,
 }
 
 impl LibraryArgs {
     /// Reads the tools.
     pub fn load(&self) -> Result<ToolLibrary, CliError> {
-        Ok(match &self.tools {
+        let library = match &self.tools {
             Some(folder) => ToolLibrary::load(folder)?,
             None => ToolLibrary::embedded()?,
+        };
+        Ok(match &self.more_tools {
+            Some(folder) => library.with_folder(folder)?,
+            None => library,
         })
     }
 }

@@ -3,6 +3,8 @@
 //! A safetensors file whose metadata hold one JSON text, the [`Card`]. Reading checks every
 //! name, shape and number: loading into an empty map must never look like success.
 
+use std::fmt;
+
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -21,7 +23,7 @@ const FORMAT: u32 = 1;
 const KEY: &str = "pushplan";
 
 /// Why a weights file cannot be used.
-#[derive(Debug, Error)]
+#[derive(Error)]
 pub enum WeightsError {
     /// Not a safetensors file.
     #[error("not a weights file: {0}")]
@@ -49,6 +51,13 @@ pub enum WeightsError {
     /// A parameter is missing, of a wrong shape or not finite.
     #[error("the weights file is damaged: {0}")]
     Parameter(#[from] ParameterError),
+}
+
+/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+impl fmt::Debug for WeightsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }
 
 /// Held-out errors that planning needs.

@@ -1,5 +1,7 @@
 //! A tool: cuboid parts joined into one rigid piece, held by the end effector at its grip.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -24,9 +26,14 @@ pub struct Part {
 }
 
 impl Part {
-    /// A cuboid of these full extents (metres).
+    /// A solid with its centre at `pose` in the tool frame.
+    pub fn new(name: impl Into<String>, shape: Shape, pose: Pose) -> Self {
+        Self { name: name.into(), shape, pose }
+    }
+
+    /// A cuboid of these full extents (metres) with its centre at `pose` in the tool frame.
     pub fn cuboid(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self { name: name.into(), shape: Shape::Cuboid { size }, pose }
+        Self::new(name, Shape::Cuboid { size }, pose)
     }
 
     /// What it covers on the table.
@@ -53,7 +60,7 @@ pub struct Tool {
 }
 
 /// Why parts do not make a tool.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Error, PartialEq)]
 pub enum ToolError {
     /// No parts at all.
     #[error("a tool needs at least one part")]
@@ -66,24 +73,55 @@ pub enum ToolError {
     },
 }
 
+/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+impl fmt::Debug for ToolError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 fn list(pieces: &[Vec<String>]) -> String {
     let pieces: Vec<String> = pieces.iter().map(|piece| piece.join(" + ")).collect();
     pieces.join(" | ")
 }
 
 impl Tool {
-    /// Joins the parts that touch, and the pairs in `by_hand`, and checks that one piece results.
+    /// Friction value that most shipped tools have: painted wood or plastic.
+    pub const FRICTION: f64 = 0.4;
+
+    /// A tool of `parts`, those that touch joined into one rigid piece, held at the origin of its
+    /// frame, with friction value [`Tool::FRICTION`].
+    ///
+    /// ```
+    /// use pushplan::{Part, Pose, Tool};
+    ///
+    /// // A 30 cm handle along x with a bar across its end, held 2 cm behind the handle.
+    /// let handle = Part::cuboid("handle", [0.30, 0.03, 0.05], Pose::new(0.15, 0.0, 0.0));
+    /// let bar = Part::cuboid("bar", [0.04, 0.16, 0.05], Pose::new(0.32, 0.0, 0.0));
+    /// let rake = Tool::new("rake", [handle, bar])?.held_at(Pose::new(-0.02, 0.0, 0.0));
+    /// assert_eq!(rake.joints, [[0, 1]]);
+    /// # Ok::<(), pushplan::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`ToolError`] if there are no parts or they form several pieces.
-    pub fn assemble(
-        name: String,
-        description: String,
-        grip: Pose,
-        friction: f64,
-        parts: Vec<Part>,
+    pub fn new(
+        name: impl Into<String>,
+        parts: impl IntoIterator<Item = Part>,
+    ) -> Result<Self, ToolError> {
+        Self::joined(name, parts, &[])
+    }
+
+    /// [`Tool::new`] with these pairs of parts, by index, joined even if they do not touch.
+    ///
+    /// # Errors
+    /// [`ToolError`] if there are no parts or they form several pieces.
+    pub fn joined(
+        name: impl Into<String>,
+        parts: impl IntoIterator<Item = Part>,
         by_hand: &[[usize; 2]],
     ) -> Result<Self, ToolError> {
+        let parts: Vec<Part> = parts.into_iter().collect();
         if parts.is_empty() {
             return Err(ToolError::NoParts);
         }
@@ -112,7 +150,45 @@ impl Tool {
             pieces.retain(|p| !p.is_empty());
             return Err(ToolError::Apart { pieces });
         }
-        Ok(Self { name, description, grip, friction, parts, joints })
+        Ok(Self {
+            name: name.into(),
+            description: String::new(),
+            grip: Pose::default(),
+            friction: Self::FRICTION,
+            parts,
+            joints,
+        })
+    }
+
+    /// [`Tool::joined`] with everything at once.
+    ///
+    /// # Errors
+    /// [`ToolError`] if there are no parts or they form several pieces.
+    pub fn assemble(
+        name: String,
+        description: String,
+        grip: Pose,
+        friction: f64,
+        parts: Vec<Part>,
+        by_hand: &[[usize; 2]],
+    ) -> Result<Self, ToolError> {
+        let tool = Self::joined(name, parts, by_hand)?;
+        Ok(tool.described(description).held_at(grip).friction(friction))
+    }
+
+    /// The tool held with the end effector at `grip`, a pose in the tool frame.
+    pub fn held_at(self, grip: Pose) -> Self {
+        Self { grip, ..self }
+    }
+
+    /// The tool with another friction value.
+    pub fn friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
+    }
+
+    /// The tool with one line about it for people.
+    pub fn described(self, description: impl Into<String>) -> Self {
+        Self { description: description.into(), ..self }
     }
 
     /// Pose of the tool frame in the world when the end effector is at `end_effector`.

@@ -1,12 +1,14 @@
 //! Bad input to the planner.
 
+use std::fmt;
+
 use thiserror::Error;
 
 use crate::asset::Faults;
 use crate::scene::Warning;
 
 /// Why a task cannot even be tried. Not finding a plan is no error.
-#[derive(Debug, Error)]
+#[derive(Error)]
 pub enum SolveError {
     /// The task names tools that the library does not have, or there are none.
     #[error(transparent)]
@@ -28,6 +30,13 @@ pub enum SolveError {
         /// What puts it outside of what the model was trained on.
         warnings: Vec<Warning>,
     },
+}
+
+/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+impl fmt::Debug for SolveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }
 
 fn list(warnings: &[Warning]) -> String {

@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
 use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
 use crate::geometry::Pose;
@@ -50,7 +53,7 @@ pub struct PlannerBuilder {
 }
 
 /// What an effect model says about a plan.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Frame by frame.
     pub trajectory: Trajectory,
@@ -124,6 +127,16 @@ impl Planner {
     /// [`SolveError`] for bad input only.
     pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<Solution, SolveError> {
         self.solve_with(task, library, &Unwatched)
+    }
+
+    /// Solves tasks side by side on the current rayon pool, results in the order of the tasks and
+    /// the same as those of [`Planner::solve`], wall-clock times aside, for any number of threads.
+    pub fn solve_all(
+        &self,
+        tasks: &[Task],
+        library: &ToolLibrary,
+    ) -> Vec<Result<Solution, SolveError>> {
+        tasks.par_iter().map(|task| self.solve(task, library)).collect()
     }
 
     /// [`Planner::solve`], telling `watch` what it does.

@@ -40,7 +40,7 @@ pub struct Refinement {
 }
 
 /// A plan with everything that is known about it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RankedPlan {
     /// The plan.
     pub plan: Plan,
@@ -101,7 +101,7 @@ pub struct Statistics {
 }
 
 /// The result of [`super::Planner::solve`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
     /// How it ended.
     pub status: PlanStatus,

@@ -167,6 +167,16 @@ fn imports_are_found_however_they_are_written() {
 }
 
 #[test]
+fn the_documentation_lists_the_rooms_in_their_order() {
+    let text = include_str!("../../src/internals.rs");
+    let paragraphs: Vec<String> =
+        text.split("//!\n").map(|part| part.replace("//!", "").replace('\n', " ")).collect();
+    let order = ROOMS.map(|(room, _)| room).join(", ");
+    let listed = |part: &String| part.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(paragraphs.iter().any(|part| listed(part).starts_with(&order)), "{order}");
+}
+
+#[test]
 fn every_file_says_what_it_is() {
     for (path, text) in ["src", "tests", "benches", "fuzz"].into_iter().flat_map(sources) {
         assert!(text.starts_with("//! "), "{} does not begin with `//! `", path.display());

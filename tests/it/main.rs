@@ -11,6 +11,7 @@ mod crowds;
 mod dataset;
 mod evaluation;
 mod extremes;
+mod facade;
 mod jointed;
 mod network;
 mod outside;

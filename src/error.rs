@@ -1,0 +1,37 @@
+//! One error for all that the public interface returns.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::asset::Faults;
+use crate::network::WeightsError;
+use crate::scene::ToolError;
+use crate::solve::SolveError;
+
+/// Any error of the public interface, for `fn main() -> Result<(), pushplan::Error>`.
+///
+/// Rust prints an error that leaves `main` by [`Debug`](fmt::Debug); here that is the text of
+/// [`Display`](fmt::Display): with file, line and advice where a file is at fault.
+#[derive(Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Files, or tools of one name.
+    #[error(transparent)]
+    Files(#[from] Faults),
+    /// Parts that do not make a tool.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
+    /// A weights file that cannot be used.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
+    /// A task that cannot even be tried.
+    #[error(transparent)]
+    Task(#[from] SolveError),
+}
+
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

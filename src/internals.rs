@@ -1,0 +1,16 @@
+//! The rooms of the crate, for reading and for experiments; nothing here is promised to stay.
+//!
+//! Each imports only from rooms before it, in this order:
+//!
+//! geometry, scene, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
+//! plan, verify, solve, dataset, train, bench, report, cli
+
+#[doc(inline)]
+pub use crate::{
+    asset, bench, contact, dataset, effect, geometry, graph, judge, network, plan, recording,
+    report, rollout, scene, sim, solve, store, verify, watch,
+};
+
+#[cfg(feature = "train")]
+#[doc(inline)]
+pub use crate::train;

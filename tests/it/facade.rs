@@ -1,0 +1,111 @@
+//! What a user of the library sees: errors that read as text, tools that can be added, results
+//! that can be written.
+
+use pushplan::{
+    Effort, Error, Part, Planner, Pose, Simulated, Simulator, Solution, SolveError, Task, Tool,
+    ToolLibrary,
+};
+use rayon::ThreadPoolBuilder;
+
+const TASKS: [&str; 3] = ["tasks/pull-back.yaml", "tasks/too-far.yaml", "tasks/diagonal.yaml"];
+
+fn tasks() -> Vec<Task> {
+    TASKS.iter().map(|path| Task::load(path).unwrap()).collect()
+}
+
+fn planner() -> Planner {
+    Planner::builder(Simulated::new(Simulator::planar())).effort(Effort::Draft).build()
+}
+
+fn bar(name: &str) -> Tool {
+    Tool::new(name, [Part::cuboid("bar", [0.04, 0.2, 0.05], Pose::default())]).unwrap()
+}
+
+/// The wall-clock times are the only part that may differ.
+fn timeless(mut solution: Solution) -> Solution {
+    solution.statistics.timing = Default::default();
+    solution
+}
+
+#[test]
+fn an_error_that_leaves_main_is_printed_as_text() {
+    let faults = Task::parse("scene: {table: {friction: -1}}", "bad.yaml").unwrap_err();
+    let text = faults.to_string();
+    assert!(text.contains("bad.yaml:1:27: error: expected a friction value"), "{text}");
+    assert_eq!(format!("{:?}", Error::from(faults.clone())), text);
+    let boxed: Box<dyn std::error::Error> = Box::new(faults);
+    assert_eq!(format!("{boxed:?}"), text);
+
+    let mut task = tasks().remove(0);
+    task.goal.tolerance = 0.0;
+    let library = ToolLibrary::embedded().unwrap();
+    let refused: SolveError = planner().solve(&task, &library).unwrap_err();
+    let text = "task `pull-back`: the tolerance of the goal is 0, but must be a positive number";
+    assert_eq!(format!("{refused:?}"), text);
+    assert_eq!(format!("{:?}", Error::from(refused)), text);
+
+    let apart = ["left", "right"].map(|name| {
+        let x = if name == "left" { 0.0 } else { 1.0 };
+        Part::cuboid(name, [0.1, 0.1, 0.1], Pose::new(x, 0.0, 0.0))
+    });
+    let error = Error::from(Tool::new("pieces", apart).unwrap_err());
+    assert_eq!(format!("{error:?}"), "the parts form 2 separate pieces: left | right");
+}
+
+#[test]
+fn tools_are_added_to_a_library_unless_their_name_is_taken() {
+    let library = ToolLibrary::embedded().unwrap();
+    let count = library.len();
+    let library = library.with(bar("a-bar")).unwrap().with(bar("my-bar")).unwrap();
+    assert_eq!(library.len(), count + 2);
+    let names: Vec<&str> = library.iter().map(|tool| tool.name.as_str()).collect();
+    assert!(names.is_sorted() && library.get("my-bar").is_some(), "{names:?}");
+    let error = library.clone().with(bar("my-bar")).unwrap_err().to_string();
+    assert!(error.starts_with("tool `my-bar`: error: the library already has"), "{error}");
+
+    let folder = tempfile::tempdir().unwrap();
+    let write = |file: &str, name: &str| {
+        let text = format!(
+            "name: {name}\nfriction: 0.4\nparts: [{{name: p, size: [0.1, 0.1, 0.1], position: [0, 0, 0]}}]\n"
+        );
+        std::fs::write(folder.path().join(file), text).unwrap();
+    };
+    write("paddle-2.yaml", "paddle-2");
+    let more = library.clone().with_folder(folder.path()).unwrap();
+    assert!(more.get("paddle-2").is_some() && more.get("my-bar").is_some());
+    write("rake.yaml", "rake");
+    write("twin.yaml", "paddle-2");
+    let error = library.with_folder(folder.path()).unwrap_err();
+    let [rake, twin] = &error.0[..] else { panic!("two faults: {error}") };
+    assert_eq!(rake.message, "its tool `rake` is already in the library");
+    assert!(
+        twin.message.contains("`paddle-2` is already in ")
+            && twin.message.ends_with("paddle-2.yaml")
+    );
+}
+
+#[test]
+fn a_solution_survives_being_written_as_json() {
+    let library = ToolLibrary::embedded().unwrap();
+    let solution = planner().solve(&tasks()[0], &library).unwrap();
+    let text = serde_json::to_string(&solution).unwrap();
+    assert_eq!(serde_json::from_str::<Solution>(&text).unwrap(), solution);
+}
+
+#[test]
+fn tasks_solved_together_end_as_tasks_solved_alone_for_any_number_of_threads() {
+    let (tasks, library, planner) = (tasks(), ToolLibrary::embedded().unwrap(), planner());
+    let alone: Vec<Solution> =
+        tasks.iter().map(|task| timeless(planner.solve(task, &library).unwrap())).collect();
+    for threads in [1, 3] {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let together = pool.install(|| planner.solve_all(&tasks, &library));
+        for (alone, together) in alone.iter().zip(together) {
+            assert_eq!(alone, &timeless(together.unwrap()), "{threads} threads");
+        }
+    }
+    let mut bad = tasks;
+    bad[1].goal.tolerance = f64::NAN;
+    let outcomes = planner.solve_all(&bad, &library);
+    assert_eq!(outcomes.iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false, true]);
+}
