@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use pushplan::asset::{Faults, PlanFile, ToolLibrary, TrajectoryFile};
 use pushplan::effect::{EffectModel, Network, Prior};
-use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::geometry::Vector;
 use pushplan::network::Weights;
 use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
@@ -25,14 +25,8 @@ const LONGEST: usize = 400;
 const CROWD: usize = 6;
 
 pub fn tool(tool: Tool) {
-    let can = Object {
-        name: "can".into(),
-        shape: Shape::Cylinder { radius: 0.04, height: 0.1 },
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::new(0.5, 0.05, 0.0),
-    };
-    let scene = Scene { table_friction: 0.5, objects: vec![can], ..Scene::default() };
+    let can = Object::cylinder("can", 0.04, 0.1).at(0.5, 0.05, 0.0);
+    let scene = Scene::new([can]);
     let push = Push { start: Vector::zeros(), direction: 0.1, length: 0.1, speed: 0.1 };
     let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.3, &[push], true);
     let rolled = rollout(&Prior::default(), &scene, &motion);
@@ -111,17 +105,7 @@ pub fn weights(weights: Weights) {
         return;
     }
     let model = Network::new(weights);
-    let scene = Scene {
-        table_friction: 0.5,
-        objects: vec![Object {
-            name: "box".into(),
-            shape: Shape::Cuboid { size: [0.08, 0.1, 0.1] },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(0.60, 0.02, 0.2),
-        }],
-        ..Scene::default()
-    };
+    let scene = Scene::new([Object::cuboid("box", [0.08, 0.1, 0.1]).at(0.60, 0.02, 0.2)]);
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let stick = library.get("stick").expect("a shipped tool");
     let push = Push { start: Vector::new(-0.1, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };

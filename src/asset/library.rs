@@ -61,7 +61,8 @@ impl ToolLibrary {
     ///
     /// # Errors
     /// If the library has a tool of this name already.
-    pub fn with(mut self, tool: Tool) -> Result<Self, Faults> {
+    pub fn with(mut self, tool: impl Into<Arc<Tool>>) -> Result<Self, Faults> {
+        let tool = tool.into();
         match self.place(&tool.name) {
             Ok(_) => {
                 let message = "the library already has a tool of this name";
@@ -69,7 +70,7 @@ impl ToolLibrary {
                 Err(Fault::of_file(&format!("tool `{}`", tool.name), message, advice).into())
             }
             Err(place) => {
-                self.tools.insert(place, Arc::new(tool));
+                self.tools.insert(place, tool);
                 Ok(self)
             }
         }

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     effect::EffectModel,
-    geometry::{Pose, Shape},
     scene::{Object, Record, Scene},
 };
 
@@ -91,13 +90,8 @@ fn with_far(suite: &Suite, far: usize) -> Suite {
 fn add_far(scene: &mut Scene, far: usize) {
     for k in 0..far {
         let (row, column) = (k / COLUMNS, k % COLUMNS);
-        scene.objects.push(Object {
-            name: format!("far-{k}"),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(FAR + APART * row as f64, APART * column as f64, 0.0),
-        });
+        let (x, y) = (FAR + APART * row as f64, APART * column as f64);
+        scene.objects.push(Object::cylinder(format!("far-{k}"), 0.05, 0.1).at(x, y, 0.0));
     }
 }
 

@@ -263,13 +263,7 @@ mod tests {
     };
 
     fn cuboid(x: f64, y: f64) -> Object {
-        Object {
-            name: format!("{x} {y}"),
-            shape: Shape::Cuboid { size: [0.06, 0.06, 0.1] },
-            mass: 0.5,
-            friction: 0.5,
-            pose: Pose::new(x, y, 0.0),
-        }
+        Object::cuboid(format!("{x} {y}"), [0.06, 0.06, 0.1]).mass(0.5).friction(0.5).at(x, y, 0.0)
     }
 
     fn can(x: f64, y: f64) -> Object {
@@ -277,7 +271,7 @@ mod tests {
     }
 
     fn table(objects: Vec<Object>) -> Scene {
-        Scene { table_friction: 0.5, objects, ..Scene::default() }
+        Scene::new(objects)
     }
 
     /// The motions of one slow frame in which a round finger of 2 cm, its far side touching the
@@ -288,9 +282,7 @@ mod tests {
             shape: Shape::Cylinder { radius: 0.01, height: 0.1 },
             pose: Pose::new(-0.01, 0.0, 0.0),
         };
-        let tool =
-            Tool::assemble("finger".into(), String::new(), Pose::default(), 0.5, vec![finger], &[])
-                .expect("one part is one piece");
+        let tool = Tool::new("finger", [finger]).expect("one part is one piece").friction(0.5);
         let bodies = Bodies::new(scene, &tool, 0.002, &Physics::stated(scene));
         let state = scene.start();
         let to = Pose { position: travel, heading: 0.0 };
@@ -373,7 +365,7 @@ mod tests {
             JointKind::Prismatic { axis: Vector::y(), limits: None },
         ] {
             let mut scene = table(vec![can(0.03, -0.015), can(0.11, 0.0)]);
-            scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
+            scene.joints.push(Joint::new([0, 1], kind));
             let motions = prior(&scene, Vector::new(0.008, 0.0));
             let joint = &scene.joints[0];
             let frames = joint.frames(&scene.objects);

@@ -214,28 +214,22 @@ mod tests {
     use super::*;
     use crate::{
         contact::{Pairs, Partner, SceneIndex},
-        geometry::{Pose, Shape},
+        geometry::Pose,
         scene::{Body, GRAVITY, Object, Part, Physics, Scene, Tool},
     };
 
     /// A can far off, one that a bar touches and one behind that.
     fn scene() -> Scene {
-        let can = |x: f64| Object {
-            name: format!("{x}"),
-            shape: Shape::Cylinder { radius: 0.03, height: 0.1 },
-            mass: 0.5,
-            friction: 0.5,
-            pose: Pose::new(x, 0.0, 0.0),
+        let can = |x: f64| {
+            Object::cylinder(format!("{x}"), 0.03, 0.1).mass(0.5).friction(0.5).at(x, 0.0, 0.0)
         };
-        let objects = vec![can(1.0), can(0.03), can(0.0905)];
-        Scene { table_friction: 0.5, objects, ..Scene::default() }
+        Scene::new([can(1.0), can(0.03), can(0.0905)])
     }
 
     fn bodies(scene: &Scene) -> Bodies {
         let bar = Part::cuboid("bar", [0.02, 0.1, 0.1], Pose::new(-0.01, 0.0, 0.0));
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.5, vec![bar], &[]);
-        Bodies::new(scene, &tool.expect("one piece"), 0.002, &Physics::stated(scene))
+        let tool = Tool::new("bar", [bar]).expect("one piece").friction(0.5);
+        Bodies::new(scene, &tool, 0.002, &Physics::stated(scene))
     }
 
     /// Slow, so that friction with the table is nearly all that resists.

@@ -127,34 +127,23 @@ mod tests {
     use super::*;
     use crate::{
         contact::{ListIndex, Partner, SceneIndex},
-        geometry::{Pose, Shape},
-        scene::{Joint, JointKind, Object, Part, Physics, Scene, Tool},
+        geometry::Pose,
+        scene::{JointKind, Object, Part, Physics, Scene, Tool},
     };
 
     #[test]
     fn what_is_taken_keeps_its_joints_and_groups_under_new_numbers() {
-        let object = |k: usize| Object {
-            name: format!("{k}"),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-            mass: 1.0 + k as f64,
-            friction: 0.4,
-            pose: Pose::new(0.1 * k as f64, 0.0, 0.0),
+        let object = |k: usize| {
+            let x = 0.1 * k as f64;
+            Object::cylinder(format!("{k}"), 0.05, 0.1).mass(1.0 + k as f64).at(x, 0.0, 0.0)
         };
-        let joint = |between, kind| Joint { between, kind, guessed: false };
         let slide = JointKind::Prismatic { axis: crate::geometry::Vector::x(), limits: None };
-        let scene = Scene {
-            table_friction: 0.5,
-            objects: (0..6).map(object).collect(),
-            joints: vec![
-                joint([0, 1], JointKind::Fixed),
-                joint([2, 5], JointKind::Fixed),
-                joint([5, 4], slide),
-            ],
-            ..Scene::default()
-        };
+        let scene = Scene::new((0..6).map(object))
+            .with_joint([0, 1], JointKind::Fixed)
+            .with_joint([2, 5], JointKind::Fixed)
+            .with_joint([5, 4], slide);
         let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![part], &[]);
+        let tool = Tool::new("bar", [part]).map(|tool| tool.friction(0.3));
         let whole = Bodies::new(&scene, &tool.expect("one piece"), 0.0, &Physics::stated(&scene));
         let mut subset = Subset::<SceneIndex, ListIndex>::default();
         subset.list_all(&whole);

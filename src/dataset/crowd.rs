@@ -29,7 +29,7 @@ pub(super) fn crowd(
 ) -> Scene {
     let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
     let (_, masses) = mass_span(rng, ranges);
-    let mut scene = Scene { table_friction: friction(rng), ..Scene::default() };
+    let mut scene = Scene::new([]).on_table(friction(rng));
     for index in 0..count {
         let cylinder = rng.random_bool(block.cylinders);
         let solids = if cylinder { Solids::Cylinders } else { Solids::Cuboids };

@@ -43,7 +43,7 @@ impl<'a> HandPlay<'a> {
             description: "A round hand.".to_owned(),
             grip: Pose::default(),
             friction: uniform(rng, ranges.friction.low, ranges.friction.high),
-            parts: vec![Part { name: "hand".to_owned(), shape, pose: Pose::default() }],
+            parts: vec![Part::new("hand", shape, Pose::default())],
             joints: Vec::new(),
         };
         Self {

@@ -43,7 +43,7 @@ pub(super) fn join_neighbours(rng: &mut Pcg64, scene: &mut Scene, block: &Block)
         group.iter_mut().filter(|g| **g == gone).for_each(|g| *g = kept);
         let kind = random_kind(rng, scene, [a, b], between, &block.kinds);
         let between = if rng.random::<bool>() { [a, b] } else { [b, a] };
-        scene.joints.push(Joint { between, kind, guessed: false });
+        scene.joints.push(Joint::new(between, kind));
     }
 }
 

@@ -46,7 +46,7 @@ pub struct Crowd {
 pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
     let (middle, masses) = mass_span(rng, ranges);
-    let mut scene = Scene { table_friction: friction(rng), ..Scene::default() };
+    let mut scene = Scene::new([]).on_table(friction(rng));
     for index in 0..crowd.count {
         let shape = random_shape(rng, ranges, crowd.solids);
         let pose = if index == 0 {

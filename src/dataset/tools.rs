@@ -129,7 +129,7 @@ fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
         description: "A single round part.".to_owned(),
         grip: Pose::default(),
         friction: uniform(rng, ranges.friction.low, ranges.friction.high),
-        parts: vec![Part { name: "part-1".to_owned(), shape, pose }],
+        parts: vec![Part::new("part-1", shape, pose)],
         joints: Vec::new(),
     }
 }

@@ -83,9 +83,7 @@ mod tests {
         let objects = vec![can(0.1, 0.0), can(0.165, 0.0), can(0.23, 0.0), can(0.1, 0.5)];
         let scene = Scene { table_friction: 0.4, objects, ..Scene::default() };
         let bar = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![bar], &[]);
-        let tool = Arc::new(tool.expect("one part is one piece"));
+        let tool = Arc::new(Tool::new("bar", [bar]).expect("one piece").friction(0.3));
         let job = |y: f64| {
             let push =
                 Push { start: Vector::new(0.0, y), direction: 0.0, length: 0.15, speed: 0.1 };

@@ -52,25 +52,17 @@ impl EffectModel for Simulated {
 mod tests {
     use std::sync::Arc;
 
-    use crate::geometry::{Pose, Shape, Vector};
+    use crate::geometry::{Pose, Vector};
     use crate::scene::{Object, Part, Push, Tool, ToolMotion};
 
     use super::*;
 
     #[test]
     fn trajectories_come_in_the_order_of_the_jobs_each_under_its_physics() {
-        let puck = Object {
-            name: "puck".into(),
-            shape: Shape::Cylinder { radius: 0.03, height: 0.05 },
-            mass: 0.2,
-            friction: 0.3,
-            pose: Pose::new(0.05, 0.0, 0.0),
-        };
-        let scene = Scene { table_friction: 0.3, objects: vec![puck], ..Scene::default() };
+        let puck = Object::cylinder("puck", 0.03, 0.05).mass(0.2).friction(0.3).at(0.05, 0.0, 0.0);
+        let scene = Scene::new([puck]).on_table(0.3);
         let bar = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.3, vec![bar], &[]);
-        let tool = Arc::new(tool.expect("one part is one piece"));
+        let tool = Arc::new(Tool::new("bar", [bar]).expect("one piece").friction(0.3));
         let jobs: Vec<Job> = (0..6)
             .map(|k| {
                 let length = 0.04 + 0.02 * f64::from(k);

@@ -152,16 +152,9 @@ mod tests {
     #[test]
     fn frames_are_aligned_by_stroke_and_rest_goes_on() {
         let solid = Shape::Cylinder { radius: 0.05, height: 0.1 };
-        let can = Object {
-            name: "can".into(),
-            shape: solid,
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::default(),
-        };
-        let hand = Part { name: "hand".into(), shape: solid, pose: Pose::default() };
-        let tool =
-            Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![hand], &[]);
+        let can = Object::new("can", solid);
+        let hand = Part::new("hand", solid, Pose::default());
+        let tool = Tool::new("hand", [hand]);
         let from = Pose::new(1.0, 0.0, 0.0);
         let to = Pose::new(1.02, 0.0, 0.0);
         let strokes = vec![Stroke { from, to, duration: 0.2, settle: true }; 2];

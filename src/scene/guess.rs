@@ -47,7 +47,7 @@ impl Physics {
             for (b, second) in scene.objects.iter().enumerate().skip(a + 1) {
                 if gap(first, second) < NEARLY_TOUCHING {
                     let kind = JointKind::Fixed;
-                    joints.push(Joint { between: [a, b], kind, guessed: false });
+                    joints.push(Joint::new([a, b], kind));
                 }
             }
         }
@@ -83,26 +83,19 @@ fn closest(first: &Object, second: &Object) -> Option<ContactPoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Pose, Shape};
     use crate::scene::Span;
 
     fn scene() -> Scene {
-        let object = |name: &str, x, y| Object {
-            name: name.into(),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(x, y, 0.3),
-        };
+        let object = |name: &str, x, y| Object::cylinder(name, 0.05, 0.1).at(x, y, 0.3);
         let objects = vec![object("a", 0.0, 0.0), object("b", 0.102, 0.0), object("c", 0.1, 0.2)];
         let limits = Some(Span::new(-0.1, 0.1));
-        let joint = |between, kind| Joint { between, kind, guessed: false };
+        let joint = |between, kind| Joint::new(between, kind);
         let joints = vec![
             joint([0, 1], JointKind::Revolute { at: Vector::new(0.01, 0.02), limits }),
             joint([1, 2], JointKind::Prismatic { axis: Vector::x(), limits }),
             joint([0, 2], JointKind::Fixed),
         ];
-        Scene { table_friction: 0.5, objects, joints, ..Scene::default() }
+        Scene { joints, ..Scene::new(objects) }
     }
 
     #[test]
@@ -129,6 +122,6 @@ mod tests {
         assert!(stated.without_joints().joints.is_empty());
         let fixed = stated.with_contacts_fixed(&scene);
         let kind = JointKind::Fixed;
-        assert_eq!(fixed.joints, [Joint { between: [0, 1], kind, guessed: false }]);
+        assert_eq!(fixed.joints, [Joint::new([0, 1], kind)]);
     }
 }

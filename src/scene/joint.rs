@@ -42,6 +42,11 @@ pub struct Joint {
 }
 
 impl Joint {
+    /// A joint between two objects, by index, its anchor or axis known.
+    pub fn new(between: [usize; 2], kind: JointKind) -> Self {
+        Self { between, kind, guessed: false }
+    }
+
     /// The joint's own frame as seen from each of its two objects. At the poses that the scene
     /// states (not where the objects may have come since) the two coincide. A revolute joint
     /// turns about the frames' origin; a prismatic one slides along their x axis.

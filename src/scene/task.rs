@@ -19,6 +19,12 @@ pub struct Robot {
 }
 
 impl Robot {
+    /// A robot whose end effector reaches from `min` to `max` metres from the world's origin, with
+    /// its home `min` metres in front of it.
+    pub fn reaching(min: f64, max: f64) -> Self {
+        Self { home: Vector::new(min, 0.0), reach_min: min, reach_max: max }
+    }
+
     /// Whether the end effector can stand at `position` (metres).
     pub fn reaches(&self, position: Vector) -> bool {
         (self.reach_min..=self.reach_max).contains(&position.norm())
@@ -100,6 +106,32 @@ pub struct PushRules {
     pub lift: f64,
 }
 
+impl PushRules {
+    /// Travel of a push until said otherwise, metres: that of the reference benchmark.
+    pub const LENGTH: f64 = 0.20;
+    /// Speed of a push until said otherwise, m/s: that of the reference benchmark.
+    pub const SPEED: f64 = 0.10;
+    /// Height of the tool above the table until said otherwise, metres: clear of it, yet below
+    /// every object.
+    pub const LIFT: f64 = 0.002;
+}
+
+/// One placed push in a principal direction, with the grip yaws of the reference benchmark.
+impl Default for PushRules {
+    fn default() -> Self {
+        Self {
+            form: PushForm::Placed,
+            directions: Directions::Principal,
+            offsets: Offsets::Effort,
+            grip_yaws: [0.0, 90.0, -90.0].map(f64::to_radians).to_vec(),
+            length: Self::LENGTH,
+            speed: Self::SPEED,
+            max_count: 1,
+            lift: Self::LIFT,
+        }
+    }
+}
+
 /// Where an object must come to rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
@@ -114,6 +146,17 @@ pub struct Goal {
 }
 
 impl Goal {
+    /// The centre of object `object` (an index into [`Scene::objects`]) at (`x`, `y`), off by at
+    /// most `tolerance`; all metres.
+    pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
+        Self { object, position: Vector::new(x, y), tolerance, heading: None }
+    }
+
+    /// The goal with a heading that may be off by at most `tolerance`, radians.
+    pub fn facing(self, heading: f64, tolerance: f64) -> Self {
+        Self { heading: Some((heading, tolerance)), ..self }
+    }
+
     /// Distance of the object's centre from the goal, metres.
     pub fn error(&self, state: &State) -> f64 {
         (state.poses[self.object].position - self.position).norm()
@@ -162,4 +205,40 @@ pub struct Task {
     pub pushes: PushRules,
     /// What to reach.
     pub goal: Goal,
+}
+
+impl Task {
+    /// A task that allows every tool of the library and one push, see [`PushRules::default`].
+    ///
+    /// ```
+    /// use pushplan::{Goal, Object, PushRules, Robot, Scene, Task};
+    ///
+    /// let scene = Scene::new([Object::cylinder("can", 0.05, 0.10).at(0.62, 0.10, 0.0)]);
+    /// let goal = Goal::new(0, [0.45, 0.10], 0.02);
+    /// let task = Task::new("pull", scene, Robot::reaching(0.1, 0.5), goal)
+    ///     .choosing(["stick", "l-hook"])
+    ///     .pushing(PushRules { max_count: 2, ..PushRules::default() });
+    /// assert_eq!(task.pushes.speed, 0.10);
+    /// ```
+    pub fn new(name: impl Into<String>, scene: Scene, robot: Robot, goal: Goal) -> Self {
+        Self {
+            name: name.into(),
+            description: String::new(),
+            scene,
+            robot,
+            tools: ToolChoice::All,
+            pushes: PushRules::default(),
+            goal,
+        }
+    }
+
+    /// The task with a choice of these tools only, by name.
+    pub fn choosing<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
+        Self { tools: ToolChoice::Named(tools.into_iter().map(Into::into).collect()), ..self }
+    }
+
+    /// The task with other rules for pushes.
+    pub fn pushing(self, pushes: PushRules) -> Self {
+        Self { pushes, ..self }
+    }
 }

@@ -160,22 +160,6 @@ impl Tool {
         })
     }
 
-    /// [`Tool::joined`] with everything at once.
-    ///
-    /// # Errors
-    /// [`ToolError`] if there are no parts or they form several pieces.
-    pub fn assemble(
-        name: String,
-        description: String,
-        grip: Pose,
-        friction: f64,
-        parts: Vec<Part>,
-        by_hand: &[[usize; 2]],
-    ) -> Result<Self, ToolError> {
-        let tool = Self::joined(name, parts, by_hand)?;
-        Ok(tool.described(description).held_at(grip).friction(friction))
-    }
-
     /// The tool held with the end effector at `grip`, a pose in the tool frame.
     pub fn held_at(self, grip: Pose) -> Self {
         Self { grip, ..self }

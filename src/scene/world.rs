@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Shape};
 
-use super::{Joint, REST_SPEED, State};
+use super::{Joint, JointKind, REST_SPEED, State};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,7 +34,64 @@ pub struct Obstacle {
     pub friction: f64,
 }
 
+impl Object {
+    /// Mass of an object until said otherwise, kg: a full can.
+    pub const MASS: f64 = 0.4;
+
+    /// Friction value of an object until said otherwise: wood or plastic.
+    pub const FRICTION: f64 = 0.4;
+
+    /// An object at the origin, of mass [`Object::MASS`] and friction value [`Object::FRICTION`].
+    ///
+    /// ```
+    /// use pushplan::Object;
+    ///
+    /// let can = Object::cylinder("can", 0.05, 0.10).mass(0.35).at(0.62, 0.10, 0.0);
+    /// let crate_ = Object::cuboid("crate", [0.3, 0.2, 0.15]).mass(4.0).friction(0.6);
+    /// assert_eq!((can.shape.height(), crate_.pose.heading), (0.10, 0.0));
+    /// ```
+    pub fn new(name: impl Into<String>, shape: Shape) -> Self {
+        let (mass, friction, pose) = (Self::MASS, Self::FRICTION, Pose::default());
+        Self { name: name.into(), shape, mass, friction, pose }
+    }
+
+    /// [`Object::new`] for an upright cylinder, metres.
+    pub fn cylinder(name: impl Into<String>, radius: f64, height: f64) -> Self {
+        Self::new(name, Shape::Cylinder { radius, height })
+    }
+
+    /// [`Object::new`] for a cuboid of these full extents along its x, y and z, metres.
+    pub fn cuboid(name: impl Into<String>, size: [f64; 3]) -> Self {
+        Self::new(name, Shape::Cuboid { size })
+    }
+
+    /// The object with another mass, kg.
+    pub fn mass(self, mass: f64) -> Self {
+        Self { mass, ..self }
+    }
+
+    /// The object with another friction value.
+    pub fn friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
+    }
+
+    /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.
+    pub fn at(self, x: f64, y: f64, heading: f64) -> Self {
+        Self { pose: Pose::new(x, y, heading), ..self }
+    }
+}
+
 impl Obstacle {
+    /// A fixed cuboid of these full extents (metres), of the table's usual friction value.
+    pub fn new(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
+        Self { name: name.into(), size, pose, friction: Scene::FRICTION }
+    }
+
+    /// The obstacle with another friction value.
+    pub fn friction(self, friction: f64) -> Self {
+        Self { friction, ..self }
+    }
+
     /// Its solid.
     pub fn shape(&self) -> Shape {
         Shape::Cuboid { size: self.size }
@@ -55,6 +112,32 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Friction value of the table and of obstacles until said otherwise: plain wood.
+    pub const FRICTION: f64 = 0.5;
+
+    /// A table of friction value [`Scene::FRICTION`] with these objects.
+    pub fn new(objects: impl IntoIterator<Item = Object>) -> Self {
+        let objects = objects.into_iter().collect();
+        Self { table_friction: Self::FRICTION, objects, joints: Vec::new(), obstacles: Vec::new() }
+    }
+
+    /// The scene on a table with another friction value.
+    pub fn on_table(self, friction: f64) -> Self {
+        Self { table_friction: friction, ..self }
+    }
+
+    /// The scene with one more joint.
+    pub fn with_joint(mut self, between: [usize; 2], kind: JointKind) -> Self {
+        self.joints.push(Joint::new(between, kind));
+        self
+    }
+
+    /// The scene with one more obstacle.
+    pub fn with_obstacle(mut self, obstacle: Obstacle) -> Self {
+        self.obstacles.push(obstacle);
+        self
+    }
+
     /// Every object at its start, at rest.
     pub fn start(&self) -> State {
         State::at_rest(self.objects.iter().map(|object| object.pose).collect())

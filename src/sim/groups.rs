@@ -104,14 +104,10 @@ mod tests {
 
     fn scene() -> (Scene, State) {
         let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
-        let object = |k: usize| Object {
-            name: format!("o{k}"),
-            shape,
-            mass: 1.0 + k as f64,
-            friction: 0.4,
-            pose: Pose::new(0.1 * k as f64, 0.0, 0.3),
+        let object = |k: usize| {
+            Object::new(format!("o{k}"), shape).mass(1.0 + k as f64).at(0.1 * k as f64, 0.0, 0.3)
         };
-        let joint = |a, b, kind| Joint { between: [a, b], kind, guessed: false };
+        let joint = |a, b, kind| Joint::new([a, b], kind);
         let pin = JointKind::Revolute { at: Vector::zeros(), limits: None };
         let joints = vec![
             joint(3, 2, JointKind::Fixed),
@@ -120,7 +116,7 @@ mod tests {
             joint(0, 2, JointKind::Fixed),
         ];
         let objects: Vec<Object> = (0..5).map(object).collect();
-        let scene = Scene { table_friction: 0.5, objects, joints, ..Scene::default() };
+        let scene = Scene { joints, ..Scene::new(objects) };
         let state = scene.start();
         (scene, state)
     }

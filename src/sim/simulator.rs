@@ -17,26 +17,19 @@ pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use pushplan::geometry::{Pose, Shape, Vector};
-/// use pushplan::scene::{Job, Object, Part, Push, Record, Scene, Tool, ToolMotion};
-/// use pushplan::sim::Simulator;
-///
-/// let can = Object {
-///     name: "can".into(),
-///     shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-///     mass: 0.4,
-///     friction: 0.4,
-///     pose: Pose::new(0.2, 0.0, 0.0),
+/// use pushplan::{
+///     Job, Object, Part, Pose, Push, Record, Scene, Simulator, Tool, ToolMotion, Vector,
 /// };
-/// let scene = Scene { table_friction: 0.5, objects: vec![can], ..Scene::default() };
+///
+/// let scene = Scene::new([Object::cylinder("can", 0.05, 0.1).at(0.2, 0.0, 0.0)]);
 /// let bar = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
-/// let tool =
-///     Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![bar], &[]).unwrap();
+/// let tool = Arc::new(Tool::new("bar", [bar])?);
 /// let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
-/// let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.0, &[push], true);
+/// let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
 ///
 /// let trajectory = Simulator::planar().run(&scene, &Job::stated(&scene, motion), Record::Outcome);
 /// assert!((trajectory.outcome().poses[0].position.x - 0.26).abs() < 2e-3);
+/// # Ok::<(), pushplan::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Simulator {

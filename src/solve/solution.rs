@@ -45,6 +45,7 @@ pub struct RankedPlan {
     /// The plan.
     pub plan: Plan,
     /// The tool that it names.
+    #[serde(with = "shared")]
     pub tool: Arc<Tool>,
     /// What the effect model predicts, frame by frame.
     pub predicted: Trajectory,
@@ -117,5 +118,22 @@ impl Solution {
     /// The plan to use: the verified one if solved, otherwise the nearest.
     pub fn best(&self) -> Option<&RankedPlan> {
         self.plans.first()
+    }
+}
+
+/// A shared tool is written as the tool itself.
+mod shared {
+    use std::sync::Arc;
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use crate::scene::Tool;
+
+    pub fn serialize<S: Serializer>(tool: &Arc<Tool>, serializer: S) -> Result<S::Ok, S::Error> {
+        Tool::serialize(tool, serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Tool>, D::Error> {
+        Tool::deserialize(deserializer).map(Arc::new)
     }
 }

@@ -72,29 +72,17 @@ fn disturb(poses: &mut [Pose], group: &[usize], first: usize, shift: Vector, tur
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Shape;
-    use crate::scene::{Joint, JointKind, Object, Part, Scene};
+    use crate::scene::{JointKind, Object, Part, Scene};
 
     #[test]
     fn a_jointed_group_is_disturbed_as_one_piece_and_by_little() {
-        let object = |k: usize| Object {
-            name: format!("o{k}"),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(0.12 * k as f64, 0.0, 0.2),
-        };
-        let joint = |a, b| Joint { between: [a, b], kind: JointKind::Fixed, guessed: false };
-        let scene = Scene {
-            table_friction: 0.5,
-            objects: (0..5).map(object).collect(),
-            joints: vec![joint(3, 1), joint(3, 4)],
-            ..Scene::default()
-        };
+        let object =
+            |k: usize| Object::cylinder(format!("o{k}"), 0.05, 0.1).at(0.12 * k as f64, 0.0, 0.2);
+        let scene = Scene::new((0..5).map(object))
+            .with_joint([3, 1], JointKind::Fixed)
+            .with_joint([3, 4], JointKind::Fixed);
         let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[])
-                .unwrap();
+        let tool = Tool::new("bar", [part]).unwrap();
         let situation = Situation::stated(&scene);
         for draw in 0..20 {
             let start = Disturbed::draw(&situation, &tool, 1, draw).situation.start;

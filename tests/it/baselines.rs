@@ -6,41 +6,27 @@ use pushplan::{
     effect::{
         Assuming, Assumption, Disturbed, EffectModel, Job, Mistake, Projection, Simulated, Still,
     },
-    geometry::{Pose, Shape, Vector, wrap_angle},
-    scene::{
-        Joint, JointKind, Object, Part, Push, Record, Scene, Span, State, Tool, ToolMotion,
-        Trajectory,
-    },
+    geometry::{Pose, Vector, wrap_angle},
+    scene::{JointKind, Object, Record, Scene, Span, State, Trajectory},
     sim::Simulator,
 };
 
+use crate::fixtures::hand_push;
+
 /// A cylinder of 5 cm radius.
 fn can(name: &str, x: f64, y: f64) -> Object {
-    Object {
-        name: name.into(),
-        shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::new(x, y, 0.0),
-    }
+    Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0)
 }
 
 /// Two cans beside each other across the push, the first one straight in front of the hand.
 fn pair(kind: JointKind) -> Scene {
-    let joint = Joint { between: [0, 1], kind, guessed: false };
     let objects = vec![can("a", 0.12, 0.0), can("b", 0.12, 0.101)];
-    Scene { table_friction: 0.5, objects, joints: vec![joint], ..Scene::default() }
+    Scene::new(objects).with_joint([0, 1], kind)
 }
 
 /// A round hand pushes 0.3 m along x.
 fn job(scene: &Scene) -> Job {
-    let hand = Shape::Cylinder { radius: 0.05, height: 0.1 };
-    let hand = Part { name: "hand".into(), shape: hand, pose: Pose::default() };
-    let tool = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![hand], &[]);
-    let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.3, speed: 0.1 };
-    let tool = Arc::new(tool.expect("one part is one piece"));
-    let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
-    Job::stated(scene, motion)
+    Job::stated(scene, hand_push(Vector::zeros(), 0.0, 0.3, 0.1))
 }
 
 fn roll(model: &dyn EffectModel, scene: &Scene) -> Trajectory {

@@ -262,7 +262,7 @@ fn a_benchmark_is_not_data() {
 #[test]
 fn the_shipped_tools_are_recognised_and_within_the_trained_ranges() {
     let config = DatasetConfig::default();
-    let scene = pushplan::scene::Scene { table_friction: 0.5, ..Default::default() };
+    let scene = pushplan::scene::Scene::new([]);
     let library = ToolLibrary::embedded().unwrap();
     assert!(library.len() >= 10);
     for tool in &library {

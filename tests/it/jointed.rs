@@ -4,7 +4,7 @@ use pushplan::{
     effect::{EffectModel, Network, Prior},
     geometry::{Pose, Shape, Vector, perpendicular, wrap_angle},
     network::Weights,
-    scene::{Job, Joint, JointKind, Object, Record, Scene, Span, State, Stroke, ToolMotion},
+    scene::{Job, Joint, JointKind, Record, Scene, Span, State, Stroke, ToolMotion},
 };
 
 use super::network::{assert_same, half_stroke, object, stroke, tool, weights};
@@ -17,18 +17,17 @@ fn scene() -> Scene {
         object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
         cylinder(0.17, 0.03),
         object(Shape::Cuboid { size: [0.06, 0.05, 0.1] }, 0.19, 0.10, 0.7),
-        Object { mass: 0.9, ..cylinder(0.12, 0.14) },
+        cylinder(0.12, 0.14).mass(0.9),
     ];
-    let joint = |between, kind| Joint { between, kind, guessed: false };
     let limits = Some(Span::new(-0.3, 0.2));
     let at = Vector::new(0.125, 0.02);
     let axis = Vector::new(0.8, 0.6);
     let joints = vec![
-        joint([0, 1], JointKind::Revolute { at, limits }),
-        joint([1, 2], JointKind::Prismatic { axis, limits: None }),
-        joint([2, 3], JointKind::Fixed),
+        Joint::new([0, 1], JointKind::Revolute { at, limits }),
+        Joint::new([1, 2], JointKind::Prismatic { axis, limits: None }),
+        Joint::new([2, 3], JointKind::Fixed),
     ];
-    Scene { table_friction: 0.4, objects, joints, obstacles: Vec::new() }
+    Scene { joints, ..Scene::new(objects).on_table(0.4) }
 }
 
 /// Random weights that disturb the prior but do not drown it: ten frames of noise through three
@@ -151,14 +150,9 @@ fn what_nothing_pushes_stays_jointed_or_not() {
 fn a_fixed_pair_is_predicted_as_the_one_body_it_is() {
     // Two squares side by side, fixed, are one rectangle with twice the mass.
     let square = |y| object(Shape::Cuboid { size: [0.06, 0.06, 0.1] }, 0.06, y, 0.0);
-    let both = Scene {
-        table_friction: 0.4,
-        objects: vec![square(0.0), square(0.06)],
-        joints: vec![Joint { between: [0, 1], kind: JointKind::Fixed, guessed: false }],
-        ..Scene::default()
-    };
-    let whole =
-        Object { mass: 0.8, ..object(Shape::Cuboid { size: [0.06, 0.12, 0.1] }, 0.06, 0.03, 0.0) };
+    let both =
+        Scene::new([square(0.0), square(0.06)]).on_table(0.4).with_joint([0, 1], JointKind::Fixed);
+    let whole = object(Shape::Cuboid { size: [0.06, 0.12, 0.1] }, 0.06, 0.03, 0.0).mass(0.8);
     let one = Scene { objects: vec![whole], joints: Vec::new(), ..both.clone() };
     let (pair, single) =
         (rollout(&Prior::default(), &both, stroke()), rollout(&Prior::default(), &one, stroke()));

@@ -12,6 +12,7 @@ mod dataset;
 mod evaluation;
 mod extremes;
 mod facade;
+mod fixtures;
 mod jointed;
 mod network;
 mod outside;

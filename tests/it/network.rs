@@ -48,35 +48,20 @@ pub(super) fn weights(width: usize) -> Weights {
 }
 
 pub(super) fn object(shape: Shape, x: f64, y: f64, heading: f64) -> Object {
-    Object {
-        name: format!("{x} {y}"),
-        shape,
-        mass: 0.4,
-        friction: 0.5,
-        pose: Pose::new(x, y, heading),
-    }
+    Object::new(format!("{x} {y}"), shape).friction(0.5).at(x, y, heading)
 }
 
 /// A box against the tool, a cylinder against the box, a heavier box beside both, an obstacle.
 fn scene() -> Scene {
-    Scene {
-        table_friction: 0.4,
-        objects: vec![
-            object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
-            object(Shape::Cylinder { radius: 0.04, height: 0.1 }, 0.165, 0.02, 0.0),
-            Object {
-                mass: 1.1,
-                ..object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7)
-            },
-        ],
-        joints: Vec::new(),
-        obstacles: vec![Obstacle {
-            name: "wall".into(),
-            size: [0.02, 0.2, 0.1],
-            pose: Pose::new(0.22, -0.05, 0.1),
-            friction: 0.3,
-        }],
-    }
+    Scene::new([
+        object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
+        object(Shape::Cylinder { radius: 0.04, height: 0.1 }, 0.165, 0.02, 0.0),
+        object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7).mass(1.1),
+    ])
+    .on_table(0.4)
+    .with_obstacle(
+        Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.22, -0.05, 0.1)).friction(0.3),
+    )
 }
 
 pub(super) fn tool() -> Arc<Tool> {
@@ -86,8 +71,7 @@ pub(super) fn tool() -> Arc<Tool> {
         part("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
     ];
     let joints = [[0, 1]];
-    let tool = Tool::assemble("t".into(), String::new(), Pose::default(), 0.6, parts, &joints);
-    Arc::new(tool.expect("one piece"))
+    Arc::new(Tool::joined("t", parts, &joints).expect("one piece").friction(0.6))
 }
 
 pub(super) fn stroke() -> Stroke {

@@ -22,7 +22,7 @@ fn network() -> Network {
 fn scene(mass: f64) -> Scene {
     let mut body = object(Shape::Cuboid { size: [0.06, 0.06, 0.1] }, 0.06, 0.01, 0.0);
     body.mass = mass;
-    Scene { table_friction: 0.4, objects: vec![body], ..Scene::default() }
+    Scene::new([body]).on_table(0.4)
 }
 
 fn job(scene: &Scene) -> Job {
@@ -77,7 +77,7 @@ fn what_a_motion_cannot_reach_raises_no_warning() {
     assert_eq!(network().warnings(&scene, &motion), []);
     // One of them joined to what is pushed comes into play, and with it only the others near it.
     let kind = JointKind::Fixed;
-    scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
+    scene.joints.push(Joint::new([0, 1], kind));
     let found = network().warnings(&scene, &motion);
     assert!(found.iter().any(|w| w.to_string().contains("mass")), "{found:?}");
 }

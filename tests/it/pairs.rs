@@ -6,42 +6,28 @@ use std::sync::Arc;
 
 use pushplan::{
     contact::{PairId, Pairs},
-    geometry::{Pose, Shape, Vector},
+    geometry::{Pose, Vector},
     graph::{Batch, KINEMATIC},
     rollout::{RollSettings, Roller},
-    scene::{
-        Body, Job, Joint, JointKind, Object, Obstacle, Part, Push, Record, Scene, Tool, ToolMotion,
-    },
+    scene::{Body, Job, JointKind, Object, Obstacle, Part, Push, Record, Scene, Tool, ToolMotion},
 };
 
 /// Rows of discs, each of a radius of its own, so that a node's support tells which object it is;
 /// a pair of them jointed, and a wall behind.
 fn scene() -> Scene {
-    let object = |k: usize| Object {
-        name: format!("{k}"),
-        shape: Shape::Cylinder { radius: 0.02 + 0.001 * k as f64, height: 0.1 },
-        mass: 0.3,
-        friction: 0.4,
-        pose: Pose::new(0.1 + 0.075 * (k / 3) as f64, 0.08 * ((k % 3) as f64 - 1.0), 0.0),
+    let object = |k: usize| {
+        let (x, y) = (0.1 + 0.075 * (k / 3) as f64, 0.08 * ((k % 3) as f64 - 1.0));
+        let disc = Object::cylinder(format!("{k}"), 0.02 + 0.001 * k as f64, 0.1);
+        disc.mass(0.3).at(x, y, 0.0)
     };
     let pin = JointKind::Revolute { at: Vector::new(0.14, 0.0), limits: None };
-    let wall = Obstacle {
-        name: "wall".into(),
-        size: [0.02, 0.4, 0.1],
-        pose: Pose::new(0.42, 0.0, 0.0),
-        friction: 0.4,
-    };
-    Scene {
-        table_friction: 0.5,
-        objects: (0..12).map(object).collect(),
-        joints: vec![Joint { between: [4, 1], kind: pin, guessed: false }],
-        obstacles: vec![wall],
-    }
+    let wall = Obstacle::new("wall", [0.02, 0.4, 0.1], Pose::new(0.42, 0.0, 0.0)).friction(0.4);
+    Scene::new((0..12).map(object)).with_joint([4, 1], pin).with_obstacle(wall)
 }
 
 fn motion() -> ToolMotion {
     let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
-    let tool = Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
+    let tool = Tool::new("bar", [part]);
     let tool = Arc::new(tool.expect("one piece"));
     let push = |y| Push { start: Vector::new(0.04, y), direction: 0.0, length: 0.25, speed: 0.1 };
     ToolMotion::pushes(tool, 0.002, 0.0, &[push(-0.05), push(0.05)], true)

@@ -11,8 +11,7 @@ use pushplan::plan::{
     Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::scene::{
-    Directions, Goal, Object, Obstacle, Offsets, Part, PushForm, PushRules, Robot, Scene,
-    Situation, Task, Tool, ToolChoice,
+    Goal, Object, Obstacle, Part, PushForm, Robot, Scene, Situation, Task, Tool,
 };
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
@@ -24,8 +23,7 @@ fn part(name: &str, size: [f64; 3], x: f64, y: f64, heading: f64) -> Part {
 }
 
 fn tool(name: &str, parts: Vec<Part>) -> Arc<Tool> {
-    let grip = Pose::default();
-    Arc::new(Tool::assemble(name.into(), String::new(), grip, 0.4, parts, &[]).unwrap())
+    Arc::new(Tool::new(name, parts).unwrap())
 }
 
 fn stick() -> Arc<Tool> {
@@ -44,43 +42,16 @@ fn hook() -> Arc<Tool> {
 }
 
 fn can(x: f64, y: f64) -> Object {
-    Object {
-        name: "can".into(),
-        shape: Shape::Cylinder { radius: 0.04, height: 0.10 },
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::new(x, y, 0.0),
-    }
+    Object::cylinder("can", 0.04, 0.10).at(x, y, 0.0)
 }
 
 fn wall(x: f64, y: f64, size: [f64; 3]) -> Obstacle {
-    Obstacle { name: "wall".into(), size, pose: Pose::new(x, y, 0.0), friction: 0.4 }
+    Obstacle::new("wall", size, Pose::new(x, y, 0.0)).friction(0.4)
 }
 
 fn task(object: Object, goal: [f64; 2]) -> Task {
-    Task {
-        name: "test".into(),
-        description: String::new(),
-        scene: Scene { table_friction: 0.5, objects: vec![object], ..Scene::default() },
-        robot: Robot { home: Vector::zeros(), reach_min: 0.05, reach_max: 0.9 },
-        tools: ToolChoice::All,
-        pushes: PushRules {
-            form: PushForm::Placed,
-            directions: Directions::Principal,
-            offsets: Offsets::Effort,
-            grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
-            length: 0.2,
-            speed: 0.1,
-            max_count: 1,
-            lift: 0.002,
-        },
-        goal: Goal {
-            object: 0,
-            position: Vector::new(goal[0], goal[1]),
-            tolerance: 0.03,
-            heading: None,
-        },
-    }
+    let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.05, 0.9) };
+    Task::new("test", Scene::new([object]), robot, Goal::new(0, goal, 0.03))
 }
 
 fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {

@@ -91,7 +91,7 @@ fn crowds_pushed_again_and_again() {
 /// others far off; tools with parts that hang over everything.
 fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
     let mut objects: Vec<Object> = Vec::new();
-    let mut scene = Scene { table_friction: rng.random_range(0.2..0.8), ..Scene::default() };
+    let mut scene = Scene::new([]).on_table(rng.random_range(0.2..0.8));
     while objects.len() < 9 {
         let spread = if objects.len() < 6 { 0.45 } else { 1.5 };
         let cylinder = rng.random_bool(0.5);
@@ -134,7 +134,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
                 other => kinds[other],
             };
             scene.joints.retain(|joint| joint.between != between);
-            scene.joints.push(pushplan::scene::Joint { between, kind, guessed: false });
+            scene.joints.push(pushplan::scene::Joint::new(between, kind));
         }
     }
     for k in 0..rng.random_range(0..3) {
@@ -154,8 +154,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
         Part::cuboid("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
         Part::cuboid("handle", [0.3, 0.03, 0.05], Pose::new(-0.17, 0.0, 0.0)),
     ];
-    let tool = Tool::assemble("t".into(), String::new(), Pose::default(), 0.6, parts, &[]);
-    let tool = Arc::new(tool.expect("one piece"));
+    let tool = Arc::new(Tool::new("t", parts).expect("one piece").friction(0.6));
     let placed = rng.random_bool(0.5);
     let yaw = if rng.random_bool(0.5) { 0.0 } else { rng.random_range(-3.0..3.0) };
     let mut from = Pose::new(rng.random_range(-0.5..0.5), rng.random_range(-0.5..0.5), yaw);

@@ -3,7 +3,6 @@
 mod contacts;
 mod determinism;
 mod energy;
-mod fixtures;
 mod joint_drift;
 mod joint_limits;
 mod joints;

@@ -157,10 +157,6 @@ fn any_number_of_threads_gives_the_same_plans() {
     }
 }
 
-fn joint(between: [usize; 2], kind: JointKind) -> Joint {
-    Joint { between, kind, guessed: false }
-}
-
 #[test]
 fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
     let (task, library) = shipped("pull-back.yaml");
@@ -174,8 +170,8 @@ fn tasks_made_in_code_are_refused_when_they_make_no_sense() {
         |task| task.robot.reach_max = f64::NAN,
         |task| task.scene.objects[0].mass = 0.0,
         |task| task.tools = ToolChoice::Named(vec!["nonesuch".into()]),
-        |task| task.scene.joints.push(joint([0, 7], JointKind::Fixed)),
-        |task| task.scene.joints.push(joint([0, 0], JointKind::Fixed)),
+        |task| task.scene.joints.push(Joint::new([0, 7], JointKind::Fixed)),
+        |task| task.scene.joints.push(Joint::new([0, 0], JointKind::Fixed)),
     ];
     for (k, spoil) in spoil.into_iter().enumerate() {
         let mut task = task.clone();

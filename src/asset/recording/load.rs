@@ -11,7 +11,7 @@ use crate::asset::text::{Source, named_after};
 use crate::asset::{read_text, task, tool};
 use crate::geometry::Pose;
 use crate::recording::Recording;
-use crate::scene::{Part, Scene, Tool};
+use crate::scene::{Object, Part, PushRules, Scene, Tool};
 
 use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};
@@ -115,12 +115,12 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     put("position", Some(position), true);
     put("yaw_deg", yaw.cloned(), true);
     put("mass", Some(Node { id, content: Content::Number(default::MASS) }), false);
-    put("friction", Some(Node { id, content: Content::Number(default::FRICTION) }), false);
+    put("friction", Some(Node { id, content: Content::Number(Object::FRICTION) }), false);
 }
 
 /// The pusher as a tool, and its lift.
 fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
-    let lift = number_or(node, "lift", default::LIFT);
+    let lift = number_or(node, "lift", PushRules::LIFT);
     let solids: Vec<&Node> =
         ["cylinder", "cuboid", "tool"].iter().filter_map(|key| node.get(key)).collect();
     let known = |key: &Node| PUSHER_KEYS.iter().any(|known| key.text() == Some(known.name));
@@ -142,15 +142,8 @@ fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
         }
         return Some((Arc::new(tool::tool_of(tool, ledger)?), lift?));
     }
-    let friction = number_or(node, "friction", default::FRICTION)?;
-    let part = Part { name: "pusher".into(), shape: shape(node)?, pose: Pose::default() };
-    let tool = Tool {
-        name: "pusher".into(),
-        description: String::new(),
-        grip: Pose::default(),
-        friction,
-        parts: vec![part],
-        joints: Vec::new(),
-    };
+    let friction = number_or(node, "friction", Tool::FRICTION)?;
+    let part = Part::new("pusher", shape(node)?, Pose::default());
+    let tool = Tool::new("pusher", [part]).ok()?.friction(friction);
     Some((Arc::new(tool), lift?))
 }

@@ -9,10 +9,6 @@ use crate::asset::tool::TOOL_KEYS;
 pub(super) mod default {
     /// Mass of an object, kg: a full mug.
     pub const MASS: f64 = 0.5;
-    /// Friction value of objects and pushers: wood or plastic.
-    pub const FRICTION: f64 = 0.4;
-    /// Height of the pusher's underside above the table, metres, as in tasks.
-    pub const LIFT: f64 = crate::asset::task::default::LIFT;
 }
 
 /// What a recording may hold.

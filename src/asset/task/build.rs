@@ -27,7 +27,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
         tools: tools(root.get("tools")?),
         pushes: match root.get("pushes") {
             Some(node) => pushes(node)?,
-            None => pushes(&Node { id: root.id, content: Content::Map(Vec::new()) })?,
+            None => PushRules::default(),
         },
         goal,
     })
@@ -40,7 +40,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     Some(Scene {
         table_friction: match node.get("table") {
             Some(table) => table.get("friction")?.number()?,
-            None => default::FRICTION,
+            None => Scene::FRICTION,
         },
         joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
         obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
@@ -63,7 +63,7 @@ fn obstacle(node: &Node) -> Option<Obstacle> {
         name: name_of(node)?.into(),
         size: triple(node, "size")?,
         pose: pose(node)?,
-        friction: number_or(node, "friction", default::FRICTION)?,
+        friction: number_or(node, "friction", Scene::FRICTION)?,
     })
 }
 
@@ -95,6 +95,7 @@ fn tools(node: &Node) -> ToolChoice {
 }
 
 fn pushes(node: &Node) -> Option<PushRules> {
+    let usual = PushRules::default();
     let max_count = number_or(node, "max_count", 1.0)?;
     Some(PushRules {
         form: match node.get("form").map(Node::text) {
@@ -103,22 +104,22 @@ fn pushes(node: &Node) -> Option<PushRules> {
             Some(None) => return None,
         },
         directions: match node.get("directions") {
-            None => Directions::Principal,
+            None => usual.directions,
             Some(node) => directions(node)?,
         },
         offsets: match node.get("offsets") {
-            None => Offsets::Effort,
+            None => usual.offsets,
             Some(list) => Offsets::List(numbers(list)?),
         },
         grip_yaws: match node.get("grip_yaws_deg") {
-            None => default::GRIP_YAWS.map(f64::to_radians).to_vec(),
+            None => usual.grip_yaws,
             Some(list) => numbers(list)?.into_iter().map(f64::to_radians).collect(),
         },
-        length: number_or(node, "length", default::LENGTH)?,
-        speed: number_or(node, "speed", default::SPEED)?,
+        length: number_or(node, "length", usual.length)?,
+        speed: number_or(node, "speed", usual.speed)?,
         // Whole and in range: the check has seen to it.
         max_count: max_count as usize,
-        lift: number_or(node, "lift", default::LIFT)?,
+        lift: number_or(node, "lift", usual.lift)?,
     })
 }
 

@@ -9,6 +9,4 @@ mod spec;
 
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
-pub(super) use spec::{
-    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE, TASK, TASK_KEYS, default,
-};
+pub(super) use spec::{JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE, TASK, TASK_KEYS};

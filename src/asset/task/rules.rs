@@ -5,9 +5,8 @@ use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
-use crate::scene::PushForm;
+use crate::scene::{PushForm, PushRules};
 
-use super::spec::default;
 use super::{build, joints};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
@@ -169,7 +168,7 @@ fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
         .map(|object| shape(object.get("shape")?).map(|shape| shape.height()))
         .collect();
     let highest = heights.and_then(|heights| heights.into_iter().reduce(f64::max));
-    let lift = number_or(pushes, "lift", default::LIFT);
+    let lift = number_or(pushes, "lift", PushRules::LIFT);
     if let (Some(lift), Some(highest)) = (lift, highest)
         && lift >= highest
     {

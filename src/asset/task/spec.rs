@@ -6,16 +6,6 @@ use super::joints::JOINT;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
 pub(in crate::asset) mod default {
-    /// Friction value of the table and of obstacles: plain wood.
-    pub const FRICTION: f64 = 0.5;
-    /// Travel of a push, metres: that of the reference benchmark.
-    pub const LENGTH: f64 = 0.20;
-    /// Speed of a push, m/s: that of the reference benchmark.
-    pub const SPEED: f64 = 0.10;
-    /// Height of the tool above the table, metres: clear of it, yet below every object.
-    pub const LIFT: f64 = 0.002;
-    /// Grip yaws, degrees: those of the reference benchmark.
-    pub const GRIP_YAWS: [f64; 3] = [0.0, 90.0, -90.0];
     /// Tolerance of a heading, degrees.
     pub const HEADING_TOLERANCE: f64 = 10.0;
 }

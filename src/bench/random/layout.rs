@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 
 use crate::dataset::{Crowd, Solids, random_scene};
 use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
-use crate::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task, ToolChoice};
+use crate::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task};
 
 use super::kind::TaskKind;
 use super::one_push::{moderate, pushes};
@@ -43,25 +43,14 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task
         (rng.random_range(rules.places.low..rules.places.high), rng.random_range(-1.2..1.2f64));
     let place = distance * Vector::new(angle.cos(), angle.sin());
     let scene = moved(scene, place, goal_object);
-    let heading = |pose: Pose| match kind {
-        TaskKind::Heading => Some((pose.heading, HEADING_TOLERANCE_DEG.to_radians())),
-        _ => None,
-    };
     let start = scene.objects[goal_object].pose;
-    Task {
-        name: format!("{kind}-{ordinal:04}"),
-        description: kind.title().to_owned(),
-        scene,
-        robot: Robot { home: Vector::new(0.1, 0.0), reach_min: 0.1, reach_max: rules.reach },
-        tools: ToolChoice::All,
-        pushes: pushes(rules.max_count),
-        goal: Goal {
-            object: goal_object,
-            position: start.position,
-            tolerance: TOLERANCE,
-            heading: heading(start),
-        },
+    let mut goal = Goal::new(goal_object, start.position.into(), TOLERANCE);
+    if kind == TaskKind::Heading {
+        goal = goal.facing(start.heading, HEADING_TOLERANCE_DEG.to_radians());
     }
+    let name = format!("{kind}-{ordinal:04}");
+    let task = Task::new(name, scene, Robot::reaching(0.1, rules.reach), goal);
+    Task { description: kind.title().to_owned(), ..task.pushing(pushes(rules.max_count)) }
 }
 
 /// The goal where the goal object ends.
@@ -149,7 +138,7 @@ fn pair(rng: &mut Pcg64, ordinal: usize) -> Scene {
             }
             _ => JointKind::Prismatic { axis: line / line.norm(), limits: None },
         };
-        scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
+        scene.joints.push(Joint::new([0, 1], kind));
         return scene;
     }
 }

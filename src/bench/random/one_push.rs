@@ -1,7 +1,7 @@
 //! One object, one push: the goal is where a random allowed push of a shipped tool really ends, by
 //! the planar engine.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_8, TAU};
+use std::f64::consts::{FRAC_PI_8, TAU};
 use std::sync::Arc;
 
 use rand::Rng;
@@ -13,10 +13,7 @@ use crate::{
     effect::Simulated,
     geometry::{Pose, Vector},
     plan::{Candidate, CandidatePush, Rollouts, Start, Workspace, evaluate},
-    scene::{
-        Directions, Goal, Offsets, PushForm, PushRules, Ranges, Robot, Scene, Situation, Span,
-        Task, Tool, ToolChoice,
-    },
+    scene::{Directions, Goal, PushRules, Ranges, Robot, Scene, Situation, Span, Task, Tool},
     sim::Simulator,
 };
 
@@ -65,16 +62,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
 
 /// The pushes that random tasks allow, up to `max_count` of them.
 pub(super) fn pushes(max_count: usize) -> PushRules {
-    PushRules {
-        form: PushForm::Placed,
-        directions: Directions::Count(WAYS),
-        offsets: Offsets::Effort,
-        grip_yaws: vec![0.0, FRAC_PI_2, -FRAC_PI_2],
-        length: 0.20,
-        speed: 0.10,
-        max_count,
-        lift: 0.002,
-    }
+    PushRules { directions: Directions::Count(WAYS), max_count, ..PushRules::default() }
 }
 
 /// Objects of a size and weight that one hand pushes: the middle of the trained ranges.
@@ -99,15 +87,9 @@ fn open_task(rng: &mut Pcg64, ranges: &Ranges, index: usize) -> Task {
     for object in &mut scene.objects {
         object.pose = Pose { position, heading: object.pose.heading };
     }
-    Task {
-        name: format!("random-{index}"),
-        description: String::new(),
-        scene,
-        robot: Robot { home: Vector::zeros(), reach_min: 0.1, reach_max: 0.9 },
-        tools: ToolChoice::All,
-        pushes: pushes(1),
-        goal: Goal { object: 0, position, tolerance: TOLERANCE, heading: None },
-    }
+    let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.1, 0.9) };
+    let goal = Goal::new(0, position.into(), TOLERANCE);
+    Task::new(format!("random-{index}"), scene, robot, goal).pushing(pushes(1))
 }
 
 /// A push that the planner could come to, with continuous parameters.

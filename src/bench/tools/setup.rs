@@ -13,11 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     dataset::generator,
-    geometry::{Pose, Shape, Vector, clearance},
-    scene::{
-        Directions, Goal, Object, Offsets, Part, PushForm, PushRules, Robot, Scene, Task, Tool,
-        ToolChoice,
-    },
+    geometry::{Pose, Vector, clearance},
+    scene::{Goal, Object, Part, PushForm, PushRules, Robot, Scene, Task, Tool},
 };
 
 /// Stops are offered after this many equal steps of a push: 5 mm each.
@@ -125,36 +122,19 @@ impl ReferenceSetup {
 
     /// The task of bringing the cylinder from `start` to `goal` (metres) by chained pushes.
     pub fn task(&self, start: Vector, goal: Vector) -> Task {
-        let cylinder = Object {
-            name: "cylinder".into(),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.10 },
-            mass: 0.5,
-            friction: 0.4,
-            pose: Pose { position: start, heading: 0.0 },
-        };
-        Task {
-            name: "reference".into(),
-            description: String::new(),
-            scene: Scene { table_friction: 0.5, objects: vec![cylinder], ..Scene::default() },
-            // The end effector stays within what chained sequences need.
-            robot: Robot {
-                home: Vector::zeros(),
-                reach_min: 0.0,
-                reach_max: PUSHES as f64 * TRAVEL,
-            },
-            tools: ToolChoice::All,
-            pushes: PushRules {
-                form: PushForm::Chained,
-                directions: Directions::Principal,
-                offsets: Offsets::Effort,
-                grip_yaws: vec![0.0],
-                length: TRAVEL,
-                speed: SPEED,
-                max_count: PUSHES,
-                lift: LIFT,
-            },
-            goal: Goal { object: 0, position: goal, tolerance: FINE, heading: None },
-        }
+        let cylinder = Object::cylinder("cylinder", 0.05, 0.10).mass(0.5);
+        let scene = Scene::new([cylinder.at(start.x, start.y, 0.0)]);
+        // The end effector stays within what chained sequences need.
+        let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL);
+        Task::new("reference", scene, robot, Goal::new(0, goal.into(), FINE)).pushing(PushRules {
+            form: PushForm::Chained,
+            grip_yaws: vec![0.0],
+            length: TRAVEL,
+            speed: SPEED,
+            max_count: PUSHES,
+            lift: LIFT,
+            ..PushRules::default()
+        })
     }
 
     /// Indices of the poses that can be set down with the cylinder at `start`.

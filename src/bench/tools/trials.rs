@@ -1,6 +1,8 @@
 //! Every method on one task, with all tool poses or one alone: choose, then execute in both
 //! engines.
 
+use std::sync::Arc;
+
 use rand::Rng;
 
 use crate::store::Seconds;
@@ -8,7 +10,7 @@ use crate::{
     asset::ToolLibrary,
     dataset::generator,
     effect::{EffectModel, Simulated},
-    scene::{Directions, Engine, Push, PushForm, Task, Tool},
+    scene::{Directions, Engine, Push, PushForm, Task},
     sim::Simulator,
     solve::{Planner, Solution, SolveError},
 };
@@ -128,10 +130,12 @@ impl<'a> Trials<'a> {
         let mut task = self.task.clone();
         task.pushes.form = PushForm::Placed;
         task.pushes.directions = Directions::Count(WAYS);
-        let poses = self.setup.poses.iter().enumerate();
-        let allowed = poses.filter(|(k, _)| self.pose.is_none_or(|pose| pose == *k));
-        let tools = allowed.map(|(_, tool)| Tool::clone(tool));
-        self.planner.solve(&task, &ToolLibrary::from_tools(tools))
+        let mut poses = self.setup.poses.iter().enumerate();
+        let library = poses.try_fold(ToolLibrary::default(), |library, (k, tool)| {
+            let allowed = self.pose.is_none_or(|pose| pose == k);
+            if allowed { library.with(Arc::clone(tool)) } else { Ok(library) }
+        })?;
+        self.planner.solve(&task, &library)
     }
 
     /// What the planner would do.

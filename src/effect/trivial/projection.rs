@@ -110,21 +110,15 @@ mod tests {
 
     use crate::{
         effect::{EffectModel, Follow, Job, Projection, Still},
-        geometry::{Pose, Shape, Vector},
+        geometry::{Pose, Vector},
         scene::{Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory},
     };
 
     /// A wide bar pushes 0.20 m along x; a can 5 mm before it, and a second one 20 mm further.
     fn roll(model: &dyn EffectModel) -> Trajectory {
-        let can = |name: &str, x| Object {
-            name: name.into(),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(x, 0.0, 0.0),
-        };
+        let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
         let objects = vec![can("near", 0.065), can("far", 0.185)];
-        let scene = Scene { table_friction: 0.5, objects, ..Scene::default() };
+        let scene = Scene::new(objects);
         let bar = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
         let tool = Tool {
             name: "bar".into(),

@@ -253,24 +253,15 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::geometry::Shape;
     use crate::scene::{Engine, Part, Push, State, Tool, Warning};
 
     /// Two boxes of which the first goes through `ways`, a place for each frame.
     fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String {
-        let object = |name: &str, x: f64| Object {
-            name: name.to_owned(),
-            shape: Shape::Cuboid { size: [0.1, 0.06, 0.1] },
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(x, 0.0, 0.0),
-        };
+        let object = |name: &str, x: f64| Object::cuboid(name, [0.1, 0.06, 0.1]).at(x, 0.0, 0.0);
         let scene =
             Scene { objects: vec![object("box", 0.4), object("other", 0.7)], ..Scene::default() };
         let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[])
-                .unwrap();
+        let tool = Tool::new("bar", [part]).unwrap();
         let pushes = [0.2, 0.25].map(|x| Push {
             start: Vector::new(x, 0.0),
             direction: 0.0,

@@ -254,19 +254,8 @@ mod tests {
 
     fn jointed_picture_of(ends: Vec<Pose>, joints: Vec<Joint>) -> String {
         let shape = Shape::Cuboid { size: [0.1, 0.06, 0.1] };
-        let object = |name: &str, x: f64| Object {
-            name: name.to_owned(),
-            shape,
-            mass: 0.4,
-            friction: 0.4,
-            pose: Pose::new(x, 0.0, 0.0),
-        };
-        let scene = Scene {
-            table_friction: 0.5,
-            objects: vec![object("box", 0.4), object("other", 0.7)],
-            joints,
-            ..Scene::default()
-        };
+        let object = |name: &str, x: f64| Object::new(name, shape).at(x, 0.0, 0.0);
+        let scene = Scene { joints, ..Scene::new([object("box", 0.4), object("other", 0.7)]) };
         let end = crate::scene::State::at_rest(ends);
         let frame = Frame { time: 1.0, stroke: 0, tool: Pose::default(), state: end };
         let trajectory = Trajectory { frames: vec![frame], ..Trajectory::default() };
@@ -292,7 +281,7 @@ mod tests {
     fn joints_are_drawn_where_they_were_and_where_they_went() {
         let at = Vector::new(0.55, 0.0);
         let kind = JointKind::Revolute { at, limits: None };
-        let joint = Joint { between: [0, 1], kind, guessed: false };
+        let joint = Joint::new([0, 1], kind);
         let still = vec![Pose::new(0.4, 0.0, 0.0), Pose::new(0.7, 0.0, 0.0)];
         let moved = vec![Pose::new(0.4, 0.1, 0.0), Pose::new(0.7, 0.1, 0.0)];
         let words = "<title>box and other: revolute</title>";

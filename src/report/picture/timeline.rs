@@ -98,9 +98,7 @@ mod tests {
     /// Two pushes of a second each, recorded at their ends alone.
     fn timeline(placed: bool, speed: f64) -> Timeline {
         let part = Part::cuboid("bar", [0.1, 0.1, 0.05], Pose::default());
-        let tool =
-            Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[])
-                .unwrap();
+        let tool = Tool::new("bar", [part]).unwrap();
         let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.1, speed };
         let motion = ToolMotion::pushes(Arc::new(tool), 0.0, 0.0, &[push, push], placed);
         let seconds = 0.1 / speed;

@@ -39,14 +39,13 @@ fn faults(changes: &[(&str, &str)]) -> String {
 }
 
 fn joints() -> Vec<Joint> {
-    let joint = |between, kind| Joint { between, kind, guessed: false };
     let turns = Span::new((-30f64).to_radians(), 45f64.to_radians());
     let at = Vector::new(0.5, 0.135);
     let axis = Vector::new(3.0, 4.0).normalize();
     vec![
-        joint([0, 1], JointKind::Fixed),
-        joint([1, 2], JointKind::Revolute { at, limits: Some(turns) }),
-        joint([2, 3], JointKind::Prismatic { axis, limits: Some(Span::new(-0.05, 0.10)) }),
+        Joint::new([0, 1], JointKind::Fixed),
+        Joint::new([1, 2], JointKind::Revolute { at, limits: Some(turns) }),
+        Joint::new([2, 3], JointKind::Prismatic { axis, limits: Some(Span::new(-0.05, 0.10)) }),
     ]
 }
 
@@ -71,11 +70,7 @@ fn joints_are_read_as_they_are_written() {
 #[test]
 fn joints_and_round_parts_survive_plan_and_trajectory_files() {
     let task = Task::parse(TASK, "t.yaml").unwrap();
-    let hand = Part {
-        name: "hand".into(),
-        shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-        pose: Pose::default(),
-    };
+    let hand = Part::new("hand", Shape::Cylinder { radius: 0.05, height: 0.1 }, Pose::default());
     let arm = Part::cuboid("arm", [0.1, 0.02, 0.05], Pose::new(0.1, 0.0, 0.1));
     for k in 0..40 {
         let mut file = plan_file("cluster-neighbour.yaml");
@@ -87,8 +82,7 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
             *axis = Vector::new(turn.cos(), turn.sin());
         }
         let parts = vec![hand.clone(), arm.clone()];
-        let (grip, name) = (Pose::default(), file.tool.name.clone());
-        file.tool = Tool::assemble(name, String::new(), grip, 0.4, parts, &[]).unwrap().into();
+        file.tool = Tool::new(file.tool.name.clone(), parts).unwrap().into();
         file.predicted = None;
         file.verdict = None;
         let text = serde_json::to_string(&file).unwrap();

@@ -3,16 +3,15 @@
 
 use std::path::Path;
 use std::process::Command;
-use std::sync::Arc;
 
 use pushplan::asset::{Kind, RECORDING_FORMAT, check};
 use pushplan::effect::{EffectModel, Job, Simulated};
-use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{
-    Joint, JointKind, Object, Part, Push, Record, Scene, Tool, ToolMotion, Trajectory,
-};
+use pushplan::scene::{JointKind, Object, Push, Record, Scene, ToolMotion, Trajectory};
 use pushplan::sim::Simulator;
+
+use crate::fixtures::hand;
 
 /// A sound recording; the tests spoil it.
 pub const SOUND: &str = "\
@@ -72,27 +71,15 @@ fn what_the_documentation_shows_can_be_read() {
 
 #[test]
 fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
-    let object = |name: &str, shape, x, y, turn| Object {
-        name: name.into(),
-        shape,
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::new(x, y, turn),
-    };
-    let can = Shape::Cylinder { radius: 0.05, height: 0.1 };
-    let cuboid = Shape::Cuboid { size: [0.08, 0.12, 0.05] };
-    let scene = Scene {
-        table_friction: 0.5,
-        objects: vec![object("a", can, 0.15, 0.0, 0.0), object("b", cuboid, 0.25, 0.02, 0.4)],
-        joints: vec![Joint { between: [0, 1], kind: JointKind::Fixed, guessed: false }],
-        ..Scene::default()
-    };
-    let hand = Part { name: "hand".into(), shape: can, pose: Pose::default() };
-    let hand = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![hand], &[]);
+    let scene = Scene::new([
+        Object::cylinder("a", 0.05, 0.1).at(0.15, 0.0, 0.0),
+        Object::cuboid("b", [0.08, 0.12, 0.05]).at(0.25, 0.02, 0.4),
+    ])
+    .with_joint([0, 1], JointKind::Fixed);
     let push =
         |x, y, direction| Push { start: Vector::new(x, y), direction, length: 0.2, speed: 0.1 };
     let pushes = [push(0.0, 0.01, 0.0), push(0.6, 0.2, -2.5)];
-    let motion = ToolMotion::pushes(Arc::new(hand.expect("one piece")), 0.002, 0.0, &pushes, true);
+    let motion = ToolMotion::pushes(hand(), 0.002, 0.0, &pushes, true);
     let simulated =
         Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
 

@@ -198,7 +198,7 @@ fn a_tool_built_in_code_reads_back_with_the_same_joints() {
     let mut tool = Tool::clone(&file.tool);
     tool.parts[0].pose.position.y += 1.0;
     let parts = tool.parts.clone();
-    tool = Tool::assemble(tool.name, String::new(), tool.grip, 0.3, parts, &[[0, 1]]).unwrap();
+    tool = Tool::joined(tool.name, parts, &[[0, 1]]).unwrap().held_at(tool.grip).friction(0.3);
     file.tool = tool.into();
     let text = serde_json::to_string(&file).unwrap();
     assert_eq!(PlanFile::parse(&text, "p.json").unwrap().tool, file.tool);

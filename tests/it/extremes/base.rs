@@ -8,14 +8,14 @@ use pushplan::{
     asset::ToolLibrary,
     bench::Case,
     dataset::{Aim, aimed_stroke, generator, random_direction, random_heading},
-    geometry::{Pose, Shape, Vector},
+    geometry::Vector,
     scene::{Object, Scene, Tool, ToolMotion},
 };
 
 /// Tries to aim a push before a scene is given up: nearly all succeed within ten.
 const TRIES: usize = 1000;
 
-/// Height of the tools' underside above the table, metres.
+/// Height of the tools' underside above the metres.
 pub const LIFT: f64 = 0.002;
 
 /// Where pushes come from.
@@ -95,17 +95,11 @@ impl Solid {
 
     /// The same with its longest horizontal extent `size` metres.
     pub fn sized(self, size: f64) -> Object {
-        let shape = match self {
-            Self::Cylinder => Shape::Cylinder { radius: 0.5 * size, height: 0.1 },
-            Self::Cuboid => Shape::Cuboid { size: [size, 0.7 * size, 0.1] },
-        };
-        Object { name: "object".into(), shape, mass: 0.4, friction: 0.4, pose: Pose::default() }
+        match self {
+            Self::Cylinder => Object::cylinder("object", 0.5 * size, 0.1),
+            Self::Cuboid => Object::cuboid("object", [size, 0.7 * size, 0.1]),
+        }
     }
-}
-
-/// A table of friction 0.5 with these objects.
-pub fn table(objects: Vec<Object>) -> Scene {
-    Scene { table_friction: 0.5, objects, ..Scene::default() }
 }
 
 /// A scene and its motion, shifted by `shift` metres.

@@ -8,11 +8,11 @@ use pushplan::{
     bench::Case,
     dataset::{Crowd, Preset, Solids, random_scene},
     geometry::{Pose, Vector},
-    scene::{Joint, JointKind, Object, Obstacle, Scene, Span},
+    scene::{JointKind, Object, Obstacle, Scene, Span},
 };
 
 use super::{
-    base::{Draw, Solid, Way, shifted, table, wound},
+    base::{Draw, Solid, Way, shifted, wound},
     cell::{Cell, Kind},
 };
 
@@ -114,7 +114,7 @@ fn walls(draw: &Draw, cells: &mut Vec<Cell>) {
             let mut cases = draw.pushes(&Way::default(), |rng| {
                 let mut object = solid.object();
                 object.pose.heading = rng.random_range(0.0..TAU);
-                table(vec![object])
+                Scene::new([object])
             });
             for case in &mut cases {
                 wall(case, gap);
@@ -172,14 +172,10 @@ fn row_scene(count: usize, kind: fn(Vector) -> JointKind) -> Scene {
         pose: Pose::new(pitch * k as f64, 0.0, 0.0),
         ..Solid::Cylinder.object()
     };
-    let joint = |k: usize| Joint {
-        between: [k - 1, k],
-        kind: kind(Vector::new(pitch * (k as f64 - 0.5), 0.0)),
-        guessed: false,
-    };
-    let mut scene = table((0..count).map(object).collect());
-    scene.joints = (1..count).map(joint).collect();
-    scene
+    let pins = (1..count).map(|k| (k, kind(Vector::new(pitch * (k as f64 - 0.5), 0.0))));
+    pins.fold(Scene::new((0..count).map(object)), |scene, (k, kind)| {
+        scene.with_joint([k - 1, k], kind)
+    })
 }
 
 /// A can and a brick that touch, or are `depth` metres deep in each other.
@@ -187,7 +183,7 @@ fn pair(rng: &mut rand_pcg::Pcg64, depth: f64) -> Scene {
     let (mut can, mut brick) = (Solid::Cylinder.object(), Solid::Cuboid.object());
     (can.name, brick.name) = ("can".into(), "brick".into());
     brick.pose.position.x = 0.10 - depth;
-    turned(rng, table(vec![can, brick]))
+    turned(rng, Scene::new([can, brick]))
 }
 
 /// The scene turned by any angle about the origin.

@@ -8,11 +8,11 @@ use rand::Rng;
 use pushplan::{
     bench::Case,
     geometry::{Pose, Shape, Vector},
-    scene::{Object, Part, Tool},
+    scene::{Object, Part, Scene, Tool},
 };
 
 use super::{
-    base::{Draw, Solid, Way, shifted, table, wound},
+    base::{Draw, Solid, Way, shifted, wound},
     cell::{Cell, Kind},
 };
 
@@ -36,7 +36,7 @@ fn on(draw: &Draw, solid: Solid, way: &Way, change: impl Fn(&mut Object)) -> Vec
         let mut object = solid.object();
         object.pose.heading = rng.random_range(0.0..TAU);
         change(&mut object);
-        table(vec![object])
+        Scene::new([object])
     })
 }
 
@@ -181,7 +181,7 @@ fn tools(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
     add("5 mm by 5 mm", bar([0.005, 0.005]));
     for (radius, name) in [(0.001, "disc of 1 mm"), (0.3, "disc of 30 cm")] {
         let shape = Shape::Cylinder { radius, height: 0.05 };
-        add(name, tool(vec![Part { name: "disc".into(), shape, pose: Pose::default() }]));
+        add(name, tool(vec![Part::new("disc", shape, Pose::default())]));
     }
     let teeth = (0..32).map(|k| {
         let pose = Pose::new(0.0, 0.02 * f64::from(k), 0.0);

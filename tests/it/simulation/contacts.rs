@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Body, Job, Obstacle, Physics, Record, Warning};
+use pushplan::scene::{Body, Job, Obstacle, Physics, Record, Scene, Warning};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, engines, hand_push, push, table};
+use crate::fixtures::{brick, can, engines, hand_push, push};
 
 #[test]
 fn a_lifted_tool_passes_over_a_low_object() {
     let mut low = brick();
     low.shape = Shape::Cuboid { size: [0.10, 0.06, 0.02] };
-    let scene = table(vec![low]);
+    let scene = Scene::new([low]);
     let mut motion = push(Vector::new(-0.07, 0.0), 0.0, 0.2, 0.1);
     for simulator in engines() {
         for (lift, meets) in [(0.018, true), (0.021, false)] {
@@ -28,7 +28,7 @@ fn a_lifted_tool_passes_over_a_low_object() {
 
 #[test]
 fn an_obstacle_holds_what_is_pushed_against_it() {
-    let mut scene = table(vec![can()]);
+    let mut scene = Scene::new([can()]);
     scene.obstacles.push(Obstacle {
         name: "wall".into(),
         size: [0.02, 0.3, 0.1],
@@ -55,7 +55,7 @@ fn a_heavy_object_behind_a_light_one_is_not_sunk_into() {
     heavy.name = "heavy".into();
     heavy.mass = 5.0;
     heavy.pose = Pose::new(0.105, 0.0, 0.0);
-    let scene = table(vec![light, heavy]);
+    let scene = Scene::new([light, heavy]);
     let motion = push(Vector::new(-0.055, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
         let trajectory =
@@ -71,7 +71,7 @@ fn a_heavy_object_behind_a_light_one_is_not_sunk_into() {
 
 #[test]
 fn physics_replaces_what_the_scene_states() {
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.3);
     let stated = Job::stated(&scene, motion);
     let slippery =
@@ -91,7 +91,7 @@ fn a_tall_object_pushed_at_its_top_topples_in_3d() {
     let mut tower = brick();
     tower.name = "tower".into();
     tower.shape = Shape::Cuboid { size: [0.02, 0.06, 0.2] };
-    let scene = table(vec![tower]);
+    let scene = Scene::new([tower]);
     let mut motion = push(Vector::new(-0.03, 0.0), 0.0, 0.1, 0.1);
     motion.lift = 0.14;
     let trajectory =
@@ -102,7 +102,7 @@ fn a_tall_object_pushed_at_its_top_topples_in_3d() {
 
 #[test]
 fn a_start_that_is_not_finite_is_returned_with_a_warning() {
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.1);
     let mut start = scene.start();
     start.velocities[0].angular = f64::NAN;
@@ -119,7 +119,7 @@ fn a_start_that_is_not_finite_is_returned_with_a_warning() {
 
 #[test]
 fn on_ice_waiting_is_given_up_with_a_warning() {
-    let mut scene = table(vec![can()]);
+    let mut scene = Scene::new([can()]);
     scene.table_friction = 0.0;
     scene.objects[0].friction = 0.0;
     let motion = push(Vector::new(-0.06, 0.0), 0.0, 0.1, 0.1);
@@ -133,7 +133,7 @@ fn on_ice_waiting_is_given_up_with_a_warning() {
 #[test]
 fn a_round_tool_part_stands_upright() {
     // Lying on its side the hand would be a roller with flat ends.
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     for (direction, start) in [(0.0, Vector::new(-0.12, 0.0)), (1.2, Vector::zeros())] {
         let along = Vector::new(f64::cos(direction), f64::sin(direction));
         let start = if direction == 0.0 { start } else { along * -0.12 };

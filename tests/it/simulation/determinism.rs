@@ -4,7 +4,7 @@ use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::scene::{JointKind, Record, Scene};
 
-use super::fixtures::{brick, can, engines, push, row, table};
+use crate::fixtures::{brick, can, engines, push, row};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
@@ -14,7 +14,7 @@ fn any_number_of_threads_gives_the_same_bits() {
     let mut joined = row(6, &can(), 0.102, revolute);
     joined.joints[1].kind = JointKind::Fixed;
     joined.joints[3].kind = JointKind::Prismatic { axis: Vector::x(), limits: None };
-    for scene in [table(objects), joined] {
+    for scene in [Scene::new(objects), joined] {
         assert_same_bits(&scene);
     }
 }

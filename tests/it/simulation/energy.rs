@@ -3,7 +3,7 @@
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{Job, Obstacle, Record, Scene, State, Velocity};
 
-use super::fixtures::{brick, can, engines, push, table};
+use crate::fixtures::{brick, can, engines, push};
 
 fn kinetic(scene: &Scene, state: &State) -> f64 {
     let energy = scene.objects.iter().zip(&state.velocities).map(|(object, velocity)| {
@@ -21,7 +21,7 @@ fn colliding_objects_never_gain_energy_while_the_tool_is_away() {
     third.name = "third".into();
     third.pose = Pose::new(0.22, -0.02, 0.0);
     third.mass = 0.1;
-    let mut scene = table(vec![can(), other, third]);
+    let mut scene = Scene::new([can(), other, third]);
     scene.obstacles.push(Obstacle {
         name: "wall".into(),
         size: [0.02, 0.4, 0.1],

@@ -18,7 +18,7 @@ use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{Job, JointKind, Object, Record, Scene, Trajectory};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, drift, hand_push, row};
+use crate::fixtures::{brick, can, drift, hand_push, row};
 
 /// A name, and the joint about the point midway between two objects.
 type Named = (&'static str, fn(Vector) -> JointKind);

@@ -3,7 +3,7 @@
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{Job, JointKind, Record, Scene, Span};
 
-use super::fixtures::{brick, engines, opened, push, row};
+use crate::fixtures::{brick, engines, opened, push, row};
 
 /// A heavy brick and a light one beyond it, 3 cm apart, with a joint.
 fn pair(kind: JointKind) -> Scene {

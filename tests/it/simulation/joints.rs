@@ -1,9 +1,9 @@
 //! Joints hold what they should hold and leave free what they should leave free.
 
 use pushplan::geometry::{Pose, Vector, wrap_angle};
-use pushplan::scene::{Job, Joint, JointKind, Record, Scene, State};
+use pushplan::scene::{Job, Joint, JointKind, Object, Record, Scene, State};
 
-use super::fixtures::{brick, can, engines, push, table};
+use crate::fixtures::{brick, can, engines, push};
 
 /// Two bricks end to end with a gap of 2 mm, the second pushed from behind, off its centre.
 fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
@@ -12,8 +12,8 @@ fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     second.pose = Pose::new(0.0, 0.102, std::f64::consts::FRAC_PI_2);
     let mut first = brick();
     first.pose.heading = std::f64::consts::FRAC_PI_2;
-    let mut scene = table(vec![first, second]);
-    scene.joints.push(Joint { between: [0, 1], kind, guessed: false });
+    let mut scene = Scene::new([first, second]);
+    scene.joints.push(Joint::new([0, 1], kind));
     let motion = push(Vector::new(-0.04, 0.17), 0.0, 0.12, 0.1);
     let ends = engines().map(|simulator| {
         let trajectory =
@@ -72,16 +72,9 @@ fn a_prismatic_joint_slides_along_its_axis_and_keeps_the_angle() {
 
 #[test]
 fn an_untouched_joint_does_not_move() {
-    let mut other = can();
-    other.name = "other".into();
-    other.pose = Pose::new(0.0, 0.12, 0.4);
-    let mut scene = table(vec![can(), other]);
-    let at = Vector::new(0.01, 0.06);
-    scene.joints.push(Joint {
-        between: [0, 1],
-        kind: JointKind::Revolute { at, limits: None },
-        guessed: false,
-    });
+    let other = Object { name: "other".into(), ..can() }.at(0.0, 0.12, 0.4);
+    let hinge = JointKind::Revolute { at: Vector::new(0.01, 0.06), limits: None };
+    let scene = Scene::new([can(), other]).with_joint([0, 1], hinge);
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.1, 0.1);
     for simulator in engines() {
         let trajectory =

@@ -10,9 +10,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Job, Record};
+use pushplan::scene::{Job, Record, Scene};
 
-use super::fixtures::{brick, engines, push, table};
+use crate::fixtures::{brick, engines, push};
 
 /// Angle between the bar's face and the nearest face of a brick of the given length and width,
 /// metres, that began turned by `heading`, radians, after 25 cm of pushing.
@@ -21,7 +21,7 @@ fn misalignment(length: f64, width: f64, heading: f64, friction: f64) -> [f64; 2
     object.shape = Shape::Cuboid { size: [length, width, 0.05] };
     object.pose = Pose::new(0.0, 0.0, heading);
     object.friction = friction;
-    let scene = table(vec![object]);
+    let scene = Scene::new([object]);
     let motion = push(Vector::new(-0.08, 0.0), 0.0, 0.25, 0.1);
     engines().map(|simulator| {
         let trajectory =

@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_3;
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, Push, Record, State, ToolMotion, Warning};
+use pushplan::scene::{Job, Push, Record, Scene, State, ToolMotion, Warning};
 
-use super::fixtures::{bar, brick, can, engines, table};
+use crate::fixtures::{bar, brick, can, engines};
 
 fn two_pushes() -> [Push; 2] {
     [
@@ -18,7 +18,7 @@ fn two_pushes() -> [Push; 2] {
 fn a_placed_sequence_is_its_pushes_one_after_another_to_the_bit() {
     let mut second = brick();
     second.pose = Pose::new(0.02, 0.16, 0.3);
-    let scene = table(vec![can(), second]);
+    let scene = Scene::new([can(), second]);
     let pushes = two_pushes();
     let motion = |pushes: &[Push]| ToolMotion::pushes(bar(), 0.002, 0.0, pushes, true);
     for simulator in engines() {
@@ -45,7 +45,7 @@ fn a_placed_sequence_is_its_pushes_one_after_another_to_the_bit() {
 
 #[test]
 fn a_chained_sequence_goes_on_without_waiting() {
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     let mut start = Vector::new(-0.06, -0.02);
     let pushes = [(0.0, 0.1), (FRAC_PI_3, 0.05), (0.0, 0.1)].map(|(direction, length)| {
         let push = Push { start, direction, length, speed: 0.1 };
@@ -70,7 +70,7 @@ fn a_chained_sequence_goes_on_without_waiting() {
 
 #[test]
 fn coming_down_on_an_object_is_reported() {
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     let mut pushes = two_pushes();
     pushes[1].start = Vector::new(0.12, 0.02);
     let motion = ToolMotion::pushes(bar(), 0.002, 0.0, &pushes, true);

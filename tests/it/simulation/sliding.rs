@@ -4,11 +4,11 @@ use pushplan::geometry::{Pose, Shape, Vector, cross};
 use pushplan::scene::{GRAVITY, Job, JointKind, Object, Record, Scene, State, Velocity};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, engines, push, row, table};
+use crate::fixtures::{brick, can, engines, push, row};
 
 /// How an object that starts at the origin with `velocity` ends when nothing touches it.
 fn slide(simulator: &Simulator, object: Object, velocity: Velocity) -> (Pose, f64) {
-    let scene = table(vec![object]);
+    let scene = Scene::new([object]);
     let start = State { velocities: vec![velocity], ..scene.start() };
     // The tool must move somewhere; far behind it meets nothing.
     let motion = push(Vector::new(-2.0, 0.0), 0.0, 0.05, 0.05);

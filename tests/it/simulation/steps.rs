@@ -1,10 +1,10 @@
 //! A smaller time step changes little.
 
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, Record};
+use pushplan::scene::{Job, Record, Scene};
 use pushplan::sim::Simulator;
 
-use super::fixtures::{brick, can, push, table};
+use crate::fixtures::{brick, can, push};
 
 #[test]
 fn a_quarter_of_the_step_moves_a_planar_outcome_by_less_than_half_a_millimetre() {
@@ -12,7 +12,7 @@ fn a_quarter_of_the_step_moves_a_planar_outcome_by_less_than_half_a_millimetre()
         for k in 0..6 {
             let mut object = object.clone();
             object.pose = Pose::new(0.0, 0.0, 0.5 * k as f64 + 0.2);
-            let scene = table(vec![object]);
+            let scene = Scene::new([object]);
             let motion = push(Vector::new(-0.07, -0.02 + 0.01 * k as f64), 0.0, 0.2, 0.1);
             let end = |step: f64| {
                 let simulator = Simulator::planar_with_step(step);

@@ -8,7 +8,7 @@ use pushplan::scene::{
 };
 use pushplan::sim::Simulator;
 
-use super::fixtures::{bar, brick, can, engines, row, table};
+use crate::fixtures::{bar, brick, can, engines, row};
 
 /// A scene and a push in it, placed by `place` (a proper or mirrored motion of the plane).
 fn outcome(simulator: &Simulator, objects: &[Object], place: &dyn Fn(Pose) -> Pose) -> Vec<Pose> {
@@ -16,7 +16,7 @@ fn outcome(simulator: &Simulator, objects: &[Object], place: &dyn Fn(Pose) -> Po
         object.pose = place(object.pose);
         object
     });
-    let scene: Scene = table(placed.collect());
+    let scene = Scene::new(placed);
     // The bar's face is its front, so a mirrored bar is the bar at the mirrored pose.
     let tool: Arc<Tool> = bar();
     let stroke = Stroke {

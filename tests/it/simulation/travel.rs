@@ -1,13 +1,13 @@
 //! The tool travels exactly what the motion says, and pushes what it meets.
 
 use pushplan::geometry::Vector;
-use pushplan::scene::{Body, Contact, Job, Record};
+use pushplan::scene::{Body, Contact, Job, Record, Scene};
 
-use super::fixtures::{can, engines, push, table};
+use crate::fixtures::{can, engines, push};
 
 #[test]
 fn a_can_ends_one_slide_before_the_face_that_pushed_it() {
-    let scene = table(vec![can()]);
+    let scene = Scene::new([can()]);
     for simulator in engines() {
         for speed in [0.03, 0.1, 0.3] {
             let motion = push(Vector::new(-0.0655, 0.0), 0.0, 0.2, speed);

@@ -1,4 +1,4 @@
-//! Scenes and motions that the simulation tests share.
+//! Scenes and motions that several tests share.
 
 use std::sync::Arc;
 
@@ -10,36 +10,18 @@ use pushplan::sim::Simulator;
 
 /// A cylinder of 10 cm diameter and height at the origin.
 pub fn can() -> Object {
-    Object {
-        name: "can".into(),
-        shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::default(),
-    }
+    Object::cylinder("can", 0.05, 0.1)
 }
 
 /// A cuboid of 10 x 6 x 5 cm at the origin.
 pub fn brick() -> Object {
-    Object {
-        name: "brick".into(),
-        shape: Shape::Cuboid { size: [0.10, 0.06, 0.05] },
-        mass: 0.4,
-        friction: 0.4,
-        pose: Pose::default(),
-    }
-}
-
-/// A table of friction 0.5 with these objects.
-pub fn table(objects: Vec<Object>) -> Scene {
-    Scene { table_friction: 0.5, objects, ..Scene::default() }
+    Object::cuboid("brick", [0.10, 0.06, 0.05])
 }
 
 /// A bar of 2 x 20 x 5 cm across x, its front face at the end effector.
 pub fn bar() -> Arc<Tool> {
     let part = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::new(-0.01, 0.0, 0.0));
-    let tool = Tool::assemble("bar".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
-    Arc::new(tool.expect("one part is one piece"))
+    Arc::new(Tool::new("bar", [part]).expect("one part is one piece"))
 }
 
 /// One settled straight push of the bar, its face across the direction of motion.
@@ -55,9 +37,8 @@ pub fn engines() -> [Simulator; 2] {
 /// A hand as in the thesis: a cylinder of 10 cm diameter about the end effector.
 pub fn hand() -> Arc<Tool> {
     let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
-    let part = Part { name: "hand".into(), shape, pose: Pose::default() };
-    let tool = Tool::assemble("hand".into(), String::new(), Pose::default(), 0.4, vec![part], &[]);
-    Arc::new(tool.expect("one part is one piece"))
+    let part = Part::new("hand", shape, Pose::default());
+    Arc::new(Tool::new("hand", [part]).expect("one part is one piece"))
 }
 
 /// One settled straight push of the hand.
@@ -75,11 +56,9 @@ pub fn row(count: usize, model: &Object, pitch: f64, kind: fn(Vector) -> JointKi
     };
     let joint = |k: usize| {
         let between = Vector::new(0.0, pitch * (k as f64 - 0.5));
-        Joint { between: [k - 1, k], kind: kind(between), guessed: false }
+        Joint::new([k - 1, k], kind(between))
     };
-    let mut scene = table((0..count).map(object).collect());
-    scene.joints = (1..count).map(joint).collect();
-    scene
+    Scene { joints: (1..count).map(joint).collect(), ..Scene::new((0..count).map(object)) }
 }
 
 /// How far the second object of joint `index` has come against the first: across, in the joint's
