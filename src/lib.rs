@@ -74,6 +74,7 @@ pub mod internals;
 pub mod asset;
 #[doc(hidden)]
 pub mod bench;
+mod checksum;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

@@ -30,7 +30,7 @@ impl Network {
     /// A model of these weights.
     pub fn new(weights: Weights) -> Self {
         let name = format!("brdpn-{}", weights.card.config.width);
-        let error_p95 = weights.card.errors.p95;
+        let error_p95 = weights.card.errors.as_ref().map_or(f64::INFINITY, |errors| errors.p95);
         let forward = Forward::new(&weights);
         Self { name, forward, weights, settings: RollSettings::default(), error_p95 }
     }

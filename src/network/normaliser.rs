@@ -16,7 +16,7 @@ pub struct Statistics {
 }
 
 /// A column that hardly varies is left at this scale, in feature units.
-const MIN_DEVIATION: f32 = 0.02;
+pub(super) const MIN_DEVIATION: f32 = 0.02;
 
 impl Statistics {
     fn measure(table: &[f32], columns: usize, centred: bool) -> Self {

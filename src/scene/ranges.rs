@@ -73,17 +73,14 @@ pub struct Ranges {
     pub part_length: Span,
     /// Shorter horizontal side of a tool part, metres.
     pub part_width: Span,
-    /// Radius of a round tool part, metres; files without it know of none.
-    #[serde(default = "none")]
+    /// Radius of a round tool part, metres.
     pub part_radius: Span,
     /// Speed of a push, m/s.
     pub speed: Span,
     /// Distance v^2 / (2 mu g) that an object released at the speed of the push slides on,
-    /// metres; files without it were trained like the shipped ones.
-    #[serde(default = "trained_slide")]
+    /// metres.
     pub slide: f64,
-    /// Turn of the tool for each metre of travel, rad/m; files without it know straight pushes.
-    #[serde(default = "trained_turn")]
+    /// Turn of the tool for each metre of travel, rad/m.
     pub turn: f64,
     /// Travel of a push, metres.
     pub travel: Span,
@@ -112,6 +109,37 @@ impl Ranges {
             travel: self.travel.hull(other.travel),
             pushes: self.pushes.hull(other.pushes),
         }
+    }
+
+    /// The first bound, by the name of its range, that no data set can have: not finite, or on the
+    /// wrong side of the other one.
+    pub fn unsound(&self) -> Option<(&'static str, f64)> {
+        let Self { objects, mass, friction, radius, side, parts, .. } = self;
+        let Self { part_length, part_width, part_radius, speed, travel, pushes, .. } = self;
+        let most = |value: f64| Span::new(0.0, value);
+        let spans = [
+            ("objects", *objects),
+            ("mass", *mass),
+            ("mass_ratio", most(self.mass_ratio)),
+            ("friction", *friction),
+            ("radius", *radius),
+            ("side", *side),
+            ("aspect", most(self.aspect)),
+            ("parts", *parts),
+            ("part_length", *part_length),
+            ("part_width", *part_width),
+            ("part_radius", *part_radius),
+            ("speed", *speed),
+            ("slide", most(self.slide)),
+            ("turn", most(self.turn)),
+            ("travel", *travel),
+            ("pushes", *pushes),
+        ];
+        let sound = |span: Span| {
+            let ends = span.low.is_finite() && span.high.is_finite();
+            span == Span::NOTHING || (ends && 0.0 <= span.low && span.low <= span.high)
+        };
+        spans.into_iter().find(|(_, span)| !sound(*span)).map(|(name, span)| (name, span.low))
     }
 
     /// A warning for every quantity of the scene and the motion that lies outside; travel and
@@ -194,19 +222,6 @@ impl Ranges {
 fn turn_per_travel(stroke: &Stroke) -> f64 {
     let turn = (stroke.to.heading - stroke.from.heading).abs();
     if turn > 0.0 { turn / stroke.travel() } else { 0.0 }
-}
-
-fn trained_slide() -> f64 {
-    TRAINED_SLIDE
-}
-
-fn trained_turn() -> f64 {
-    TRAINED_TURN
-}
-
-/// An interval that holds nothing.
-fn none() -> Span {
-    Span::NOTHING
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, Read};
 
-use super::checksum::checksum;
+use crate::checksum::checksum;
 
 /// The file of a run's records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,7 +16,7 @@
 //!
 //! Knows nothing of what a record holds, and draws nothing.
 
-mod checksum;
+mod digest;
 mod error;
 mod form;
 mod journal;
@@ -27,7 +27,7 @@ mod run;
 mod shard;
 mod times;
 
-pub use checksum::{checksum, digest};
+pub use digest::digest;
 pub use error::StoreError;
 pub use form::Form;
 pub use journal::{Held, Journal, Look, read_records};

@@ -239,14 +239,13 @@ fn weights(run: &Checkpoint, data: &Dataset, error: Option<&HeldOutError>) -> We
     });
     Weights {
         card: Card {
-            format: Card::FORMAT,
             config: run.settings.config,
             normaliser: run.normaliser.clone(),
             ranges: data.config().ranges(),
             data_seed: run.data.seed,
             episodes: run.data.episodes,
             steps: run.optimiser.step,
-            errors: errors.unwrap_or_default(),
+            errors,
         },
         parameters: run.optimiser.average.clone(),
     }

@@ -34,14 +34,13 @@ pub(super) fn weights(width: usize) -> Weights {
     let batch = batch(&scene(), &scene().start(), &stroke());
     Weights {
         card: Card {
-            format: Card::FORMAT,
             config,
             normaliser: Normaliser::measure(&batch),
             ranges: DatasetConfig::default().ranges(),
             data_seed: 0,
             episodes: 0,
             steps: 0,
-            errors: ErrorCard::default(),
+            errors: None,
         },
         parameters,
     }
@@ -269,12 +268,62 @@ fn weights_survive_their_file_and_damage_is_refused() {
     assert_eq!(Weights::from_bytes(&bytes).expect("decode"), weights);
     assert!(matches!(Weights::from_bytes(&bytes[..50]), Err(WeightsError::Format(_))));
     assert!(Weights::from_bytes(b"name: stick").is_err());
-    let mut poisoned = bytes.clone();
-    let end = poisoned.len();
-    poisoned[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(matches!(Weights::from_bytes(&poisoned), Err(WeightsError::Parameter(_))));
+}
+
+#[test]
+fn a_single_wrong_bit_of_a_tensor_or_of_the_card_is_found() {
+    let bytes = weights(32).to_bytes().expect("encode");
+    let header = u64::from_le_bytes(bytes[..8].try_into().expect("eight bytes")) as usize;
+    let tensors = 8 + header;
+    for at in (tensors..bytes.len()).step_by(997) {
+        let mut flipped = bytes.clone();
+        // The lowest bit of a mantissa: still a sound number.
+        flipped[tensors + (at - tensors) / 4 * 4] ^= 1;
+        let error = Weights::from_bytes(&flipped).expect_err("damage");
+        assert!(matches!(error, WeightsError::Checksum { .. }), "{error}");
+    }
     let text = String::from_utf8_lossy(&bytes).into_owned();
-    assert!(text.contains("pushplan"));
+    let episodes = text.find("episodes").expect("a key of the card");
+    let mut other = bytes.clone();
+    let digit = &mut other[episodes + r#"episodes\":"#.len()];
+    assert_eq!(*digit, b'0', "the number of episodes");
+    *digit = b'1';
+    let error = Weights::from_bytes(&other).expect_err("damage");
+    assert!(matches!(error, WeightsError::Checksum { .. }), "{error}");
+}
+
+#[test]
+fn weights_that_no_training_gives_are_refused_by_name() {
+    type Spoil = fn(&mut Weights);
+    let spoilt: [(Spoil, &str); 7] = [
+        (|w| set(w, "update.own", f32::NAN), "the parameter `update.own` holds a number"),
+        (|w| set(w, "update.own", 1e9), "`update.own` is 1000000000, up to 1000 is sound"),
+        (|w| w.card.normaliser.node_even.mean[0] = 1e9, "normaliser.node_even.mean is"),
+        (|w| w.card.normaliser.node_odd.deviation[1] = 0.0, "normaliser.node_odd.deviation is 0"),
+        (|w| w.card.normaliser.node_odd.deviation.truncate(1), "has a wrong length"),
+        (|w| w.card.ranges.mass.low = 9.0, "ranges.mass is 9"),
+        (|w| w.card.errors = Some(ERRORS), "errors.p95 is -1, 0 to 100 m is sound"),
+    ];
+    for (spoil, expected) in spoilt {
+        let mut weights = weights(32);
+        spoil(&mut weights);
+        let bytes = weights.to_bytes().expect("encode");
+        let error = Weights::from_bytes(&bytes).expect_err(expected).to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+const ERRORS: ErrorCard = ErrorCard { pushes: 10, mean: 1e-3, median: 1e-4, p95: -1.0 };
+
+fn set(weights: &mut Weights, name: &str, value: f32) {
+    weights.parameters.values.get_mut(name).expect("a parameter")[3] = value;
+}
+
+#[test]
+fn the_shipped_weights_are_written_as_they_were_read() {
+    let shipped = include_bytes!("../../models/brdpn.safetensors");
+    let weights = Weights::from_bytes(shipped).expect("the shipped weights");
+    assert!(weights.to_bytes().expect("encode") == shipped, "reading and writing changes the file");
 }
 
 #[test]

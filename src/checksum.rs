@@ -1,0 +1,24 @@
+//! A checksum that finds damage to files; it proves no origin.
+
+/// FNV-1a with 64 bits (Fowler, Noll and Vo; RFC 9923).
+pub(crate) fn checksum(bytes: &[u8]) -> u64 {
+    extend(0xCBF2_9CE4_8422_2325, bytes)
+}
+
+/// The checksum of what `sum` is that of, followed by `bytes`.
+pub(crate) fn extend(sum: u64, bytes: &[u8]) -> u64 {
+    bytes.iter().fold(sum, |sum, &byte| (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01B3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_matches_published_values() {
+        assert_eq!(checksum(b""), 0xCBF2_9CE4_8422_2325);
+        assert_eq!(checksum(b"a"), 0xAF63_DC4C_8601_EC8C);
+        assert_eq!(checksum(b"foobar"), 0x8594_4171_F739_67E8);
+        assert_eq!(extend(checksum(b"foo"), b"bar"), checksum(b"foobar"));
+    }
+}
