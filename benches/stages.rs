@@ -15,7 +15,7 @@ use pushplan::plan::{
     QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
     Workspace, refine,
 };
-use pushplan::scene::{FrameStep, Job, Physics, Record, Situation, State, Task};
+use pushplan::scene::{FrameStep, Job, ModelKind, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
 
@@ -115,7 +115,7 @@ fn rollouts(criterion: &mut Criterion) {
                     (case, vec![job; *batch])
                 })
                 .collect();
-            group.bench_function(format!("{}, {batch} at a time", model.name()), |b| {
+            group.bench_function(format!("{}, {batch} at a time", model.spec()), |b| {
                 b.iter(|| {
                     for (case, jobs) in &work {
                         black_box(model.rollout(&case.scene, jobs, Record::Outcome));
@@ -129,7 +129,8 @@ fn rollouts(criterion: &mut Criterion) {
 
 /// The search of 500 one-push candidates, and the refinement of the eight best.
 fn planning(criterion: &mut Criterion) {
-    let model = EffectModels::shipped().expect("the shipped weights are sound");
+    let model =
+        EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights are sound");
     let library = library();
     let task: Task = random_task(&library, SEED, 0);
     let tools = task.tools(&library).expect("its tools are shipped");

@@ -148,7 +148,7 @@ fn sample(name: &str) -> Option<Sample> {
     let job = Job::stated(&task.scene, motion);
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
     let predicted = Some(Outcome::judge(&task.goal, &trajectory));
-    let model = Some("quasi-static".to_owned());
+    let model = Some(trajectory.by.clone());
     let plan = PlanFile { task, tool, plan, model, predicted, verdict: None };
     Some(Sample { plan, trajectory })
 }
@@ -162,9 +162,8 @@ fn trajectory(sample: &Sample) -> String {
     // A few frames say as much as all of them, and are read faster.
     trajectory.frames.truncate(6);
     trajectory.contacts.retain(|contact| contact.frame < 6);
-    let PlanFile { task, tool, plan, model, .. } = sample.plan.clone();
-    serde_json::to_string(&TrajectoryFile { task, tool, plan, model, trajectory })
-        .unwrap_or_default()
+    let PlanFile { task, tool, plan, .. } = sample.plan.clone();
+    serde_json::to_string(&TrajectoryFile { task, tool, plan, trajectory }).unwrap_or_default()
 }
 
 /// The shipped card with a network of four units.

@@ -1,6 +1,6 @@
 //! What a file that was accepted must survive: being used.
 //!
-//! A rollout of the quasi-static model, a small search, a picture, and being written and read
+//! A rollout of the prior, a small search, a picture, and being written and read
 //! again. Scenes and motions that are long or large but sound are left out, because they cost
 //! time without showing anything new.
 
@@ -14,7 +14,7 @@ use pushplan::network::Weights;
 use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::scene::{
-    Job, Object, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
+    Job, ModelKind, Object, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
 };
 use pushplan::solve::{Planner, Settings};
 
@@ -110,7 +110,7 @@ pub fn weights(weights: Weights) {
     let stick = library.get("stick").expect("a shipped tool");
     let push = Push { start: Vector::new(-0.1, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
     let motion = ToolMotion::pushes(Arc::clone(stick), 0.002, 0.0, &[push], true);
-    let warnings = model.warnings(&scene, &motion);
+    let warnings = model.trust(&scene, &Job::stated(&scene, motion.clone())).warnings();
     assert!(warnings.iter().all(|warning| !warning.to_string().is_empty()));
     rollout(&model, &scene, &motion);
 }
@@ -125,7 +125,8 @@ fn rollout(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> Optio
     let trajectory = model.rollout(scene, &[job], Record::Frames).pop().expect("one a job");
     assert!(trajectory.frames.iter().all(|frame| frame.state.is_finite()), "not finite");
     assert!(
-        !trajectory.warnings.contains(&Warning::NotFinite) || model.name() != "quasi-static",
+        !trajectory.warnings.contains(&Warning::NotFinite)
+            || *model.spec() != ModelKind::PRIOR.into(),
         "the prior left the finite numbers"
     );
     Some(trajectory)

@@ -5,8 +5,8 @@ use std::fmt;
 use thiserror::Error;
 
 use crate::asset::Faults;
-use crate::network::WeightsError;
-use crate::scene::ToolError;
+use crate::effect::ModelError;
+use crate::scene::{SpecError, ToolError};
 use crate::solve::SolveError;
 
 /// Any error of the public interface, for `fn main() -> Result<(), pushplan::Error>`.
@@ -22,9 +22,12 @@ pub enum Error {
     /// Parts that do not make a tool.
     #[error(transparent)]
     Tool(#[from] ToolError),
-    /// A weights file that cannot be used.
+    /// An effect model that cannot be made, for its weights.
     #[error(transparent)]
-    Weights(#[from] WeightsError),
+    Model(#[from] ModelError),
+    /// A text that names no effect model.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
     /// A task that cannot even be tried.
     #[error(transparent)]
     Task(#[from] SolveError),

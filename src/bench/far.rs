@@ -66,7 +66,7 @@ pub fn far_costs(
         for &(model, batch) in models {
             for (far, crowded) in &crowded {
                 costs.push(FarCost {
-                    model: model.name().to_owned(),
+                    model: model.spec().to_string(),
                     far: *far,
                     batch,
                     seconds: seconds(model, crowded, batch),
@@ -120,18 +120,18 @@ fn difference(model: &dyn EffectModel, alone: &Suite, crowded: &Suite) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{asset::ToolLibrary, bench::SuiteKind, effect::EffectModels};
+    use crate::{asset::ToolLibrary, bench::SuiteKind, effect::EffectModels, scene::ModelKind};
 
     #[test]
     fn far_objects_change_no_bit() {
         let library = ToolLibrary::embedded().expect("the shipped tools");
         let suite = Suite::draw(SuiteKind::Touching, &library, 3, 4);
-        let model = EffectModels::shipped().expect("the shipped weights");
+        let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
         for far in [1, 100] {
             let crowded = with_far(&suite, far);
             let counts: Vec<usize> = crowded.cases.iter().map(|c| c.scene.objects.len()).collect();
             assert!(counts.iter().all(|count| *count > far));
-            assert_eq!(difference(&*model, &suite, &crowded), 0.0);
+            assert_eq!(difference(&model, &suite, &crowded), 0.0);
         }
     }
 }

@@ -125,7 +125,7 @@ impl HeldOut {
 
     /// Errors of one model.
     pub fn evaluate(&self, model: &dyn EffectModel) -> HeldOutErrors {
-        self.judge(model.name(), |trial, _| Comparison::of(model, trial))
+        self.judge(&model.spec().to_string(), |trial, _| Comparison::of(model, trial))
     }
 
     /// The planar engine against itself, every object's start shifted by 0.1 mm in a random

@@ -97,7 +97,7 @@ pub fn refinement_report(
         done.iter().map(|one| (&one.before, &one.after)).unzip();
     let programmes = |which: usize| done.iter().map(|one| one.programmes[which]).sum();
     Ok(RefinementReport {
-        model: with.model().name().to_owned(),
+        model: with.model().spec().to_string(),
         seed,
         tasks,
         tolerance: after.first().map_or(0.0, |task| task.tolerance),

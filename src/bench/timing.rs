@@ -81,7 +81,7 @@ fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
     let frames = strokes.map(|stroke| stroke.frames()).sum::<usize>();
     let pushes = suite.cases.len();
     PushCost {
-        model: model.name().to_owned(),
+        model: model.spec().to_string(),
         batch,
         seconds,
         seconds_per_frame: seconds * pushes as f64 / frames.max(1) as f64,
@@ -151,7 +151,7 @@ pub fn search_costs(
         let solved = solved.collect::<Result<Vec<_>, SolveError>>()?;
         let seconds = solved.iter().map(|statistics| statistics.timing.search);
         Ok(SearchCost {
-            model: model.name().to_owned(),
+            model: model.spec().to_string(),
             task: task.name.clone(),
             threads: rayon::current_num_threads(),
             rollouts: solved.first().map_or(0, |statistics| statistics.search.rollouts),

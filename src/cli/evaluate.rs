@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use clap::Args;
 use serde_json::json;
@@ -11,13 +12,14 @@ use crate::asset::SCHEMA_VERSION;
 use crate::bench::{CrowdFamily, HeldOut, HeldOutReport, SuiteKind};
 use crate::effect::EffectModel;
 use crate::report::{Table, group_table, heldout_line, heldout_table};
+use crate::scene::ModelSpec;
 
 use super::{
     action::LibraryArgs,
     error::CliError,
     evaluate_crowd::{self, CrowdArgs},
     exit_code,
-    model::{self, ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     session::Session,
 };
 
@@ -37,9 +39,9 @@ Examples:
 pub struct EvaluateArgs {
     /// The model, the same as --model
     #[arg(value_name = "MODEL", conflicts_with = "model")]
-    positional: Option<ModelName>,
+    positional: Option<ModelSpec>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    model: ModelName,
+    model: ModelSpec,
     #[command(flatten)]
     outside: OutsideArgs,
     /// What to measure on, see below; several may be given
@@ -116,7 +118,7 @@ impl Shown {
 }
 
 pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
-    let name = args.positional.as_ref().unwrap_or(&args.model);
+    let spec = args.positional.as_ref().unwrap_or(&args.model);
     let shown = Shown { json: args.json, markdown: args.markdown };
     let mut suites = Vec::new();
     let mut families = Vec::new();
@@ -132,10 +134,10 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
         suites = SuiteKind::ALL.to_vec();
     }
     let sources = evaluate_crowd::Sources::load(&families, &files, &args.crowd)?;
-    let suites = tools(args, name, &suites, shown, session)?;
+    let suites = tools(args, spec, &suites, shown, session)?;
     let crowds = evaluate_crowd::run(
         &sources,
-        (name, args.outside),
+        (spec, args.outside),
         args.seed,
         &args.crowd,
         shown,
@@ -157,7 +159,7 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
 /// Errors on pushes of the shipped tools.
 fn tools(
     args: &EvaluateArgs,
-    name: &ModelName,
+    spec: &ModelSpec,
     kinds: &[SuiteKind],
     shown: Shown,
     session: &Session,
@@ -166,11 +168,10 @@ fn tools(
         return Ok(Vec::new());
     }
     let library = args.library.load()?;
-    let baselines = ModelName::BASELINES.into_iter().filter(|other| other != name);
-    let guarded = args.outside.guard(name.load()?);
-    let models = std::iter::once(Ok(guarded))
-        .chain(baselines.map(|name| name.load()))
-        .collect::<Result<Vec<_>, CliError>>()?;
+    let mut models = vec![args.outside.load(spec)?];
+    for other in model::BASELINES.map(ModelSpec::of).iter().filter(|other| *other != spec) {
+        models.push(Arc::new(model::load(other)?));
+    }
     let mut reports = Vec::new();
     for kind in kinds {
         let spinner = session.spinner(kind.title());

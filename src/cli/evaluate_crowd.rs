@@ -1,29 +1,36 @@
 //! The part of `pushplan evaluate` that measures on crowds and recordings.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::{self, Kind, SCHEMA_VERSION, TrajectoryFile};
-use crate::bench::{CrowdFamily, CrowdReport, CrowdSet, DISTURBANCE};
+use crate::bench::{CrowdFamily, CrowdReport, CrowdSet};
 use crate::dataset::{JointRule, Solids};
-use crate::effect::{Assuming, Assumption, Disturbed, EffectModel, Mistake};
+use crate::effect::EffectModel;
 use crate::judge::Trial;
 use crate::recording::Recording;
 use crate::report::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
+use crate::scene::{Assumptions, Job, JointBelief, ModelKind, ModelSpec};
 
 use super::{
     error::CliError,
     evaluate::Shown,
-    model::{ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     output,
     session::Session,
 };
 
-/// How wrong the friction is that the simulator is told, beside the truth.
-const FRICTION: [f64; 2] = [0.7, 1.3];
+/// Percentages of the true friction that the simulator is told, beside the truth.
+const FRICTION: [u16; 2] = [70, 130];
+
+/// Micrometres by which the start that the simulator is told is off: the truth's own spread.
+const START: u16 = 100;
+
+/// What stands beside the model.
+const BASELINES: [ModelKind; 4] =
+    [ModelKind::PRIOR, ModelKind::Projection, ModelKind::Follow, ModelKind::Still];
 
 /// Options of scenes of many objects.
 #[derive(Args, Debug)]
@@ -143,7 +150,7 @@ fn recording(file: &Path) -> Result<Recording, asset::Faults> {
 /// A model that cannot be read; results that cannot be written.
 pub fn run(
     sources: &Sources,
-    asked: (&ModelName, OutsideArgs),
+    asked: (&ModelSpec, OutsideArgs),
     seed: u64,
     args: &CrowdArgs,
     shown: Shown,
@@ -186,7 +193,7 @@ pub fn run(
 /// Every recording by itself, and all together where there are several.
 fn recordings(
     sources: &Sources,
-    asked: (&ModelName, OutsideArgs),
+    asked: (&ModelSpec, OutsideArgs),
     args: &CrowdArgs,
     shown: Shown,
     session: &Session,
@@ -215,7 +222,8 @@ fn recordings(
 /// Says which recordings the model was not made for.
 fn warn(sources: &Sources, model: &dyn EffectModel, session: &Session) {
     for recording in &sources.recordings {
-        for warning in model.warnings(&recording.scene, &recording.replay().motion) {
+        let job = Job::stated(&recording.scene, recording.replay().motion);
+        for warning in model.trust(&recording.scene, &job).warnings() {
             session.warn(&format!("{}: {warning}", recording.name));
         }
     }
@@ -247,29 +255,30 @@ fn show_last(
 /// The model that is asked for, the same under other assumptions about joints, and what stands
 /// beside it. Of recordings the planar engine is no truth, so it is there as itself too.
 fn models(
-    (name, outside): (&ModelName, OutsideArgs),
+    (spec, outside): (&ModelSpec, OutsideArgs),
     recorded: bool,
     alone: bool,
 ) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
-    let model = outside.guard(name.load()?);
-    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(Arc::clone(&model))];
+    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(outside.load(spec)?)];
     if alone {
         return Ok(models);
     }
-    for assumption in Assumption::ALL {
-        models.push(Box::new(Assuming::new(Arc::clone(&model), assumption)));
+    let told = Assumptions::default();
+    for joints in [JointBelief::Guessed, JointBelief::None, JointBelief::Fixed] {
+        let assumed = spec.clone().assuming(Assumptions { joints: Some(joints), ..told });
+        models.push(Box::new(outside.load(&assumed)?));
     }
-    let baselines = [ModelName::Prior, ModelName::Projection, ModelName::Follow, ModelName::Still];
-    for other in baselines.into_iter().filter(|other| other != name) {
-        models.push(Box::new(other.load()?));
+    let mut others: Vec<ModelSpec> = BASELINES.into_iter().map(ModelSpec::of).collect();
+    let planar = ModelSpec::of(ModelKind::PLANAR);
+    if recorded {
+        others.push(planar.clone());
     }
-    let planar = ModelName::Planar.load()?;
-    if recorded && *name != ModelName::Planar {
-        models.push(Box::new(Arc::clone(&planar)));
+    others.retain(|other| other != spec);
+    let friction = FRICTION.map(|percent| Assumptions { friction: Some(percent), ..told });
+    let start = Assumptions { start: Some(START), ..told };
+    others.extend(friction.into_iter().chain([start]).map(|told| planar.clone().assuming(told)));
+    for other in &others {
+        models.push(Box::new(model::load(other)?));
     }
-    for factor in FRICTION {
-        models.push(Box::new(Disturbed::new(Arc::clone(&planar), Mistake::Friction(factor))));
-    }
-    models.push(Box::new(Disturbed::new(planar, Mistake::Start(DISTURBANCE))));
     Ok(models)
 }

@@ -1,4 +1,4 @@
-//! `pushplan predict`: one action's effect, learned beside simulated.
+//! `pushplan predict`: one action's effect, predicted beside simulated.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -7,17 +7,17 @@ use clap::Args;
 use serde_json::json;
 
 use crate::asset::SCHEMA_VERSION;
-use crate::effect::Job;
+use crate::effect::EffectModel;
 use crate::report::{
     Align, NONE, Table, degrees, goal_line, millimetres, plan_line, point, push_table, seconds,
 };
-use crate::scene::{Record, State, Task, Trajectory, Warning};
+use crate::scene::{Job, ModelSpec, Record, State, Task, Trajectory, Warning};
 
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
     exit_code,
-    model::{self, ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     push_argument::FORMS,
     session::Session,
 };
@@ -36,7 +36,7 @@ pub struct PredictArgs {
     #[command(flatten)]
     library: LibraryArgs,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    model: ModelName,
+    model: ModelSpec,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Print JSON instead of a table
@@ -45,7 +45,6 @@ pub struct PredictArgs {
 }
 
 struct Effect {
-    model: String,
     trajectory: Trajectory,
     seconds: f64,
 }
@@ -56,34 +55,33 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let motion = plan.motion(&tool);
     let mut effects = Vec::new();
-    let simulated = ModelName::SIMULATED.into_iter().filter(|name| *name != args.model);
-    for name in std::iter::once(args.model.clone()).chain(simulated) {
-        let model = args.outside.guard(name.load()?);
-        let source = model.name_for(&task.scene, &motion);
-        for warning in model.warnings(&task.scene, &motion) {
-            session.warn(&format!("{source}: {warning}"));
-        }
-        let job = Job::stated(&task.scene, motion.clone());
-        let jobs = [job];
+    let job = Job::stated(&task.scene, motion.clone());
+    let simulated = model::SIMULATED.map(ModelSpec::of);
+    let simulated = simulated.into_iter().filter(|spec| *spec != args.model);
+    for spec in std::iter::once(args.model.clone()).chain(simulated) {
+        let model = args.outside.load(&spec)?;
+        let before = model.trust(&task.scene, &job).warnings();
+        let jobs = [job.clone()];
         let (found, seconds) = session.compute(|| {
             let start = Instant::now();
             let found = model.rollout(&task.scene, &jobs, Record::Outcome);
             (found, start.elapsed().as_secs_f64())
         });
-        if found.iter().any(|trajectory| trajectory.warnings.contains(&Warning::Refused)) {
-            let message = format!("{source} gives no prediction for this action");
-            return Err(CliError::Refused(message));
+        for trajectory in found {
+            let by = &trajectory.by;
+            for warning in &before {
+                session.warn(&format!("{by}: {warning}"));
+            }
+            if trajectory.warnings.contains(&Warning::Refused) {
+                let message = format!("{by} gives no prediction for this action");
+                return Err(CliError::Refused(message));
+            }
+            effects.push(Effect { trajectory, seconds });
         }
-        let name = source.to_owned();
-        effects.extend(found.into_iter().map(|trajectory| Effect {
-            model: name.clone(),
-            trajectory,
-            seconds,
-        }));
     }
     for effect in &effects {
         for warning in &effect.trajectory.warnings {
-            session.warn(&format!("{}: {warning}", effect.model));
+            session.warn(&format!("{}: {warning}", effect.trajectory.by));
         }
     }
     if args.json {
@@ -92,7 +90,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
             .map(|effect| {
                 let end = effect.trajectory.outcome();
                 json!({
-                    "model": effect.model,
+                    "model": effect.trajectory.by,
                     "state": end,
                     "goal_error": task.goal.error(end),
                     "warnings": effect.trajectory.warnings,
@@ -139,7 +137,7 @@ fn effect_table(task: &Task, effects: &[Effect]) -> Table {
             let cylinder = object.shape.is_cylinder();
             table.row([
                 object.name.clone(),
-                effect.model.clone(),
+                effect.trajectory.by.to_string(),
                 point(end.poses[k].position),
                 millimetres(moved(end, k)),
                 if cylinder { NONE.to_owned() } else { degrees(turned) },

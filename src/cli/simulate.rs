@@ -90,13 +90,7 @@ pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     let stem = format!("{}.{name}", task.name);
     let svg = output::write(&args.out, &format!("{stem}.svg"), picture.to_svg().as_bytes())?;
     let path = args.out.join(format!("{stem}.trajectory.json"));
-    let file = TrajectoryFile {
-        tool: Arc::clone(&tool),
-        plan,
-        model: Some(name.to_owned()),
-        trajectory,
-        task,
-    };
+    let file = TrajectoryFile { tool: Arc::clone(&tool), plan, trajectory, task };
     file.write(&path).map_err(CliError::Output)?;
     report(args, session, &file, engine, &[path, svg])?;
     Ok(exit_code::DONE)

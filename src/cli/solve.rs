@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::asset::{PlanFile, load_task};
 use crate::report::{moving_picture, plan_picture, solution_json, solution_text};
-use crate::scene::{Engine, Situation, Task};
+use crate::scene::{Engine, ModelSpec, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
@@ -15,7 +15,7 @@ use super::{
     error::CliError,
     exit_code,
     follow::Following,
-    model::{self, ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     output,
     session::Session,
 };
@@ -36,7 +36,7 @@ pub struct SolveArgs {
     #[arg(long, value_enum, default_value_t)]
     effort: EffortName,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelName>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
@@ -59,7 +59,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
     let effort = Effort::from(args.effort);
-    let effects = args.model.clone().unwrap_or(ModelName::OfEffort(effort)).load()?;
+    let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
     output::prepare(&args.out)?;
     let planner = Planner::builder(effects)
         .effort(effort)
@@ -73,23 +73,18 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     for warning in &solution.warnings {
         session.warn(&warning.to_string());
     }
-    let effects = planner.model();
-    let model = match solution.best() {
-        Some(best) => effects.name_for(&task.scene, &best.plan.motion(&best.tool)),
-        None => effects.name(),
-    };
     let (code, suffix) = match solution.status {
         PlanStatus::Solved => (exit_code::DONE, ""),
         PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, &task, best, model, suffix),
+        Some(best) => write(args, session, &task, best, suffix),
         None => Ok(Vec::new()),
     };
     // A plan that took minutes is shown also where the disk has no place for it.
     let files = written.as_deref().unwrap_or_default();
-    print(args, session, &task, &solution, model, files)?;
+    print(args, session, &task, &solution, files)?;
     written.map(|_| code)
 }
 
@@ -108,7 +103,6 @@ fn write(
     session: &Session,
     task: &Task,
     best: &RankedPlan,
-    model: &str,
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
     let motion = best.plan.motion(&best.tool);
@@ -121,7 +115,7 @@ fn write(
         task: task.clone(),
         tool: Arc::clone(&best.tool),
         plan: best.plan.clone(),
-        model: Some(model.to_owned()),
+        model: Some(best.predicted.by.clone()),
         predicted: Some(best.outcome.clone()),
         verdict: best.verdict.clone(),
     };
@@ -142,15 +136,14 @@ fn print(
     session: &Session,
     task: &Task,
     solution: &Solution,
-    model: &str,
     written: &[PathBuf],
 ) -> Result<(), CliError> {
     if args.json {
-        let mut report = solution_json(task, solution, model);
+        let mut report = solution_json(task, solution);
         report["files"] = serde_json::json!(written);
         return session.print(&format!("{report:#}\n"));
     }
-    let mut text = solution_text(task, solution, model);
+    let mut text = solution_text(task, solution);
     for path in written {
         text += &format!("wrote {}\n", path.display());
     }

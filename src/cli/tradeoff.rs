@@ -1,22 +1,20 @@
 //! `pushplan tradeoff`: every level of the ladder on the same pushes and tasks.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use crate::bench::{TradeOff, TradeOffReport, TradeOffSettings, Unit, levels, plan_levels};
-use crate::effect::EffectModels;
-use crate::network::Weights;
 use crate::report::{
     Table, tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
     tradeoff_push_chart, tradeoff_task_chart,
 };
-use crate::store::{RunManifest, Seconds, Store, digest};
+use crate::store::{RunManifest, Seconds, Store};
 use crate::watch::Watch;
 
 use super::{
-    action::LibraryArgs, error::CliError, exit_code, follow::Following, interrupt,
-    model::ModelName, output, session::Session,
+    action::LibraryArgs, bench::weights_digest, error::CliError, exit_code, follow::Following,
+    interrupt, output, session::Session,
 };
 
 /// Measure speed against accuracy: every predictor and every budget of planning
@@ -93,24 +91,21 @@ nothing shared. *Solved* is a plan that passed its replay in 3-D.
 
 pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let shipped = EffectModels::weights()
-        .map_err(|error| CliError::unexpected("the shipped weights are broken", &error))?;
-    let others = args.weights.iter().map(|path| named(path)).collect::<Result<Vec<_>, _>>()?;
     if let Some(out) = &args.out {
         output::prepare(out)?;
     }
-    let levels = levels(&shipped, &others);
+    let others: Vec<String> = args.weights.iter().map(|path| path.display().to_string()).collect();
+    let levels = levels(&others)?;
+    let networks = levels.iter().map(|level| weights_digest(level.spec()));
+    let mut digests = networks.collect::<Result<Vec<Option<String>>, CliError>>()?;
+    digests.dedup();
+    let digests: Vec<String> = digests.into_iter().flatten().collect();
     let mut plans = plan_levels(&levels);
     plans.retain(|plan| {
         args.plans.is_empty() || args.plans.iter().any(|words| plan.name.contains(words))
     });
     let run = TradeOff::new(&library, levels, plans, args.settings())
         .map_err(|error| CliError::unexpected("cannot start a thread", &error))?;
-    let cards = std::iter::once(&shipped).chain(others.iter().map(|(_, weights)| weights));
-    let digests = cards.map(|weights| weights.to_bytes().map(|bytes| digest(&bytes)));
-    let digests = digests
-        .collect::<Result<Vec<String>, _>>()
-        .map_err(|error| CliError::unexpected("cannot read the weights", &error))?;
     let manifest = run.manifest(&digests);
     let report = measure(args, session, &run, manifest)?;
     let json = serde_json::to_string_pretty(&report)
@@ -195,12 +190,4 @@ fn tolerance_share(text: &str) -> Result<f64, String> {
         Ok(share) if (0.05..=5.0).contains(&share) => Ok(share),
         _ => Err("use a number from 0.05 to 5; 1 is 2 cm".to_owned()),
     }
-}
-
-/// The weights in a file and the file's name.
-fn named(path: &Path) -> Result<(String, Weights), CliError> {
-    let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
-    let weights = ModelName::Weights(path.to_owned()).weights()?;
-    let none = || CliError::File(format!("{}: no weights", path.display()));
-    Ok((name, weights.ok_or_else(none)?))
 }

@@ -52,7 +52,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         });
         session.print(&format!("{report:#}\n"))?;
     } else {
-        let predicted = file.model.as_deref().zip(file.predicted.as_ref());
+        let predicted = file.model.as_ref().zip(file.predicted.as_ref());
         let (name, plan) = (&file.task.name, plan_line(&file.plan));
         let (goal, pushes) = (goal_line(&file.task), push_table(&file.plan).to_text());
         let outcomes = outcomes_text(&file.task, predicted, Some(&verdict));

@@ -1,27 +1,30 @@
-//! The waist of the house: what a tool motion does to a scene, whoever computes it.
+//! What a tool motion does to a scene, whoever computes it.
 //!
-//! Planner, benchmarks and trade-off see only [`EffectModel`]; learned, simulated and trivial
-//! models stand behind it as levels of one speed-accuracy ladder. Nothing is searched here.
+//! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior, the engines
+//! and models without physics stand behind it as levels of one ladder of speed and accuracy.
+//! Nothing is searched here.
 
-mod assume;
-mod crowded;
-mod disturbed;
+mod assuming;
+mod build;
+mod measured;
 mod model;
 mod network;
-mod outside;
 mod prior;
-mod shipped;
+mod routed;
 mod simulated;
 mod trivial;
+mod trust;
+mod up_to;
 
 pub use crate::scene::Job;
-pub use assume::{Assuming, Assumption};
-pub use crowded::Crowded;
-pub use disturbed::{Disturbed, Mistake, shifted_start};
+pub use assuming::{Assuming, shifted_start};
+pub use build::{EffectModels, ModelError};
+pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;
 pub use network::Network;
-pub use outside::{Guarded, Outside, consequence};
 pub use prior::Prior;
-pub use shipped::EffectModels;
+pub use routed::{Outside, Routed, consequence};
 pub use simulated::Simulated;
 pub use trivial::{Follow, Projection, Still};
+pub use trust::Trust;
+pub use up_to::UpTo;

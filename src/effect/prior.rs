@@ -3,54 +3,47 @@
 use rayon::prelude::*;
 
 use crate::{
-    rollout::{RollSettings, Roller},
-    scene::{Job, Record, Scene, ToolMotion, Trajectory, Warning},
+    rollout::{RollSettings, Roller, reachable},
+    scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
 
-use super::{
-    EffectModel,
-    network::{CHUNK, stride_name},
-};
+use super::{EffectModel, PRIOR_RANGES, Trust, measured::measured, network::CHUNK, trust::outside};
 
 /// The prior alone, without any network: the cheapest level with physics in it.
 #[derive(Clone, Debug)]
 pub struct Prior {
-    name: String,
+    spec: ModelSpec,
     settings: RollSettings,
 }
 
 impl Prior {
-    /// The same with `stride` frames predicted as one.
-    pub fn with_stride(mut self, stride: usize) -> Self {
-        self.settings.stride = stride.max(1);
-        self.name += &stride_name(stride);
-        self
+    /// The prior with `stride` frames predicted as one.
+    pub fn new(stride: Stride) -> Self {
+        let settings = RollSettings { stride: stride.frames(), ..RollSettings::default() };
+        Self { spec: ModelKind::Prior { stride }.into(), settings }
     }
 }
 
 impl Default for Prior {
     fn default() -> Self {
-        Self { name: "quasi-static".to_owned(), settings: RollSettings::default() }
+        Self::new(Stride::ONE)
     }
 }
 
 impl EffectModel for Prior {
-    fn name(&self) -> &str {
-        &self.name
+    fn spec(&self) -> &ModelSpec {
+        &self.spec
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    fn error_p95(&self) -> f64 {
-        0.0
+    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        let error = measured(&self.spec.first().kind, || reachable(scene, job).len());
+        Trust::Mine { error, warnings: outside(&PRIOR_RANGES, scene, job) }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map_init(
-                || Roller::new(self.settings),
+                || Roller::new(self.spec.clone(), self.settings),
                 |roller, chunk| roller.roll(scene, chunk, record, None),
             )
             .flatten_iter()

@@ -2,45 +2,35 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{Engine, Record, Scene, ToolMotion, Trajectory, Warning};
-use crate::sim::{DEFAULT_STEP, Simulator};
+use crate::rollout::reachable;
+use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory};
+use crate::sim::Simulator;
 
-use super::{EffectModel, Job};
+use super::{EffectModel, Trust, measured::measured};
 
-/// A simulator as an effect model: the dearest level of the ladder, and the truth of the others.
+/// A simulator as an effect model: the most expensive level of the ladder, and the truth of the
+/// others.
 #[derive(Clone, Debug)]
 pub struct Simulated {
-    name: String,
+    spec: ModelSpec,
     simulator: Simulator,
 }
 
 impl Simulated {
-    /// The effects that `simulator` computes. The name says the step where it is not the
-    /// default: `planar, 1/60 s`.
+    /// The effects that `simulator` computes.
     pub fn new(simulator: Simulator) -> Self {
-        let engine = match simulator.engine() {
-            Engine::Planar => "planar",
-            Engine::Spatial => "3d",
-        };
-        let name = match simulator.step() {
-            step if step == DEFAULT_STEP => engine.to_owned(),
-            step => format!("{engine}, 1/{:.0} s", 1.0 / step),
-        };
-        Self { name, simulator }
+        Self { spec: simulator.spec(), simulator }
     }
 }
 
 impl EffectModel for Simulated {
-    fn name(&self) -> &str {
-        &self.name
+    fn spec(&self) -> &ModelSpec {
+        &self.spec
     }
 
-    fn warnings(&self, _scene: &Scene, _motion: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    fn error_p95(&self) -> f64 {
-        0.0
+    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        let error = measured(&self.spec.first().kind, || reachable(scene, job).len());
+        Trust::Mine { error, warnings: Vec::new() }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
@@ -76,10 +66,8 @@ mod tests {
             })
             .collect();
         let simulator = Simulator::planar();
-        let model = Simulated::new(simulator.clone());
-        assert_eq!((model.name(), model.error_p95()), ("planar", 0.0));
-        let coarse = Simulated::new(Simulator::spatial_with_step(1.0 / 120.0));
-        assert_eq!(coarse.name(), "3d, 1/120 s");
+        let model = Simulated::new(simulator);
+        assert_eq!(model.spec().to_string(), "planar");
         let trajectories = model.rollout(&scene, &jobs, Record::Frames);
         for (job, trajectory) in jobs.iter().zip(&trajectories) {
             let alone = simulator.run(&scene, job, Record::Frames);

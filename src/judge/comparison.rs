@@ -30,7 +30,8 @@ impl<'a> Comparison<'a> {
     pub fn of(model: &dyn EffectModel, trial: &'a Trial) -> Self {
         let record = if trial.is_of_the_end() { Record::Outcome } else { Record::Frames };
         let rolled = model.rollout(&trial.scene, &[trial.job()], record);
-        Self::new(trial, rolled.into_iter().next().unwrap_or_default())
+        let nothing = || Trajectory::new(model.spec().clone());
+        Self::new(trial, rolled.into_iter().next().unwrap_or_else(nothing))
     }
 
     /// What the model predicts.

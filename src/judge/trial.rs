@@ -135,7 +135,7 @@ mod tests {
     use super::*;
     use crate::{
         geometry::Shape,
-        scene::{Object, Part, Stroke, Tool},
+        scene::{ModelKind, Object, Part, Stroke, Tool},
     };
 
     /// A frame of stroke `stroke` in which the one object is at `x`.
@@ -146,7 +146,7 @@ mod tests {
 
     fn trajectory(frames: &[(usize, f64)]) -> Trajectory {
         let frames = frames.iter().map(|(stroke, x)| frame(*stroke, *x)).collect();
-        Trajectory { frames, ..Trajectory::default() }
+        Trajectory { frames, ..Trajectory::new(ModelKind::Still.into()) }
     }
 
     #[test]

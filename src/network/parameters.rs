@@ -53,7 +53,7 @@ pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
 impl Parameters {
     /// Random first values from `seed`: uniform with the variance 1 / fan-in, divided among
     /// the matrices that add up in one layer; biases and the last layer are zero, so that an
-    /// untrained network predicts the quasi-static prior exactly.
+    /// untrained network predicts the prior exactly.
     pub fn fresh(config: &Config, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
         let values = layout(config)

@@ -103,7 +103,7 @@ impl Predictor {
         Ok(Parameters { values })
     }
 
-    /// The correction of the quasi-static prior in output units, [N, 6] in the order of
+    /// The correction of the prior in output units, [N, 6] in the order of
     /// [`crate::graph::Node::prior`].
     ///
     /// # Errors

@@ -5,6 +5,7 @@
 //! into an empty map must never look like success.
 
 use std::fmt;
+use std::path::Path;
 
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
@@ -37,6 +38,9 @@ const KEY: &str = "pushplan";
 /// Why a weights file cannot be used.
 #[derive(Error)]
 pub enum WeightsError {
+    /// The file cannot be read.
+    #[error("cannot read the file: {0}")]
+    Unreadable(#[from] std::io::Error),
     /// Not a safetensors file.
     #[error("not a weights file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
@@ -159,6 +163,14 @@ impl Weights {
         Ok(encode_parameters(&self.card.config, &[("", &self.parameters)], (KEY, header))?)
     }
 
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`WeightsError`] if it cannot be read or is not a sound weights file.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, WeightsError> {
+        Self::from_bytes(&std::fs::read(path)?)
+    }
+
     /// Reads a file's bytes.
     ///
     /// # Errors
@@ -241,8 +253,7 @@ fn check_normaliser(normaliser: &Normaliser) -> Result<(), WeightsError> {
         if table.mean.len() != columns || table.deviation.len() != columns {
             return Err(ParameterError { name, fault: "has a wrong length" }.into());
         }
-        // A comparison is false for what is not a number.
-        let mean = table.mean.iter().find(|x| !(x.abs() <= LARGEST));
+        let mean = table.mean.iter().find(|x| !(-LARGEST..=LARGEST).contains(*x));
         let deviation = table.deviation.iter().find(|x| !(MIN_DEVIATION..=LARGEST).contains(*x));
         if let Some(value) = mean {
             let (name, value) = (format!("{name}.mean"), f64::from(*value));

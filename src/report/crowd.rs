@@ -106,7 +106,7 @@ pub fn crowd_summary(reports: &[CrowdReport]) -> Table {
             share(model.moved.end.as_ref(), |errors| errors.mean),
             share(model.all.averaged.as_ref(), |errors| errors.mean),
             of(&|name| name == "projection"),
-            of(&|name| name.starts_with("planar, start off")),
+            of(&|name| name.starts_with("planar,start=")),
         ]);
     }
     table

@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use crate::asset::SCHEMA_VERSION;
 use crate::scene::{
-    Engine, Evidence, Outcome, Plan, Task, ToolMotion, Trajectory, Verdict, Warning,
+    Engine, Evidence, ModelSpec, Outcome, Plan, Task, ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::solve::{PlanStatus, RankedPlan, Solution};
 
@@ -15,7 +15,7 @@ use super::{
 };
 
 /// The result for people.
-pub fn solution_text(task: &Task, solution: &Solution, model: &str) -> String {
+pub fn solution_text(task: &Task, solution: &Solution) -> String {
     let mut text = format!("{}: {}\n", task.name, headline(solution));
     text += &format!("goal: {}\n", goal_line(task));
     if let Some(best) = solution.best() {
@@ -23,7 +23,8 @@ pub fn solution_text(task: &Task, solution: &Solution, model: &str) -> String {
             text += &format!("\n{}", push_table(&best.plan).to_text());
         }
         text += "\n";
-        text += &outcomes_text(task, Some((model, &best.outcome)), best.verdict.as_ref());
+        text +=
+            &outcomes_text(task, Some((&best.predicted.by, &best.outcome)), best.verdict.as_ref());
         if let Some(aim) = best.refinement.aimed_at {
             text += &format!(
                 "aimed at {}, as the same plan aimed at the goal ended beside it in 3-D\n",
@@ -46,7 +47,7 @@ pub fn solution_text(task: &Task, solution: &Solution, model: &str) -> String {
 }
 
 /// The result for programs.
-pub fn solution_json(task: &Task, solution: &Solution, model: &str) -> Json {
+pub fn solution_json(task: &Task, solution: &Solution) -> Json {
     let plans: Vec<Json> = solution
         .plans
         .iter()
@@ -62,7 +63,7 @@ pub fn solution_json(task: &Task, solution: &Solution, model: &str) -> Json {
     json!({
         "schema_version": SCHEMA_VERSION,
         "task": task.name,
-        "model": model,
+        "model": solution.best().map(|best| &best.predicted.by),
         "status": solution.status,
         "plans": plans,
         "statistics": solution.statistics,
@@ -73,7 +74,7 @@ pub fn solution_json(task: &Task, solution: &Solution, model: &str) -> Json {
 /// Where a plan ends by prediction and in both engines, and what the verdict is.
 pub fn outcomes_text(
     task: &Task,
-    predicted: Option<(&str, &Outcome)>,
+    predicted: Option<(&ModelSpec, &Outcome)>,
     verdict: Option<&Verdict>,
 ) -> String {
     let source = predicted.map(|(model, _)| format!("predicted ({model})")).unwrap_or_default();

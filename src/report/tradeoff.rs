@@ -11,8 +11,8 @@ use super::{
 
 /// Families of levels: name, and how the names of their models begin.
 const FAMILIES: [(&str, &[&str]); 5] = [
-    ("network", &["brdpn"]),
-    ("prior alone", &["quasi-static"]),
+    ("network", &["network"]),
+    ("prior alone", &["prior"]),
     ("planar simulation", &["planar"]),
     ("3-D simulation", &["3d"]),
     ("without physics", &["projection", "follow", "still"]),
@@ -138,12 +138,12 @@ pub fn tradeoff_efforts(report: &TradeOffReport) -> Table {
         ("processor time a task", Align::Right),
     ]);
     for (effort, choice) in &report.efforts {
-        let Some(row) = report.plans.iter().find(|row| row.level.name == choice.level) else {
+        let Some(row) = report.plans.iter().find(|row| row.level.name == choice.name) else {
             continue;
         };
         table.row([
             format!("`{effort}`"),
-            choice.level.clone(),
+            choice.name.clone(),
             percent(row.success),
             pick(&row.error, |errors| errors.median),
             pick(&row.error, |errors| errors.p95),
@@ -162,7 +162,7 @@ pub fn tradeoff_push_chart(report: &TradeOffReport) -> Chart {
         [1e6 * row.seconds, 1e3 * mean.max(floor)]
     };
     let points = report.predictors.iter().map(|row| Dot {
-        model: &row.model,
+        model: row.model.clone(),
         label: row.model.clone(),
         at: place(row),
         front: row.on_front,
@@ -179,10 +179,10 @@ pub fn tradeoff_push_chart(report: &TradeOffReport) -> Chart {
 /// Failures against cost of a task, with the front; the efforts carry their names.
 pub fn tradeoff_task_chart(report: &TradeOffReport) -> Chart {
     let points = report.plans.iter().map(|row| {
-        let chosen = report.efforts.iter().filter(|(_, choice)| choice.level == row.level.name);
+        let chosen = report.efforts.iter().filter(|(_, choice)| choice.name == row.level.name);
         let efforts: Vec<String> = chosen.map(|(effort, _)| effort.to_string()).collect();
         Dot {
-            model: &row.level.model,
+            model: row.level.model.to_string(),
             label: efforts.join(", "),
             at: [row.seconds, 1e2 * row.success],
             front: row.on_front,
@@ -198,8 +198,8 @@ pub fn tradeoff_task_chart(report: &TradeOffReport) -> Chart {
 }
 
 /// A level in a chart.
-struct Dot<'a> {
-    model: &'a str,
+struct Dot {
+    model: String,
     label: String,
     at: [f64; 2],
     front: bool,

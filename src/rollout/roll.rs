@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     contact::Bodies,
-    scene::{Job, Record, Scene, Trajectory},
+    scene::{Job, ModelSpec, Record, Scene, Trajectory},
 };
 
 use super::{
@@ -32,8 +32,9 @@ impl Default for RollSettings {
 }
 
 /// Rolls jobs out, on memory that it keeps from one call to the next.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Roller {
+    by: ModelSpec,
     settings: RollSettings,
     memories: Vec<Memory>,
     stepper: Stepper,
@@ -41,9 +42,15 @@ pub struct Roller {
 }
 
 impl Roller {
-    /// A roller with these settings.
-    pub fn new(settings: RollSettings) -> Self {
-        Self { settings, ..Self::default() }
+    /// A roller with these settings, for the model `by`.
+    pub fn new(by: ModelSpec, settings: RollSettings) -> Self {
+        Self {
+            by,
+            settings,
+            memories: Vec::new(),
+            stepper: Stepper::default(),
+            work: Work::default(),
+        }
     }
 
     /// What all rollouts so far took.
@@ -62,7 +69,7 @@ impl Roller {
         record: Record,
         mut correct: Option<&mut Corrector<'_>>,
     ) -> Vec<Trajectory> {
-        let Self { settings, memories, stepper, work } = self;
+        let Self { by, settings, memories, stepper, work } = self;
         let (casts, cast) = casts(scene, jobs);
         if memories.len() < jobs.len() {
             memories.resize_with(jobs.len(), Memory::default);
@@ -72,7 +79,7 @@ impl Roller {
             .zip(memories)
             .zip(&cast)
             .map(|((job, memory), &cast)| {
-                Run::new(scene, job, &casts[cast], memory, *settings, record)
+                Run::new(scene, job, &casts[cast], memory, *settings, record, by)
             })
             .collect();
         while stepper.step(&mut runs, correct.as_deref_mut()) {}
@@ -83,13 +90,14 @@ impl Roller {
 
 /// Rolls out every job until everything rests, see [`Roller::roll`].
 pub fn roll(
+    by: ModelSpec,
     scene: &Scene,
     jobs: &[Job],
     record: Record,
     settings: RollSettings,
     correct: Option<&mut Corrector<'_>>,
 ) -> Vec<Trajectory> {
-    Roller::new(settings).roll(scene, jobs, record, correct)
+    Roller::new(by, settings).roll(scene, jobs, record, correct)
 }
 
 /// The bodies of the scene with every tool and physics that occurs, and which of them each

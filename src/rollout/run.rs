@@ -4,8 +4,8 @@ use crate::{
     contact::{Bodies, FrameProblem, Motion, Movable, Touch},
     geometry::{Pose, Vector},
     scene::{
-        Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, REST_SPEED, Record,
-        Scene, State, Stroke, Trajectory, Velocity, Warning,
+        Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, REST_SPEED,
+        Record, Scene, State, Stroke, Trajectory, Velocity, Warning,
     },
 };
 
@@ -71,6 +71,7 @@ impl<'a> Run<'a> {
         memory: &'a mut Memory,
         settings: RollSettings,
         record: Record,
+        by: &ModelSpec,
     ) -> Self {
         let mut run = Self {
             scene,
@@ -92,7 +93,7 @@ impl<'a> Run<'a> {
             deepest: None,
             pressing: Pressing::default(),
             work: Work { rollouts: 1, ..Work::default() },
-            trajectory: Trajectory::default(),
+            trajectory: Trajectory::new(by.clone()),
         };
         if record == Record::Frames {
             let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();

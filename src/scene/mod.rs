@@ -12,9 +12,11 @@ mod groups;
 mod guess;
 mod job;
 mod joint;
+mod model;
 mod motion;
 mod physics;
 mod plan;
+mod quantity;
 mod ranges;
 mod separation;
 mod sets;
@@ -30,11 +32,15 @@ pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
+pub use model::{
+    Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,
+};
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use physics::Physics;
 pub use plan::{Disturbance, Engine, Evidence, Outcome, Plan, Verdict};
+pub use quantity::Quantity;
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 pub use separation::{JOINT_ARM, Misfit, Separation};
 pub use sets::DisjointSets;

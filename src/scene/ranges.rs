@@ -1,15 +1,15 @@
-//! The ranges of physical quantities that a data set covers, kept in the weights file so that a
-//! scene outside them can be named.
+//! The ranges of physical quantities for which a model was trained or measured, so that a job
+//! outside them can be named.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Shape;
 
-use super::{GRAVITY, Scene, Stroke, ToolMotion, Warning};
+use super::{GRAVITY, Job, Quantity, Scene, Stroke, Warning};
 
-/// Values within this relative distance of a bound still count as inside, so that a bound
-/// written in decimal (0.3 m/s) does not fall out by rounding.
-const SLACK: f64 = 1e-6;
+/// Values within this relative distance of a bound still count as inside: the speed of a recorded
+/// push is known no better, and no model changes within a hundredth.
+const SLACK: f64 = 1e-2;
 
 /// How far an object released at the speed of the push slides on in nearly all training pushes
 /// (all but 11 of 2000: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
@@ -142,16 +142,23 @@ impl Ranges {
         spans.into_iter().find(|(_, span)| !sound(*span)).map(|(name, span)| (name, span.low))
     }
 
-    /// A warning for every quantity of the scene and the motion that lies outside; travel and
-    /// the number of pushes are left out, because a rollout is made of frames that look the
-    /// same however many there are.
-    pub fn warnings(&self, scene: &Scene, motion: &ToolMotion) -> Vec<Warning> {
+    /// A warning for every quantity of the job that lies outside; travel and the number of pushes
+    /// are left out, because a rollout is made of frames that look the same however many there
+    /// are. Masses and frictions are those that the job's physics says.
+    pub fn warnings(&self, scene: &Scene, job: &Job) -> Vec<Warning> {
+        let all: Vec<usize> = (0..scene.objects.len()).collect();
+        self.warnings_among(scene, job, &all)
+    }
+
+    /// [`Ranges::warnings`] with a look at these objects alone, indices in order.
+    pub fn warnings_among(&self, scene: &Scene, job: &Job, objects: &[usize]) -> Vec<Warning> {
+        let Job { motion, physics, .. } = job;
         let mut found = Vec::new();
-        let mut check = |of: &str, quantity: &str, value: f64, span: Span| {
+        let mut check = |of: &dyn Fn() -> String, quantity: Quantity, value: f64, span: Span| {
             if !span.contains(value) {
-                found.push(Warning::OutsideTraining {
-                    of: of.to_owned(),
-                    quantity: quantity.to_owned(),
+                found.push(Warning::OutsideRange {
+                    of: of(),
+                    quantity,
                     // Files hold no infinite numbers.
                     value: value.min(f64::MAX),
                     low: span.low,
@@ -159,61 +166,64 @@ impl Ranges {
                 });
             }
         };
-        if !scene.objects.is_empty() {
-            check("scene", "number of objects", scene.objects.len() as f64, self.objects);
+        let (whole, push) = (|| "scene".to_owned(), || "push".to_owned());
+        if !objects.is_empty() {
+            check(&whole, Quantity::Objects, objects.len() as f64, self.objects);
         }
-        check("table", "friction", scene.table_friction, self.friction);
-        for object in &scene.objects {
-            check(&object.name, "mass (kg)", object.mass, self.mass);
-            check(&object.name, "friction", object.friction, self.friction);
-            match object.shape {
+        check(&|| "table".to_owned(), Quantity::Friction, physics.table_friction, self.friction);
+        for &index in objects {
+            let name = || scene.objects[index].name.clone();
+            check(&name, Quantity::Mass, physics.masses[index], self.mass);
+            check(&name, Quantity::Friction, physics.frictions[index], self.friction);
+            match scene.objects[index].shape {
                 Shape::Cylinder { radius, .. } => {
-                    check(&object.name, "radius (m)", radius, self.radius);
+                    check(&name, Quantity::Radius, radius, self.radius);
                 }
                 Shape::Cuboid { size: [x, y, _] } => {
-                    check(&object.name, "size along x (m)", x, self.side);
-                    check(&object.name, "size along y (m)", y, self.side);
+                    check(&name, Quantity::SizeX, x, self.side);
+                    check(&name, Quantity::SizeY, y, self.side);
                     let aspect = x.max(y) / x.min(y);
-                    check(&object.name, "ratio of sides", aspect, Span::new(1.0, self.aspect));
+                    check(&name, Quantity::SideRatio, aspect, Span::new(1.0, self.aspect));
                 }
             }
         }
-        let masses = scene.objects.iter().map(|object| object.mass);
+        let masses = objects.iter().map(|&index| physics.masses[index]);
         let heaviest = masses.clone().fold(0.0, f64::max);
         let lightest = masses.fold(f64::INFINITY, f64::min);
         if lightest > 0.0 && lightest.is_finite() {
             let ratio = heaviest / lightest;
-            check("scene", "ratio of masses", ratio, Span::new(1.0, self.mass_ratio));
+            check(&whole, Quantity::MassRatio, ratio, Span::new(1.0, self.mass_ratio));
         }
         let tool = &motion.tool;
-        check(&tool.name, "friction", tool.friction, self.friction);
-        check(&tool.name, "number of parts", tool.parts.len() as f64, self.parts);
+        let name = || tool.name.clone();
+        check(&name, Quantity::Friction, tool.friction, self.friction);
+        check(&name, Quantity::Parts, tool.parts.len() as f64, self.parts);
         for part in &tool.parts {
-            let of = format!("{}/{}", tool.name, part.name);
+            let of = || format!("{}/{}", tool.name, part.name);
             match part.shape {
                 Shape::Cuboid { size: [x, y, _] } => {
-                    check(&of, "length (m)", x.max(y), self.part_length);
-                    check(&of, "width (m)", x.min(y), self.part_width);
+                    check(&of, Quantity::Length, x.max(y), self.part_length);
+                    check(&of, Quantity::Width, x.min(y), self.part_width);
                 }
                 Shape::Cylinder { radius, .. } => {
-                    check(&of, "radius (m)", radius, self.part_radius);
+                    check(&of, Quantity::Radius, radius, self.part_radius);
                 }
             }
         }
         let moving = || motion.strokes.iter().filter(|stroke| stroke.duration > 0.0);
         let speed = |stroke: &Stroke| stroke.travel() / stroke.duration;
         if let Some(speed) = moving().map(speed).find(|speed| !self.speed.contains(*speed)) {
-            check("push", "speed (m/s)", speed, self.speed);
+            check(&push, Quantity::Speed, speed, self.speed);
         }
         let fastest = moving().map(speed).fold(0.0, f64::max);
-        let smoothest = (0..scene.objects.len()).map(|k| scene.support_friction(k));
+        let smoothest = objects.iter().map(|&index| physics.support_friction(index));
         let smoothest = smoothest.fold(f64::INFINITY, f64::min);
         if fastest > 0.0 {
             let slide = fastest * fastest / (2.0 * smoothest * GRAVITY);
-            check("push", "sliding on (m)", slide, Span::new(0.0, self.slide));
+            check(&push, Quantity::Slide, slide, Span::new(0.0, self.slide));
         }
         let turn = motion.strokes.iter().map(turn_per_travel).fold(0.0, f64::max);
-        check("push", "turn of the tool (rad/m)", turn, Span::new(0.0, self.turn));
+        check(&push, Quantity::Turn, turn, Span::new(0.0, self.turn));
         found
     }
 }
@@ -229,9 +239,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_bound_reached_by_division_counts_as_inside() {
+    fn a_bound_reached_by_division_or_measured_counts_as_inside() {
         let speed = Span::new(0.03, 0.3);
         assert!(speed.contains(0.2 / (0.2 / 0.3)) && speed.contains(0.1 / (0.1 / 0.03)));
+        assert!(speed.contains(f64::from(0.03f32)) && speed.contains(0.029_98));
         assert!(!speed.contains(0.31) && !speed.contains(f64::NAN));
     }
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
 
-use super::{State, Warning};
+use super::{ModelSpec, State, Warning};
 
 /// One recorded instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,8 +50,10 @@ pub struct Contact {
 ///
 /// `frames` begins with the start and ends at rest (or when waiting was given up, with a
 /// warning). When only the outcome was asked for it holds the last frame alone.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trajectory {
+    /// The model that computed it; where several share the work, the one that had this job.
+    pub by: ModelSpec,
     /// In order of time.
     pub frames: Vec<Frame>,
     /// First contacts, in order of time; empty when only the outcome was asked for.
@@ -61,6 +63,17 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
+    /// Nothing yet, computed `by` this model.
+    pub fn new(by: ModelSpec) -> Self {
+        Self { by, frames: Vec::new(), contacts: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// `state` alone, the tool at `tool`, where nothing is done.
+    pub fn standing(by: ModelSpec, tool: Pose, state: State) -> Self {
+        let frame = Frame { time: 0.0, stroke: 0, tool, state };
+        Self { frames: vec![frame], ..Self::new(by) }
+    }
+
     /// The last recorded state.
     ///
     /// # Panics

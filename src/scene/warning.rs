@@ -4,22 +4,29 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::{ModelSpec, Quantity};
+
 /// Something that lowers the trust in a result without making it an error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Warning {
-    /// A quantity lies outside the range that the weights were trained on.
-    OutsideTraining {
-        /// Which body, or `task`.
+    /// A quantity lies outside the range for which the model was trained or measured.
+    OutsideRange {
+        /// Which body, or `scene` or `push`.
         of: String,
-        /// Which quantity, with its unit.
-        quantity: String,
+        /// Which quantity.
+        quantity: Quantity,
         /// Its value.
         value: f64,
-        /// Smallest trained value.
+        /// Smallest value of the range.
         low: f64,
-        /// Largest trained value.
+        /// Largest value of the range.
         high: f64,
+    },
+    /// No model that was asked takes this job; the last of them predicted all the same.
+    Declined {
+        /// The last.
+        model: ModelSpec,
     },
     /// Something still moved when waiting was given up.
     NotAtRest {
@@ -83,7 +90,8 @@ impl Warning {
     /// Whether an outcome with this warning cannot count as success.
     pub fn forbids_success(&self) -> bool {
         match self {
-            Warning::OutsideTraining { .. }
+            Warning::OutsideRange { .. }
+            | Warning::Declined { .. }
             | Warning::Pressed { .. }
             | Warning::Overlap { .. }
             | Warning::LooseJoint { .. }
@@ -101,7 +109,8 @@ impl Warning {
     pub fn questions_model(&self) -> bool {
         matches!(
             self,
-            Warning::OutsideTraining { .. }
+            Warning::OutsideRange { .. }
+                | Warning::Declined { .. }
                 | Warning::Pressed { .. }
                 | Warning::Overlap { .. }
                 | Warning::LooseJoint { .. }
@@ -112,9 +121,11 @@ impl Warning {
     /// What is the matter, without what it means or helps.
     fn fact(&self) -> String {
         match self {
-            Warning::OutsideTraining { of, quantity, value, low, high } => format!(
-                "{of}: {quantity} = {value:.4} is outside the trained range {low:.4} to {high:.4}"
-            ),
+            Warning::OutsideRange { of, quantity, value, low, high } => {
+                let value = told_apart(*value, [*low, *high]);
+                format!("{of}: {quantity} = {value} is outside the model's range {low} to {high}")
+            }
+            Warning::Declined { model } => format!("`{model}` does not take this motion"),
             Warning::Pressed { object, between: [a, b] } => {
                 format!("{object} is pressed between {a} and {b}")
             }
@@ -134,7 +145,7 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Warning::OutsideTraining { .. } => write!(
+            Warning::OutsideRange { .. } | Warning::Declined { .. } => write!(
                 f,
                 "{}; predictions may be wrong, `--outside simulate` simulates instead",
                 self.fact()
@@ -182,5 +193,35 @@ impl fmt::Display for Warning {
                 write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())
             }
         }
+    }
+}
+
+/// `value` with four digits after the point, or with as many as tell it from these bounds.
+fn told_apart(value: f64, bounds: [f64; 2]) -> String {
+    let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));
+    let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
+    let text = short.unwrap_or_else(|| value.to_string());
+    // As short as the bounds are.
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_outside_never_looks_like_a_bound() {
+        let text = |value, low, high| {
+            let (of, quantity) = ("push".to_owned(), Quantity::Speed);
+            Warning::OutsideRange { of, quantity, value, low, high }.fact()
+        };
+        let expected = "push: speed (m/s) = 0.02999 is outside the model's range 0.03 to 0.3";
+        assert_eq!(text(0.029_990_1, 0.03, 0.3), expected);
+        let expected = "push: speed (m/s) = 20 is outside the model's range 0.03 to 0.3";
+        assert_eq!(text(20.0, 0.03, 0.3), expected);
     }
 }

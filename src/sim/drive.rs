@@ -6,9 +6,11 @@
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, Physics, Record, Scene,
-    State, ToolMotion, Trajectory, Warning,
+    Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, Physics,
+    Record, Scene, State, ToolMotion, Trajectory, Warning,
 };
+
+use super::Simulator;
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
@@ -38,11 +40,17 @@ pub(super) trait World: Sized {
     fn toppled(&self) -> Vec<usize>;
 }
 
-/// Plays `job` in a world `W` with steps of at most `step` seconds.
-pub(super) fn drive<W: World>(scene: &Scene, job: &Job, step: f64, record: Record) -> Trajectory {
+/// Plays `job` in a world `W` with the simulator's steps.
+pub(super) fn drive<W: World>(
+    scene: &Scene,
+    job: &Job,
+    simulator: &Simulator,
+    record: Record,
+) -> Trajectory {
     let Job { start, motion, physics } = job;
+    let step = simulator.step();
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
-    let mut recorder = Recorder::new(record, start, tool);
+    let mut recorder = Recorder::new(simulator.spec(), record, start, tool);
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene);
@@ -124,9 +132,8 @@ struct Recorder {
 }
 
 impl Recorder {
-    fn new(record: Record, start: &State, tool: Pose) -> Self {
-        let first = Frame { time: 0.0, stroke: 0, tool, state: start.clone() };
-        let trajectory = Trajectory { frames: vec![first], ..Trajectory::default() };
+    fn new(by: ModelSpec, record: Record, start: &State, tool: Pose) -> Self {
+        let trajectory = Trajectory::standing(by, tool, start.clone());
         Self { record, trajectory, seen: 1, toppled: Vec::new() }
     }
 

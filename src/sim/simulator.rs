@@ -1,17 +1,10 @@
 //! The door: an engine with its step, playing tool motions.
 
-use crate::scene::{Engine, Job, Record, Scene, Trajectory};
+use crate::scene::{Engine, Job, ModelKind, ModelSpec, Rate, Record, Scene, Trajectory};
 
 use super::drive::drive;
 use super::planar::PlanarWorld;
 use super::spatial::SpatialWorld;
-
-/// Longest time step of either engine, seconds.
-///
-/// At 1/240 s a 20 cm push at 0.1 m/s in the planar engine ends 0.06 mm (cylinders) and 0.2 mm
-/// (cuboids, median) from its own fine run; the 3-D engine is about 4 mm from another good
-/// engine on boxes.
-pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 
 /// A physics engine with its settings. Plays motions; holds no state between them.
 ///
@@ -31,31 +24,26 @@ pub const DEFAULT_STEP: f64 = 1.0 / 240.0;
 /// assert!((trajectory.outcome().poses[0].position.x - 0.26).abs() < 2e-3);
 /// # Ok::<(), pushplan::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Simulator {
     engine: Engine,
-    step: f64,
+    rate: Rate,
 }
 
 impl Simulator {
-    /// The planar engine at its default step.
-    pub fn planar() -> Self {
-        Self::planar_with_step(DEFAULT_STEP)
+    /// An engine with at least `rate` steps a second.
+    pub const fn new(engine: Engine, rate: Rate) -> Self {
+        Self { engine, rate }
     }
 
-    /// The planar engine with steps of at most `step` seconds.
-    pub fn planar_with_step(step: f64) -> Self {
-        Self { engine: Engine::Planar, step }
+    /// The planar engine at its default step.
+    pub const fn planar() -> Self {
+        Self::new(Engine::Planar, Rate::DEFAULT)
     }
 
     /// The 3-D engine at its default step.
-    pub fn spatial() -> Self {
-        Self::spatial_with_step(DEFAULT_STEP)
-    }
-
-    /// The 3-D engine with steps of at most `step` seconds.
-    pub fn spatial_with_step(step: f64) -> Self {
-        Self { engine: Engine::Spatial, step }
+    pub const fn spatial() -> Self {
+        Self::new(Engine::Spatial, Rate::DEFAULT)
     }
 
     /// Which engine this is.
@@ -65,7 +53,12 @@ impl Simulator {
 
     /// Longest time step, seconds.
     pub fn step(&self) -> f64 {
-        self.step
+        self.rate.step()
+    }
+
+    /// What it is as an effect model.
+    pub fn spec(&self) -> ModelSpec {
+        ModelKind::Simulated { engine: self.engine, rate: self.rate }.into()
     }
 
     /// Plays a job until everything rests.
@@ -77,6 +70,6 @@ impl Simulator {
             Engine::Planar => drive::<PlanarWorld>,
             Engine::Spatial => drive::<SpatialWorld>,
         };
-        play(scene, job, self.step, record)
+        play(scene, job, self, record)
     }
 }

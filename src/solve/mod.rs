@@ -17,7 +17,6 @@ mod solution;
 mod solving;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
-pub use efforts::EffortLevel;
 pub use error::SolveError;
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use settings::{Effort, Settings};

@@ -6,11 +6,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::ToolLibrary;
-use crate::effect::{EffectModel, Guarded, Job, Outside, consequence};
+use crate::effect::{EffectModel, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
-use crate::network::WeightsError;
 use crate::scene::{
-    Frame, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
+    ModelKind, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
     Warning,
 };
 use crate::watch::{Unwatched, Watch};
@@ -38,7 +37,7 @@ use super::{Effort, Settings, Solution, SolveError};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Planner {
-    model: Guarded<Box<dyn EffectModel>>,
+    model: Routed,
     outside: Outside,
     settings: Settings,
     seed: u64,
@@ -46,7 +45,7 @@ pub struct Planner {
 
 /// Builds a [`Planner`].
 pub struct PlannerBuilder {
-    model: Box<dyn EffectModel>,
+    model: Arc<dyn EffectModel>,
     outside: Outside,
     settings: Settings,
     seed: u64,
@@ -91,7 +90,7 @@ impl PlannerBuilder {
     /// The planner.
     pub fn build(self) -> Planner {
         let Self { model, outside, settings, seed } = self;
-        Planner { model: Guarded::new(model, outside), outside, settings, seed }
+        Planner { model: Routed::new(model).outside(outside), outside, settings, seed }
     }
 }
 
@@ -99,14 +98,14 @@ impl Planner {
     /// Starts building a planner that predicts with `model`.
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
-        PlannerBuilder { model: Box::new(model), outside: Outside::default(), settings, seed: 0 }
+        PlannerBuilder { model: Arc::new(model), outside: Outside::default(), settings, seed: 0 }
     }
 
     /// Starts building the planner that an effort stands for, effect model included.
     ///
     /// # Errors
-    /// [`WeightsError`] if the library was built around a damaged weights file.
-    pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, WeightsError> {
+    /// [`ModelError`] if the library was built around a damaged weights file.
+    pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, ModelError> {
         Ok(Self::builder(effort.model()?).effort(effort))
     }
 
@@ -199,7 +198,8 @@ impl Planner {
             return Ok(());
         }
         let mut warnings = Vec::new();
-        for warning in motions.flat_map(|motion| self.model.warnings(&situation.scene, &motion)) {
+        let asked = |motion| self.model.trust(&situation.scene, &Job::new(situation, motion));
+        for warning in motions.flat_map(|motion| asked(motion).warnings()) {
             // What the scene is to blame for comes with every tool.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
@@ -237,7 +237,7 @@ impl Planner {
                     true => still(),
                     false => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
                 };
-                let mut warnings = self.model.warnings(scene, &job.motion);
+                let mut warnings = self.model.trust(scene, job).warnings();
                 for warning in &trajectory.warnings {
                     if !warnings.contains(warning) {
                         warnings.push(warning.clone());
@@ -256,7 +256,7 @@ impl Planner {
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
 /// used for, as far as it can be known before.
-fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
+pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goal);
     let object = start.poses[goal.object].position;
     let way = goal.position - object;
@@ -273,6 +273,5 @@ fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
 /// The trajectory of doing nothing.
 fn still(task: &Task, start: &State, tool: &Tool) -> Trajectory {
     let home = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
-    let frame = Frame { time: 0.0, stroke: 0, tool: home, state: start.clone() };
-    Trajectory { frames: vec![frame], ..Trajectory::default() }
+    Trajectory::standing(ModelKind::Still.into(), home, start.clone())
 }

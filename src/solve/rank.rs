@@ -22,16 +22,18 @@ pub(super) fn sort(refined: &mut [Refined]) {
 }
 
 /// Whether the predicted error is at most the tolerance plus what the effect model misses by,
-/// `error_p95` metres; for a heading this is taken at the object's mean radius.
+/// `error_p95` metres; for a heading this is taken at the object's mean radius. Where that was not
+/// measured, whatever can be carried out is.
 pub(super) fn is_worth_verifying(
     scene: &Scene,
     goal: &Goal,
     evaluation: &Evaluation,
-    error_p95: f64,
+    error_p95: Option<f64>,
 ) -> bool {
     if !evaluation.score.is_finite() {
         return false;
     }
+    let Some(error_p95) = error_p95 else { return true };
     let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
     let radius = scene.objects[goal.object].shape.footprint().mean_radius();
     let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {

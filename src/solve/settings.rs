@@ -17,7 +17,7 @@ pub enum Effort {
     /// The default: a one-push task in well under half a second on two cores.
     #[default]
     Standard,
-    /// Several times as dear, for tasks that the default does not solve.
+    /// Several times as expensive, for tasks that the default does not solve.
     Thorough,
     /// Whatever helps, up to minutes.
     Exhaustive,
@@ -41,7 +41,8 @@ impl fmt::Display for Effort {
 }
 
 /// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
-/// machine. A learned push costs about 0.1 ms of one core, a planar one 0.5, a 3-D one 2.5.
+/// machine. A push of one object costs about 0.05 ms of one core in the prior, 0.1 in the network,
+/// 1.0 in the planar engine and 5.5 in the 3-D one (`models/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,

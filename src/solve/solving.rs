@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use crate::plan::{
     Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine,
 };
-use crate::scene::{Goal, Plan, Situation, Task, Tool, Verdict};
+use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
+use super::planner::typical;
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
 use super::{PlanStatus, Planner, RankedPlan, Refinement, Solution, Statistics};
@@ -59,7 +60,11 @@ impl<'a> Solving<'a> {
         watch: &'a dyn Watch,
     ) -> Self {
         let (model, settings) = (planner.model(), planner.settings());
-        let later_stand_off = model.error_p95().clamp(0.0, MOST_LATER_STAND_OFF);
+        let errors = tools.iter().map(|tool| {
+            let job = Job::new(situation, typical(task, &situation.start, tool));
+            error_p95(planner, situation, &job).unwrap_or(f64::INFINITY)
+        });
+        let later_stand_off = errors.fold(0.0, f64::max).min(MOST_LATER_STAND_OFF);
         let verify = VerifySettings { disturbed: settings.disturbed, seed: planner.seed() };
         Self {
             planner,
@@ -182,10 +187,12 @@ impl<'a> Solving<'a> {
             self.watch,
         );
         sort(&mut refined);
-        let error_p95 = self.planner.model().error_p95();
         let mut worth = Vec::new();
         for refined in refined {
-            if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error_p95) {
+            let tool = &self.workspace.tools[refined.best.candidate.tool];
+            let motion = self.plan(tool, &refined.best).motion(tool);
+            let error = error_p95(self.planner, self.situation, &Job::new(self.situation, motion));
+            if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error) {
                 worth.push(self.tried.len());
             }
             let tried = self.tried(refined, aim);
@@ -315,4 +322,9 @@ impl<'a> Solving<'a> {
         self.statistics.timing.total = began.elapsed().as_secs_f64();
         Solution { status, plans, statistics: self.statistics, warnings }
     }
+}
+
+/// 95th percentile of the effect model's error on pushes like this one, metres, if it was measured.
+fn error_p95(planner: &Planner, situation: &Situation, job: &Job) -> Option<f64> {
+    planner.model().trust(&situation.scene, job).error().map(|error| error.p95)
 }

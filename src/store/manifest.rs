@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn differences_are_named_one_by_one() {
-        let there = RunManifest::new("random", 10, 7, "brdpn-128")
+        let there = RunManifest::new("random", 10, 7, "network")
             .with_weights(Some("00ff".into()))
             .with_settings(json!({"effort": {"beam": 24}, "kinds": ["pull", "reach"]}));
         let mut wanted = there.clone().with_shard("2/3".parse().expect("a shard"));

@@ -22,7 +22,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
     ("plan", &["geometry", "scene", "effect"]),
     // Not `plan`: the check shares no code with what it checks.
     ("verify", &["geometry", "scene", "sim"]),
-    ("solve", &["geometry", "scene", "asset", "sim", "network", "effect", "plan", "verify"]),
+    ("solve", &["geometry", "scene", "asset", "sim", "effect", "plan", "verify"]),
     ("dataset", &["geometry", "scene", "asset", "store", "sim"]),
     (
         "train",

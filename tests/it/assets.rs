@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::dataset::Preset;
 use pushplan::geometry::{Pose, Shape};
-use pushplan::scene::{Push, Tool, ToolMotion};
+use pushplan::scene::{Job, Push, Tool, ToolMotion};
 
 /// A folder of the repository.
 fn folder(name: &str) -> PathBuf {
@@ -82,7 +82,7 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
         let push = Push { start, direction: 0.0, length, speed };
         for tool in task.tools(&library).unwrap() {
             let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
-            let mut warnings = ranges.warnings(&task.scene, &motion);
+            let mut warnings = ranges.warnings(&task.scene, &Job::stated(&task.scene, motion));
             if task.name == "glide" {
                 // Its point is to slide farther than nearly all training pushes do.
                 assert_eq!(warnings.len(), 1);

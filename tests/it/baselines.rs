@@ -3,11 +3,9 @@
 use std::sync::Arc;
 
 use pushplan::{
-    effect::{
-        Assuming, Assumption, Disturbed, EffectModel, Job, Mistake, Projection, Simulated, Still,
-    },
+    effect::{Assuming, EffectModel, Job, Projection, Simulated, Still},
     geometry::{Pose, Vector, wrap_angle},
-    scene::{JointKind, Object, Record, Scene, Span, State, Trajectory},
+    scene::{Assumptions, JointBelief, JointKind, Object, Record, Scene, Span, State, Trajectory},
     sim::Simulator,
 };
 
@@ -73,21 +71,27 @@ fn the_other_joints_hold_in_the_projection() {
 fn assumptions_replace_the_joints_and_nothing_else() {
     let scene = pair(JointKind::Fixed);
     let free = Scene { joints: Vec::new(), ..scene.clone() };
-    let told_none = Assuming::new(Projection, Assumption::NoJoints);
-    assert_eq!(told_none.name(), "projection, no joints");
-    assert_eq!(roll(&told_none, &scene), roll(&Projection, &free));
-    let told_all = Assuming::new(Projection, Assumption::ContactsFixed);
-    assert_eq!(roll(&told_all, &free), roll(&Projection, &scene));
-    let types = Assuming::new(Projection, Assumption::TypesOnly);
-    assert_eq!(roll(&types, &scene), roll(&Projection, &scene));
+    let told = |belief| {
+        let joints = Some(belief);
+        Assuming::new(Projection, Assumptions { joints, ..Assumptions::default() })
+    };
+    let without = roll(&told(JointBelief::None), &scene);
+    assert_eq!(without.by.to_string(), "projection,joints=none");
+    assert_eq!(without.frames, roll(&Projection, &free).frames);
+    let fixed = roll(&told(JointBelief::Fixed), &free);
+    assert_eq!(fixed.frames, roll(&Projection, &scene).frames);
+    let guessed = roll(&told(JointBelief::Guessed), &scene);
+    assert_eq!(guessed.frames, roll(&Projection, &scene).frames);
 }
 
 #[test]
 fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     let scene = pair(JointKind::Fixed);
     let planar = Simulated::new(Simulator::planar());
-    let slippery = Disturbed::new(planar.clone(), Mistake::Friction(0.7));
-    assert_eq!(slippery.name(), "planar, friction x 0.7");
+    let told = Assumptions { friction: Some(70), ..Assumptions::default() };
+    let slippery = Assuming::new(planar.clone(), told);
+    assert_eq!(slippery.spec().to_string(), "planar,friction=70%");
+    assert_eq!(slippery.trust(&scene, &job(&scene)).error(), None, "measured with what is true");
     let mut lighter = scene.clone();
     lighter.table_friction *= 0.7;
     lighter.objects.iter_mut().for_each(|object| object.friction *= 0.7);
@@ -96,10 +100,11 @@ fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     tool.friction *= 0.7;
     with_lighter_tool.motion.tool = Arc::new(tool);
     let expected = planar.rollout(&lighter, &[with_lighter_tool], Record::Frames).remove(0);
-    assert_eq!(roll(&slippery, &scene), expected);
+    assert_eq!(roll(&slippery, &scene).frames, expected.frames);
 
-    let moved = Disturbed::new(Still, Mistake::Start(1e-4));
-    assert_eq!(moved.name(), "still, start off by 0.1 mm");
+    let told = Assumptions { start: Some(100), ..Assumptions::default() };
+    let moved = Assuming::new(Still, told);
+    assert_eq!(moved.spec().to_string(), "still,start=100um");
     let start = roll(&moved, &scene).outcome().clone();
     let off = |k: usize| start.poses[k].position - scene.objects[k].pose.position;
     assert!((off(0).norm() - 1e-4).abs() < 1e-12);

@@ -8,9 +8,10 @@ use pushplan::recording::Recording;
 use pushplan::{
     bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd},
     dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
-    effect::{Assuming, Assumption, EffectModel, Projection, Simulated, Still},
+    effect::{Assuming, EffectModel, Projection, Simulated, Still},
     judge::Trial,
     report::{crowd_chart, crowd_line, crowd_summary, crowd_table},
+    scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
 use serde_json::Value as Json;
@@ -101,15 +102,15 @@ fn a_recorded_simulation_is_judged_like_the_simulation() {
     assert!(again.relative < 0.02, "{again:?}");
 }
 
+const NO_JOINTS: Assumptions =
+    Assumptions { joints: Some(JointBelief::None), friction: None, start: None };
+
 #[test]
 fn reports_become_tables_and_curves_and_survive_json() {
     let set = set(CrowdFamily::Dense, 6);
     let drawn = set.draw(3, 3, &|| {});
-    let models: Vec<Box<dyn EffectModel>> = vec![
-        Box::new(Projection),
-        Box::new(Assuming::new(Projection, Assumption::NoJoints)),
-        Box::new(Still),
-    ];
+    let models: Vec<Box<dyn EffectModel>> =
+        vec![Box::new(Projection), Box::new(Assuming::new(Projection, NO_JOINTS)), Box::new(Still)];
     let report = CrowdReport::of_set(&set, 3, &drawn, &models, &|| {});
     let text = serde_json::to_string(&report).unwrap();
     let back: CrowdReport = serde_json::from_str(&text).unwrap();
@@ -117,12 +118,12 @@ fn reports_become_tables_and_curves_and_survive_json() {
     assert!(crowd_line(&report).starts_with("dense, 6 objects, mixed joints, any solids: 3 "));
     let table = crowd_table(&report).to_text();
     assert_eq!(table.lines().count(), 4);
-    assert!(table.contains("projection, no joints") && !table.contains("NaN"), "{table}");
+    assert!(table.contains("projection,joints=none") && !table.contains("NaN"), "{table}");
     let reports = [report];
     assert!(crowd_summary(&reports).to_text().contains("dense, 6 objects"));
     assert!(crowd_chart(CrowdFamily::Sparse, &reports).is_none());
     let chart = crowd_chart(CrowdFamily::Dense, &reports).expect("curves").to_svg();
-    assert!(chart.contains("projection, no joints") && !chart.contains("NaN"));
+    assert!(chart.contains("projection,joints=none") && !chart.contains("NaN"));
 }
 
 #[test]
@@ -162,15 +163,15 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
         names,
         [
             "projection",
-            "projection, types only",
-            "projection, no joints",
-            "projection, every contact fixed",
-            "quasi-static",
+            "projection,joints=guessed",
+            "projection,joints=none",
+            "projection,joints=fixed",
+            "prior",
             "follow",
             "still",
-            "planar, friction x 0.7",
-            "planar, friction x 1.3",
-            "planar, start off by 0.1 mm",
+            "planar,friction=70%",
+            "planar,friction=130%",
+            "planar,start=100um",
         ]
     );
     let written: Json = serde_json::from_slice(&read(&out.join("evaluation.json"))).expect("JSON");
@@ -178,7 +179,7 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     assert!(out.join("error-by-horizon-dense.svg").exists());
 
     let push = "tests/it/assets/push.recording.json";
-    let recorded = run(&["--model", "quasi-static", "--on", push, push]);
+    let recorded = run(&["--model", "prior", "--on", push, push]);
     assert_eq!(recorded.status.code(), Some(0), "{}", stderr(&recorded));
     let text = String::from_utf8(recorded.stdout).expect("UTF-8");
     assert!(text.contains("push: 1 trajectories") && text.contains("2 recordings: 2 trajectories"));

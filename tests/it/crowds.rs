@@ -38,7 +38,7 @@ fn every_draw_is_within_the_stated_ranges_finite_and_at_rest() {
         let config = config(preset, 30);
         let ranges = config.ranges();
         for Episode { index, scene, motion, frames } in drawn(&config) {
-            let outside = ranges.warnings(&scene, &motion);
+            let outside = ranges.warnings(&scene, &Job::stated(&scene, motion.clone()));
             assert!(outside.is_empty(), "{preset:?} {index}: {outside:?}");
             assert!(ranges.pushes.contains(motion.strokes.len() as f64), "{preset:?} {index}");
             let last = &frames[frames.len() - 1].state;

@@ -16,7 +16,7 @@ use pushplan::{
     asset::ToolLibrary,
     dataset::{Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped},
     geometry::{Footprint, Pose, clearance},
-    scene::{ToolMotion, Warning},
+    scene::{Job, Quantity, ToolMotion, Warning},
 };
 
 fn drawn(episodes: u64) -> Dataset {
@@ -100,10 +100,10 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
     let mut far = 0;
     for episode in data.episodes() {
         let Episode { scene, motion, frames, .. } = episode;
-        let mut outside = ranges.warnings(scene, motion);
+        let mut outside = ranges.warnings(scene, &Job::stated(scene, motion.clone()));
         // The stated slide is that of nearly all draws, see `TRAINED_SLIDE`.
         outside.retain(|warning| match warning {
-            Warning::OutsideTraining { quantity, .. } if quantity == "sliding on (m)" => {
+            Warning::OutsideRange { quantity: Quantity::Slide, .. } => {
                 far += 1;
                 false
             }
@@ -270,7 +270,7 @@ fn the_shipped_tools_are_recognised_and_within_the_trained_ranges() {
         let motion = ToolMotion { tool: Arc::clone(tool), lift: 0.002, strokes: Vec::new() };
         let outside: Vec<String> = config
             .ranges()
-            .warnings(&scene, &motion)
+            .warnings(&scene, &Job::stated(&scene, motion))
             .iter()
             .map(ToString::to_string)
             .filter(|warning| !warning.starts_with("scene"))

@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use pushplan::asset::{ToolLibrary, write_atomic};
 use pushplan::effect::{EffectModel, EffectModels};
+use pushplan::scene::ModelKind;
 
 use base::{Draw, Solid};
 use cell::{Cell, Kind};
@@ -42,9 +43,16 @@ struct Extremes {
 }
 
 impl Extremes {
-    /// Measures the shipped network, `pushes` a cell and `ordinary` ones of each kind.
-    fn measure(threads: usize, seed: u64, pushes: usize, ordinary: usize) -> Self {
-        let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("sound weights");
+    /// Measures a model, `pushes` a cell and `ordinary` ones of each kind.
+    fn measure(
+        model: ModelKind,
+        threads: usize,
+        seed: u64,
+        pushes: usize,
+        ordinary: usize,
+    ) -> Self {
+        let model = EffectModels::build(&model.into()).expect("sound weights");
+        let model: Arc<dyn EffectModel> = Arc::new(model);
         let library = ToolLibrary::embedded().expect("sound tools");
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| {
@@ -66,7 +74,7 @@ impl Extremes {
                 (cell, judged)
             });
             Self {
-                model: model.name().to_owned(),
+                model: model.spec().to_string(),
                 seed,
                 pushes,
                 cells: judged.collect(),
@@ -85,7 +93,7 @@ impl Extremes {
 
 #[test]
 fn everything_stays_finite_and_bounded_and_tasks_are_sound() {
-    let extremes = Extremes::measure(2, 11, 1, 11);
+    let extremes = Extremes::measure(ModelKind::NETWORK, 2, 11, 1, 11);
     assert!(extremes.cells.len() > 150, "{} cells", extremes.cells.len());
     let page = table::page(&extremes, COMMAND);
     for (cell, judged) in &extremes.cells {
@@ -98,7 +106,7 @@ fn everything_stays_finite_and_bounded_and_tasks_are_sound() {
     for cell in &extremes.tasks {
         assert!(cell.sound, "{cell:?}");
     }
-    let again = Extremes::measure(1, 11, 1, 11);
+    let again = Extremes::measure(ModelKind::NETWORK, 1, 11, 1, 11);
     let judged = |extremes: &Extremes| -> Vec<Judged> {
         extremes.cells.iter().map(|(_, judged)| judged.clone()).collect()
     };
@@ -111,7 +119,15 @@ fn everything_stays_finite_and_bounded_and_tasks_are_sound() {
 #[ignore = "minutes; measures the published table and writes it"]
 fn the_extremes_hide_no_defect() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let extremes = Extremes::measure(threads, 7, 22, 220);
+    let extremes = Extremes::measure(ModelKind::NETWORK, threads, 7, 22, 220);
     write_atomic(PAGE, table::page(&extremes, COMMAND).as_bytes()).expect("the page is written");
     assert_eq!(extremes.defects(), 0, "see {PAGE}");
+}
+
+#[test]
+#[ignore = "minutes"]
+fn the_prior_hides_no_defect_either() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let extremes = Extremes::measure(ModelKind::PRIOR, threads, 7, 22, 220);
+    assert_eq!(extremes.defects(), 0, "{}", table::page(&extremes, COMMAND));
 }

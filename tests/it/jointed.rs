@@ -132,9 +132,9 @@ fn joints_hold_whatever_the_network_says() {
     for model in models {
         let end = rollout(&*model, &scene(), long);
         let travel = (end.poses[3].position - scene().objects[3].pose.position).norm();
-        assert!(travel > 0.05, "{}: the whole group is pushed, {travel} m", model.name());
+        assert!(travel > 0.05, "{}: the whole group is pushed, {travel} m", model.spec());
         let off = violation(&scene(), &end);
-        assert!(off < 1e-8, "{}: off by {off} m after 60 frames", model.name());
+        assert!(off < 1e-8, "{}: off by {off} m after 60 frames", model.spec());
     }
 }
 

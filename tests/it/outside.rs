@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
-    effect::{EffectModel, EffectModels, Guarded, Network, Outside},
-    scene::{Job, Joint, JointKind, Obstacle, Record, Scene, Task, Trajectory, Warning},
+    effect::{EffectModel, EffectModels, Network, Outside, Routed, Simulated},
+    scene::{Job, Joint, JointKind, ModelKind, Obstacle, Record, Scene, Task, Trajectory, Warning},
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
 };
@@ -16,6 +16,10 @@ use pushplan::scene::ToolMotion;
 
 fn network() -> Network {
     Network::new(EffectModels::weights().expect("the shipped weights"))
+}
+
+fn routed(outside: Outside) -> Routed {
+    Routed::new(Arc::new(network())).outside(outside)
 }
 
 /// A box before the tool, of this mass.
@@ -31,7 +35,7 @@ fn job(scene: &Scene) -> Job {
 }
 
 fn run(outside: Outside, scene: &Scene) -> Trajectory {
-    Guarded::new(network(), outside).rollout(scene, &[job(scene)], Record::Frames).remove(0)
+    routed(outside).rollout(scene, &[job(scene)], Record::Frames).remove(0)
 }
 
 #[test]
@@ -51,8 +55,8 @@ fn outside_of_it_simulation_takes_its_place_or_nothing_does() {
     let planar =
         Simulator::planar().run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
     assert_eq!(run(Outside::Simulate, &scene).frames, planar.frames);
-    let guarded = Guarded::new(network(), Outside::Simulate);
-    let said = guarded.warnings(&scene, &motion);
+    let guarded = routed(Outside::Simulate);
+    let said = guarded.trust(&scene, &job(&scene)).warnings();
     assert!(said.iter().all(|w| matches!(w, Warning::Simulated { .. })) && !said.is_empty());
     assert!(said[0].to_string().contains("simulated in the plane instead"), "{}", said[0]);
 
@@ -73,12 +77,11 @@ fn what_a_motion_cannot_reach_raises_no_warning() {
         far.mass = 500.0;
         scene.objects.push(far);
     }
-    let motion = job(&scene).motion;
-    assert_eq!(network().warnings(&scene, &motion), []);
+    assert_eq!(network().trust(&scene, &job(&scene)).warnings(), []);
     // One of them joined to what is pushed comes into play, and with it only the others near it.
     let kind = JointKind::Fixed;
     scene.joints.push(Joint::new([0, 1], kind));
-    let found = network().warnings(&scene, &motion);
+    let found = network().trust(&scene, &job(&scene)).warnings();
     assert!(found.iter().any(|w| w.to_string().contains("mass")), "{found:?}");
 }
 
@@ -93,7 +96,7 @@ fn jobs_keep_their_order_when_some_are_simulated() {
             job
         })
         .collect();
-    let rolled = Guarded::new(network(), Outside::Simulate).rollout(&scene, &jobs, Record::Frames);
+    let rolled = routed(Outside::Simulate).rollout(&scene, &jobs, Record::Frames);
     for (k, (job, trajectory)) in jobs.iter().zip(&rolled).enumerate() {
         let duration = trajectory.frames[job.motion.strokes[0].frames()].time;
         assert!((duration - fast(k)).abs() < 1e-9, "{k}: {duration}");
@@ -140,7 +143,7 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
     let mut task: Task = load_task(&path, &library).expect("a shipped task");
     task.scene.objects[0].mass = 500.0;
     let planner = |outside| {
-        let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("the shipped weights");
+        let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
         Planner::builder(model).effort(Effort::Draft).outside(outside).build()
     };
     match planner(Outside::Refuse).solve(&task, &library) {
@@ -150,11 +153,12 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
         other => panic!("{other:?}"),
     }
     let warned = planner(Outside::Warn).solve(&task, &library).expect("a sound task");
-    assert!(warned.warnings.iter().any(|w| matches!(w, Warning::OutsideTraining { .. })));
+    assert!(warned.warnings.iter().any(|w| matches!(w, Warning::OutsideRange { .. })));
     assert!(warned.warnings.iter().any(|w| matches!(w, Warning::Differs { .. })));
     let simulated = planner(Outside::Simulate).solve(&task, &library).expect("a sound task");
     assert!(simulated.warnings.iter().any(|w| matches!(w, Warning::Simulated { .. })));
-    let planar = Planner::builder(EffectModels::planar()).effort(Effort::Draft).build();
+    let planar =
+        Planner::builder(Simulated::new(Simulator::planar())).effort(Effort::Draft).build();
     let planar = planar.solve(&task, &library).expect("a sound task");
     let ends = [&simulated, &planar].map(|solution| {
         let best = solution.best().expect("a plan");

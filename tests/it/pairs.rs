@@ -9,7 +9,10 @@ use pushplan::{
     geometry::{Pose, Vector},
     graph::{Batch, KINEMATIC},
     rollout::{RollSettings, Roller},
-    scene::{Body, Job, JointKind, Object, Obstacle, Part, Push, Record, Scene, Tool, ToolMotion},
+    scene::{
+        Body, Job, JointKind, ModelKind, Object, Obstacle, Part, Push, Record, Scene, Tool,
+        ToolMotion,
+    },
 };
 
 /// Rows of discs, each of a radius of its own, so that a node's support tells which object it is;
@@ -64,7 +67,12 @@ fn every_relation_carries_the_lasting_id_of_its_pair() {
         seen.into_iter().for_each(|pair| *frames.entry(pair).or_default() += 1);
     };
     let job = Job::stated(&scene, motion());
-    Roller::new(RollSettings::default()).roll(&scene, &[job], Record::Outcome, Some(&mut look));
+    Roller::new(ModelKind::PRIOR.into(), RollSettings::default()).roll(
+        &scene,
+        &[job],
+        Record::Outcome,
+        Some(&mut look),
+    );
     // The numbers must have changed on the way, and pairs of every kind have lasted.
     assert!(sizes.len() > 3, "{sizes:?}");
     let lasted = |wanted: &dyn Fn(Body) -> bool| {

@@ -15,7 +15,8 @@ use pushplan::{
     network::{Buffers, Forward, Weights},
     rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
-        Job, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion, Velocity,
+        Job, ModelKind, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion,
+        Velocity,
     },
 };
 
@@ -24,7 +25,7 @@ use pushplan::{
 /// beside it, and that changes with the frames that are skipped.
 fn compare(forward: &Forward, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
     let run = |pruned, record| {
-        let mut roller = Roller::new(RollSettings { stride, pruned });
+        let mut roller = Roller::new(ModelKind::NETWORK.into(), RollSettings { stride, pruned });
         let mut buffers = Buffers::default();
         let rolled = roller.roll(
             scene,
@@ -216,7 +217,14 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
         let mut short = plain.clone();
         short.motion.tool = Arc::new(tool);
         let jobs = [plain.clone(), short, slippery.clone(), plain, slippery];
-        let roll = |jobs: &[Job]| Roller::default().roll(&scene, jobs, Record::Frames, None);
+        let roll = |jobs: &[Job]| {
+            Roller::new(ModelKind::PRIOR.into(), RollSettings::default()).roll(
+                &scene,
+                jobs,
+                Record::Frames,
+                None,
+            )
+        };
         // Without a network nothing is shared, so a batch gives the same bits.
         let together = roll(&jobs);
         for (job, trajectory) in jobs.iter().zip(&together) {
@@ -240,7 +248,9 @@ fn a_rollout_without_a_network_is_that_of_one_that_corrects_nothing() {
             corrections.resize(batch.node_count(), [0.0; 6]);
         };
         let roll = |correct: Option<&mut Corrector<'_>>| {
-            Roller::default().roll(&scene, jobs, Record::Frames, correct).remove(0)
+            Roller::new(ModelKind::PRIOR.into(), RollSettings::default())
+                .roll(&scene, jobs, Record::Frames, correct)
+                .remove(0)
         };
         let (without, with) = (roll(None), roll(Some(nothing)));
         assert_eq!(without.contacts, with.contacts);

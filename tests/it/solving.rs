@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use pushplan::asset::{ToolLibrary, load_task};
-use pushplan::effect::{EffectModel, Job, Simulated};
+use pushplan::effect::{EffectModel, Job, Quantiles, Simulated, Trust};
 use pushplan::geometry::Vector;
 use pushplan::scene::{
-    Engine, Frame, Joint, JointKind, Record, Scene, Task, ToolChoice, ToolMotion, Trajectory,
-    Warning,
+    Engine, Frame, Joint, JointKind, ModelKind, ModelSpec, Record, Scene, Task, ToolChoice,
+    Trajectory,
 };
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Settings, Solution};
@@ -18,20 +18,22 @@ fn planner() -> Planner {
     Planner::builder(Simulated::new(Simulator::planar())).build()
 }
 
+/// What a model says that takes itself for the truth.
+const EXACT: Trust =
+    Trust::Mine { error: Some(Quantiles { median: 0.0, p95: 0.0 }), warnings: Vec::new() };
+
+static WISHFUL: ModelSpec = ModelSpec::of(ModelKind::Follow);
+
 /// Predicts that any push brings every object onto the goal.
 struct Wishful(Vector);
 
 impl EffectModel for Wishful {
-    fn name(&self) -> &str {
-        "wishful"
+    fn spec(&self) -> &ModelSpec {
+        &WISHFUL
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    fn error_p95(&self) -> f64 {
-        0.0
+    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+        EXACT
     }
 
     fn rollout(&self, _: &Scene, jobs: &[Job], _: Record) -> Vec<Trajectory> {
@@ -41,7 +43,7 @@ impl EffectModel for Wishful {
             let tool = job.motion.strokes[0].to;
             Trajectory {
                 frames: vec![Frame { time: 1.0, stroke: 0, tool, state }],
-                ..Trajectory::default()
+                ..Trajectory::new(WISHFUL.clone())
             }
         };
         jobs.iter().map(landed).collect()
@@ -52,16 +54,12 @@ impl EffectModel for Wishful {
 struct Beside(Simulated, Vector);
 
 impl EffectModel for Beside {
-    fn name(&self) -> &str {
-        "beside"
+    fn spec(&self) -> &ModelSpec {
+        self.0.spec()
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    fn error_p95(&self) -> f64 {
-        0.0
+    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+        EXACT
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {

@@ -2,13 +2,14 @@
 //! is scored.
 
 use std::process::Command;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use pushplan::bench::{
     GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
 };
-use pushplan::effect::{EffectModel, EffectModels};
+use pushplan::effect::EffectModels;
 use pushplan::geometry::Vector;
+use pushplan::scene::ModelKind;
 use pushplan::solve::{Effort, Planner};
 
 /// A start with goals that need corners and edges.
@@ -104,7 +105,7 @@ fn measure(threads: usize) -> ToolRecord {
     let setup = ReferenceSetup::new(Layout::Scattered);
     let goals = GoalSet::shipped(Layout::Scattered).expect("a sound file");
     let index = goals.starts[..=START].iter().map(|start| start.goals.len()).sum::<usize>() - 1;
-    let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("weights");
+    let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("weights");
     let planner = Planner::for_effort(Effort::Draft).expect("weights").build();
     let mut bench = ToolBench::new(setup, goals, &model, &planner, 7);
     pool.install(|| bench.measure(index)).expect("a task").record
@@ -112,7 +113,7 @@ fn measure(threads: usize) -> ToolRecord {
 
 #[test]
 fn single_pushes_are_solved_where_they_can_be_whatever_the_number_of_threads() {
-    let model: Arc<dyn EffectModel> = EffectModels::shipped().expect("the shipped weights");
+    let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
     let pushed = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| single_pushes(&model, 7, 2000))
@@ -146,7 +147,7 @@ fn a_part_of_the_benchmark_is_kept_and_shown_again() {
     assert!(json["tasks"][0]["seconds"]["first"].as_f64() > Some(0.0), "{json}");
     assert_eq!(json["summary"].as_array().map(Vec::len), Some(6 * 8));
     let text = run(&["bench", "report", out]);
-    assert!(text.contains("1 tasks on the grid layout, brdpn-128"), "{text}");
+    assert!(text.contains("1 tasks on the grid layout, network"), "{text}");
     assert!(text.contains("stick -90, first choice"), "{text}");
     let rows = std::fs::read_to_string(folder.path().join("tasks.csv")).expect("rows");
     assert_eq!(rows.lines().count(), 1 + 6 * 8, "{rows}");

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::asset::fault::Faults;
 use crate::asset::read_text;
-use crate::scene::{Outcome, Plan, Task, Tool, Verdict};
+use crate::scene::{ModelSpec, Outcome, Plan, Task, Tool, Verdict};
 
 use super::read::{self, Opened};
 use super::{PLAN_FILE, SCHEMA_VERSION, emit};
@@ -22,8 +22,8 @@ pub struct PlanFile {
     pub tool: Arc<Tool>,
     /// The pushes.
     pub plan: Plan,
-    /// Name of the effect model that predicted the outcome.
-    pub model: Option<String>,
+    /// The effect model that predicted the outcome.
+    pub model: Option<ModelSpec>,
     /// Where that model says the plan ends.
     pub predicted: Option<Outcome>,
     /// Whether simulation confirms it.
@@ -97,7 +97,7 @@ struct Own {
     #[serde(rename = "tool")]
     _tool: IgnoredAny,
     plan: Plan,
-    model: Option<String>,
+    model: Option<ModelSpec>,
     predicted: Option<Outcome>,
     verdict: Option<Verdict>,
 }
@@ -109,7 +109,7 @@ impl Serialize for PlanFile {
             schema_version: u32,
             kind: &'static str,
             plan: &'a Plan,
-            model: &'a Option<String>,
+            model: &'a Option<ModelSpec>,
             predicted: &'a Option<Outcome>,
             verdict: &'a Option<Verdict>,
             tool: serde_json::Value,

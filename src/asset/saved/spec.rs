@@ -34,11 +34,10 @@ pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
     Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
     Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
     Key::required("plan", PLAN, "The pushes."),
-    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
     Key::required("trajectory", TRAJECTORY, "What happened."),
 ]);
 
-const MODEL: &str = "Name of the model or engine that computed the motion; by default unknown.";
+const MODEL: &str = "The effect model that predicted where the plan ends; by default unknown.";
 
 pub(in crate::asset) const VERSION: Value = Value::Count(Range {
     what: "the schema version",
@@ -171,6 +170,7 @@ const EVIDENCE: Value = Value::Map(&[
 ]);
 
 const TRAJECTORY: Value = Value::Map(&[
+    Key::required("by", Value::Text, "The model or engine that computed it."),
     Key::required(
         "frames",
         Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 },

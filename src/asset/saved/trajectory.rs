@@ -23,9 +23,7 @@ pub struct TrajectoryFile {
     pub tool: Arc<Tool>,
     /// The pushes that it made.
     pub plan: Plan,
-    /// Name of the model or engine that computed the motion.
-    pub model: Option<String>,
-    /// The motion.
+    /// The motion, and which model computed it.
     pub trajectory: Trajectory,
 }
 
@@ -53,13 +51,9 @@ impl TrajectoryFile {
         check_frames(&mut opened, list("frames").unwrap_or_default(), &own);
         check_contacts(&mut opened, list("contacts").unwrap_or_default(), &own);
         let file = match (opened.task, opened.tool) {
-            (Some(task), Some(tool)) => Some(Self {
-                task,
-                tool,
-                plan: own.plan,
-                model: own.model,
-                trajectory: own.trajectory,
-            }),
+            (Some(task), Some(tool)) => {
+                Some(Self { task, tool, plan: own.plan, trajectory: own.trajectory })
+            }
             _ => None,
         };
         opened.ledger.finish(file)
@@ -122,7 +116,6 @@ struct Own {
     #[serde(rename = "tool")]
     _tool: IgnoredAny,
     plan: Plan,
-    model: Option<String>,
     trajectory: Trajectory,
 }
 
@@ -132,7 +125,6 @@ impl Serialize for TrajectoryFile {
         struct Written<'a> {
             schema_version: u32,
             kind: &'static str,
-            model: &'a Option<String>,
             plan: &'a Plan,
             tool: serde_json::Value,
             task: serde_json::Value,
@@ -141,7 +133,6 @@ impl Serialize for TrajectoryFile {
         Written {
             schema_version: SCHEMA_VERSION,
             kind: "trajectory",
-            model: &self.model,
             plan: &self.plan,
             tool: emit::tool(&self.tool),
             task: emit::task(&self.task),

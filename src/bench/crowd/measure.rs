@@ -33,7 +33,7 @@ pub fn evaluate_crowd(
     let moved = judged.iter().flat_map(Judged::end).filter(|object| object.moved());
     let headings: Vec<f64> = moved.filter_map(ObjectError::heading_deg).collect();
     CrowdModel {
-        model: model.name().to_owned(),
+        model: model.spec().to_string(),
         all: phases(&judged, |_| true),
         moved: phases(&judged, ObjectError::moved),
         heading_deg: (!headings.is_empty()).then(|| mean(&headings)),

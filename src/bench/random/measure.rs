@@ -7,7 +7,7 @@ use crate::asset::ToolLibrary;
 use crate::bench::solved::{End, SolvedTask};
 use crate::dataset::generator;
 use crate::geometry::Pose;
-use crate::scene::{Engine, Frame, Outcome, Situation, Trajectory};
+use crate::scene::{Engine, ModelKind, Outcome, Situation, Trajectory};
 use crate::solve::{Planner, SolveError};
 use crate::store::Measured;
 use crate::verify::{Verifier, VerifySettings};
@@ -106,8 +106,6 @@ impl RandomSuite {
 
 fn nothing(made: &SuiteTask) -> End {
     let state = made.task.scene.start();
-    let tool = Pose::default();
-    let frame = Frame { time: 0.0, stroke: 0, tool, state };
-    let trajectory = Trajectory { frames: vec![frame], ..Trajectory::default() };
+    let trajectory = Trajectory::standing(ModelKind::Still.into(), Pose::default(), state);
     End::of(&Outcome::judge(&made.task.goal, &trajectory))
 }

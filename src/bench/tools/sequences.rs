@@ -297,6 +297,7 @@ mod tests {
     use super::*;
     use crate::{
         effect::{EffectModels, Simulated},
+        scene::ModelKind,
         sim::Simulator,
     };
 
@@ -314,7 +315,7 @@ mod tests {
     #[test]
     fn shared_beginnings_change_no_bit_of_a_prediction() {
         let (setup, task, poses) = setup();
-        let model = &*EffectModels::shipped().expect("the shipped weights");
+        let model = &EffectModels::build(&ModelKind::NETWORK.into()).expect("the shipped weights");
         let poses = &poses[..2];
         let rolling = Rolling { setup: &setup, task: &task, model, poses, steps: STEPS };
         let (shared, whole) = (rolling.shared(), rolling.whole());

@@ -78,7 +78,7 @@ pub fn single_pushes(model: &dyn EffectModel, seed: u64, tasks: usize) -> Single
     let near: Vec<&One> = done.iter().flatten().collect();
     let count = |solved: &dyn Fn(&One) -> bool| near.iter().filter(|one| solved(one)).count();
     SinglePushes {
-        model: model.name().to_owned(),
+        model: model.spec().to_string(),
         seed,
         tasks,
         near: near.len(),

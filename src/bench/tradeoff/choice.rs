@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::effect::EffectModels;
-use crate::solve::{Effort, EffortLevel};
+use crate::scene::ModelKind;
+use crate::solve::Effort;
 
-use super::measured::PlanRow;
+use super::{PlanLevel, measured::PlanRow};
 
 /// How much more often than the best level each effort may fail, as a share of the tasks.
 const LOSSES: [(Effort, f64); 4] = [
@@ -18,9 +18,8 @@ const LOSSES: [(Effort, f64); 4] = [
 /// The efforts among the levels on the front whose models are part of the library: each is the
 /// cheapest that fails no more often than it may. Where a cheap level is as successful as any,
 /// efforts are the same.
-pub fn choose_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, EffortLevel> {
-    let shipped = |name: &str| matches!(EffectModels::named(name), Ok(Some(_)));
-    let front = || plans.iter().filter(|row| row.on_front && shipped(&row.level.model));
+pub fn choose_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, PlanLevel> {
+    let front = || plans.iter().filter(|row| row.on_front && is_shipped(&row.level));
     let best = front().map(|row| row.success).fold(0.0, f64::max);
     LOSSES
         .into_iter()
@@ -28,9 +27,13 @@ pub fn choose_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, EffortLevel> {
             // Shares are counts divided by one number; the small part is their rounding.
             let good = front().filter(|row| row.success >= best - loss - 1e-9);
             let cheapest = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
-            let level = &cheapest.level;
-            let (model, settings) = (level.model.clone(), level.settings);
-            Some((effort, EffortLevel { level: level.name.clone(), model, settings }))
+            Some((effort, cheapest.level.clone()))
         })
         .collect()
+}
+
+/// Whether its model is part of the library.
+fn is_shipped(level: &PlanLevel) -> bool {
+    let foreign = |kind: &ModelKind| matches!(kind, ModelKind::Network { weights: Some(_), .. });
+    !level.model.parts().any(|part| foreign(&part.kind))
 }

@@ -1,89 +1,104 @@
 //! The levels of the ladder: predictors, and budgets of planning with them.
 
+use std::num::{NonZeroU8, NonZeroU16};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    effect::{EffectModel, Follow, Network, Prior, Projection, Simulated, Still},
-    network::Weights,
-    sim::{DEFAULT_STEP, Simulator},
+    effect::{EffectModel, EffectModels, ModelError},
+    scene::{Engine, ModelKind, ModelSpec, Rate, Stride},
     solve::Settings,
 };
 
-/// Strides besides 1 that the shipped network and its prior are measured with.
-const STRIDES: [usize; 2] = [2, 4];
+/// Frames predicted as one, besides single frames, that the shipped network and its prior are
+/// measured with.
+const STRIDES: [u8; 2] = [2, 4];
 
 /// Steps a second besides the default that the engines are measured with.
-const PLANAR_STEPS: [f64; 3] = [120.0, 60.0, 30.0];
-const SPATIAL_STEPS: [f64; 1] = [120.0];
+const PLANAR_RATES: [u16; 3] = [120, 60, 30];
+const SPATIAL_RATES: [u16; 1] = [120];
 
 /// A predictor to measure.
 #[derive(Clone)]
-pub enum Level {
-    /// A network.
-    Network(Arc<Network>),
-    /// Anything else.
-    Other(Arc<dyn EffectModel>),
+pub struct Level {
+    name: String,
+    model: Arc<dyn EffectModel>,
 }
 
 impl Level {
-    /// The predictor.
-    pub fn model(&self) -> Arc<dyn EffectModel> {
-        match self {
-            Level::Network(model) => Arc::clone(model) as Arc<dyn EffectModel>,
-            Level::Other(model) => Arc::clone(model),
-        }
+    /// The predictor that `spec` describes.
+    ///
+    /// # Errors
+    /// [`ModelError`] if it needs weights that cannot be used.
+    pub fn new(spec: &ModelSpec) -> Result<Self, ModelError> {
+        Ok(Self { name: spec.to_string(), model: Arc::new(EffectModels::build(spec)?) })
     }
 
-    /// Its name.
+    /// The predictor.
+    pub fn model(&self) -> Arc<dyn EffectModel> {
+        Arc::clone(&self.model)
+    }
+
+    /// What it is.
+    pub fn spec(&self) -> &ModelSpec {
+        self.model.spec()
+    }
+
+    /// The same in words.
     pub fn name(&self) -> &str {
-        match self {
-            Level::Network(model) => model.name(),
-            Level::Other(model) => model.name(),
-        }
+        &self.name
     }
 
     /// Whether jobs of one scene share work: then a push costs less in a batch.
     pub(super) fn batches(&self) -> bool {
-        matches!(self, Level::Network(_)) || self.name().starts_with("quasi-static")
+        matches!(self.kind(), ModelKind::Network { .. } | ModelKind::Prior { .. })
     }
 
-    /// Whether it is measured on scenes of several objects too: whole models, and engines.
+    /// Whether it is measured on scenes of several objects too: engines and whole models.
     pub(super) fn is_plain(&self) -> bool {
-        let simulated = self.name().starts_with("planar") || self.name().starts_with("3d");
-        simulated || (self.batches() && !self.name().contains(','))
+        matches!(self.kind(), ModelKind::Simulated { .. })
+            || (self.batches() && is_whole(self.kind()))
+    }
+
+    fn kind(&self) -> &ModelKind {
+        &self.spec().first().kind
     }
 }
 
-/// All predictors: the `shipped` network with its variants, `others` (with the names of their
-/// files), the prior, the engines at several steps, and the trivial ones.
-pub fn levels(shipped: &Weights, others: &[(String, Weights)]) -> Vec<Level> {
-    let learned = |model: Network| Level::Network(Arc::new(model));
-    let base = || Network::new(shipped.clone());
-    let mut levels = vec![learned(base())];
-    levels.extend(STRIDES.map(|stride| learned(base().with_stride(stride))));
-    levels.extend((0..shipped.card.config.steps).map(|steps| learned(base().with_steps(steps))));
-    for (file, weights) in others {
-        let model = Network::new(weights.clone());
-        let taken = levels.iter().any(|level| level.name() == model.name());
-        let name = format!("{} ({file})", model.name());
-        levels.push(learned(if taken { model.named(name) } else { model }));
+/// Whether nothing is left out to make it cheaper.
+fn is_whole(kind: &ModelKind) -> bool {
+    match kind {
+        ModelKind::Network { steps, stride, .. } => steps.is_none() && *stride == Stride::ONE,
+        ModelKind::Prior { stride } => *stride == Stride::ONE,
+        _ => true,
     }
-    levels.push(Level::Other(Arc::new(Prior::default())));
-    for stride in STRIDES {
-        levels.push(Level::Other(Arc::new(Prior::default().with_stride(stride))));
-    }
-    let step = |rate: f64| 1.0 / rate;
-    let planar = [DEFAULT_STEP].into_iter().chain(PLANAR_STEPS.map(step));
-    let spatial = [DEFAULT_STEP].into_iter().chain(SPATIAL_STEPS.map(step));
-    let engines = planar.map(Simulator::planar_with_step);
-    let engines = engines.chain(spatial.map(Simulator::spatial_with_step));
-    levels.extend(engines.map(|engine| Level::Other(Arc::new(Simulated::new(engine)))));
-    levels.push(Level::Other(Arc::new(Projection)));
-    levels.push(Level::Other(Arc::new(Follow)));
-    levels.push(Level::Other(Arc::new(Still)));
-    levels
+}
+
+/// All predictors: the shipped network with its variants, those of `other` weights files, the
+/// prior, the engines at several steps, and the trivial ones.
+///
+/// # Errors
+/// [`ModelError`] if weights cannot be used.
+pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
+    let strides = || STRIDES.into_iter().filter_map(NonZeroU8::new).map(Stride);
+    let network = |weights, steps, stride| ModelKind::Network { weights, steps, stride };
+    let rates = |engine: Engine, rates: &[u16]| {
+        let rates = rates.iter().filter_map(|rate| NonZeroU16::new(*rate)).map(Rate);
+        let rates = std::iter::once(Rate::DEFAULT).chain(rates);
+        rates.map(|rate| ModelKind::Simulated { engine, rate }).collect::<Vec<_>>()
+    };
+    let trained = EffectModels::weights()?.card.config.steps as u8;
+    let mut kinds = vec![ModelKind::NETWORK];
+    kinds.extend(strides().map(|stride| network(None, None, stride)));
+    kinds.extend((0..trained).map(|steps| network(None, Some(steps), Stride::ONE)));
+    kinds.extend(other.iter().map(|file| network(Some(file.clone()), None, Stride::ONE)));
+    kinds.push(ModelKind::PRIOR);
+    kinds.extend(strides().map(|stride| ModelKind::Prior { stride }));
+    kinds.extend(rates(Engine::Planar, &PLANAR_RATES));
+    kinds.extend(rates(Engine::Spatial, &SPATIAL_RATES));
+    kinds.extend([ModelKind::Projection, ModelKind::Follow, ModelKind::Still]);
+    kinds.into_iter().map(|kind| Level::new(&kind.into())).collect()
 }
 
 /// A predictor with the budgets of a planner.
@@ -91,8 +106,8 @@ pub fn levels(shipped: &Weights, others: &[(String, Weights)]) -> Vec<Level> {
 pub struct PlanLevel {
     /// Model and budgets in words.
     pub name: String,
-    /// Name of the effect model.
-    pub model: String,
+    /// The effect model.
+    pub model: ModelSpec,
     /// The budgets. Disturbed replays are none: they tell how robust a plan is and change
     /// nothing in its choice.
     pub settings: Settings,
@@ -149,35 +164,27 @@ const SOME: [(Search, Refinement, Verified); 6] = [
     (FINE, STRONG, (8, 3)),
 ];
 
-/// What the dear and the trivial are planned with.
+/// What the costly and the trivial are planned with.
 const FEW: [(Search, Refinement, Verified); 2] = [(COARSE, LIGHT, (1, 1)), (COARSE, LIGHT, (4, 1))];
 
 /// The levels of planning with those of `levels` that are worth it.
 pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
     let mut plans = Vec::new();
-    let mut networks = 0;
-    for level in levels {
-        let name = level.name();
-        let budgets: &[_] = match level {
-            Level::Network(_) if name.contains(',') => &[],
-            Level::Network(_) => {
-                networks += 1;
-                if networks == 1 { &EVERY } else { &SOME }
-            }
-            Level::Other(_) => match name {
-                "quasi-static" => &EVERY,
-                "planar, 1/60 s" | "planar, 1/30 s" => &SOME,
-                "planar" | "projection" => &FEW,
-                "3d" => &FEW[..1],
-                _ => &[],
-            },
+    for spec in levels.iter().map(Level::spec) {
+        let budgets: &[_] = match spec.first().kind {
+            ModelKind::NETWORK | ModelKind::PRIOR => &EVERY,
+            ModelKind::Network { steps: None, stride: Stride::ONE, .. } => &SOME,
+            ModelKind::PLANAR | ModelKind::Projection => &FEW,
+            ModelKind::Simulated { engine: Engine::Planar, rate } if rate.0.get() <= 60 => &SOME,
+            ModelKind::SPATIAL => &FEW[..1],
+            _ => &[],
         };
-        plans.extend(budgets.iter().map(|budget| plan_level(name, *budget)));
+        plans.extend(budgets.iter().map(|budget| plan_level(spec, *budget)));
     }
     plans
 }
 
-fn plan_level(model: &str, budget: (Search, Refinement, Verified)) -> PlanLevel {
+fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> PlanLevel {
     let ((density, offsets, beam, search_rollouts), refinement, (at_once, batches)) = budget;
     let (effort, refined, refine_rounds, refine_extra) = refinement;
     PlanLevel {
@@ -185,7 +192,7 @@ fn plan_level(model: &str, budget: (Search, Refinement, Verified)) -> PlanLevel 
             "{model}: {density} search, {effort} refinement, up to {} verified",
             at_once * batches
         ),
-        model: model.to_owned(),
+        model: model.clone(),
         settings: Settings {
             offsets,
             beam,

@@ -9,7 +9,7 @@ use crate::{
     asset::SCHEMA_VERSION,
     bench::{End, SolvedTask, SuiteKind},
     judge::{Summary, mean, percentile},
-    solve::{Effort, EffortLevel, PlanStatus},
+    solve::{Effort, PlanStatus},
 };
 
 use super::{
@@ -127,7 +127,7 @@ pub struct TradeOffReport {
     /// Levels of planning.
     pub plans: Vec<PlanRow>,
     /// The level that each effort stands for.
-    pub efforts: BTreeMap<Effort, EffortLevel>,
+    pub efforts: BTreeMap<Effort, PlanLevel>,
 }
 
 impl TradeOffReport {

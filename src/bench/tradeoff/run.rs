@@ -13,7 +13,7 @@ use crate::{
         HeldOut, HeldOutErrors, RandomError, RandomSuite, SolvedTask, SuiteKind, TaskKind,
         cpu_clock::timed,
     },
-    scene::Task,
+    scene::{ModelSpec, Task},
     solve::{Planner, Solution, SolveError},
 };
 
@@ -94,7 +94,7 @@ impl<'a> TradeOff<'a> {
         plans: Vec<PlanLevel>,
         settings: TradeOffSettings,
     ) -> Result<Self, ThreadPoolBuildError> {
-        let model = |name: &str| levels.iter().find(|level| level.name() == name);
+        let model = |spec: &ModelSpec| levels.iter().find(|level| level.spec() == spec);
         let (plans, planners) = plans
             .into_iter()
             .filter_map(|plan| {

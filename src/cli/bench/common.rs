@@ -11,11 +11,12 @@ use crate::asset::SCHEMA_VERSION;
 use crate::cli::{
     action::LibraryArgs,
     error::CliError,
-    model::{self, ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     session::Session,
 };
 use crate::effect::EffectModel;
 use crate::report::{Document, Table};
+use crate::scene::{ModelKind, ModelSpec};
 use crate::solve::Effort;
 
 use super::keep::write_report;
@@ -24,7 +25,7 @@ use super::keep::write_report;
 #[derive(Args, Debug)]
 pub struct Common {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelName>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     pub outside: OutsideArgs,
     #[command(flatten)]
@@ -35,21 +36,21 @@ pub struct Common {
 
 impl Common {
     /// The model that is asked for, or else that of the effort.
-    pub fn model(&self, effort: Effort) -> ModelName {
-        self.model.clone().unwrap_or(ModelName::OfEffort(effort))
+    pub fn spec(&self, effort: Effort) -> ModelSpec {
+        self.model.clone().unwrap_or_else(|| effort.spec())
     }
 
     /// The model that is asked for, or else the network, used only where it can be trusted.
     ///
     /// # Errors
-    /// Those of [`ModelName::load`].
+    /// Those of [`model::load`].
     pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
-        Ok(self.outside.guard(self.model_or_network().load()?))
+        self.outside.load(&self.model_or_network())
     }
 
     /// The model that is asked for, or else the network: where there is no effort.
-    pub fn model_or_network(&self) -> ModelName {
-        self.model.clone().unwrap_or(ModelName::Brdpn)
+    pub fn model_or_network(&self) -> ModelSpec {
+        self.model.clone().unwrap_or(ModelKind::NETWORK.into())
     }
 }
 

@@ -10,9 +10,10 @@ use crate::asset::load_task;
 use crate::bench::{
     FAR_COUNTS, Suite, SuiteKind, crowd_cases, far_costs, inference_costs, push_costs, search_costs,
 };
-use crate::cli::{error::CliError, model::ModelName, output, session::Session, solve::solve_error};
-use crate::effect::{EffectModel, Network};
+use crate::cli::{error::CliError, model, output, session::Session, solve::solve_error};
+use crate::effect::{EffectModel, Network, Simulated};
 use crate::report::{far_chart, far_table, inference_table, push_cost_table, search_cost_table};
+use crate::sim::Simulator;
 use crate::solve::Effort;
 
 use super::common::Common;
@@ -65,15 +66,15 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
     let task = load_task(task, &library)?;
     let model = args.common.load_model()?;
-    let planar = ModelName::Planar.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
     let spinner = session.spinner("timing");
     let pushes = push_costs(&model, &suite, usize::from(args.batch))
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
-    let networks = match args.common.model_or_network().weights()? {
+    let networks = match model::weights(&args.common.model_or_network())? {
         Some(weights) => inference_costs(&weights, &suite.cases, &NETWORK_BATCHES),
         None => Vec::new(),
     };
+    let planar: Arc<dyn EffectModel> = Arc::new(Simulated::new(Simulator::planar()));
     let models = [Arc::clone(&model), planar];
     let standard = Effort::Standard.settings().offsets;
     let offsets = args.offsets.map_or(standard, usize::from);
@@ -91,7 +92,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
 
 fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let objects = args.crowd.map_or(10, usize::from);
-    let weights = args.common.model_or_network().weights()?.ok_or_else(|| {
+    let weights = model::weights(&args.common.model_or_network())?.ok_or_else(|| {
         CliError::usage("only a network can be timed on a crowd", "leave --model out")
     })?;
     let spinner = session.spinner("timing");
@@ -104,7 +105,7 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
-    let weights = args.common.model_or_network().weights()?.ok_or_else(|| {
+    let weights = model::weights(&args.common.model_or_network())?.ok_or_else(|| {
         CliError::usage("only a network leaves out what it cannot touch", "leave --model out")
     })?;
     if let Some(out) = &args.out {
@@ -113,7 +114,7 @@ fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
     let suite = Suite::draw(SuiteKind::Single, &library, args.seed, usize::from(args.pushes));
     let network = Network::new(weights);
-    let planar = ModelName::Planar.load()?;
+    let planar = Simulated::new(Simulator::planar());
     let batch = usize::from(args.batch);
     let models: [(&dyn EffectModel, usize); 2] = [(&network, batch), (&planar, 1)];
     let spinner = session.spinner("timing");

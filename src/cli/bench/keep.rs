@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::cli::{
-    error::CliError, follow::Following, interrupt, model::ModelName, output, session::Session,
-};
+use crate::cli::{error::CliError, follow::Following, interrupt, model, output, session::Session};
 use crate::report::Document;
+use crate::scene::ModelSpec;
 use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 
 /// Names of the files that a report leaves beside the records.
@@ -85,8 +84,8 @@ pub fn write_report(folder: &Path, document: &Document) -> Result<(), CliError> 
 ///
 /// # Errors
 /// If they cannot be read.
-pub fn weights_digest(model: &ModelName) -> Result<Option<String>, CliError> {
-    let Some(weights) = model.weights()? else { return Ok(None) };
+pub fn weights_digest(spec: &ModelSpec) -> Result<Option<String>, CliError> {
+    let Some(weights) = model::weights(spec)? else { return Ok(None) };
     let bytes = weights.to_bytes();
     let bytes = bytes.map_err(|error| CliError::unexpected("cannot read the weights", &error))?;
     Ok(Some(digest(&bytes)))

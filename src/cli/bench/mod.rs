@@ -11,3 +11,4 @@ mod tasks;
 mod tools;
 
 pub use command::{BenchArgs, run};
+pub use keep::weights_digest;

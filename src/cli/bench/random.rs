@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bench::{RandomError, RandomSuite, TaskKind};
 use crate::cli::{
     error::CliError,
-    interrupt, output,
+    interrupt, model, output,
     session::Session,
     solve::{EffortName, solve_error},
 };
@@ -91,8 +91,8 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
     kinds.dedup();
     let suite = RandomSuite::new(&library, args.seed, &kinds);
     let effort = Effort::from(args.effort);
-    let name = args.common.model(effort);
-    let planner = Planner::builder(name.load()?)
+    let spec = args.common.spec(effort);
+    let planner = Planner::builder(model::load(&spec)?)
         .effort(effort)
         .outside(args.common.outside.outside())
         .build();
@@ -106,8 +106,8 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
         "tools": value_digest(&tools)?,
     });
     args.common.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, count, args.seed, planner.model().name())
-        .with_weights(weights_digest(&name)?)
+    let manifest = RunManifest::new(SUITE, count, args.seed, &spec.to_string())
+        .with_weights(weights_digest(&spec)?)
         .with_settings(settings);
     if let Some(folder) = &args.save_tasks {
         save_tasks(folder, &suite, args.keep.indices(count), session)?;

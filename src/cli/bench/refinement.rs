@@ -7,6 +7,7 @@ use clap::Args;
 use crate::bench::refinement_report;
 use crate::cli::{
     error::CliError,
+    model,
     session::Session,
     solve::{EffortName, solve_error},
 };
@@ -35,7 +36,7 @@ pub struct RefinementArgs {
 pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
     let effort: Effort = args.effort.into();
-    let model = args.common.model(effort).load()?;
+    let model = Arc::new(model::load(&args.common.spec(effort))?);
     let settings = Settings { disturbed: 0, ..effort.settings() };
     let planner = |settings| {
         let planner = Planner::builder(Arc::clone(&model)).settings(settings);

@@ -9,6 +9,7 @@ use crate::asset::load_task;
 use crate::bench::SolvedTask;
 use crate::cli::{
     error::CliError,
+    model,
     session::Session,
     solve::{EffortName, solve_error},
 };
@@ -49,8 +50,8 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         .iter()
         .map(|file| Ok(load_task(file, &library)?))
         .collect::<Result<Vec<Task>, CliError>>()?;
-    let name = args.common.model(args.effort.into());
-    let planner = Planner::builder(name.load()?)
+    let spec = args.common.spec(args.effort.into());
+    let planner = Planner::builder(model::load(&spec)?)
         .effort(args.effort.into())
         .seed(args.seed)
         .outside(args.common.outside.outside())
@@ -63,8 +64,8 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         "content": value_digest(&tasks)?,
     });
     args.common.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, tasks.len(), args.seed, planner.model().name())
-        .with_weights(weights_digest(&name)?)
+    let manifest = RunManifest::new(SUITE, tasks.len(), args.seed, &spec.to_string())
+        .with_weights(weights_digest(&spec)?)
         .with_settings(settings);
     let store = args.keep.measure(session, manifest, |index| {
         let task = &tasks[index];

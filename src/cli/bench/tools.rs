@@ -9,11 +9,12 @@ use crate::asset::write_atomic;
 use crate::bench::{GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, single_pushes};
 use crate::cli::{
     error::CliError,
-    model::{ModelName, OutsideArgs},
+    model::{self, OutsideArgs},
     session::Session,
     solve::{EffortName, solve_error},
 };
 use crate::report::{single_table, tools_document};
+use crate::scene::{ModelKind, ModelSpec};
 use crate::solve::{Effort, Planner};
 use crate::store::RunManifest;
 
@@ -29,7 +30,7 @@ pub const SUITE: &str = "tools";
 pub struct ToolsArgs {
     /// Effect model of all rows; by default the network, and for the planner that of the effort
     #[arg(long, value_name = "MODEL")]
-    model: Option<ModelName>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Where the cylinder starts
@@ -101,11 +102,11 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     }
     let goals = GoalSet::shipped(layout)
         .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
-    let name = args.model.clone().unwrap_or(ModelName::Brdpn);
-    let model = args.outside.guard(name.load()?);
+    let spec = args.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into());
+    let model = args.outside.load(&spec)?;
     let effort: Effort = args.effort.into();
-    let planner = args.model.clone().unwrap_or(ModelName::OfEffort(effort));
-    let planner = Planner::builder(planner.load()?)
+    let planner = args.model.clone().unwrap_or_else(|| effort.spec());
+    let planner = Planner::builder(model::load(&planner)?)
         .effort(effort)
         .seed(args.seed)
         .outside(args.outside.outside())
@@ -113,12 +114,12 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     let mut settings = json!({
         "layout": layout,
         "goals": value_digest(&goals)?,
-        "planner": format!("effort {effort} with {}", planner.model().name()),
+        "planner": format!("effort {effort} with {}", planner.model().spec()),
         "budget": planner.settings(),
     });
     args.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, goals.len(), args.seed, model.name())
-        .with_weights(weights_digest(&name)?)
+    let manifest = RunManifest::new(SUITE, goals.len(), args.seed, &spec.to_string())
+        .with_weights(weights_digest(&spec)?)
         .with_settings(settings);
     let mut bench = ToolBench::new(setup, goals, &model, &planner, args.seed);
     let store = args.keep.measure(session, manifest, |index| {
@@ -138,8 +139,8 @@ fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
             "leave --out out, or --form single",
         ));
     }
-    let name = args.model.clone().unwrap_or(ModelName::Brdpn);
-    let model = args.outside.guard(name.load()?);
+    let spec = args.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into());
+    let model = args.outside.load(&spec)?;
     let spinner = session.spinner("pushing");
     let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
     spinner.finish_and_clear();

@@ -1,9 +1,9 @@
 //! What the tool touches sticks to it.
 
 use crate::{
-    effect::{EffectModel, Job},
+    effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Body, Physics, Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Body, Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
 };
 
 use super::play::{Rule, Table, play_all};
@@ -12,6 +12,8 @@ use super::play::{Rule, Table, play_all};
 /// is lifted; and so does whatever a moving object runs into.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Follow;
+
+static SPEC: ModelSpec = ModelSpec::of(ModelKind::Follow);
 
 struct Sticking {
     held: Vec<bool>,
@@ -51,20 +53,15 @@ impl Rule for Sticking {
 }
 
 impl EffectModel for Follow {
-    fn name(&self) -> &str {
-        "follow"
+    fn spec(&self) -> &ModelSpec {
+        &SPEC
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    /// Unknown.
-    fn error_p95(&self) -> f64 {
-        f64::INFINITY
+    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+        Trust::Mine { error: None, warnings: Vec::new() }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        play_all::<Sticking>(scene, jobs, record)
+        play_all::<Sticking>(&SPEC, scene, jobs, record)
     }
 }

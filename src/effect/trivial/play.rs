@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use crate::{
-    effect::Job,
     geometry::{ContactPoint, Pose, contact_points},
     scene::{
-        Body, Contact, Frame, Physics, Record, Scene, State, TOUCHING, Tool, ToolMotion, Trajectory,
+        Body, Contact, Frame, Job, ModelSpec, Physics, Record, Scene, State, TOUCHING, Tool,
+        ToolMotion, Trajectory,
     },
 };
 
@@ -84,17 +84,22 @@ impl Table<'_> {
 }
 
 /// Plays every job with a fresh rule.
-pub(super) fn play_all<R: Rule>(scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-    jobs.par_iter().map(|job| play::<R>(scene, job, record)).collect()
+pub(super) fn play_all<R: Rule>(
+    by: &ModelSpec,
+    scene: &Scene,
+    jobs: &[Job],
+    record: Record,
+) -> Vec<Trajectory> {
+    jobs.par_iter().map(|job| play::<R>(by, scene, job, record)).collect()
 }
 
-fn play<R: Rule>(scene: &Scene, job: &Job, record: Record) -> Trajectory {
+fn play<R: Rule>(by: &ModelSpec, scene: &Scene, job: &Job, record: Record) -> Trajectory {
     let table = Table { scene, motion: &job.motion };
     let mut rule = R::begin(scene, &job.physics);
     let mut poses = job.start.poses.clone();
     let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let mut frame = Frame { time: 0.0, stroke: 0, tool, state: job.start.clone() };
-    let mut trajectory = Trajectory::default();
+    let mut trajectory = Trajectory::new(by.clone());
     let mut count = 0;
     for (index, stroke) in job.motion.strokes.iter().enumerate() {
         for step in (0..stroke.frames()).map(|k| stroke.frame(k)) {

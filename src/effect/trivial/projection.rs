@@ -1,9 +1,9 @@
 //! Overlaps are removed and joints held, and nothing else happens.
 
 use crate::{
-    effect::{EffectModel, Job},
+    effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Body, Physics, Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Body, Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
 };
 
 use super::{
@@ -22,6 +22,8 @@ const ROUNDS: usize = 200;
 /// share a correction by the areas that it moves, objects joined by fixed joints are one body.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Projection;
+
+static SPEC: ModelSpec = ModelSpec::of(ModelKind::Projection);
 
 struct Shifting {
     bodies: Bodies,
@@ -86,21 +88,16 @@ impl Shifting {
 }
 
 impl EffectModel for Projection {
-    fn name(&self) -> &str {
-        "projection"
+    fn spec(&self) -> &ModelSpec {
+        &SPEC
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    /// Unknown.
-    fn error_p95(&self) -> f64 {
-        f64::INFINITY
+    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+        Trust::Mine { error: None, warnings: Vec::new() }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        play_all::<Shifting>(scene, jobs, record)
+        play_all::<Shifting>(&SPEC, scene, jobs, record)
     }
 }
 
@@ -143,10 +140,10 @@ mod tests {
             (&Projection, [0.26, 0.36], 1e-4),
         ] {
             let trajectory = roll(model);
-            assert_eq!(trajectory.frames.len(), 21, "{}", model.name());
+            assert_eq!(trajectory.frames.len(), 21, "{}", model.spec());
             for (pose, expected) in trajectory.outcome().poses.iter().zip(expected) {
                 let off = (pose.position - Vector::new(expected, 0.0)).norm();
-                assert!(off <= slack, "{}: {pose:?}", model.name());
+                assert!(off <= slack, "{}: {pose:?}", model.spec());
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Nothing moves.
 
 use crate::{
-    effect::{EffectModel, Job},
+    effect::{EffectModel, Trust},
     geometry::Pose,
-    scene::{Physics, Record, Scene, ToolMotion, Trajectory, Warning},
+    scene::{Job, ModelKind, ModelSpec, Physics, Record, Scene, Trajectory},
 };
 
 use super::play::{Rule, Table, play_all};
@@ -11,6 +11,8 @@ use super::play::{Rule, Table, play_all};
 /// Objects stay where they are, whatever the tool does.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Still;
+
+static SPEC: ModelSpec = ModelSpec::of(ModelKind::Still);
 
 struct Nothing;
 
@@ -23,20 +25,15 @@ impl Rule for Nothing {
 }
 
 impl EffectModel for Still {
-    fn name(&self) -> &str {
-        "still"
+    fn spec(&self) -> &ModelSpec {
+        &SPEC
     }
 
-    fn warnings(&self, _: &Scene, _: &ToolMotion) -> Vec<Warning> {
-        Vec::new()
-    }
-
-    /// Unknown, and no smaller than the longest motion.
-    fn error_p95(&self) -> f64 {
-        f64::INFINITY
+    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+        Trust::Mine { error: None, warnings: Vec::new() }
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        play_all::<Nothing>(scene, jobs, record)
+        play_all::<Nothing>(&SPEC, scene, jobs, record)
     }
 }

@@ -275,7 +275,11 @@ mod tests {
             tool: Pose::default(),
             state: State::at_rest(vec![Pose::new(x, y, 0.0), Pose::new(0.7, 0.0, 0.0)]),
         });
-        let trajectory = Trajectory { frames: frames.collect(), warnings, ..Trajectory::default() };
+        let trajectory = Trajectory {
+            frames: frames.collect(),
+            warnings,
+            ..Trajectory::new(crate::scene::ModelKind::PLANAR.into())
+        };
         let goal =
             Goal { object: 0, position: Vector::new(0.5, 0.0), tolerance: 0.02, heading: None };
         MovingPicture {

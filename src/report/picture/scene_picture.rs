@@ -246,7 +246,7 @@ fn colour(source: Source) -> &'static str {
 mod tests {
     use super::*;
     use crate::geometry::Shape;
-    use crate::scene::{Frame, Joint, JointKind, Object};
+    use crate::scene::{Joint, JointKind, ModelKind, Object};
 
     fn picture_of(ends: Vec<Pose>) -> String {
         jointed_picture_of(ends, Vec::new())
@@ -257,8 +257,8 @@ mod tests {
         let object = |name: &str, x: f64| Object::new(name, shape).at(x, 0.0, 0.0);
         let scene = Scene { joints, ..Scene::new([object("box", 0.4), object("other", 0.7)]) };
         let end = crate::scene::State::at_rest(ends);
-        let frame = Frame { time: 1.0, stroke: 0, tool: Pose::default(), state: end };
-        let trajectory = Trajectory { frames: vec![frame], ..Trajectory::default() };
+        let by = ModelKind::Still.into();
+        let trajectory = Trajectory::standing(by, Pose::default(), end);
         ScenePicture {
             title: "a test".to_owned(),
             notes: Vec::new(),

@@ -103,7 +103,10 @@ mod tests {
         let motion = ToolMotion::pushes(Arc::new(tool), 0.0, 0.0, &[push, push], placed);
         let seconds = 0.1 / speed;
         let frames = vec![frame(0, 0.0), frame(0, seconds), frame(1, 2.0 * seconds)];
-        Timeline::of(&motion, &Trajectory { frames, ..Trajectory::default() })
+        Timeline::of(
+            &motion,
+            &Trajectory { frames, ..Trajectory::new(crate::scene::ModelKind::PLANAR.into()) },
+        )
     }
 
     #[test]

@@ -6,8 +6,8 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Frame, Outcome, Plan, Push, Task, Tool,
-    Trajectory, Verdict, Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Frame, ModelKind, Outcome, Plan, Push, Task,
+    Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -42,14 +42,14 @@ pub fn plan_file(name: &str) -> PlanFile {
         task,
         tool,
         plan,
-        model: Some("planar".into()),
+        model: Some(ModelKind::PLANAR.into()),
         predicted: Some(outcome),
         verdict: Some(verdict),
     }
 }
 
 pub fn trajectory_file(name: &str) -> TrajectoryFile {
-    let PlanFile { task, tool, plan, model, .. } = plan_file(name);
+    let PlanFile { task, tool, plan, .. } = plan_file(name);
     let frame = |time, stroke| Frame {
         time,
         stroke,
@@ -58,11 +58,12 @@ pub fn trajectory_file(name: &str) -> TrajectoryFile {
     };
     let contact = Contact { frame: 1, object: 0, with: Body::Part(0) };
     let trajectory = Trajectory {
+        by: ModelKind::PLANAR.into(),
         frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
         contacts: vec![contact],
         warnings: vec![Warning::NotFinite],
     };
-    TrajectoryFile { task, tool, plan, model, trajectory }
+    TrajectoryFile { task, tool, plan, trajectory }
 }
 
 #[test]

@@ -7,6 +7,8 @@
 //! than [`PUSHES`] of its pushes are; single pushes beyond the rule occur among ordinary ones,
 //! too.
 
+use std::num::NonZeroU16;
+
 use pushplan::{
     bench::{Case, DISTURBANCE},
     dataset::generator,
@@ -14,8 +16,8 @@ use pushplan::{
     geometry::Pose,
     judge::{Comparison, Summary, Trial, object_errors},
     scene::{
-        Body, COAST_FRAME, Job, MAX_COAST_FRAMES, Physics, Record, Scene, State, ToolMotion,
-        Trajectory, Warning,
+        Body, COAST_FRAME, Engine, Job, MAX_COAST_FRAMES, Physics, Rate, Record, Scene, State,
+        ToolMotion, Trajectory, Warning,
     },
     sim::Simulator,
 };
@@ -29,6 +31,9 @@ const TIMES_P95: f64 = 3.0;
 
 /// Share of the true motion.
 const SHARE: f64 = 0.05;
+
+/// The truth's rate of steps, doubled.
+const TWICE: Rate = Rate(Rate::DEFAULT.0.saturating_mul(NonZeroU16::MIN.saturating_add(1)));
 
 /// Times the truth's own uncertainty.
 const TIMES_OWN: f64 = 3.0;
@@ -200,7 +205,7 @@ fn measure(model: &dyn EffectModel, Case { scene, motion }: &Case, index: usize)
     let run = |simulator: Simulator, job: &Job| simulator.run(scene, job, Record::Frames);
     let truth = run(Simulator::planar(), &job);
     let poses = &truth.outcome().poses;
-    let finer = run(Simulator::planar_with_step(0.5 * Simulator::planar().step()), &job);
+    let finer = run(Simulator::new(Engine::Planar, TWICE), &job);
     // Every object by itself, so that joints are strained, too.
     let loose = Physics { joints: Vec::new(), ..Physics::clone(&job.physics) };
     let mut rng = generator(0xD157, index as u64);
@@ -209,9 +214,9 @@ fn measure(model: &dyn EffectModel, Case { scene, motion }: &Case, index: usize)
 
     let trial = Trial::to_rest(scene.clone(), motion.clone(), poses.clone());
     let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
-    let compared = Comparison::new(&trial, rolled.unwrap_or_default());
+    let compared = Comparison::new(&trial, rolled.expect("a trajectory for a job"));
     let predicted = compared.predicted();
-    let mut warnings = model.warnings(scene, motion);
+    let mut warnings = model.trust(scene, &job).warnings();
     warnings.extend(predicted.warnings.iter().cloned());
     let own = [&finer, &beside].map(|run| apart(scene, start, &run.outcome().poses, poses));
     let unsettled = |run: &Trajectory| {
@@ -290,7 +295,7 @@ fn covered(motion: &ToolMotion) -> f64 {
 
 /// A warning without its numbers and names.
 fn brief(warning: &Warning) -> String {
-    if let Warning::OutsideTraining { quantity, .. } = warning {
+    if let Warning::OutsideRange { quantity, .. } = warning {
         return format!("outside: {quantity}");
     }
     // The name of the kind, as files have it.

@@ -34,7 +34,7 @@ fn assert_same_bits(scene: &Scene) {
         let (one, two) = (run(1), run(2));
         for (k, (a, b)) in one.iter().zip(&two).enumerate() {
             for (frame, (x, y)) in a.frames.iter().zip(&b.frames).enumerate() {
-                assert_eq!(x, y, "{}: job {k} differs first in frame {frame}", model.name());
+                assert_eq!(x, y, "{}: job {k} differs first in frame {frame}", model.spec());
             }
             assert_eq!(a, b);
         }

@@ -14,8 +14,10 @@
 //! | 12 bricks, revolute        | 0.17 / 0.16     | 0.04 / 0.04     |                    |
 //! | same, masses 1 : 10 in turn| 0.71 / 2.6      |                 |                    |
 
+use std::num::NonZeroU16;
+
 use pushplan::geometry::{Pose, Vector};
-use pushplan::scene::{Job, JointKind, Object, Record, Scene, Trajectory};
+use pushplan::scene::{Engine, Job, JointKind, Object, Rate, Record, Scene, Trajectory};
 use pushplan::sim::Simulator;
 
 use crate::fixtures::{brick, can, drift, hand_push, row};
@@ -42,11 +44,12 @@ fn models() -> [(&'static str, Object, f64); 2] {
 }
 
 fn simulators() -> [(&'static str, f64, Simulator); 4] {
+    let fine = Rate(NonZeroU16::new(480).unwrap());
     [
         ("planar", 240.0, Simulator::planar()),
-        ("planar", 480.0, Simulator::planar_with_step(1.0 / 480.0)),
+        ("planar", 480.0, Simulator::new(Engine::Planar, fine)),
         ("3-D", 240.0, Simulator::spatial()),
-        ("3-D", 480.0, Simulator::spatial_with_step(1.0 / 480.0)),
+        ("3-D", 480.0, Simulator::new(Engine::Spatial, fine)),
     ]
 }
 

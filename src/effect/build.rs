@@ -1,0 +1,117 @@
+//! From what a model is called to the model; the shipped weights, available from any directory.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use crate::{
+    network::{Weights, WeightsError},
+    scene::{ModelKind, ModelPart, ModelSpec},
+    sim::Simulator,
+};
+
+use super::{
+    Assuming, EffectModel, Follow, Network, Prior, Projection, Routed, Simulated, Still, UpTo,
+};
+
+/// The trained weights that are part of the library; `models/brdpn.md` says what they are.
+const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn.safetensors");
+
+/// Why a model cannot be made.
+#[derive(Error)]
+pub enum ModelError {
+    /// The library was built around a damaged weights file.
+    #[error("the shipped weights are broken: {0}")]
+    Shipped(#[source] WeightsError),
+    /// A weights file that is missing, damaged or of someone else.
+    #[error("{path}: {error}")]
+    File {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        #[source]
+        error: WeightsError,
+    },
+}
+
+/// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.
+impl fmt::Debug for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Where effect models come from.
+pub struct EffectModels;
+
+impl EffectModels {
+    /// The shipped weights with their card.
+    ///
+    /// # Errors
+    /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
+    pub fn weights() -> Result<Weights, ModelError> {
+        Weights::from_bytes(WEIGHTS).map_err(ModelError::Shipped)
+    }
+
+    /// The weights of the first part of `spec` that is a network, if one is.
+    ///
+    /// # Errors
+    /// [`ModelError`] if they cannot be used.
+    pub fn weights_of(spec: &ModelSpec) -> Result<Option<Weights>, ModelError> {
+        let file = spec.parts().find_map(|part| match &part.kind {
+            ModelKind::Network { weights, .. } => Some(weights.as_deref()),
+            _ => None,
+        });
+        file.map(load).transpose()
+    }
+
+    /// The model that `spec` describes.
+    ///
+    /// ```
+    /// use pushplan::effect::{EffectModel, EffectModels};
+    ///
+    /// let model = EffectModels::build(&"prior,up-to=2|planar,step=1/120".parse()?)?;
+    /// assert_eq!(model.spec().parts().count(), 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ModelError`] if it needs weights that cannot be used.
+    pub fn build(spec: &ModelSpec) -> Result<Routed, ModelError> {
+        let first = Routed::new(part(spec.first())?);
+        spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other)?)))
+    }
+}
+
+fn load(file: Option<&str>) -> Result<Weights, ModelError> {
+    let Some(path) = file else { return EffectModels::weights() };
+    Weights::load(Path::new(path))
+        .map_err(|error| ModelError::File { path: path.to_owned(), error })
+}
+
+fn part(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
+    let ModelPart { kind, assumptions, up_to } = part;
+    let model: Arc<dyn EffectModel> = match kind {
+        ModelKind::Network { weights: file, steps, stride } => {
+            let weights = load(file.as_deref())?;
+            Arc::new(Network::with(weights, file.clone(), *steps, *stride))
+        }
+        ModelKind::Prior { stride } => Arc::new(Prior::new(*stride)),
+        ModelKind::Simulated { engine, rate } => {
+            Arc::new(Simulated::new(Simulator::new(*engine, *rate)))
+        }
+        ModelKind::Projection => Arc::new(Projection),
+        ModelKind::Follow => Arc::new(Follow),
+        ModelKind::Still => Arc::new(Still),
+    };
+    let model: Arc<dyn EffectModel> = match assumptions.are_none() {
+        true => model,
+        false => Arc::new(Assuming::new(model, *assumptions)),
+    };
+    Ok(match up_to {
+        None => model,
+        Some(most) => Arc::new(UpTo::new(model, *most)),
+    })
+}

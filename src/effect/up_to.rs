@@ -1,0 +1,42 @@
+//! A model that takes no job in which many objects come into play.
+
+use crate::rollout::reachable;
+use crate::scene::{Job, ModelSpec, Record, Scene, Trajectory};
+
+use super::{EffectModel, Trust};
+
+/// A model for motions that reach few objects: the cost of its contacts grows faster with their
+/// number than that of an engine.
+#[derive(Clone, Debug)]
+pub struct UpTo<M> {
+    model: M,
+    most: u16,
+    spec: ModelSpec,
+}
+
+impl<M: EffectModel> UpTo<M> {
+    /// `model` for motions that can set at most `most` objects in motion.
+    pub fn new(model: M, most: u16) -> Self {
+        let spec = model.spec().clone().up_to(most);
+        Self { model, most, spec }
+    }
+}
+
+impl<M: EffectModel> EffectModel for UpTo<M> {
+    fn spec(&self) -> &ModelSpec {
+        &self.spec
+    }
+
+    fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        let most = usize::from(self.most);
+        if scene.objects.len() <= most || reachable(scene, job).len() <= most {
+            self.model.trust(scene, job)
+        } else {
+            Trust::NotMine
+        }
+    }
+
+    fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        self.model.rollout(scene, jobs, record)
+    }
+}

@@ -1,0 +1,10 @@
+//! Which effect model: typed values with one text form, used on the command line, by efforts, in
+//! benchmarks and in files. What the models do is in `effect`.
+
+mod assumption;
+mod spec;
+mod text;
+
+pub use assumption::{Assumptions, JointBelief};
+pub use spec::{ModelKind, ModelPart, ModelSpec, Rate, Stride};
+pub use text::SpecError;

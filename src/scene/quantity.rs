@@ -1,0 +1,60 @@
+//! Physical quantities that have a range.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A quantity of a job for which a model has a range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Number of objects that come into play.
+    Objects,
+    /// Mass of an object, kg.
+    Mass,
+    /// Largest ratio of two masses.
+    MassRatio,
+    /// Friction value of an object, the tool or the table.
+    Friction,
+    /// Radius of a cylinder, metres.
+    Radius,
+    /// First horizontal side of a cuboid object, metres.
+    SizeX,
+    /// Second horizontal side, metres.
+    SizeY,
+    /// Ratio of a cuboid object's horizontal sides.
+    SideRatio,
+    /// Number of parts of the tool.
+    Parts,
+    /// Longer horizontal side of a tool part, metres.
+    Length,
+    /// Shorter horizontal side of a tool part, metres.
+    Width,
+    /// Speed of the tool, m/s.
+    Speed,
+    /// How far an object released at the tool's speed slides on, metres.
+    Slide,
+    /// Turn of the tool for each metre of travel, rad/m.
+    Turn,
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Quantity::Objects => "number of objects",
+            Quantity::Mass => "mass (kg)",
+            Quantity::MassRatio => "ratio of masses",
+            Quantity::Friction => "friction",
+            Quantity::Radius => "radius (m)",
+            Quantity::SizeX => "size along x (m)",
+            Quantity::SizeY => "size along y (m)",
+            Quantity::SideRatio => "ratio of sides",
+            Quantity::Parts => "number of parts",
+            Quantity::Length => "length (m)",
+            Quantity::Width => "width (m)",
+            Quantity::Speed => "speed (m/s)",
+            Quantity::Slide => "sliding on (m)",
+            Quantity::Turn => "turn of the tool (rad/m)",
+        })
+    }
+}
