@@ -6,14 +6,30 @@ use super::spec::{Key, Value};
 use super::strict::describe;
 use super::text::LONGEST_NAME;
 
+/// What holds for a whole tool file.
+const TOOL_RULES: &str = "One rigid piece of upright solids, held at its grip. Lengths are in \
+metres, angles in degrees. Unknown keys are faults.";
+
+/// What holds for a whole task file.
+const TASK_RULES: &str = "A scene, a robot, the tools and pushes that it allows, and a goal. \
+Lengths are in metres, masses in kilograms, angles in degrees. The table is the plane z = 0; x \
+points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
+object and table included, is the mean of the two friction values. Up to 12 objects may hang \
+together by joints, without loops. The goal is reached when everything rests and the object's \
+centre is within the tolerance, and its heading too where one is asked for. Unknown keys are faults.";
+
 /// The schema of tool files.
 pub fn tool_schema() -> Json {
-    document("pushplan tool", &super::tool::TOOL)
+    let mut schema = document("pushplan tool", &super::tool::TOOL);
+    schema["description"] = json!(TOOL_RULES);
+    schema
 }
 
 /// The schema of task files.
 pub fn task_schema() -> Json {
-    document("pushplan task", &super::task::TASK)
+    let mut schema = document("pushplan task", &super::task::TASK);
+    schema["description"] = json!(TASK_RULES);
+    schema
 }
 
 /// The schema of plan files.

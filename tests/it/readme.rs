@@ -1,9 +1,12 @@
-//! What the README says is true: its commands run, its files load, its example compiles.
+//! What the README says is true: its commands run, its task is solved, its example compiles, its
+//! table is the measured one.
 
 use std::process::Command;
 
-use pushplan::asset::{ToolLibrary, load_task};
-use pushplan::scene::{Task, Tool};
+use pushplan::asset::load_task;
+use pushplan::report::seconds;
+use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
+use serde_json::Value as Json;
 use tempfile::TempDir;
 
 const README: &str = include_str!("../../README.md");
@@ -13,36 +16,73 @@ const RUN: &str = "cargo run --release -- ";
 
 #[test]
 fn its_commands_run() {
-    let mut ran = 0;
-    for line in blocks("sh").iter().flat_map(|block| block.lines()) {
-        let Some(arguments) = line.strip_prefix(RUN) else { continue };
-        let out = TempDir::new().expect("a folder");
-        // Results go elsewhere, so that the tests leave the checkout as it is.
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .args(arguments.split_whitespace())
-            .arg("--out")
-            .arg(out.path())
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .output()
-            .expect("the command runs");
-        let error = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{line}: {error}");
-        for name in ["pull-back.plan.json", "pull-back.svg"] {
-            assert!(README.contains(&format!("plans/{name}")), "{name} is not announced");
-            assert!(out.path().join(name).exists(), "{line} writes no {name}");
-        }
-        ran += 1;
+    let out = TempDir::new().expect("a folder");
+    let folder = out.path().to_str().expect("UTF-8");
+    let blocks = blocks(README, "sh");
+    let lines = blocks.iter().flat_map(|block| block.lines()).filter_map(|l| l.strip_prefix(RUN));
+    let lines: Vec<&str> = lines.collect();
+    let [solve, verify] = &lines[..] else { panic!("solve, then verify: {lines:?}") };
+    // Results go elsewhere, so that the tests leave the checkout as it is.
+    run(&format!("{solve} --out {folder}"));
+    run(&verify.replace("plans/", &format!("{folder}/")));
+    for end in ["plan.json", "svg", "animated.svg"] {
+        assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
     }
-    assert_eq!(ran, 1, "the README's one command that solves a task");
-    assert!(blocks("sh").iter().any(|block| block.trim() == "cargo test --release"));
+    assert!(README.contains("`cargo test --release`"));
 }
 
 #[test]
-fn its_files_load() {
-    let files = blocks("yaml");
-    let [tool, task] = &files[..] else { panic!("a tool and a task") };
-    Tool::parse(tool, "README.md").unwrap_or_else(|faults| panic!("{faults}"));
-    Task::parse(task, "README.md").unwrap_or_else(|faults| panic!("{faults}"));
+fn its_task_is_solved_and_its_tool_is_one() {
+    let files = blocks(README, "yaml");
+    let [task, tool] = &files[..] else { panic!("a task and a tool") };
+    let task = Task::parse(task, "README.md").unwrap();
+    let tool = Tool::parse(tool, "README.md").unwrap();
+    let library = ToolLibrary::embedded().unwrap().with(tool).unwrap();
+    let planner = Planner::for_effort(Effort::Standard).unwrap().build();
+    assert_eq!(planner.solve(&task, &library).unwrap().status, PlanStatus::Solved);
+}
+
+/// Success, error and time of the efforts are those of the measured trade-off.
+#[test]
+fn its_table_is_the_measured_one() {
+    let measured: Json = serde_json::from_str(include_str!("../../models/tradeoff.json")).unwrap();
+    for effort in ["draft", "standard", "thorough", "exhaustive"] {
+        let name = &measured["efforts"][effort]["name"];
+        let plans = measured["plans"].as_array().expect("levels");
+        let level = plans.iter().find(|level| level["name"] == *name).expect("its level");
+        let number = |value: &Json| value.as_f64().expect("a number");
+        let row = format!(
+            "| `{effort}` | {:.1} % | {:.2} mm | {} |",
+            100.0 * number(&level["success"]),
+            1000.0 * number(&level["error"]["median"]),
+            seconds(number(&level["seconds"]))
+        );
+        assert!(README.contains(&row), "{row}");
+    }
+}
+
+/// Every command of the pages is one that the program takes: with `--help` behind it the command
+/// line is read up to there.
+#[test]
+fn the_commands_of_all_pages_are_taken() {
+    let pages = [
+        README,
+        include_str!("../../models/results.md"),
+        include_str!("../../models/brdpn.md"),
+        include_str!("../../models/diary.md"),
+    ];
+    let mut taken = 0;
+    for page in pages {
+        for block in blocks(page, "sh") {
+            let commands = block.replace("\\\n", " ");
+            for command in commands.lines().filter_map(|line| line.strip_prefix("pushplan ")) {
+                let command = command.split(" #").next().unwrap_or(command);
+                run(&format!("{command} --help"));
+                taken += 1;
+            }
+        }
+    }
+    assert!(taken > 10, "{taken}");
 }
 
 #[test]
@@ -55,49 +95,36 @@ fn its_example_is_the_one_that_runs_as_a_documentation_test() {
         .filter(|line| !line.starts_with("# "))
         .flat_map(|line| [line, "\n"])
         .collect();
-    let example = &blocks("rust")[0];
+    let example = &blocks(README, "rust")[0];
     assert!(documented.contains(example.as_str()), "src/lib.rs shows another example:\n{example}");
-}
-
-#[test]
-fn it_names_every_command_and_exit_code() {
-    let help = Command::new(env!("CARGO_BIN_EXE_pushplan")).arg("--help").output().expect("help");
-    let help = String::from_utf8_lossy(&help.stdout).into_owned();
-    let commands = help
-        .split("Commands:\n")
-        .nth(1)
-        .and_then(|rest| rest.split("\n\n").next())
-        .expect("a list of commands");
-    for command in commands.lines().filter_map(first_column) {
-        let named = README.contains(&format!("| `{command}")) || command == "help";
-        assert!(named, "the README does not name `{command}`");
-    }
-    for code in [0, 1, 2, 3, 4, 5, 6, 130] {
-        assert!(README.contains(&format!("\n| {code} | ")), "no exit code {code}");
-    }
 }
 
 #[test]
 fn its_picture_is_of_a_shipped_task() {
     let path =
         README.split("](").nth(1).and_then(|rest| rest.split(')').next()).expect("a picture");
-    let task = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path).with_extension("yaml");
-    assert!(task.with_extension("svg").exists(), "{path} is missing");
+    let picture = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    assert!(picture.exists(), "{path} is missing");
+    let task = picture.with_extension("").with_extension("yaml");
     let library = ToolLibrary::embedded().expect("the shipped tools");
     load_task(&task, &library).unwrap_or_else(|faults| panic!("{faults}"));
 }
 
-/// The name at the start of a line of help; none for a line that goes on with the one above.
-fn first_column(line: &str) -> Option<&str> {
-    let line = line.strip_prefix("  ").filter(|line| !line.starts_with(' '))?;
-    line.split_whitespace().next()
+/// Runs the program in the checkout; it must succeed.
+fn run(arguments: &str) {
+    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+        .args(arguments.split_whitespace())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the command runs");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "pushplan {arguments}: {error}");
 }
 
-/// The contents of the README's code blocks in `language`.
-fn blocks(language: &str) -> Vec<String> {
+/// The contents of a page's code blocks in `language`.
+fn blocks(page: &str, language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
-    README
-        .split(&fence)
+    page.split(&fence)
         .skip(1)
         .filter_map(|rest| rest.split("```").next())
         .map(str::to_owned)
