@@ -15,7 +15,7 @@ pub struct SolvedTask {
     pub status: PlanStatus,
     /// Largest error that counts as success, metres.
     pub tolerance: f64,
-    /// The plan to use, or the nearest one; nothing if no push can be made at all.
+    /// The plan to use, or the nearest one; `None` if no push can be made at all.
     pub plan: Option<Plan>,
     /// Where it ends as predicted by the effect model.
     pub predicted: Option<End>,

@@ -19,9 +19,9 @@ pub struct CrowdReport {
     pub title: String,
     /// The set's family.
     pub family: CrowdFamily,
-    /// What the scenes hold; nothing for recordings.
+    /// What the scenes hold; `None` for recordings.
     pub set: Option<CrowdSet>,
-    /// Seed of the set; nothing for recordings.
+    /// Seed of the set; `None` for recordings.
     pub seed: Option<u64>,
     /// Number of trajectories.
     pub trajectories: usize,

@@ -64,7 +64,7 @@ pub(super) fn set_goal(task: &mut Task, end: &Pose) {
 
 /// A wall across the straight way of the goal object, on the other side of it than `corner`, where
 /// the object goes round; clear of everything where it starts and of the goal object where it
-/// ends. Nothing if this draw does not fit.
+/// ends. `None` if this draw does not fit.
 pub(super) fn wall(
     rng: &mut Pcg64,
     scene: &Scene,

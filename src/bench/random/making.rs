@@ -25,7 +25,7 @@ pub(super) fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace
     Workspace { task, tools, later_stand_off: LATER_STAND_OFF }
 }
 
-/// A random candidate of a kind whose first push can be made; nothing if none was found.
+/// A random candidate of a kind whose first push can be made; `None` if none was found.
 pub(super) fn random_candidate(
     rng: &mut Pcg64,
     workspace: &Workspace,
@@ -45,7 +45,7 @@ pub(super) fn random_candidate(
     })
 }
 
-/// A random plan of one push that can be made, in any direction; nothing if none was found.
+/// A random plan of one push that can be made, in any direction; `None` if none was found.
 pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Option<Plan> {
     /// Enough for any table on which something can be pushed at all.
     const TRIES: usize = 2000;
@@ -59,7 +59,7 @@ pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> 
     })
 }
 
-/// The candidate as carried out in the model of `rollouts`; nothing if that breaks a rule.
+/// The candidate as carried out in the model of `rollouts`; `None` if that breaks a rule.
 pub(super) fn carried_out(
     workspace: &Workspace,
     rollouts: &mut Rollouts,

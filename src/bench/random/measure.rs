@@ -27,7 +27,7 @@ pub struct RandomRecord {
     pub solved: SolvedTask,
     /// Where the object is if nothing is done.
     pub nothing: End,
-    /// A random plan of one push; nothing if no push can be made.
+    /// A random plan of one push; `None` if no push can be made.
     pub random: Option<Choice>,
 }
 

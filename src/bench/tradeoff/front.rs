@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What a level costs and how much it errs; less is better of both.
+/// What a level costs and how far it is off; less of either is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Cost, in any unit.
@@ -20,7 +20,7 @@ pub struct Noise {
     pub error: f64,
 }
 
-/// Whether `a` makes `b` needless: it costs no more and errs no more, and one of the two is less
+/// Whether `a` makes `b` needless: it costs no more, is off by no more, and one of the two is less
 /// by more than the noise.
 pub fn dominates(a: Point, b: Point, noise: Noise) -> bool {
     let no_worse = a.cost <= b.cost && a.error <= b.error;

@@ -15,7 +15,7 @@ use crate::cli::{
 };
 use crate::report::{single_table, tools_document};
 use crate::scene::{ModelKind, ModelSpec};
-use crate::solve::{Effort, Planner};
+use crate::solve::{Effort, Planner, Settings};
 use crate::store::RunManifest;
 
 use super::common::Form;
@@ -107,7 +107,8 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     let effort: Effort = args.effort.into();
     let planner = args.model.clone().unwrap_or_else(|| effort.spec());
     let planner = Planner::builder(model::load(&planner)?)
-        .effort(effort)
+        // Disturbed replays tell how robust a plan is and change nothing in its choice.
+        .settings(Settings { disturbed: 0, ..effort.settings() })
         .seed(args.seed)
         .outside(args.outside.outside())
         .build();
