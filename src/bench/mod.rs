@@ -3,8 +3,10 @@
 //! Everything is seeded, takes any [`crate::effect::EffectModel`] and gives plain data that can
 //! be written as JSON; nothing is drawn here.
 
+mod baselines;
 mod cpu_clock;
 mod crowd;
+mod effects;
 mod far;
 mod heldout;
 mod inference;
@@ -16,9 +18,11 @@ mod timing;
 mod tools;
 mod tradeoff;
 
+pub use baselines::{assumed, crowd_baselines, push_baselines};
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Phases, evaluate_crowd,
 };
+pub use effects::{TimedEffect, timed_effect};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};

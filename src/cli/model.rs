@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
 use crate::network::Weights;
-use crate::scene::{ModelKind, ModelSpec};
+use crate::scene::ModelSpec;
 
 use super::error::CliError;
 
@@ -30,18 +30,6 @@ pub const HELP_WITH_EFFORT: &str = help!(" [default: that of the effort]");
 
 /// The model that is used unless another is asked for.
 pub const DEFAULT: &str = "network";
-
-/// Those that stand beside any other in `predict`.
-pub const SIMULATED: [ModelKind; 2] = [ModelKind::PLANAR, ModelKind::SPATIAL];
-
-/// Those that stand beside any other in `evaluate`: what it must beat, and the other engine.
-pub const BASELINES: [ModelKind; 5] = [
-    ModelKind::SPATIAL,
-    ModelKind::PRIOR,
-    ModelKind::Projection,
-    ModelKind::Follow,
-    ModelKind::Still,
-];
 
 /// The model that `spec` describes.
 ///

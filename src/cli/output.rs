@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::asset::{Fault, write_atomic};
+use crate::report::Figure;
 
 use super::error::CliError;
 
@@ -29,4 +30,16 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, CliErro
     let path = folder.join(name);
     write_atomic(&path, bytes).map_err(CliError::Output)?;
     Ok(path)
+}
+
+/// Writes figures into the folder, and gives their paths.
+///
+/// # Errors
+/// [`CliError::Output`] if one cannot be written.
+pub fn write_figures<'a>(
+    folder: &Path,
+    figures: impl IntoIterator<Item = &'a Figure>,
+) -> Result<Vec<PathBuf>, CliError> {
+    let figures = figures.into_iter();
+    figures.map(|figure| write(folder, &figure.file_name(), figure.to_svg().as_bytes())).collect()
 }

@@ -1,20 +1,20 @@
 //! `pushplan simulate`: an action or a plan in one engine, every frame as a trajectory file.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use serde_json::json;
 
-use crate::asset::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
-use crate::report::{ScenePicture, Source, Track, goal_line, millimetres, plan_line, push_table};
-use crate::scene::{Engine, Job, Record, Task};
+use crate::asset::{PlanFile, TrajectoryFile};
+use crate::report::simulation_document;
+use crate::scene::{Job, Record, Task};
 use crate::sim::Simulator;
 
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
-    exit_code, output,
+    exit_code,
+    form::Form,
+    output,
     push_argument::FORMS,
     session::Session,
 };
@@ -36,9 +36,11 @@ pub struct SimulateArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
-    /// Print JSON instead of text
+    /// Draw a picture that moves as well
     #[arg(long)]
-    json: bool,
+    animate: bool,
+    #[command(flatten)]
+    form: Form,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -66,63 +68,21 @@ pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     };
     output::prepare(&args.out)?;
     let (simulator, name) = match args.engine {
-        EngineName::Planar => (Simulator::planar(), "planar"),
-        EngineName::Spatial => (Simulator::spatial(), "3d"),
+        EngineName::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
+        EngineName::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
     };
-    let motion = plan.motion(&tool);
-    let job = Job::stated(&task.scene, motion.clone());
+    let job = Job::stated(&task.scene, plan.motion(&tool));
     let trajectory = session.compute(|| simulator.run(&task.scene, &job, Record::Frames));
     for warning in &trajectory.warnings {
         session.warn(&warning.to_string());
     }
-
-    let engine = simulator.engine();
-    let error = task.goal.error(trajectory.outcome());
-    let picture = ScenePicture {
-        title: format!("{}: {}", task.name, plan_line(&plan)),
-        notes: vec![format!("{} from the goal at rest", millimetres(error))],
-        scene: &task.scene,
-        goal: Some(&task.goal),
-        robot: Some(&task.robot),
-        motion: Some(&motion),
-        tracks: vec![Track { source: Source::Simulated(engine), trajectory: &trajectory }],
-    };
-    let stem = format!("{}.{name}", task.name);
-    let svg = output::write(&args.out, &format!("{stem}.svg"), picture.to_svg().as_bytes())?;
-    let path = args.out.join(format!("{stem}.trajectory.json"));
-    let file = TrajectoryFile { tool: Arc::clone(&tool), plan, trajectory, task };
+    let file = TrajectoryFile { tool, plan, trajectory, task };
+    let mut document = simulation_document(&file, simulator.engine(), &name, args.animate);
+    let path = args.out.join(format!("{name}.trajectory.json"));
     file.write(&path).map_err(CliError::Output)?;
-    report(args, session, &file, engine, &[path, svg])?;
+    let mut written = vec![path];
+    written.extend(output::write_figures(&args.out, document.figures())?);
+    document.wrote(&written);
+    args.form.show(session, &document)?;
     Ok(exit_code::DONE)
-}
-
-fn report(
-    args: &SimulateArgs,
-    session: &Session,
-    file: &TrajectoryFile,
-    engine: Engine,
-    written: &[PathBuf],
-) -> Result<(), CliError> {
-    let end = file.trajectory.outcome();
-    let error = file.task.goal.error(end);
-    if args.json {
-        let report = json!({
-            "schema_version": SCHEMA_VERSION, "task": file.task.name, "engine": engine,
-            "plan": file.plan, "frames": file.trajectory.frames.len(), "state": end,
-            "goal_error": error, "warnings": file.trajectory.warnings, "files": written,
-        });
-        return session.print(&format!("{report:#}\n"));
-    }
-    let seconds = file.trajectory.frames.last().map_or(0.0, |frame| frame.time);
-    let mut text = format!("{}\n{}\n", plan_line(&file.plan), push_table(&file.plan).to_text());
-    text += &format!(
-        "{} frames, {seconds:.2} s; {} from the goal: {}\n",
-        file.trajectory.frames.len(),
-        millimetres(error),
-        goal_line(&file.task)
-    );
-    for path in written {
-        text += &format!("wrote {}\n", path.display());
-    }
-    session.print(&text)
 }

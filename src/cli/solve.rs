@@ -6,15 +6,16 @@ use std::sync::Arc;
 use clap::{Args, ValueEnum};
 
 use crate::asset::{PlanFile, load_task};
-use crate::report::{moving_picture, plan_picture, solution_json, solution_text};
-use crate::scene::{Engine, ModelSpec, Situation, Task};
-use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
+use crate::report::{plan_figures, solution_document};
+use crate::scene::{ModelSpec, Situation, Task};
+use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, SolveError};
 
 use super::{
     action::LibraryArgs,
     error::CliError,
     exit_code,
     follow::Following,
+    form::Form,
     model::{self, OutsideArgs},
     output,
     session::Session,
@@ -25,10 +26,11 @@ use super::{
 #[command(after_help = "Examples:
   pushplan solve tasks/pull-back.yaml
   pushplan solve tasks/narrow-gap.yaml --effort thorough --json
-  pushplan solve my-task.yaml --tools my-tools --out results
+  pushplan solve my-task.yaml --tools my-tools --out results --animate
 
-Writes <out>/<task>.plan.json and <out>/<task>.svg. Without a plan that works, the nearest one is
-written as <task>.nearest.* (exit code 4) or <task>.failed.* (exit code 5).")]
+Writes <out>/<task>.plan.json and <out>/<task>.svg, with --animate <out>/<task>.animated.svg, too.
+Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
+<task>.failed.* (exit code 5).")]
 pub struct SolveArgs {
     /// The task file
     task: PathBuf,
@@ -47,12 +49,11 @@ pub struct SolveArgs {
     out: PathBuf,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Draw a moving picture of the 3-D replay as well
+    /// Draw a picture of the 3-D replay that moves as well
     #[arg(long)]
     animate: bool,
-    /// Print JSON instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    form: Form,
 }
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
@@ -82,9 +83,10 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         Some(best) => write(args, session, &task, best, suffix),
         None => Ok(Vec::new()),
     };
+    let mut document = solution_document(&task, &solution);
     // A plan that took minutes is shown also where the disk has no place for it.
-    let files = written.as_deref().unwrap_or_default();
-    print(args, session, &task, &solution, files)?;
+    document.wrote(written.as_deref().unwrap_or_default());
+    args.form.show(session, &document)?;
     written.map(|_| code)
 }
 
@@ -97,7 +99,7 @@ pub fn solve_error(error: SolveError) -> CliError {
     }
 }
 
-/// The plan file and the picture.
+/// The plan file and the pictures.
 fn write(
     args: &SolveArgs,
     session: &Session,
@@ -105,12 +107,10 @@ fn write(
     best: &RankedPlan,
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
-    let motion = best.plan.motion(&best.tool);
     let situation = Situation::stated(&task.scene);
     let replays = session.compute(|| best.replays(task, &situation));
-    let picture = plan_picture(task, best, &motion, &replays).to_svg();
-    let stem = format!("{}{suffix}", task.name);
-    let path = args.out.join(format!("{stem}.plan.json"));
+    let name = format!("{}{suffix}", task.name);
+    let path = args.out.join(format!("{name}.plan.json"));
     let file = PlanFile {
         task: task.clone(),
         tool: Arc::clone(&best.tool),
@@ -121,33 +121,9 @@ fn write(
     };
     file.write(&path).map_err(CliError::Output)?;
     let mut written = vec![path];
-    written.push(output::write(&args.out, &format!("{stem}.svg"), picture.as_bytes())?);
-    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
-    if let Some(replay) = replay.filter(|_| args.animate) {
-        let moving = moving_picture(task, &best.plan, &motion, (Engine::Spatial, replay)).to_svg();
-        let name = format!("{stem}.animated.svg");
-        written.push(output::write(&args.out, &name, moving.as_bytes())?);
-    }
+    let figures = plan_figures(task, best, &replays, &name, args.animate);
+    written.extend(output::write_figures(&args.out, &figures)?);
     Ok(written)
-}
-
-fn print(
-    args: &SolveArgs,
-    session: &Session,
-    task: &Task,
-    solution: &Solution,
-    written: &[PathBuf],
-) -> Result<(), CliError> {
-    if args.json {
-        let mut report = solution_json(task, solution);
-        report["files"] = serde_json::json!(written);
-        return session.print(&format!("{report:#}\n"));
-    }
-    let mut text = solution_text(task, solution);
-    for path in written {
-        text += &format!("wrote {}\n", path.display());
-    }
-    session.print(&text)
 }
 
 /// [`Effort`] with words for `--help`.

@@ -5,16 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::bench::{TradeOff, TradeOffReport, TradeOffSettings, Unit, levels, plan_levels};
-use crate::report::{
-    Table, tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
-    tradeoff_push_chart, tradeoff_task_chart,
-};
+use crate::report::tradeoff_document;
 use crate::store::{RunManifest, Seconds, Store};
 use crate::watch::Watch;
 
 use super::{
     action::LibraryArgs, bench::weights_digest, error::CliError, exit_code, follow::Following,
-    interrupt, output, session::Session,
+    form::Form, interrupt, output, session::Session,
 };
 
 /// Measure speed against accuracy: every predictor and every budget of planning
@@ -60,12 +57,8 @@ pub struct TradeOffArgs {
     out: Option<PathBuf>,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Print JSON instead of tables
-    #[arg(long)]
-    json: bool,
-    /// Print Markdown tables
-    #[arg(long, conflicts_with = "json")]
-    markdown: bool,
+    #[command(flatten)]
+    form: Form,
 }
 
 /// What is measured where no number is given. Two hundred tasks tell success to
@@ -76,18 +69,6 @@ const USUAL: TradeOffSettings =
 /// The same with `--quick`.
 const QUICK: TradeOffSettings =
     TradeOffSettings { pushes: 200, timed: 8, rounds: 2, tasks: 6, tolerance: 1.0, seed: 7 };
-
-/// What stands above the tables in `tradeoff.md`.
-const PAGE_HEAD: &str = "# Speed against accuracy
-
-Measured by `pushplan tradeoff --out DIR`, which writes this page, its charts and
-`tradeoff.json`. *A push* is processor time with what can be shared among 64 shared, *alone* with
-nothing shared. *Solved* is a plan that passed its replay in 3-D.
-
-![Error against cost of a push](tradeoff-push.svg)
-![Success against cost of a task](tradeoff-task.svg)
-
-";
 
 pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
@@ -108,26 +89,13 @@ pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
         .map_err(|error| CliError::unexpected("cannot start a thread", &error))?;
     let manifest = run.manifest(&digests);
     let report = measure(args, session, &run, manifest)?;
-    let json = serde_json::to_string_pretty(&report)
-        .map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
+    let document = tradeoff_document(&report);
     if let Some(out) = &args.out {
-        output::write(out, "tradeoff.json", format!("{json}\n").as_bytes())?;
-        let page = format!("{PAGE_HEAD}{}", text(&report, Table::to_markdown));
-        output::write(out, "tradeoff.md", page.as_bytes())?;
-        let charts = [
-            ("tradeoff-push.svg", tradeoff_push_chart(&report)),
-            ("tradeoff-task.svg", tradeoff_task_chart(&report)),
-        ];
-        for (name, chart) in charts {
-            output::write(out, name, chart.to_svg().as_bytes())?;
-        }
+        output::write(out, "tradeoff.json", document.to_json().as_bytes())?;
+        output::write(out, "tradeoff.md", document.to_page().as_bytes())?;
+        output::write_figures(out, document.figures())?;
     }
-    if args.json {
-        session.print(&format!("{json}\n"))?;
-    } else {
-        let show = if args.markdown { Table::to_markdown } else { Table::to_text };
-        session.print(&text(&report, show))?;
-    }
+    args.form.show(session, &document)?;
     Ok(exit_code::DONE)
 }
 
@@ -171,17 +139,6 @@ fn measure(
     let units: Vec<(Unit, Seconds)> =
         finished.map(|unit| (unit.record.clone(), unit.seconds.clone())).collect();
     Ok(run.report(&units))
-}
-
-fn text(report: &TradeOffReport, show: impl Fn(&Table) -> String) -> String {
-    let tables = [
-        tradeoff_predictors(report),
-        tradeoff_objects(report),
-        tradeoff_plans(report),
-        tradeoff_efforts(report),
-    ];
-    let tables: Vec<String> = tables.iter().map(show).collect();
-    format!("{}\n\n{}", tradeoff_line(report), tables.join("\n"))
 }
 
 /// A share from 0.05 (a millimetre, about what the engines' steps differ by) to 5.

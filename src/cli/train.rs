@@ -4,16 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::write_atomic;
 use crate::dataset::{Dataset, DatasetConfig, Preset};
 use crate::network::Config;
-use crate::report::training_chart;
+use crate::report::training_document;
 use crate::store::FolderLock;
 use crate::train::{CheckpointError, Exposure, MetricLine, Settings, TrainError, train};
 use crate::watch::Watch;
 
 use super::{
-    error::CliError, exit_code, follow::Following, generate::data_error, interrupt,
+    error::CliError, exit_code, follow::Following, generate::data_error, interrupt, output,
     session::Session,
 };
 
@@ -210,8 +209,7 @@ impl Followed<'_> {
             .map_err(|error| CliError::unexpected("cannot read the metrics", &error))?;
         let lines: Vec<MetricLine> =
             text.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        let svg = training_chart(&lines).to_svg();
-        write_atomic(self.folder.join("curves.svg"), svg.as_bytes()).map_err(CliError::Output)
+        output::write_figures(self.folder, training_document(&lines).figures()).map(|_| ())
     }
 }
 

@@ -3,14 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use serde_json::json;
 
-use crate::asset::{PlanFile, SCHEMA_VERSION};
-use crate::report::{goal_line, outcomes_text, plan_line, push_table, replay_warnings};
+use crate::asset::PlanFile;
+use crate::report::{replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 
-use super::{error::CliError, exit_code, session::Session};
+use super::{error::CliError, exit_code, form::Form, session::Session};
 
 /// Replay a plan in both simulations, as written and disturbed
 #[derive(Args, Debug)]
@@ -28,35 +27,21 @@ pub struct VerifyArgs {
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Print JSON instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    form: Form,
 }
 
 pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let file = PlanFile::load(&args.plan)?;
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
-    let verifier = Verifier::new(settings);
-    let spinner = session.spinner("replaying");
     let situation = Situation::stated(&file.task.scene);
-    let verdict =
-        session.compute(|| verifier.verify(&file.task, &situation, &file.tool, &file.plan));
+    let spinner = session.spinner("replaying");
+    let verdict = session
+        .compute(|| Verifier::new(settings).verify(&file.task, &situation, &file.tool, &file.plan));
     spinner.finish_and_clear();
     for warning in replay_warnings(&verdict) {
         session.warn(&warning);
     }
-    if args.json {
-        let report = json!({
-            "schema_version": SCHEMA_VERSION, "task": file.task.name, "plan": file.plan,
-            "verdict": verdict,
-        });
-        session.print(&format!("{report:#}\n"))?;
-    } else {
-        let predicted = file.model.as_ref().zip(file.predicted.as_ref());
-        let (name, plan) = (&file.task.name, plan_line(&file.plan));
-        let (goal, pushes) = (goal_line(&file.task), push_table(&file.plan).to_text());
-        let outcomes = outcomes_text(&file.task, predicted, Some(&verdict));
-        session.print(&format!("{name}: {plan}\ngoal: {goal}\n\n{pushes}\n{outcomes}"))?;
-    }
+    args.form.show(session, &verdict_document(&file, &verdict))?;
     Ok(if verdict.passed { exit_code::DONE } else { exit_code::FAILED_VERIFICATION })
 }

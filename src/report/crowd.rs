@@ -1,16 +1,75 @@
-//! Errors on crowds as tables and curves.
+//! Errors on crowds and recordings as tables and curves.
 
-use crate::bench::{CrowdFamily, CrowdModel, CrowdReport};
+use serde_json::json;
+
+use crate::bench::{CrowdFamily, CrowdModel, CrowdReport, HeldOutReport};
 use crate::judge::{Drift, RelativeErrors};
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
+    document::{Document, Figure, Section},
     number::{fine_millimetres, millimetres},
-    table::{Align, NONE, Table},
+    table::{
+        Align::{Left, Right},
+        NONE, Table,
+    },
 };
 
+/// The newest of the reports on crowds and recordings, as soon as it is there; with the first one
+/// comes what its columns mean.
+pub fn crowd_document(reports: &[CrowdReport]) -> Document {
+    let Some(newest) = reports.last() else { return Document::default() };
+    let legend = (reports.len() == 1).then(|| LEGEND.to_owned());
+    Document {
+        title: headline(newest),
+        notes: legend.into_iter().collect(),
+        sections: vec![Section { table: crowd_table(newest), ..Section::default() }],
+        ..Document::default()
+    }
+}
+
+/// Everything that was evaluated: the sets of crowds side by side, errors by horizon, and all
+/// reports in full for programs.
+pub fn evaluation_document(suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Document {
+    let mut json = json!({});
+    if !suites.is_empty() {
+        json["suites"] = json!(suites);
+    }
+    if !crowds.is_empty() {
+        json["crowds"] = json!(crowds);
+    }
+    let model = crowds.first().and_then(|report| report.models.first());
+    let mut families: Vec<CrowdFamily> = Vec::new();
+    for report in crowds {
+        if !families.contains(&report.family) {
+            families.push(report.family);
+        }
+    }
+    let figures = families.into_iter().filter_map(|family| {
+        let name = format!("error-by-horizon-{}", family.title());
+        Some(Figure::chart(name, crowd_chart(family, crowds)?))
+    });
+    let section =
+        Section { table: summary_table(crowds), figures: figures.collect(), ..Section::default() };
+    Document {
+        title: model.map_or(String::new(), |first| {
+            format!("{}, share of the mean true motion", first.model)
+        }),
+        sections: vec![section],
+        json,
+        ..Document::default()
+    }
+}
+
+/// What the columns of [`crowd_table`] mean.
+const LEGEND: &str = "\
+error: mean final distance from the truth over all objects; of motion, median, p90: the same, its
+median and 90th percentile, as shares of the mean true motion; moved: over objects that move more
+than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
+predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
+
 /// What was measured: trajectories, seed, how far the objects really moved.
-pub fn crowd_line(report: &CrowdReport) -> String {
+fn headline(report: &CrowdReport) -> String {
     let seed = report.seed.map_or(String::new(), |seed| format!(" of seed {seed}"));
     let first = report.models.first();
     let motion = |errors: Option<&RelativeErrors>| match errors {
@@ -28,93 +87,73 @@ pub fn crowd_line(report: &CrowdReport) -> String {
 }
 
 /// Errors of all models on one set, one row each; percentages are of the mean true motion.
-pub fn crowd_table(report: &CrowdReport) -> Table {
-    let mut table = Table::new([
-        ("model", Align::Left),
-        ("error", Align::Right),
-        ("of motion", Align::Right),
-        ("median", Align::Right),
-        ("p90", Align::Right),
-        ("moved", Align::Right),
-        ("median", Align::Right),
-        ("p90", Align::Right),
-        ("over frames", Align::Right),
-        ("moved", Align::Right),
-        ("overlap", Align::Right),
-        ("fixed", Align::Right),
-        ("revolute", Align::Right),
-        ("prismatic", Align::Right),
-    ]);
-    for model in &report.models {
-        let (all, moved) = (model.all.end.as_ref(), model.moved.end.as_ref());
-        table.row([
-            name(model, report.trajectories),
-            all.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean)),
-            share(all, |errors| errors.mean),
-            share(all, |errors| errors.median),
-            share(all, |errors| errors.p90),
-            share(moved, |errors| errors.mean),
-            share(moved, |errors| errors.median),
-            share(moved, |errors| errors.p90),
-            share(model.all.averaged.as_ref(), |errors| errors.mean),
-            share(model.moved.averaged.as_ref(), |errors| errors.mean),
-            fine_millimetres(model.overlap),
-            drift(&model.drift[0]),
-            drift(&model.drift[1]),
-            drift(&model.drift[2]),
-        ]);
-    }
-    table
+fn crowd_table(report: &CrowdReport) -> Table {
+    let all = |model: &CrowdModel, value: fn(&RelativeErrors) -> f64| {
+        share(model.all.end.as_ref(), value)
+    };
+    let moved = |model: &CrowdModel, value: fn(&RelativeErrors) -> f64| {
+        share(model.moved.end.as_ref(), value)
+    };
+    let error = |model: &CrowdModel| {
+        let end = model.all.end.as_ref();
+        end.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean))
+    };
+    Table::of(
+        &report.models,
+        &[
+            ("model", Left, &|model| name(model, report.trajectories)),
+            ("error", Right, &|model| error(model)),
+            ("of motion", Right, &|model| all(model, |errors| errors.mean)),
+            ("median", Right, &|model| all(model, |errors| errors.median)),
+            ("p90", Right, &|model| all(model, |errors| errors.p90)),
+            ("moved", Right, &|model| moved(model, |errors| errors.mean)),
+            ("median", Right, &|model| moved(model, |errors| errors.median)),
+            ("p90", Right, &|model| moved(model, |errors| errors.p90)),
+            ("over frames", Right, &|model| share(model.all.averaged.as_ref(), |e| e.mean)),
+            ("moved", Right, &|model| share(model.moved.averaged.as_ref(), |e| e.mean)),
+            ("overlap", Right, &|model| fine_millimetres(model.overlap)),
+            ("fixed", Right, &|model| drift(&model.drift[0])),
+            ("revolute", Right, &|model| drift(&model.drift[1])),
+            ("prismatic", Right, &|model| drift(&model.drift[2])),
+        ],
+    )
 }
-
-/// What the columns of [`crowd_table`] mean.
-pub const CROWD_LEGEND: &str = "\
-error: mean final distance from the truth over all objects; of motion, median, p90: the same, its
-median and 90th percentile, as shares of the mean true motion; moved: over objects that move more
-than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
-predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
 
 /// One row a set: the first model beside the projection and the simulator's own spread.
-pub fn crowd_summary(reports: &[CrowdReport]) -> Table {
-    let mut table = Table::new([
-        ("set", Align::Left),
-        ("motion", Align::Right),
-        ("mean", Align::Right),
-        ("95 % interval", Align::Right),
-        ("median", Align::Right),
-        ("moved", Align::Right),
-        ("over frames", Align::Right),
-        ("projection", Align::Right),
-        ("own spread", Align::Right),
-    ]);
-    for report in reports {
-        let Some(model) = report.models.first() else { continue };
-        let end = model.all.end.as_ref();
-        let of = |wanted: &dyn Fn(&str) -> bool| {
-            let found = report.models.iter().find(|model| wanted(&model.model));
-            share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
-        };
-        table.row([
-            report.title.clone(),
-            end.map_or(NONE.to_owned(), |errors| millimetres(errors.motion)),
-            share(end, |errors| errors.mean),
-            end.map_or(NONE.to_owned(), |errors| {
-                let span = errors.relative_interval;
-                format!("{} to {}", percent(span.low), percent(span.high))
+fn summary_table(reports: &[CrowdReport]) -> Table {
+    let sets: Vec<(&CrowdReport, &CrowdModel)> =
+        reports.iter().filter_map(|report| Some((report, report.models.first()?))).collect();
+    let beside = |report: &CrowdReport, wanted: &dyn Fn(&str) -> bool| {
+        let found = report.models.iter().find(|model| wanted(&model.model));
+        share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
+    };
+    let interval = |errors: &RelativeErrors| {
+        let span = errors.relative_interval;
+        format!("{} to {}", percent(span.low), percent(span.high))
+    };
+    let end = |model: &CrowdModel, text: &dyn Fn(&RelativeErrors) -> String| {
+        model.all.end.as_ref().map_or(NONE.to_owned(), text)
+    };
+    Table::of(
+        sets,
+        &[
+            ("set", Left, &|(report, _)| report.title.clone()),
+            ("motion", Right, &|(_, model)| end(model, &|errors| millimetres(errors.motion))),
+            ("mean", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.mean)),
+            ("95 % interval", Right, &|(_, model)| end(model, &interval)),
+            ("median", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.median)),
+            ("moved", Right, &|(_, model)| share(model.moved.end.as_ref(), |e| e.mean)),
+            ("over frames", Right, &|(_, model)| share(model.all.averaged.as_ref(), |e| e.mean)),
+            ("projection", Right, &|(report, _)| beside(report, &|name| name == "projection")),
+            ("own spread", Right, &|(report, _)| {
+                beside(report, &|name| name.starts_with("planar,start="))
             }),
-            share(end, |errors| errors.median),
-            share(model.moved.end.as_ref(), |errors| errors.mean),
-            share(model.all.averaged.as_ref(), |errors| errors.mean),
-            of(&|name| name == "projection"),
-            of(&|name| name.starts_with("planar,start=")),
-        ]);
-    }
-    table
+        ],
+    )
 }
 
-/// Error by horizon of all models, averaged over the sets of one family; nothing if there are
-/// none.
-pub fn crowd_chart(family: CrowdFamily, reports: &[CrowdReport]) -> Option<Chart> {
+/// Error by horizon of all models, averaged over the sets of one family; `None` if there are none.
+fn crowd_chart(family: CrowdFamily, reports: &[CrowdReport]) -> Option<Chart> {
     let reports: Vec<&CrowdReport> =
         reports.iter().filter(|report| report.family == family).collect();
     let first = reports.first()?;

@@ -1,5 +1,7 @@
 //! A report in every form that it is asked for: text, Markdown, CSV, JSON, HTML, files.
 
+use std::path::PathBuf;
+
 use serde_json::{Value as Json, json};
 
 use crate::asset::SCHEMA_VERSION;
@@ -90,10 +92,19 @@ impl Document {
         html::page(self)
     }
 
-    /// The figures as files: name and content.
-    pub fn pictures(&self) -> impl Iterator<Item = (String, String)> {
-        let figures = self.sections.iter().flat_map(|section| &section.figures);
-        figures.map(|figure| (format!("{}.svg", figure.name), figure.to_svg()))
+    /// The figures of all sections.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.sections.iter().flat_map(|section| &section.figures)
+    }
+
+    /// Says which files were written, in a line each below everything else.
+    pub fn wrote(&mut self, files: &[PathBuf]) {
+        let lines = files.iter().map(|file| format!("wrote {}", file.display()));
+        match self.sections.last_mut() {
+            Some(last) => last.lines.extend(lines),
+            None => self.sections.push(Section { lines: lines.collect(), ..Section::default() }),
+        }
+        self.json["files"] = json!(files);
     }
 
     fn words(&self, show: impl Fn(&Table) -> String, heading: &str, figures: bool) -> String {
@@ -113,7 +124,7 @@ impl Document {
                 parts.push(section.lines.iter().map(|line| format!("{line}\n")).collect());
             }
             for figure in section.figures.iter().filter(|_| figures) {
-                parts.push(format!("![{}]({}.svg)\n", figure.title(), figure.name));
+                parts.push(format!("![{}]({})\n", figure.title(), figure.file_name()));
             }
         }
         parts.join("\n")
@@ -134,6 +145,11 @@ impl Figure {
     /// A finished SVG document that gets the file name `name`.
     pub fn svg(name: impl Into<String>, svg: String) -> Self {
         Self { name: name.into(), drawing: Drawing::Svg(svg) }
+    }
+
+    /// Name of its file.
+    pub fn file_name(&self) -> String {
+        format!("{}.svg", self.name)
     }
 
     /// The picture as an SVG document.

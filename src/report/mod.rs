@@ -4,17 +4,21 @@
 
 mod bars;
 mod chart;
+mod cost;
 mod crowd;
 mod document;
+mod heldout;
 mod html;
 mod keyframes;
 mod labels;
-mod measured;
 mod number;
 mod picture;
+mod plan_picture;
 mod plan_text;
+mod prediction;
 mod random;
-mod scope;
+mod refinement;
+mod simulation;
 mod solution;
 mod solved;
 mod svg;
@@ -23,29 +27,26 @@ mod tools;
 mod tradeoff;
 #[cfg(feature = "train")]
 mod training;
+mod verdict;
 
 pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
-pub use crowd::{CROWD_LEGEND, crowd_chart, crowd_line, crowd_summary, crowd_table};
+pub use cost::{cost_document, crowd_cost_document, far_document};
+pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};
-pub use measured::{
-    group_table, heldout_line, heldout_table, inference_table, push_cost_table, refinement_table,
-    search_cost_table,
-};
+pub use heldout::heldout_document;
 pub use number::{degrees, millimetres, seconds};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
-pub use plan_text::{goal_line, outcome_table, plan_line, point, push_table};
+pub use plan_picture::plan_figures;
+pub use prediction::prediction_document;
 pub use random::{RandomRun, random_document};
-pub use scope::{far_chart, far_table};
-pub use solution::{
-    moving_picture, outcomes_text, plan_picture, replay_warnings, solution_json, solution_text,
-};
-pub use solved::{solved_document, task_table};
-pub use table::{Align, NONE, Table};
-pub use tools::{single_table, tools_document};
-pub use tradeoff::{
-    tradeoff_efforts, tradeoff_line, tradeoff_objects, tradeoff_plans, tradeoff_predictors,
-    tradeoff_push_chart, tradeoff_task_chart,
-};
+pub use refinement::refinement_document;
+pub use simulation::simulation_document;
+pub use solution::solution_document;
+pub use solved::solved_document;
+pub use table::{Align, Column, NONE, Table};
+pub use tools::{single_document, tools_document};
+pub use tradeoff::tradeoff_document;
 #[cfg(feature = "train")]
-pub use training::training_chart;
+pub use training::training_document;
+pub use verdict::{replay_warnings, verdict_document};

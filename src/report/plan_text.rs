@@ -1,15 +1,19 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Vector, wrap_angle};
-use crate::scene::{Outcome, Plan, Task};
+use crate::scene::{Engine, Outcome, Plan, Task};
 
 use super::{
+    document::Section,
     number::{degrees, millimetres},
-    table::{Align, NONE, Table},
+    table::{
+        Align::{Left, Right},
+        NONE, Table,
+    },
 };
 
 /// One line: tool, grip yaw, number of pushes; of a plan to leave things as they are, just that.
-pub fn plan_line(plan: &Plan) -> String {
+pub(super) fn plan_line(plan: &Plan) -> String {
     let pushes = match plan.pushes.len() {
         0 => return "no push".to_owned(),
         1 => "1 push".to_owned(),
@@ -18,51 +22,59 @@ pub fn plan_line(plan: &Plan) -> String {
     format!("{}, grip yaw {}, {pushes}", plan.tool, whole_degrees(plan.grip_yaw))
 }
 
-/// One row per push.
-pub fn push_table(plan: &Plan) -> Table {
-    let mut table = Table::new([
-        ("push", Align::Right),
-        ("end effector starts at", Align::Left),
-        ("direction", Align::Right),
-        ("length", Align::Right),
-        ("speed", Align::Right),
-    ]);
-    for (k, push) in plan.pushes.iter().enumerate() {
-        table.row([
-            (k + 1).to_string(),
-            point(push.start),
-            direction(push.direction),
-            millimetres(push.length),
-            format!("{:.2} m/s", push.speed),
-        ]);
-    }
-    table
+/// One row per push; `None` without any.
+pub(super) fn push_section(plan: &Plan) -> Option<Section> {
+    let table = push_table(plan);
+    (!table.is_empty()).then(|| Section { table, ..Section::default() })
+}
+
+fn push_table(plan: &Plan) -> Table {
+    Table::of(
+        plan.pushes.iter().enumerate(),
+        &[
+            ("push", Right, &|(k, _)| (k + 1).to_string()),
+            ("end effector starts at", Left, &|(_, push)| point(push.start)),
+            ("direction", Right, &|(_, push)| direction(push.direction)),
+            ("length", Right, &|(_, push)| millimetres(push.length)),
+            ("speed", Right, &|(_, push)| format!("{:.2} m/s", push.speed)),
+        ],
+    )
 }
 
 /// Where the goal object ends by several sources, one row each.
-pub fn outcome_table(task: &Task, outcomes: &[(&str, &Outcome)]) -> Table {
-    let mut table = Table::new([
-        ("", Align::Left),
-        ("final position", Align::Left),
-        ("error", Align::Right),
-        ("heading error", Align::Right),
-        ("reached", Align::Left),
-    ]);
-    for (source, outcome) in outcomes {
+pub(super) fn outcome_table<'a>(
+    task: &Task,
+    outcomes: impl Iterator<Item = (String, &'a Outcome)>,
+) -> Table {
+    let end = |outcome: &Outcome| {
         let end = outcome.state.poses.get(task.goal.object);
-        table.row([
-            (*source).to_owned(),
-            end.map_or(NONE.to_owned(), |pose| point(pose.position)),
-            millimetres(outcome.error),
-            outcome.heading_error.map_or(NONE.to_owned(), degrees),
-            if outcome.reached { "yes" } else { "no" }.to_owned(),
-        ]);
+        end.map_or(NONE.to_owned(), |pose| point(pose.position))
+    };
+    let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
+    Table::of(
+        outcomes,
+        &[
+            ("", Left, &|(source, _)| source.clone()),
+            ("final position", Left, &|(_, outcome)| end(outcome)),
+            ("error", Right, &|(_, outcome)| millimetres(outcome.error)),
+            ("heading error", Right, &|(_, outcome)| heading(outcome)),
+            ("reached", Left, &|(_, outcome)| {
+                if outcome.reached { "yes" } else { "no" }.to_owned()
+            }),
+        ],
+    )
+}
+
+/// An engine in a sentence or a table.
+pub(super) fn engine_name(engine: Engine) -> &'static str {
+    match engine {
+        Engine::Planar => "planar",
+        Engine::Spatial => "3-D",
     }
-    table
 }
 
 /// One line: what must come where.
-pub fn goal_line(task: &Task) -> String {
+pub(super) fn goal_line(task: &Task) -> String {
     let goal = &task.goal;
     let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
     let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
@@ -73,7 +85,7 @@ pub fn goal_line(task: &Task) -> String {
 }
 
 /// A position on the table.
-pub fn point(position: Vector) -> String {
+pub(super) fn point(position: Vector) -> String {
     format!("({:.3}, {:.3}) m", position.x + 0.0, position.y + 0.0)
 }
 

@@ -64,7 +64,7 @@ pub fn solved_document(run: &RunManifest, tasks: &[Finished<SolvedTask>]) -> Doc
 }
 
 /// One row per solved task: the tool, where its plan ends, and how long it took.
-pub fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
+fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
     let mut table = Table::new([
         ("task", Align::Left),
         ("status", Align::Left),

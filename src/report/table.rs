@@ -14,6 +14,9 @@ pub enum Align {
     Right,
 }
 
+/// A column of a table of things: its name, its side, and what it says of a thing.
+pub type Column<'a, T> = (&'a str, Align, &'a dyn Fn(&T) -> String);
+
 /// A table of short texts.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
@@ -26,6 +29,15 @@ impl Table {
     pub fn new<'a>(columns: impl IntoIterator<Item = (&'a str, Align)>) -> Self {
         let columns = columns.into_iter().map(|(name, align)| (name.to_owned(), align)).collect();
         Self { columns, rows: Vec::new() }
+    }
+
+    /// One row for each of `things`, with what every column says of it.
+    pub fn of<T>(things: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
+        let mut table = Self::new(columns.iter().map(|(name, align, _)| (*name, *align)));
+        for thing in things {
+            table.row(columns.iter().map(|(_, _, cell)| cell(&thing)));
+        }
+        table
     }
 
     /// Adds a row; missing cells stay empty, surplus ones are dropped, and control characters are

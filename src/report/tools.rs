@@ -106,18 +106,32 @@ pub fn tools_document(run: &RunManifest, tasks: &[Finished<ToolRecord>]) -> Docu
 }
 
 /// The earlier form: how many tasks can be solved, and how many are.
-pub fn single_table(report: &SinglePushes) -> Table {
-    let mut table = Table::new([("choice", Align::Left), ("solved", Align::Right)]);
-    for (choice, solved) in [
+pub fn single_document(report: &SinglePushes) -> Document {
+    let model = &report.model;
+    let choices = [
         ("no push".to_owned(), report.nothing),
         ("oracle (planar)".to_owned(), report.solvable),
-        (format!("{}, predicted", report.model), report.predicted),
-        (format!("{}, in the planar engine", report.model), report.planar),
-        (format!("{}, in 3-D", report.model), report.spatial),
-    ] {
-        table.row([choice, solved.to_string()]);
+        (format!("{model}, predicted"), report.predicted),
+        (format!("{model}, in the planar engine"), report.planar),
+        (format!("{model}, in 3-D"), report.spatial),
+    ];
+    let table = Table::of(
+        choices,
+        &[
+            ("choice", Align::Left, &|(choice, _)| choice.clone()),
+            ("solved", Align::Right, &|(_, solved)| solved.to_string()),
+        ],
+    );
+    Document {
+        title: format!(
+            "{} tasks of seed {}, one push of 20 cm each, solved within 10 cm; {} of the goals are \
+             near enough for a push to matter",
+            report.tasks, report.seed, report.near
+        ),
+        sections: vec![Section { table, ..Section::default() }],
+        json: json!({"single": report}),
+        ..Document::default()
     }
-    table
 }
 
 fn title(method: Method) -> &'static str {

@@ -1,12 +1,19 @@
 //! The trade of speed for accuracy as tables and charts.
 
+use serde_json::json;
+
 use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport};
 use crate::judge::Summary;
 
 use super::{
     chart::{Axis, Chart, Mark, Series},
+    document::{Document, Figure, Section},
+    heldout::length,
     number::{fine_millimetres, seconds},
-    table::{Align, NONE, Table},
+    table::{
+        Align::{Left, Right},
+        NONE, Table,
+    },
 };
 
 /// Families of levels: name, and how the names of their models begin.
@@ -18,14 +25,35 @@ const FAMILIES: [(&str, &[&str]); 5] = [
     ("without physics", &["projection", "follow", "still"]),
 ];
 
-/// What stands in the last column for a level on the front.
-const FRONT: &str = "yes";
+/// Every level of the ladder: errors and cost of predictors, success and cost of planning.
+pub fn tradeoff_document(report: &TradeOffReport) -> Document {
+    let section =
+        |title: &str, table| Section { title: title.to_owned(), table, ..Section::default() };
+    let push = Figure::chart("tradeoff-push", push_chart(report));
+    let task = Figure::chart("tradeoff-task", task_chart(report));
+    Document {
+        title: "Speed against accuracy".to_owned(),
+        notes: vec![measured(report), LEGEND.to_owned()],
+        sections: vec![
+            Section { figures: vec![push], ..section("Predictors", predictor_table(report)) },
+            section("A push by number of objects", object_table(report)),
+            Section { figures: vec![task], ..section("Levels of planning", plan_table(report)) },
+            section("Efforts", effort_table(report)),
+        ],
+        json: json!(report),
+        ..Document::default()
+    }
+}
+
+/// What the columns mean.
+const LEGEND: &str = "*A push* is processor time with what can be shared among 64 shared, *alone* \
+    with nothing shared. *Solved* is a plan that passed its replay in 3-D.";
 
 /// What was measured, in a line or two.
-pub fn tradeoff_line(report: &TradeOffReport) -> String {
+fn measured(report: &TradeOffReport) -> String {
     let counts = &report.counts;
     format!(
-        "{} held-out pushes of each kind, {} tasks of seed {}; processor time of one thread, which \
+        "Measured by `pushplan tradeoff`: {} held-out pushes of each kind, {} tasks of seed {}; processor time of one thread, which \
          reaches {:.0} GFLOP/s in matrix products; the median round of {} is {:.0} % slower than \
          the fastest, which counts",
         counts.pushes,
@@ -38,123 +66,91 @@ pub fn tradeoff_line(report: &TradeOffReport) -> String {
 }
 
 /// Errors and cost of every predictor; the first row is the truth against itself.
-pub fn tradeoff_predictors(report: &TradeOffReport) -> Table {
-    let mut table = Table::new([
-        ("predictor", Align::Left),
-        ("mean", Align::Right),
-        ("median", Align::Right),
-        ("p95", Align::Right),
-        ("touching, mean", Align::Right),
-        ("median", Align::Right),
-        ("p95", Align::Right),
-        ("mean against 3-D", Align::Right),
-        ("a push", Align::Right),
-        ("alone", Align::Right),
-        ("front", Align::Left),
-    ]);
-    let spread = error_cells(&report.spread);
-    let mut row = |name: &str, errors: [String; 7], costs: [String; 2], front: &str| {
-        let [a, b, c, d, e, f, g] = errors;
-        let [push, alone] = costs;
-        table.row([name.to_owned(), a, b, c, d, e, f, g, push, alone, front.to_owned()]);
+fn predictor_table(report: &TradeOffReport) -> Table {
+    let truth = ("planar, start off by 0.1 mm".to_owned(), &report.spread, None);
+    let levels = report.predictors.iter();
+    let levels = levels.map(|level| (level.model.to_string(), &level.suites, Some(level)));
+    let one = |suites: &[SuiteErrors], value: fn(&Summary) -> f64| {
+        error(suites, SuiteKind::Single, value)
     };
-    row("planar, start off by 0.1 mm", spread, [NONE; 2].map(str::to_owned), "");
-    for level in &report.predictors {
-        let costs = [Some(level.seconds), level.seconds_alone].map(time);
-        row(
-            &level.model,
-            error_cells(&level.suites),
-            costs,
-            if level.on_front { FRONT } else { "" },
-        );
-    }
-    table
+    let many = |suites: &[SuiteErrors], value: fn(&Summary) -> f64| {
+        error(suites, SuiteKind::Touching, value)
+    };
+    Table::of(
+        std::iter::once(truth).chain(levels),
+        &[
+            ("predictor", Left, &|(name, _, _)| name.clone()),
+            ("mean", Right, &|(_, suites, _)| one(suites, |e| e.mean)),
+            ("median", Right, &|(_, suites, _)| one(suites, |e| e.median)),
+            ("p95", Right, &|(_, suites, _)| one(suites, |e| e.p95)),
+            ("touching, mean", Right, &|(_, suites, _)| many(suites, |e| e.mean)),
+            ("median", Right, &|(_, suites, _)| many(suites, |e| e.median)),
+            ("p95", Right, &|(_, suites, _)| many(suites, |e| e.p95)),
+            ("mean against 3-D", Right, &|(_, suites, _)| against_spatial(suites)),
+            ("a push", Right, &|(_, _, level)| time(level.map(|level| level.seconds))),
+            ("alone", Right, &|(_, _, level)| time(level.and_then(|level| level.seconds_alone))),
+            ("front", Left, &|(_, _, level)| front(level.is_some_and(|level| level.on_front))),
+        ],
+    )
 }
 
 /// Cost of a push by number of objects, beside the planar engine's.
-pub fn tradeoff_objects(report: &TradeOffReport) -> Table {
-    let mut table = Table::new([
-        ("objects", Align::Right),
-        ("predictor", Align::Left),
-        ("a push", Align::Right),
-        ("planar at 1/240 takes", Align::Right),
-    ]);
-    for cost in &report.objects {
-        table.row([
-            cost.objects.to_string(),
-            cost.model.clone(),
-            seconds(cost.seconds),
-            format!("{:.2} times", cost.planar_ratio),
-        ]);
-    }
-    table
+fn object_table(report: &TradeOffReport) -> Table {
+    Table::of(
+        &report.objects,
+        &[
+            ("objects", Right, &|cost| cost.objects.to_string()),
+            ("predictor", Left, &|cost| cost.model.to_string()),
+            ("a push", Right, &|cost| seconds(cost.seconds)),
+            ("planar at 1/240 takes", Right, &|cost| format!("{:.2} times", cost.planar_ratio)),
+        ],
+    )
 }
 
 /// Success and cost of every level of planning, cheapest first.
-pub fn tradeoff_plans(report: &TradeOffReport) -> Table {
-    let mut table = Table::new([
-        ("level", Align::Left),
-        ("reached, predicted", Align::Right),
-        ("reached, planar", Align::Right),
-        ("solved, 3-D", Align::Right),
-        ("error in 3-D, mean", Align::Right),
-        ("median", Align::Right),
-        ("p95", Align::Right),
-        ("rollouts", Align::Right),
-        ("verified", Align::Right),
-        ("a task", Align::Right),
-        ("verification", Align::Right),
-        ("front", Align::Left),
-    ]);
+fn plan_table(report: &TradeOffReport) -> Table {
     let mut rows: Vec<&PlanRow> = report.plans.iter().collect();
     rows.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    for row in rows {
-        table.row([
-            row.level.name.clone(),
-            percent(row.predicted),
-            percent(row.planar),
-            percent(row.success),
-            pick(&row.error, |errors| errors.mean),
-            pick(&row.error, |errors| errors.median),
-            pick(&row.error, |errors| errors.p95),
-            format!("{:.0}", row.rollouts),
-            format!("{:.1}", row.verified),
-            seconds(row.seconds),
-            seconds(row.verification),
-            if row.on_front { FRONT.to_owned() } else { String::new() },
-        ]);
-    }
-    table
+    Table::of(
+        rows,
+        &[
+            ("level", Left, &|row| row.level.name.clone()),
+            ("reached, predicted", Right, &|row| percent(row.predicted)),
+            ("reached, planar", Right, &|row| percent(row.planar)),
+            ("solved, 3-D", Right, &|row| percent(row.success)),
+            ("error in 3-D, mean", Right, &|row| length(&row.error, |errors| errors.mean)),
+            ("median", Right, &|row| length(&row.error, |errors| errors.median)),
+            ("p95", Right, &|row| length(&row.error, |errors| errors.p95)),
+            ("rollouts", Right, &|row| format!("{:.0}", row.rollouts)),
+            ("verified", Right, &|row| format!("{:.1}", row.verified)),
+            ("a task", Right, &|row| seconds(row.seconds)),
+            ("verification", Right, &|row| seconds(row.verification)),
+            ("front", Left, &|row| front(row.on_front)),
+        ],
+    )
 }
 
 /// What each effort stands for, costs and gives.
-pub fn tradeoff_efforts(report: &TradeOffReport) -> Table {
-    let mut table = Table::new([
-        ("effort", Align::Left),
-        ("level", Align::Left),
-        ("solved, 3-D", Align::Right),
-        ("error in 3-D, median", Align::Right),
-        ("p95", Align::Right),
-        ("processor time a task", Align::Right),
-    ]);
-    for (effort, choice) in &report.efforts {
-        let Some(row) = report.plans.iter().find(|row| row.level.name == choice.name) else {
-            continue;
-        };
-        table.row([
-            format!("`{effort}`"),
-            choice.name.clone(),
-            percent(row.success),
-            pick(&row.error, |errors| errors.median),
-            pick(&row.error, |errors| errors.p95),
-            seconds(row.seconds),
-        ]);
-    }
-    table
+fn effort_table(report: &TradeOffReport) -> Table {
+    let rows = report.efforts.iter().filter_map(|(effort, choice)| {
+        let row = report.plans.iter().find(|row| row.level.name == choice.name)?;
+        Some((effort, row))
+    });
+    Table::of(
+        rows,
+        &[
+            ("effort", Left, &|(effort, _)| format!("`{effort}`")),
+            ("level", Left, &|(_, row)| row.level.name.clone()),
+            ("solved, 3-D", Right, &|(_, row)| percent(row.success)),
+            ("error in 3-D, median", Right, &|(_, row)| length(&row.error, |e| e.median)),
+            ("p95", Right, &|(_, row)| length(&row.error, |e| e.p95)),
+            ("processor time a task", Right, &|(_, row)| seconds(row.seconds)),
+        ],
+    )
 }
 
 /// Error against cost of a push, with the front.
-pub fn tradeoff_push_chart(report: &TradeOffReport) -> Chart {
+fn push_chart(report: &TradeOffReport) -> Chart {
     // The truth has no error against itself; what it is good for is its own spread.
     let floor = errors_of(&report.spread, SuiteKind::Single).map_or(0.0, |errors| errors.mean);
     let place = |row: &PredictorRow| {
@@ -177,7 +173,7 @@ pub fn tradeoff_push_chart(report: &TradeOffReport) -> Chart {
 }
 
 /// Failures against cost of a task, with the front; the efforts carry their names.
-pub fn tradeoff_task_chart(report: &TradeOffReport) -> Chart {
+fn task_chart(report: &TradeOffReport) -> Chart {
     let points = report.plans.iter().map(|row| {
         let chosen = report.efforts.iter().filter(|(_, choice)| choice.name == row.level.name);
         let efforts: Vec<String> = chosen.map(|(effort, _)| effort.to_string()).collect();
@@ -238,22 +234,19 @@ fn errors_of(suites: &[SuiteErrors], kind: SuiteKind) -> Option<&Summary> {
     suites.iter().find(|errors| errors.suite == kind)?.position.as_ref()
 }
 
-/// Mean, median and p95 of one object and of touching ones; the mean of one against 3-D.
-fn error_cells(suites: &[SuiteErrors]) -> [String; 7] {
-    let cell = |kind: SuiteKind, value: fn(&Summary) -> f64| {
-        errors_of(suites, kind).map_or(NONE.to_owned(), |errors| fine_millimetres(value(errors)))
-    };
-    let against = suites.iter().find(|errors| errors.suite == SuiteKind::Single);
-    let against = against.and_then(|errors| errors.position_3d.as_ref());
-    let [single, touching] = [SuiteKind::Single, SuiteKind::Touching]
-        .map(|kind| [cell(kind, |e| e.mean), cell(kind, |e| e.median), cell(kind, |e| e.p95)]);
-    let [a, b, c] = single;
-    let [d, e, f] = touching;
-    [a, b, c, d, e, f, against.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean))]
+fn error(suites: &[SuiteErrors], kind: SuiteKind, value: fn(&Summary) -> f64) -> String {
+    errors_of(suites, kind).map_or(NONE.to_owned(), |errors| fine_millimetres(value(errors)))
 }
 
-fn pick(summary: &Option<Summary>, value: impl Fn(&Summary) -> f64) -> String {
-    summary.as_ref().map_or(NONE.to_owned(), |summary| fine_millimetres(value(summary)))
+fn against_spatial(suites: &[SuiteErrors]) -> String {
+    let single = suites.iter().find(|errors| errors.suite == SuiteKind::Single);
+    let errors = single.and_then(|errors| errors.position_3d.as_ref());
+    errors.map_or(NONE.to_owned(), |errors| fine_millimetres(errors.mean))
+}
+
+/// What stands in the last column for a level on the front.
+fn front(on_front: bool) -> String {
+    if on_front { "yes".to_owned() } else { String::new() }
 }
 
 fn time(value: Option<f64>) -> String {

@@ -1,11 +1,29 @@
 //! Curves of a training run.
 
+use serde_json::json;
+
 use crate::train::MetricLine;
 
 use super::chart::{Axis, Chart, Mark, Series};
+use super::document::{Document, Figure, Section};
+
+/// A run of training so far, as curves.
+pub fn training_document(lines: &[MetricLine]) -> Document {
+    let section =
+        Section { figures: vec![Figure::chart("curves", chart(lines))], ..Section::default() };
+    Document {
+        title: TITLE.to_owned(),
+        sections: vec![section],
+        json: json!({"metrics": lines}),
+        ..Document::default()
+    }
+}
+
+/// What the curves show.
+const TITLE: &str = "Held-out final position error during training";
 
 /// Held-out errors over the steps.
-pub fn training_chart(lines: &[MetricLine]) -> Chart {
+fn chart(lines: &[MetricLine]) -> Chart {
     let series = |name: &str, value: &dyn Fn(&MetricLine) -> f64| Series {
         name: name.to_owned(),
         points: lines.iter().map(|line| [line.step as f64, 1e3 * value(line)]).collect(),
@@ -13,7 +31,7 @@ pub fn training_chart(lines: &[MetricLine]) -> Chart {
         labels: Vec::new(),
     };
     Chart {
-        title: "Held-out final position error during training".to_owned(),
+        title: TITLE.to_owned(),
         x: Axis::linear("steps"),
         y: Axis::log("error, mm"),
         series: vec![

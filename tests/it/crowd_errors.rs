@@ -10,7 +10,7 @@ use pushplan::{
     dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, EffectModel, Projection, Simulated, Still},
     judge::Trial,
-    report::{crowd_chart, crowd_line, crowd_summary, crowd_table},
+    report::{crowd_document, evaluation_document},
     scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
@@ -115,14 +115,18 @@ fn reports_become_tables_and_curves_and_survive_json() {
     let text = serde_json::to_string(&report).unwrap();
     let back: CrowdReport = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&back).unwrap(), text);
-    assert!(crowd_line(&report).starts_with("dense, 6 objects, mixed joints, any solids: 3 "));
-    let table = crowd_table(&report).to_text();
+    let reports = [report];
+    let document = crowd_document(&reports);
+    assert!(document.title.starts_with("dense, 6 objects, mixed joints, any solids: 3 "));
+    let table = document.sections[0].table.to_text();
     assert_eq!(table.lines().count(), 4);
     assert!(table.contains("projection,joints=none") && !table.contains("NaN"), "{table}");
-    let reports = [report];
-    assert!(crowd_summary(&reports).to_text().contains("dense, 6 objects"));
-    assert!(crowd_chart(CrowdFamily::Sparse, &reports).is_none());
-    let chart = crowd_chart(CrowdFamily::Dense, &reports).expect("curves").to_svg();
+    let document = evaluation_document(&[], &reports);
+    assert!(document.to_text().contains("dense, 6 objects"));
+    let charts: Vec<_> = document.figures().collect();
+    assert_eq!(charts.len(), 1, "curves of each family that was measured");
+    assert_eq!(charts[0].file_name(), "error-by-horizon-dense.svg");
+    let chart = charts[0].to_svg();
     assert!(chart.contains("projection,joints=none") && !chart.contains("NaN"));
 }
 

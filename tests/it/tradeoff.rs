@@ -9,7 +9,7 @@ use pushplan::{
         Unit, dominates, levels, plan_levels,
     },
     effect::{EffectModel, EffectModels, Job, Routed},
-    report::{tradeoff_efforts, tradeoff_push_chart, tradeoff_task_chart},
+    report::tradeoff_document,
     scene::{ModelSpec, Record},
     solve::{Effort, Settings},
 };
@@ -111,9 +111,10 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
     }
     let text = serde_json::to_string_pretty(&report).unwrap();
     assert_eq!(serde_json::from_str::<TradeOffReport>(&text).unwrap(), report);
-    for chart in [tradeoff_push_chart(&report), tradeoff_task_chart(&report)] {
-        assert!(!chart.to_svg().contains("NaN"));
-    }
+    let document = tradeoff_document(&report);
+    assert_eq!(document.figures().count(), 2);
+    assert!(document.figures().all(|chart| !chart.to_svg().contains("NaN")));
+    assert!(document.to_page().contains("](tradeoff-push.svg)"));
 }
 
 /// What `pushplan tradeoff` measured, as shipped.
@@ -155,7 +156,9 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
 #[test]
 fn the_readme_says_what_each_effort_costs_and_gives() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
-    let table = tradeoff_efforts(&report).to_markdown();
+    let document = tradeoff_document(&report);
+    let efforts = document.sections.iter().find(|section| section.title == "Efforts");
+    let table = efforts.expect("a table of efforts").table.to_markdown();
     assert!(include_str!("../../README.md").contains(&table), "the README has not\n{table}");
 }
 

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use serde_json::json;
 
 use crate::asset::load_task;
 use crate::bench::{
@@ -12,7 +11,7 @@ use crate::bench::{
 };
 use crate::cli::{error::CliError, model, output, session::Session, solve::solve_error};
 use crate::effect::{EffectModel, Network, Simulated};
-use crate::report::{far_chart, far_table, inference_table, push_cost_table, search_cost_table};
+use crate::report::{cost_document, crowd_cost_document, far_document};
 use crate::sim::Simulator;
 use crate::solve::Effort;
 
@@ -82,12 +81,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
         .compute(|| search_costs(&models, &task, &library, offsets, args.candidates as usize));
     spinner.finish_and_clear();
     let searches = searches.map_err(solve_error)?;
-    let mut tables = vec![push_cost_table(&pushes), search_cost_table(&searches)];
-    if !networks.is_empty() {
-        tables.insert(0, inference_table(&networks));
-    }
-    let report = json!({"networks": networks, "pushes": pushes, "searches": searches});
-    args.common.form.print(session, "cost", &report, "", &tables)
+    args.common.form.show(session, &cost_document(&networks, &pushes, &searches))
 }
 
 fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
@@ -99,9 +93,7 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
     let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES);
     spinner.finish_and_clear();
-    let report = json!({"objects": objects, "networks": networks});
-    let head = format!("{objects} objects, sparse and dense, mixed joints; times a graph-step\n\n");
-    args.common.form.print(session, "cost", &report, &head, &[inference_table(&networks)])
+    args.common.form.show(session, &crowd_cost_document(objects, &networks))
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
@@ -121,8 +113,9 @@ fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let costs = far_costs(&models, &suite, &FAR_COUNTS)
         .map_err(|error| CliError::unexpected("cannot time a push", &error))?;
     spinner.finish_and_clear();
+    let document = far_document(&costs);
     if let Some(out) = &args.out {
-        output::write(out, "far.svg", far_chart(&costs).to_svg().as_bytes())?;
+        output::write_figures(out, document.figures())?;
     }
-    args.common.form.print(session, "far", &costs, "", &[far_table(&costs)])
+    args.common.form.show(session, &document)
 }

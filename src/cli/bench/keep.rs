@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::cli::{error::CliError, follow::Following, interrupt, model, output, session::Session};
+use crate::cli::{
+    error::CliError, follow::Following, form::Form, interrupt, model, output, session::Session,
+};
 use crate::report::Document;
 use crate::scene::ModelSpec;
 use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
@@ -70,14 +72,21 @@ impl KeepArgs {
     }
 }
 
-/// Writes a report's page and rows into the folder of a run.
+/// Prints a report, and writes its page and rows into the folder of a run, if there is one.
 ///
 /// # Errors
-/// If they cannot be written.
-pub fn write_report(folder: &Path, document: &Document) -> Result<(), CliError> {
-    output::write(folder, PAGE, document.to_html().as_bytes())?;
-    output::write(folder, ROWS, document.to_csv().as_bytes())?;
-    Ok(())
+/// If that cannot be written.
+pub fn show(
+    form: Form,
+    session: &Session,
+    document: &Document,
+    folder: Option<&Path>,
+) -> Result<(), CliError> {
+    if let Some(folder) = folder {
+        output::write(folder, PAGE, document.to_html().as_bytes())?;
+        output::write(folder, ROWS, document.to_csv().as_bytes())?;
+    }
+    form.show(session, document)
 }
 
 /// Tells a network's weights from all others; nothing for what has none.

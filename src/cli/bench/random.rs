@@ -116,7 +116,7 @@ pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
         session.compute(|| suite.measure(&planner, &library, index)).map_err(random_error)
     })?;
     let document = random_document(&[store.into_parts()]);
-    args.common.form.show(session, &document, args.keep.out.as_deref())
+    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
 }
 
 /// Writes the tasks of a run as files.

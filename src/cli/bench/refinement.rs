@@ -11,7 +11,7 @@ use crate::cli::{
     session::Session,
     solve::{EffortName, solve_error},
 };
-use crate::report::refinement_table;
+use crate::report::refinement_document;
 use crate::solve::{Effort, Planner, Settings};
 
 use super::common::Common;
@@ -49,9 +49,5 @@ pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
         .compute(|| refinement_report([&without, &with], &library, args.seed, args.tasks as usize));
     spinner.finish_and_clear();
     let report = report.map_err(solve_error)?;
-    let head = format!(
-        "{} random tasks of seed {}, effort {effort} with {}\n\n",
-        report.tasks, report.seed, report.model
-    );
-    args.common.form.print(session, "refinement", &report, &head, &[refinement_table(&report)])
+    args.common.form.show(session, &refinement_document(&report, &effort.to_string()))
 }

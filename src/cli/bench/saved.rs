@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::bench::{RandomRecord, SolvedTask, ToolRecord};
-use crate::cli::{error::CliError, output, session::Session};
+use crate::cli::{error::CliError, form::Form, output, session::Session};
 use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
 use crate::store::{RunManifest, Store, StoreError, merge_runs};
 
-use super::common::Form;
-use super::{random, tasks, tools};
+use super::{keep, random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -45,7 +44,7 @@ pub struct ReportArgs {
 pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
     merge_runs(&args.out, &args.shards)?;
     let runs = std::slice::from_ref(&args.out);
-    args.form.show(session, &document(runs)?, Some(&args.out))
+    keep::show(args.form, session, &document(runs)?, Some(&args.out))
 }
 
 pub fn report(args: &ReportArgs, session: &Session) -> Result<(), CliError> {
@@ -53,7 +52,7 @@ pub fn report(args: &ReportArgs, session: &Session) -> Result<(), CliError> {
     if let Some(out) = &args.out {
         output::prepare(out)?;
     }
-    args.form.show(session, &document, args.out.as_deref())
+    keep::show(args.form, session, &document, args.out.as_deref())
 }
 
 /// The report of one suite's runs.

@@ -76,5 +76,5 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         })
     })?;
     let document = solved_document(store.manifest(), store.finished());
-    args.common.form.show(session, &document, args.keep.out.as_deref())
+    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
 }

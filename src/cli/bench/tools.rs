@@ -9,16 +9,16 @@ use crate::asset::write_atomic;
 use crate::bench::{GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, single_pushes};
 use crate::cli::{
     error::CliError,
+    form::Form,
     model::{self, OutsideArgs},
     session::Session,
     solve::{EffortName, solve_error},
 };
-use crate::report::{single_table, tools_document};
+use crate::report::{single_document, tools_document};
 use crate::scene::{ModelKind, ModelSpec};
 use crate::solve::{Effort, Planner, Settings};
 use crate::store::RunManifest;
 
-use super::common::Form;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
 
 /// Name of the suite in manifests.
@@ -130,7 +130,7 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
         })
     })?;
     let document = tools_document(store.manifest(), store.finished());
-    args.shown.show(session, &document, args.keep.out.as_deref())
+    keep::show(args.shown, session, &document, args.keep.out.as_deref())
 }
 
 fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
@@ -145,10 +145,5 @@ fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     let spinner = session.spinner("pushing");
     let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
     spinner.finish_and_clear();
-    let head = format!(
-        "{} tasks of seed {}, one push of 20 cm each, solved within 10 cm; {} of the goals are \
-         near enough for a push to matter\n\n",
-        report.tasks, report.seed, report.near
-    );
-    args.shown.print(session, "single", &report, &head, &[single_table(&report)])
+    args.shown.show(session, &single_document(&report))
 }

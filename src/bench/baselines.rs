@@ -1,0 +1,43 @@
+//! What stands beside a model in an evaluation: what it must beat, and what the truth's own engine
+//! makes of a scene that it is told something wrong of.
+
+use crate::scene::{Assumptions, JointBelief, ModelKind, ModelSpec};
+
+/// What a model must beat, on any scenes.
+const RIVALS: [ModelKind; 4] =
+    [ModelKind::PRIOR, ModelKind::Projection, ModelKind::Follow, ModelKind::Still];
+
+/// Percentages of the true friction that the planar engine is told.
+const FRICTION: [u16; 2] = [70, 130];
+
+/// Micrometres by which the start that the planar engine is told is off: the truth's own spread.
+const START: u16 = 100;
+
+/// What stands beside `spec` on held-out pushes: the other engine, and what it must beat.
+pub fn push_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
+    let others = std::iter::once(ModelKind::SPATIAL).chain(RIVALS).map(ModelSpec::of);
+    others.filter(|other| other != spec).collect()
+}
+
+/// `spec` under other assumptions about joints, for scenes that have some.
+pub fn assumed(spec: &ModelSpec) -> Vec<ModelSpec> {
+    let beliefs = [JointBelief::Guessed, JointBelief::None, JointBelief::Fixed];
+    let told = |joints| Assumptions { joints: Some(joints), ..Assumptions::default() };
+    beliefs.map(|joints| spec.clone().assuming(told(joints))).to_vec()
+}
+
+/// What stands beside `spec` on crowds, or on recordings: of those the planar engine is no truth,
+/// so it is there as itself too.
+pub fn crowd_baselines(spec: &ModelSpec, recorded: bool) -> Vec<ModelSpec> {
+    let planar = ModelSpec::of(ModelKind::PLANAR);
+    let mut others: Vec<ModelSpec> = RIVALS.map(ModelSpec::of).to_vec();
+    if recorded {
+        others.push(planar.clone());
+    }
+    others.retain(|other| other != spec);
+    let told = Assumptions::default();
+    let friction = FRICTION.map(|percent| Assumptions { friction: Some(percent), ..told });
+    let start = Assumptions { start: Some(START), ..told };
+    others.extend(friction.into_iter().chain([start]).map(|told| planar.clone().assuming(told)));
+    others
+}

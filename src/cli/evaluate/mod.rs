@@ -1,0 +1,9 @@
+//! `pushplan evaluate`: errors of effect models on pushes that none was trained on, on crowds, and
+//! on the user's own recordings.
+
+mod command;
+mod crowds;
+mod on;
+mod sources;
+
+pub use command::{EvaluateArgs, run};

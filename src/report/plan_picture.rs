@@ -1,0 +1,85 @@
+//! Pictures of a plan: as it is, and moving.
+
+use crate::scene::{Engine, Plan, Task, ToolMotion, Trajectory, Verdict};
+use crate::solve::RankedPlan;
+
+use super::document::Figure;
+use super::number::millimetres;
+use super::picture::{MovingPicture, ScenePicture, Source, Track};
+use super::plan_text::{engine_name, plan_line};
+use super::verdict::{nominal, verdict_line};
+
+/// The pictures of a plan with its ways by prediction and in its replays; `animate` adds one that
+/// moves. Their files are named `name`.
+pub fn plan_figures(
+    task: &Task,
+    plan: &RankedPlan,
+    replays: &Verdict,
+    name: &str,
+    animate: bool,
+) -> Vec<Figure> {
+    let motion = plan.plan.motion(&plan.tool);
+    let still = still(task, plan, &motion, replays).to_svg();
+    let mut figures = vec![Figure::svg(name, still)];
+    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
+    if let Some(replay) = replay.filter(|_| animate) {
+        figures.push(moving_figure(task, &plan.plan, &motion, (Engine::Spatial, replay), name));
+    }
+    figures
+}
+
+/// The simulation of a plan in an engine as a picture that moves.
+pub fn moving_figure(
+    task: &Task,
+    plan: &Plan,
+    motion: &ToolMotion,
+    (engine, trajectory): (Engine, &Trajectory),
+    name: &str,
+) -> Figure {
+    let title = match task.description.as_str() {
+        "" => &task.name,
+        description => description,
+    };
+    let picture = MovingPicture {
+        title: title.to_owned(),
+        plan: plan_line(plan),
+        source: Source::Simulated(engine),
+        scene: &task.scene,
+        goal: &task.goal,
+        robot: &task.robot,
+        motion,
+        trajectory,
+    };
+    Figure::svg(format!("{name}.animated"), picture.to_svg())
+}
+
+fn still<'a>(
+    task: &'a Task,
+    plan: &'a RankedPlan,
+    motion: &'a ToolMotion,
+    replays: &'a Verdict,
+) -> ScenePicture<'a> {
+    let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
+    let mut tracks = Vec::new();
+    // What does not move has no way to be drawn.
+    for evidence in nominal(replays).filter(|_| !motion.strokes.is_empty()) {
+        let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
+        errors.push(format!("{engine} {}", millimetres(error)));
+        let source = Source::Simulated(evidence.engine);
+        tracks.extend(evidence.trajectory.iter().map(|trajectory| Track { source, trajectory }));
+    }
+    let allowed = millimetres(task.goal.tolerance);
+    tracks.push(Track { source: Source::Predicted, trajectory: &plan.predicted });
+    ScenePicture {
+        title: format!("{}: {}", task.name, plan_line(&plan.plan)),
+        notes: vec![
+            format!("error: {}; allowed {allowed}", errors.join(", ")),
+            format!("verdict: {}", verdict_line(plan.verdict.as_ref())),
+        ],
+        scene: &task.scene,
+        goal: Some(&task.goal),
+        robot: Some(&task.robot),
+        motion: Some(motion),
+        tracks,
+    }
+}

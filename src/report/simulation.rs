@@ -1,0 +1,58 @@
+//! One simulation of an action or a plan.
+
+use serde_json::json;
+
+use crate::asset::TrajectoryFile;
+use crate::scene::Engine;
+
+use super::document::{Document, Figure, Section};
+use super::number::millimetres;
+use super::picture::{ScenePicture, Source, Track};
+use super::plan_picture::moving_figure;
+use super::plan_text::{goal_line, plan_line, push_section};
+
+/// A simulation in `engine` with its picture, whose file is named `name`; `animate` adds one that
+/// moves.
+pub fn simulation_document(
+    file: &TrajectoryFile,
+    engine: Engine,
+    name: &str,
+    animate: bool,
+) -> Document {
+    let TrajectoryFile { task, tool, plan, trajectory, .. } = file;
+    let end = trajectory.outcome();
+    let error = task.goal.error(end);
+    let time = trajectory.frames.last().map_or(0.0, |frame| frame.time);
+    let motion = plan.motion(tool);
+    let source = Source::Simulated(engine);
+    let picture = ScenePicture {
+        title: format!("{}: {}", task.name, plan_line(plan)),
+        notes: vec![format!("{} from the goal at rest", millimetres(error))],
+        scene: &task.scene,
+        goal: Some(&task.goal),
+        robot: Some(&task.robot),
+        motion: Some(&motion),
+        tracks: vec![Track { source, trajectory }],
+    };
+    let mut figures = vec![Figure::svg(name, picture.to_svg())];
+    if animate {
+        figures.push(moving_figure(task, plan, &motion, (engine, trajectory), name));
+    }
+    let line = format!(
+        "{} frames, {time:.2} s; {} from the goal: {}",
+        trajectory.frames.len(),
+        millimetres(error),
+        goal_line(task)
+    );
+    let end_section = Section { lines: vec![line], figures, ..Section::default() };
+    Document {
+        title: plan_line(plan),
+        sections: push_section(plan).into_iter().chain([end_section]).collect(),
+        json: json!({
+            "task": task.name, "engine": engine, "plan": plan,
+            "frames": trajectory.frames.len(), "state": end, "goal_error": error,
+            "warnings": trajectory.warnings,
+        }),
+        ..Document::default()
+    }
+}
