@@ -116,17 +116,15 @@ pub mod verify;
 #[doc(hidden)]
 pub mod watch;
 
-pub use asset::{Faults, ToolLibrary};
-pub use effect::{EffectModel, Prior, Simulated};
+pub use asset::ToolLibrary;
+pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{Pose, Shape, Vector};
 pub use scene::{
-    Directions, Goal, Job, Joint, JointKind, Object, Obstacle, Outcome, Part, Plan, Push, PushForm,
-    PushRules, Record, Robot, Scene, State, Task, Tool, ToolChoice, ToolError, ToolMotion,
-    Trajectory, Verdict, Warning,
+    Goal, Job, Joint, JointKind, ModelSpec, Object, Obstacle, Outcome, Part, Physics, Plan, Push,
+    PushRules, Record, Robot, Scene, Situation, State, Task, Tool, ToolMotion, Trajectory, Verdict,
+    Warning,
 };
 pub use sim::Simulator;
-pub use solve::{
-    Effort, PlanStatus, Planner, PlannerBuilder, RankedPlan, Settings, Solution, SolveError,
-};
+pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 pub use verify::Verifier;
