@@ -51,7 +51,6 @@ const ROOMS: [(&str, &[&str]); 20] = [
             "network",
             "effect",
             "judge",
-            "plan",
             "verify",
             "solve",
             "dataset",

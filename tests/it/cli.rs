@@ -13,6 +13,18 @@ fn transcripts() {
 }
 
 #[test]
+fn the_help_says_what_every_exit_code_means() {
+    let output = pushplan(&["--help"]);
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let codes = text.split("Exit codes:\n").nth(1).expect("a list of exit codes");
+    let listed: Vec<u8> = codes
+        .lines()
+        .filter_map(|line| line.trim_start().split_once("  ")?.0.parse().ok())
+        .collect();
+    assert_eq!(listed, [0, 1, 2, 3, 4, 5, 6, 130]);
+}
+
+#[test]
 fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout() {
     let run = |threads: &str| {
         let arguments =
