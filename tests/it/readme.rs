@@ -77,6 +77,7 @@ fn the_commands_of_all_pages_are_taken() {
             let commands = block.replace("\\\n", " ");
             for command in commands.lines().filter_map(|line| line.strip_prefix("pushplan ")) {
                 let command = command.split(" #").next().unwrap_or(command);
+                let command = command.split(" && ").next().unwrap_or(command);
                 run(&format!("{command} --help"));
                 taken += 1;
             }
