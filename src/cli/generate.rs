@@ -40,10 +40,10 @@ pub struct GenerateArgs {
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
-    /// Joints between near neighbours of a crowd [default: drawn anew every 25 episodes]
+    /// Joints between near neighbours of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_enum, value_name = "RULE")]
     joints: Option<JointName>,
-    /// Solids of a crowd [default: drawn anew every 25 episodes]
+    /// Solids of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_enum, value_name = "KIND")]
     solids: Option<SolidName>,
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]

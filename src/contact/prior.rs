@@ -196,7 +196,7 @@ impl Prior {
         self.moved(group, position, &pressed)
     }
 
-    /// The same for the force of joint `k`; nothing for one within a group.
+    /// The same for the force of joint `k`; zero for one within a group.
     pub fn joint_answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
         let Some(tie) = self.joints[k].map(|tie| &self.system.ties[tie]) else {
             return (Vector::zeros(), 0.0);

@@ -39,7 +39,7 @@ pub struct Aim {
 }
 
 /// A stroke that meets a random object of `state` with a random piece of the tool, its start
-/// free of every object and obstacle; nothing if this try is not free.
+/// free of every object and obstacle; `None` if this try is not free.
 pub fn aimed_stroke(
     rng: &mut Pcg64,
     tool: &Tool,

@@ -64,7 +64,7 @@ fn random_size(rng: &mut Pcg64, ranges: &Ranges, thickness: f64) -> [f64; 3] {
     if rng.random::<bool>() { [length, width, thickness] } else { [width, length, thickness] }
 }
 
-/// One try at a further part: its parent, size and pose; nothing if it would run into another.
+/// One try at a further part: its parent, size and pose; `None` if it would run into another.
 fn glue(
     rng: &mut Pcg64,
     ranges: &Ranges,

@@ -64,7 +64,7 @@ impl<'a> HandPlay<'a> {
         &self.touched
     }
 
-    /// The straight stroke from `from`, until everything rests; nothing if the hand cannot be
+    /// The straight stroke from `from`, until everything rests; `None` if the hand cannot be
     /// set down there.
     pub(super) fn stroke(
         &self,
@@ -86,7 +86,7 @@ impl<'a> HandPlay<'a> {
         })
     }
 
-    /// Plays one more stroke; nothing if something went wrong, with which the play ends.
+    /// Plays one more stroke; `None` if something went wrong, which ends the play.
     ///
     /// The simulator begins a fresh world after a settled stroke, so playing strokes one by one
     /// gives the bits that playing them all at once does.

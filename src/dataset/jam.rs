@@ -10,7 +10,7 @@ use crate::{
 /// in by a tenth of it.
 const JAMMED: f64 = 1e-3;
 
-/// The last stroke, ended one frame before anything is jammed; nothing if nothing ever is.
+/// The last stroke, ended one frame before anything is jammed; `None` if nothing ever is.
 pub(super) fn shortened_before_jam(
     scene: &Scene,
     motion: &ToolMotion,

@@ -36,7 +36,7 @@ pub enum Preset {
     #[default]
     Tools,
     /// Scattered objects; the hand makes seven or eight straight 30 cm strokes, each set down
-    /// anew and aimed at an object that it has not touched yet.
+    /// afresh and aimed at an object that it has not touched yet.
     Sparse,
     /// Scattered objects; the hand makes one long straight stroke through them.
     SparseLine,

@@ -125,7 +125,7 @@ fn scattered(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
     scene
 }
 
-/// A pose near one of `objects`; nothing if it would run into another.
+/// A pose near one of `objects`; `None` if it would run into another.
 fn neighbour(rng: &mut Pcg64, objects: &[Object], footprint: &Footprint) -> Option<Pose> {
     let anchor = &objects[rng.random_range(0..objects.len())];
     let around = (&anchor.shape.footprint(), &anchor.pose);

@@ -91,7 +91,7 @@ fn simulate(scene: &Scene, motion: &ToolMotion) -> Trajectory {
 }
 
 /// Plays the motion, its last stroke ended before the tool squeezes anything against an
-/// obstacle, which neither engine nor any real table answers well. Nothing if too little of
+/// obstacle, which neither engine nor any real table answers well. `None` if too little of
 /// the stroke is left.
 fn cut_short(scene: &Scene, motion: &mut ToolMotion) -> Option<Trajectory> {
     let trajectory = simulate(scene, motion);
@@ -163,7 +163,7 @@ fn aimed_first(
     })
 }
 
-/// A further placed push, aimed anew at where the objects came to rest.
+/// A further placed push, aimed at where the objects came to rest.
 fn aimed_next(
     rng: &mut Pcg64,
     ranges: &Ranges,

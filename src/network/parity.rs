@@ -28,7 +28,7 @@ struct Rows<'a> {
 }
 
 // On the widest vectors that the processor has, not only those that every one has; the same bits. A
-// closure would do, but is not always inlined, and then runs on the narrowest without a word.
+// closure would do, but is not always inlined, and then silently runs on the narrowest.
 impl WithSimd for Rows<'_> {
     type Output = ();
 

@@ -38,8 +38,8 @@ const TRIALS: [f64; 3] = [2.0, 1.0, 0.5];
 /// The radius shrinks to this share when a round brought nothing.
 const SHRINK: f64 = 0.25;
 
-/// A score, in units of the tolerance, at which there is nothing left to gain: a tenth of what
-/// effect models and robots miss by anyway.
+/// A score, in units of the tolerance, at which there is nothing left to gain: a tenth of
+/// the error that effect models and robots have anyway.
 const GOOD_ENOUGH: f64 = 0.01;
 
 /// A candidate is given up when even this many times its last gain in every round that is left

@@ -21,8 +21,8 @@ pub const STAND_OFF: f64 = 0.005;
 /// the stand-off, because a glancing face stands closer to a round object than it travels.
 pub const SET_DOWN_CLEARANCE: f64 = 0.001;
 
-/// A tool keeps at least this distance from obstacles, also while pushing, metres: what a robot
-/// arm and its calibration miss by.
+/// A tool keeps at least this distance from obstacles, also while pushing, metres: the error of a
+/// robot arm and its calibration.
 pub const OBSTACLE_CLEARANCE: f64 = 0.005;
 
 /// Shortest push worth making, metres: the stand-off and then as much again to be felt.

@@ -152,7 +152,7 @@ impl fmt::Display for Warning {
             ),
             Warning::Pressed { .. } => write!(
                 f,
-                "{}; where it goes then nobody can tell, `--outside simulate` simulates instead",
+                "{}; its motion is then unpredictable, `--outside simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(

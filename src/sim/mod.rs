@@ -1,4 +1,4 @@
-//! rapier behind one door, in two engines: planar (the default truth) and 3-D (the independent
+//! The simulator: rapier in two engines, planar (the default truth) and 3-D (the independent
 //! check).
 //!
 //! [`Simulator::run`] plays a tool motion on a scene and records what happens. Nothing is

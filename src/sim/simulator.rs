@@ -1,4 +1,4 @@
-//! The door: an engine with its step, playing tool motions.
+//! An engine with its step, playing tool motions.
 
 use crate::scene::{Engine, Job, ModelKind, ModelSpec, Rate, Record, Scene, Trajectory};
 

@@ -1,5 +1,5 @@
 //! What failed replays teach: ways that do not work are left for others, and plans that end near
-//! the goal are aimed anew, by as much as they missed it.
+//! the goal are aimed again, by as much as they missed it.
 
 use crate::geometry::wrap_angle;
 use crate::plan::{Candidate, CandidatePush, Found};
@@ -12,7 +12,7 @@ use super::solving::{Solving, Tried};
 /// by less may do with another tool.
 const REFUTED: f64 = 1.25;
 
-/// A plan is aimed anew if its replay misses the goal by at most this many tolerances. Farther
+/// A plan is aimed again if its replay misses the goal by at most this many tolerances. Farther
 /// out the prediction is wrong in kind, and shifting the aim shifts something else.
 const NEAR: f64 = 4.0;
 
@@ -62,8 +62,8 @@ impl Solving<'_> {
         }
     }
 
-    /// Puts the queue of a length of plan in a new order after the plans `failed` did: first those
-    /// of them that were near, aimed anew; then other ways, of which new ones are refined where
+    /// Reorders the queue of plans of one length after the plans `failed` did not pass: first those
+    /// of them that came near, aimed again; then other ways, of which new ones are refined where
     /// too few are left; then the rest. `first` is the first plan of this length.
     pub(super) fn reconsider(
         &mut self,

@@ -28,7 +28,7 @@ const REPORTED: usize = 8;
 pub(super) struct Tried {
     pub plan: Plan,
     pub tool: Arc<Tool>,
-    /// What the plan was made from; nothing for doing nothing.
+    /// What the plan was made from; `None` for the plan without pushes.
     pub candidate: Option<Candidate>,
     /// What it was refined towards: the task's goal, or one beside it.
     pub aim: Goal,

@@ -38,7 +38,7 @@ pub struct RunManifest {
     pub weights: Option<String>,
     /// Everything else that decides the records, such as budgets and a digest of the tools.
     pub settings: Json,
-    /// Which part this is; nothing for a whole run, be it merged or made so.
+    /// Which part this is; `None` for a whole run, whether merged or made in one go.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
 }

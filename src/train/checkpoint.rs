@@ -1,4 +1,4 @@
-//! Everything that a run needs to go on to the bit, in one safetensors file.
+//! Everything that a run needs to resume bit-exactly, in one safetensors file.
 
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! Training: examples with noise, loss, optimiser, schedule, checkpoints and resumption.
 //!
-//! A run is a folder: `checkpoint.safetensors` (everything needed to go on to the bit),
+//! A run is a folder: `checkpoint.safetensors` (everything needed to resume bit-exactly),
 //! `metrics.jsonl`, `best.safetensors`, the weights with the lowest held-out rollout error, and
 //! `last.safetensors`, those of the last evaluation. Data come from `dataset`; nothing is
 //! generated or drawn here.

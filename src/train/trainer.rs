@@ -139,7 +139,7 @@ pub fn train(
     Ok(run.best.is_some().then(|| folder.join("best.safetensors")))
 }
 
-/// Starts anew, or from the folder's checkpoint.
+/// Starts from scratch, or from the folder's checkpoint.
 fn open(
     settings: &Settings,
     data: &Dataset,

@@ -1,4 +1,4 @@
-//! Small errors of the world against the task as written: what a camera and a data sheet miss by.
+//! Small errors of the world against the task as written: those of a camera and a data sheet.
 
 use std::sync::Arc;
 

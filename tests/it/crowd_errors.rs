@@ -1,4 +1,4 @@
-//! Errors on crowds and recordings: the truth has none, staying errs by the motion, and the
+//! Errors on crowds and recordings: the truth has none, staying is off by the motion, and the
 //! command writes what it measures.
 
 use std::path::Path;

@@ -78,7 +78,7 @@ fn the_order_of_objects_and_parts_does_not_matter_to_the_prior() {
 fn another_description_of_the_same_solid_changes_nothing_for_the_prior() {
     for case in cases() {
         let mut other = case.clone();
-        // Joints are given by where the objects stand, so only free ones are written anew.
+        // Joints are given by where the objects stand, so only free ones are rewritten.
         let jointed: Vec<usize> = case.scene.joints.iter().flat_map(|j| j.between).collect();
         for (k, object) in other.scene.objects.iter_mut().enumerate() {
             if jointed.contains(&k) {

@@ -89,7 +89,7 @@ pub fn show(
     form.show(session, document)
 }
 
-/// Tells a network's weights from all others; nothing for what has none.
+/// Digest of a network's weights; `None` for a model without any.
 ///
 /// # Errors
 /// If they cannot be read.

@@ -37,7 +37,7 @@ impl Table<'_> {
     }
 
     /// The closest point of object `index` at `pose` and another body, within `reach` metres;
-    /// the normal points into the object. Nothing if they pass above each other.
+    /// the normal points into the object. `None` if they pass above each other.
     pub(super) fn contact(
         &self,
         index: usize,

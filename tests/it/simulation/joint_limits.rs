@@ -87,7 +87,7 @@ fn a_joint_that_starts_at_its_limit_moves_only_the_other_way() {
 
 #[test]
 fn limits_count_from_the_stated_start_also_after_the_tool_was_lifted() {
-    // Two pushes: the world is built anew before the second, where the joint stands at its limit.
+    // Two pushes: the world is rebuilt before the second, where the joint stands at its limit.
     let axis = Vector::new(1.0, 0.0);
     let limits = Span::new(-0.02, 0.03);
     let scene = pair(JointKind::Prismatic { axis, limits: Some(limits) });
