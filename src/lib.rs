@@ -85,6 +85,8 @@ pub mod dataset;
 #[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
+pub mod export;
+#[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;

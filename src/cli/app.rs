@@ -11,7 +11,7 @@ use super::train;
 use super::{
     bench, check, completions,
     error::CliError,
-    evaluate, exit_code, generate, interrupt, predict, schema,
+    evaluate, exit_code, export, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
@@ -33,6 +33,7 @@ enum Command {
     Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
+    Export(export::ExportArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
     #[cfg(feature = "train")]
@@ -72,6 +73,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Verify(args) => verify::run(args, &session),
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
+        Command::Export(args) => export::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
         #[cfg(feature = "train")]

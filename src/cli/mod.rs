@@ -10,6 +10,7 @@ mod completions;
 mod error;
 mod evaluate;
 pub mod exit_code;
+mod export;
 mod follow;
 mod form;
 mod generate;

@@ -10,6 +10,7 @@ mod crowd_errors;
 mod crowds;
 mod dataset;
 mod evaluation;
+mod export;
 mod extremes;
 mod facade;
 mod fixtures;

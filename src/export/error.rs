@@ -1,0 +1,14 @@
+//! Why a plan cannot be exported.
+
+use thiserror::Error;
+
+/// Why a plan has no form in another program's files.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum ExportError {
+    /// MuJoCo's bodies hang together as trees; a file of ours never holds such a scene.
+    #[error("the joint between `{}` and `{}` closes a loop, which MJCF's trees of bodies cannot hold", between[0], between[1])]
+    JointLoop {
+        /// Names of the two objects.
+        between: [String; 2],
+    },
+}

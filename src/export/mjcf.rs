@@ -1,0 +1,261 @@
+//! A plan as a scene of MuJoCo (MJCF), pushes and goal included.
+//!
+//! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
+//! masses and joints, friction of every pair as the mean of two values, and a tool that nothing
+//! stops. It stands on two sliding joints, whose positions *and* velocities the script sets before
+//! every step: a `mocap` body has no velocity, so what it pushes rubs against it as if it stood
+//! still (a box pushed 10 degrees aside then slips by 35 mm of 200 instead of sticking).
+//!
+//! MuJoCo's friction is convex: an object that slides at v is pushed off the surface by mu b v,
+//! b = 2 / (d timeconst) of the friction's constraint, against (1 - d) / d of the load that holds
+//! it there, shared by its points. With the default impedance (d = 0.9) every slide is a row of
+//! hops, and what should stick to the tool slips; [`CONTACT`] keeps the second above the first up
+//! to 0.5 m/s. Free slides then end within 0.1 mm of v^2 / (2 mu g), 20 cm pushes within 0.6 mm of
+//! Coulomb's law, flush or aside, and half the step changes nothing: `tests/it/export/mujoco.rs`.
+
+use crate::asset::PlanFile;
+use crate::geometry::{Pose, Shape};
+use crate::scene::{
+    COAST_FRAME, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Object, REST_SPEED, Scene,
+    ToolMotion,
+};
+
+use super::ExportError;
+use super::forest::{Node, forest};
+use super::pairs;
+use super::xml::{Xml, numbers};
+
+/// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with the
+/// package `mujoco`, of which 3.3 and 4.0 were tried.
+pub const REPLAY_SCRIPT: &str = include_str!("replay.py");
+
+/// Of a step, seconds.
+const STEP: f64 = 2.5e-4;
+
+/// How much harder friction is than the load; what sticks then creeps by less than 0.1 mm/s.
+const FRICTION_HARDNESS: f64 = 1e5;
+
+/// How contacts give way; see above. Time constants are 4 ms of the load (16 steps: several points of
+/// a body add up, and with 4 steps some explode) and 200 ms of friction (with d = 0.03, b = 333/s).
+const CONTACT: [(&str, &str); 4] = [
+    ("condim", "3"),
+    ("solref", "0.004 1"),
+    ("solimp", "0.03 0.03 0.001"),
+    ("solreffriction", "0.2 1"),
+];
+
+/// So heavy that nothing moves it, kg.
+const TOOL_MASS: f64 = 1e5;
+
+/// How many points a cylinder stands on: MuJoCo's own contact of a cylinder and a plane throws
+/// standing cylinders over.
+pub(super) const FEET: usize = 8;
+
+/// Radius of such a point, metres.
+const FOOT: f64 = 1e-3;
+
+/// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
+///
+/// Names are `object/NAME`, `obstacle/NAME` and `tool/PART`. The pushes, the goal, our rules and
+/// the end of our own 3-D replay (where the file has one) stand under `custom`.
+///
+/// # Errors
+/// [`ExportError::JointLoop`].
+pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
+    let scene = &file.task.scene;
+    let trees = forest(scene)?;
+    let motion = file.plan.motion(&file.tool);
+    let mut xml = Xml::default();
+    xml.open("mujoco", &[("model", file.task.name.clone())]);
+    xml.comment(
+        "Written by pushplan. Metres, kilograms, seconds, radians. Play it with replay.py.",
+    );
+    settings(&mut xml);
+    custom(&mut xml, file, &motion);
+    xml.open("worldbody", &[]);
+    let table = [("name", "table".into()), ("type", "plane".into()), ("size", "0 0 1".into())];
+    xml.leaf("geom", &table);
+    for obstacle in &scene.obstacles {
+        let name = format!("obstacle/{}", obstacle.name);
+        let height = obstacle.size[2] / 2.0;
+        solid(&mut xml, name, &obstacle.shape(), &obstacle.pose, height, 0.0);
+    }
+    for tree in &trees {
+        body(&mut xml, scene, tree);
+    }
+    tool(&mut xml, &motion);
+    xml.close();
+    xml.comment("Friction is the mean of the two values; nothing else touches.");
+    xml.open("contact", &[]);
+    for pair in pairs::pairs(scene, &file.tool) {
+        let friction = numbers(&[pair.friction, pair.friction]);
+        let [a, b] = pair.geoms;
+        xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);
+    }
+    Ok(xml.finish())
+}
+
+/// Name of foot `index` of an object.
+pub(super) fn foot_name(object: &Object, index: usize) -> String {
+    format!("object/{}/foot-{}", object.name, index + 1)
+}
+
+fn settings(xml: &mut Xml) {
+    xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
+    let option = [
+        ("timestep", numbers(&[STEP])),
+        ("gravity", numbers(&[0.0, 0.0, -GRAVITY])),
+        ("cone", "elliptic".into()),
+        ("impratio", numbers(&[FRICTION_HARDNESS])),
+    ];
+    xml.open("option", &option);
+    xml.comment(
+        "Several points of a cylinder at a tool's corner would take the next face's normal.",
+    );
+    xml.leaf("flag", &[("multiccd", "disable".into())]);
+    xml.close();
+    xml.open("default", &[]);
+    xml.comment(
+        "Only the pairs at the end touch: elsewhere the larger friction of two would count.",
+    );
+    xml.leaf("geom", &[("contype", "0".into()), ("conaffinity", "0".into())]);
+    xml.leaf("pair", &CONTACT.map(|(key, value)| (key, value.to_owned())));
+    xml.leaf("joint", &[("solreflimit", "0.004 1".into())]);
+    xml.open("default", &[("class", "foot".into())]);
+    let foot = [("type", "sphere".into()), ("size", numbers(&[FOOT])), ("mass", "0".into())];
+    xml.leaf("geom", &foot);
+    xml.close();
+    xml.close();
+}
+
+/// What the script needs to know besides the scene.
+fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
+    let (goal, scene) = (&file.task.goal, &file.task.scene);
+    xml.open("custom", &[]);
+    xml.comment("x, y, tolerance; where it matters, heading and its tolerance.");
+    let mut wanted = vec![goal.position.x, goal.position.y, goal.tolerance];
+    wanted.extend(goal.heading.into_iter().flat_map(|(heading, within)| [heading, within]));
+    numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
+    xml.comment(
+        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits.",
+    );
+    for (index, stroke) in motion.strokes.iter().enumerate() {
+        let (from, to) = (stroke.from.position, stroke.to.position);
+        let settle = if stroke.settle { 1.0 } else { 0.0 };
+        let values = [from.x, from.y, to.x, to.y, stroke.duration, settle];
+        numeric(xml, &format!("push {}", index + 1), &values);
+    }
+    xml.comment("Rest is slower than this; it is looked for this often, and so many times.");
+    numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
+    let replay = file.verdict.iter().flat_map(|verdict| &verdict.evidence);
+    let mut ours = replay.filter(|e| e.engine == Engine::Spatial && e.disturbance == "nominal");
+    if let Some(evidence) = ours.next() {
+        xml.comment("Where our own 3-D replay ends: x, y, heading.");
+        for (object, pose) in scene.objects.iter().zip(&evidence.outcome.state.poses) {
+            let values = [pose.position.x, pose.position.y, pose.heading];
+            numeric(xml, &format!("3-D replay of object/{}", object.name), &values);
+        }
+    }
+    xml.close();
+}
+
+/// An object and all that hangs on it.
+fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
+    let object = &scene.objects[node.object];
+    let half = object.shape.height() / 2.0;
+    let (pose, height) = match node.parent {
+        None => (object.pose, half),
+        Some((parent, _)) => {
+            let parent = &scene.objects[parent];
+            (parent.pose.inverse() * object.pose, half - parent.shape.height() / 2.0)
+        }
+    };
+    let name = format!("object/{}", object.name);
+    let mut attributes = vec![("name", name.clone())];
+    attributes.extend(placed(&pose, height));
+    xml.open("body", &attributes);
+    match node.parent {
+        None => xml.leaf("freejoint", &[]),
+        Some((_, link)) => joint(xml, scene, node.object, link),
+    }
+    solid(xml, name, &object.shape, &Pose::default(), 0.0, object.mass);
+    if let Shape::Cylinder { radius, .. } = object.shape {
+        for index in 0..FEET {
+            let (y, x) = (std::f64::consts::TAU * index as f64 / FEET as f64).sin_cos();
+            let at = numbers(&[radius * x, radius * y, FOOT - half]);
+            let name = foot_name(object, index);
+            xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
+        }
+    }
+    for child in &node.children {
+        body(xml, scene, child);
+    }
+    xml.close();
+}
+
+/// The joint on which object `child` hangs; MJCF says fixed by saying nothing.
+fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
+    // Limits are of the second object against the first, MuJoCo's of the child.
+    let (side, sign) = if joint.between[1] == child { (1, 1.0) } else { (0, -1.0) };
+    let frame = joint.frames(&scene.objects)[side];
+    let (kind, axis, at) = match joint.kind {
+        JointKind::Fixed => return,
+        JointKind::Revolute { .. } => ("hinge", [0.0, 0.0, sign], frame.position),
+        JointKind::Prismatic { .. } => {
+            let (y, x) = frame.heading.sin_cos();
+            ("slide", [sign * x, sign * y, 0.0], frame.position)
+        }
+    };
+    let mut attributes =
+        vec![("type", kind.into()), ("pos", numbers(&[at.x, at.y, 0.0])), ("axis", numbers(&axis))];
+    if let Some(limits) = joint.limits() {
+        attributes.push(("range", numbers(&[limits.low, limits.high])));
+    }
+    xml.leaf("joint", &attributes);
+}
+
+fn tool(xml: &mut Xml, motion: &ToolMotion) {
+    // All strokes of a plan have one heading, so the tool slides and never turns.
+    let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+    let at = start.position;
+    xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
+    let mass = numbers(&[TOOL_MASS]);
+    let inertia = numbers(&[TOOL_MASS; 3]);
+    xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
+    for (name, axis, here) in [("tool x", "1 0 0", at.x), ("tool y", "0 1 0", at.y)] {
+        // `ref` makes the joint's position the tool's on the table.
+        let attributes = [
+            ("name", name.into()),
+            ("type", "slide".into()),
+            ("axis", axis.into()),
+            ("ref", numbers(&[here])),
+        ];
+        xml.leaf("joint", &attributes);
+    }
+    let turned = Pose { heading: start.heading, ..Pose::default() };
+    for part in &motion.tool.parts {
+        let height = motion.lift + part.shape.height() / 2.0;
+        solid(xml, format!("tool/{}", part.name), &part.shape, &(turned * part.pose), height, 0.0);
+    }
+    xml.close();
+}
+
+fn solid(xml: &mut Xml, name: String, shape: &Shape, pose: &Pose, height: f64, mass: f64) {
+    let (kind, size) = match *shape {
+        Shape::Cylinder { radius, height } => ("cylinder", numbers(&[radius, height / 2.0])),
+        Shape::Cuboid { size } => ("box", numbers(&size.map(|extent| extent / 2.0))),
+    };
+    let mut attributes = vec![("name", name), ("type", kind.into()), ("size", size)];
+    attributes.extend(placed(pose, height));
+    attributes.push(("mass", numbers(&[mass])));
+    xml.leaf("geom", &attributes);
+}
+
+fn placed(pose: &Pose, height: f64) -> [(&'static str, String); 2] {
+    let position = numbers(&[pose.position.x, pose.position.y, height]);
+    [("pos", position), ("euler", numbers(&[0.0, 0.0, pose.heading]))]
+}
+
+fn numeric(xml: &mut Xml, name: &str, values: &[f64]) {
+    xml.leaf("numeric", &[("name", name.into()), ("data", numbers(values))]);
+}

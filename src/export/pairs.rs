@@ -1,0 +1,50 @@
+//! What may touch what, and how it rubs.
+
+use crate::scene::{Object, Physics, Scene, Tool};
+
+use super::mjcf::{FEET, foot_name};
+
+/// Two geoms that may touch.
+pub(super) struct Pair {
+    /// Their names.
+    pub geoms: [String; 2],
+    /// Their coefficient of friction.
+    pub friction: f64,
+}
+
+/// Every pair of which at least one can move by itself.
+pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
+    let rigid = Physics::stated(scene).rigid_groups().of;
+    let mut pairs = Vec::new();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let mut add = |geom: String, with: String, friction: f64| {
+            let friction = Scene::pair_friction(object.friction, friction);
+            pairs.push(Pair { geoms: [geom, with], friction });
+        };
+        let own = || format!("object/{}", object.name);
+        for foot in feet(object) {
+            add(foot, "table".into(), scene.table_friction);
+        }
+        for obstacle in &scene.obstacles {
+            add(own(), format!("obstacle/{}", obstacle.name), obstacle.friction);
+        }
+        for part in &tool.parts {
+            add(own(), format!("tool/{}", part.name), tool.friction);
+        }
+        for (other, body) in scene.objects.iter().enumerate().skip(index + 1) {
+            if rigid[index] != rigid[other] {
+                add(own(), format!("object/{}", body.name), body.friction);
+            }
+        }
+    }
+    pairs
+}
+
+/// What an object stands on: a cuboid on its own corners.
+fn feet(object: &Object) -> Vec<String> {
+    if object.shape.is_cylinder() {
+        (0..FEET).map(|index| foot_name(object, index)).collect()
+    } else {
+        vec![format!("object/{}", object.name)]
+    }
+}

@@ -1,0 +1,147 @@
+//! What MuJoCo makes of exported plans: closed forms of friction, and the shipped tasks.
+//!
+//! Needs a Python with the package `mujoco`: the one that `PUSHPLAN_PYTHON` names, or else
+//! `python3`. Without it these tests say so and check nothing; one that is named must have it.
+
+use std::env;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use pushplan::asset::{PlanFile, ToolLibrary};
+use pushplan::export::{REPLAY_SCRIPT, mjcf};
+use pushplan::scene::{GRAVITY, PushForm, Situation, Task};
+use pushplan::solve::{Effort, Planner};
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+use super::{BAR, plan};
+
+/// Where the box of [`pushed`] stands at the start, metres.
+const START: f64 = 0.50;
+
+/// Coefficients of friction of that box: with the table, and with the bar.
+const TABLE: f64 = 0.45;
+const BAR_FRICTION: f64 = 0.4;
+
+#[test]
+fn a_box_pushed_flush_slides_on_by_v2_over_2_mu_g() {
+    for speed in [0.1, 0.5] {
+        let Some([x, y, heading]) = pushed(0.0, 0.20, speed) else { return };
+        let slide = speed * speed / (2.0 * TABLE * GRAVITY);
+        assert!((x - (START + 0.20 + slide)).abs() < 2e-4, "{speed} m/s: {x}");
+        assert!(y.abs() < 1e-4 && heading.abs() < 1e-3, "{y} {heading}");
+    }
+}
+
+#[test]
+fn a_box_pushed_aside_sticks_within_the_friction_cone_and_slips_outside() {
+    for degrees in [10.0_f64, 30.0, 45.0] {
+        let Some([x, y, heading]) = pushed(degrees, 0.20, 0.1) else { return };
+        // What the bar carries along goes where its force points: its own way if that lies
+        // within the cone, else along the cone's edge.
+        let way = degrees.to_radians().tan().min(BAR_FRICTION);
+        let ahead = 0.20 * degrees.to_radians().cos();
+        assert!((y - way * ahead).abs() < 2e-3, "{degrees} degrees: {y}, not {}", way * ahead);
+        assert!((x - (START + ahead)).abs() < 2e-3 && heading.abs() < 2e-3, "{x} {heading}");
+    }
+}
+
+#[test]
+fn three_shipped_plans_work_in_mujoco() {
+    let Some(python) = python() else { return };
+    let library = ToolLibrary::embedded().unwrap();
+    let planner = Planner::for_effort(Effort::Standard).unwrap().build();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let mut texts = Vec::new();
+    // A can behind a wall; a box that takes two pulls; a joint with limits.
+    for name in ["pull-back-behind-wall", "pull-back-twice", "drawer"] {
+        let task = Task::load(root.join(format!("{name}.yaml"))).unwrap();
+        let solution = planner.solve(&task, &library).unwrap();
+        let best = &solution.plans[0];
+        let file = PlanFile {
+            task,
+            tool: best.tool.clone(),
+            plan: best.plan.clone(),
+            model: None,
+            predicted: None,
+            verdict: best.verdict.clone(),
+        };
+        texts.push((name, mjcf(&file).unwrap()));
+    }
+    for result in replay(&python, &texts) {
+        assert_eq!(result["reached"], true, "{result:#}");
+        let difference = result["difference"].as_f64().expect("our own replay is known");
+        assert!(difference < 5e-3, "{result:#}");
+    }
+}
+
+#[test]
+fn a_tool_set_down_on_an_object_and_a_jam_fail() {
+    let Some(python) = python() else { return };
+    let on = plan(&task(""), BAR, PushForm::Placed, &[([0.45, 0.0], 0.0, 0.1, 0.1)]);
+    let wall = "{name: wall, size: [0.05, 0.30, 0.10], position: [0.60, 0.0]}";
+    let jam = plan(&task(wall), BAR, PushForm::Placed, &[([0.435, 0.0], 0.0, 0.2, 0.1)]);
+    let texts = [("on", mjcf(&on).unwrap()), ("jam", mjcf(&jam).unwrap())];
+    let results = replay(&python, &texts);
+    assert_eq!(results[0]["failure"], "jams");
+    assert_eq!(results[1]["failure"], "set down on an object");
+}
+
+fn task(obstacles: &str) -> String {
+    format!(
+        "
+scene:
+  table: {{friction: 0.5}}
+  objects:
+    - {{name: box, shape: {{cuboid: {{size: [0.08, 0.08, 0.06]}}}}, mass: 0.4, friction: 0.4, position: [{START}, 0.0]}}
+  obstacles: [{obstacles}]
+robot: {{home: [0.3, 0.0], reach: {{max: 0.9}}}}
+tools: [bar]
+goal: {{object: box, position: [0.60, 0.0], tolerance: 0.02}}
+"
+    )
+}
+
+/// Where a box ends that a bar pushes flush, moving `degrees` aside of the face's normal by
+/// `length` metres; nowhere without MuJoCo.
+fn pushed(degrees: f64, length: f64, speed: f64) -> Option<[f64; 3]> {
+    let python = python()?;
+    let start = [START - 0.06, 0.0];
+    let file = plan(&task(""), BAR, PushForm::Placed, &[(start, degrees, length, speed)]);
+    let results = replay(&python, &[("pushed", mjcf(&file).unwrap())]);
+    let pose = &results[0]["poses"]["object/box"];
+    Some([0, 1, 2].map(|k| pose[k].as_f64().expect("a number")))
+}
+
+/// What the script says of scenes, in the order of their names.
+fn replay(python: &str, scenes: &[(&str, String)]) -> Vec<Json> {
+    let folder = TempDir::new().unwrap();
+    let script = folder.path().join("replay.py");
+    fs::write(&script, REPLAY_SCRIPT).unwrap();
+    for (name, text) in scenes {
+        fs::write(folder.path().join(format!("{name}.xml")), text).unwrap();
+    }
+    let output = Command::new(python).arg(&script).arg(folder.path()).output().unwrap();
+    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    let results: Vec<Json> =
+        lines.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(results.len(), scenes.len(), "{error}");
+    let all = results.iter().all(|result| result["reached"] == true);
+    assert_eq!(output.status.code(), Some(i32::from(!all)), "{error}");
+    results
+}
+
+/// A Python that has MuJoCo.
+fn python() -> Option<String> {
+    let named = env::var("PUSHPLAN_PYTHON").ok();
+    let python = named.clone().unwrap_or_else(|| "python3".to_owned());
+    let found = Command::new(&python).args(["-c", "import mujoco"]).output();
+    if found.is_ok_and(|output| output.status.success()) {
+        return Some(python);
+    }
+    assert!(named.is_none(), "{python} cannot import mujoco");
+    eprintln!("skipped: python3 cannot import mujoco (pip install mujoco)");
+    None
+}
