@@ -147,9 +147,7 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
     }
     xml.comment("Rest is slower than this; it is looked for this often, and so many times.");
     numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
-    let replay = file.verdict.iter().flat_map(|verdict| &verdict.evidence);
-    let mut ours = replay.filter(|e| e.engine == Engine::Spatial && e.disturbance == "nominal");
-    if let Some(evidence) = ours.next() {
+    if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");
         for (object, pose) in scene.objects.iter().zip(&evidence.outcome.state.poses) {
             let values = [pose.position.x, pose.position.y, pose.heading];

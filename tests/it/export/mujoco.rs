@@ -10,7 +10,7 @@ use std::process::Command;
 
 use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
-use pushplan::scene::{GRAVITY, PushForm, Situation, Task};
+use pushplan::scene::{GRAVITY, PushForm, Task};
 use pushplan::solve::{Effort, Planner};
 use serde_json::Value as Json;
 use tempfile::TempDir;
