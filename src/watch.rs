@@ -1,5 +1,7 @@
 //! How a caller follows, and stops, a long job.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 /// Follows a long job and stops it. The one trait for everything that takes a while: solving,
 /// benchmarks, data, training. Called from many threads; whoever does not care about something
 /// leaves it out.
@@ -35,3 +37,24 @@ pub trait Watch: Sync {
 pub struct Unwatched;
 
 impl Watch for Unwatched {}
+
+/// Counts the finished units of a stage, from any number of threads.
+pub struct Count<'a> {
+    watch: &'a dyn Watch,
+    done: AtomicU64,
+    total: u64,
+}
+
+impl<'a> Count<'a> {
+    /// Tells `watch` that `done` of `total` units are finished, and every further one.
+    pub fn new(watch: &'a dyn Watch, done: usize, total: usize) -> Self {
+        let (done, total) = (done as u64, total as u64);
+        watch.progress(done, total);
+        Self { watch, done: AtomicU64::new(done), total }
+    }
+
+    /// One more is finished.
+    pub fn one(&self) {
+        self.watch.progress(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
+    }
+}

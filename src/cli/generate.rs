@@ -2,13 +2,20 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, generate,
 };
 
-use super::{error::CliError, exit_code, follow::Following, interrupt, session::Session};
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    interrupt,
+    session::Session,
+    words::{JOINTS, PRESETS, SOLIDS, words},
+};
 
 /// Make training data: random scenes, tools and pushes, simulated in the plane
 #[derive(Args, Debug)]
@@ -35,40 +42,20 @@ pub struct GenerateArgs {
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     seed: u64,
     /// Family of scenes
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = words(&PRESETS), default_value = "tools")]
     preset: Preset,
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
     /// Joints between near neighbours of a crowd [default: redrawn every 25 episodes]
-    #[arg(long, value_enum, value_name = "RULE")]
-    joints: Option<JointName>,
+    #[arg(long, value_parser = words(&JOINTS), value_name = "RULE")]
+    joints: Option<JointRule>,
     /// Solids of a crowd [default: redrawn every 25 episodes]
-    #[arg(long, value_enum, value_name = "KIND")]
-    solids: Option<SolidName>,
+    #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
+    solids: Option<Solids>,
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
-}
-
-/// [`JointRule`] with words for `--help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum JointName {
-    /// None
-    None,
-    /// Some neighbours joined rigidly
-    Fixed,
-    /// Some neighbours joined by fixed, revolute and prismatic joints
-    Mixed,
-}
-
-/// [`Solids`] with words for `--help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum SolidName {
-    /// Cylinders alone
-    Cylinders,
-    /// Cylinders and cuboids
-    Any,
 }
 
 impl GenerateArgs {
@@ -79,15 +66,8 @@ impl GenerateArgs {
             preset: self.preset,
             constraints: Constraints {
                 objects: self.objects,
-                joints: self.joints.map(|rule| match rule {
-                    JointName::None => JointRule::None,
-                    JointName::Fixed => JointRule::Fixed,
-                    JointName::Mixed => JointRule::Mixed,
-                }),
-                solids: self.solids.map(|solids| match solids {
-                    SolidName::Cylinders => Solids::Cylinders,
-                    SolidName::Any => Solids::Any,
-                }),
+                joints: self.joints,
+                solids: self.solids,
                 speed: self.speed,
             },
         }

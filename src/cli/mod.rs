@@ -27,5 +27,6 @@ mod tradeoff;
 #[cfg(feature = "train")]
 mod train;
 mod verify;
+mod words;
 
 pub use app::run;

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
 use crate::network::Weights;
 use crate::scene::ModelSpec;
 
 use super::error::CliError;
+use super::words::{OUTSIDE, words};
 
 macro_rules! help {
     ($end:literal) => {
@@ -60,14 +61,14 @@ impl From<ModelError> for CliError {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct OutsideArgs {
     /// What to do outside of a model's ranges, or where its own prediction shows that it went wrong
-    #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
-    outside: OutsideName,
+    #[arg(long, value_parser = words(&OUTSIDE), value_name = "WHAT", default_value = "warn")]
+    outside: Outside,
 }
 
 impl OutsideArgs {
     /// What was asked for.
     pub fn outside(self) -> Outside {
-        self.outside.into()
+        self.outside
     }
 
     /// Notes what was asked for among the settings of a kept run, unless it is the default: a
@@ -84,27 +85,5 @@ impl OutsideArgs {
     /// Those of [`load`].
     pub fn load(self, spec: &ModelSpec) -> Result<Arc<dyn EffectModel>, CliError> {
         Ok(Arc::new(load(spec)?.outside(self.outside())))
-    }
-}
-
-/// [`Outside`] with words for `--help`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum OutsideName {
-    /// Simulate in the plane instead
-    Simulate,
-    /// Predict and warn
-    #[default]
-    Warn,
-    /// Give no prediction; exit code 6
-    Refuse,
-}
-
-impl From<OutsideName> for Outside {
-    fn from(name: OutsideName) -> Self {
-        match name {
-            OutsideName::Simulate => Outside::Simulate,
-            OutsideName::Warn => Outside::Warn,
-            OutsideName::Refuse => Outside::Refuse,
-        }
     }
 }

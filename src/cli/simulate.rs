@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::asset::{PlanFile, TrajectoryFile};
 use crate::report::simulation_document;
-use crate::scene::{Job, Record, Task};
+use crate::scene::{Engine, Job, Record, Task};
 use crate::sim::Simulator;
 
 use super::{
@@ -17,6 +17,7 @@ use super::{
     output,
     push_argument::FORMS,
     session::Session,
+    words::{ENGINES, words},
 };
 
 /// Simulate pushes and write every frame as a trajectory file, with a picture
@@ -31,8 +32,8 @@ pub struct SimulateArgs {
     #[command(flatten)]
     library: LibraryArgs,
     /// Which engine
-    #[arg(long, value_enum, default_value_t = EngineName::Planar)]
-    engine: EngineName,
+    #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
+    engine: Engine,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
@@ -41,15 +42,6 @@ pub struct SimulateArgs {
     animate: bool,
     #[command(flatten)]
     form: Form,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum EngineName {
-    /// Top-down, fast
-    Planar,
-    /// Full 3-D
-    #[value(name = "3d")]
-    Spatial,
 }
 
 pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
@@ -68,8 +60,8 @@ pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     };
     output::prepare(&args.out)?;
     let (simulator, name) = match args.engine {
-        EngineName::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
-        EngineName::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
+        Engine::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
+        Engine::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
     };
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let trajectory = session.compute(|| simulator.run(&task.scene, &job, Record::Frames));

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::asset::{PlanFile, load_task};
 use crate::report::{plan_figures, solution_document};
@@ -19,6 +19,7 @@ use super::{
     model::{self, OutsideArgs},
     output,
     session::Session,
+    words::{EFFORTS, words},
 };
 
 /// Choose a tool and pushes for a task, verify them, write the plan and its picture
@@ -35,8 +36,8 @@ pub struct SolveArgs {
     /// The task file
     task: PathBuf,
     /// How hard to try
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortName,
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<ModelSpec>,
     #[command(flatten)]
@@ -59,7 +60,7 @@ pub struct SolveArgs {
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
-    let effort = Effort::from(args.effort);
+    let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
     output::prepare(&args.out)?;
     let planner = Planner::builder(effects)
@@ -124,29 +125,4 @@ fn write(
     let figures = plan_figures(task, best, &replays, &name, args.animate);
     written.extend(output::write_figures(&args.out, &figures)?);
     Ok(written)
-}
-
-/// [`Effort`] with words for `--help`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum EffortName {
-    /// A first look
-    Draft,
-    /// Enough for most tasks
-    #[default]
-    Standard,
-    /// Several times as long
-    Thorough,
-    /// Whatever helps, up to minutes
-    Exhaustive,
-}
-
-impl From<EffortName> for Effort {
-    fn from(name: EffortName) -> Self {
-        match name {
-            EffortName::Draft => Effort::Draft,
-            EffortName::Standard => Effort::Standard,
-            EffortName::Thorough => Effort::Thorough,
-            EffortName::Exhaustive => Effort::Exhaustive,
-        }
-    }
 }

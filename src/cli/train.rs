@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::dataset::{Dataset, DatasetConfig, Preset};
 use crate::network::Config;
@@ -12,8 +12,13 @@ use crate::train::{CheckpointError, Exposure, MetricLine, Settings, TrainError, 
 use crate::watch::Watch;
 
 use super::{
-    error::CliError, exit_code, follow::Following, generate::data_error, interrupt, output,
+    error::CliError,
+    exit_code,
+    follow::Following,
+    generate::data_error,
+    interrupt, output,
     session::Session,
+    words::{EXPOSURES, PRESETS, words},
 };
 
 /// Train the network; the same command goes on with an interrupted run
@@ -37,7 +42,7 @@ pub struct TrainArgs {
     #[arg(long, value_name = "DIR", conflicts_with_all = ["episodes", "data_seed"])]
     data: Option<PathBuf>,
     /// Family of the episodes made in memory
-    #[arg(long, value_enum, default_value_t = Preset::Mixed, conflicts_with = "data")]
+    #[arg(long, value_parser = words(&PRESETS), default_value = "mixed", conflicts_with = "data")]
     preset: Preset,
     /// Number of episodes made in memory
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
@@ -82,22 +87,11 @@ pub struct TrainArgs {
     #[arg(long, value_name = "N", default_value_t = Settings::default().noise.lead)]
     lead: usize,
     /// How that number is drawn
-    #[arg(long, value_enum, default_value_t = ExposureName::Pushforward)]
-    exposure: ExposureName,
+    #[arg(long, value_parser = words(&EXPOSURES), default_value = "pushforward")]
+    exposure: Exposure,
     /// Seed of first weights, batches and noise
     #[arg(long, value_name = "N", default_value_t = Settings::default().seed)]
     seed: u64,
-}
-
-/// [`Exposure`] with words for `--help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ExposureName {
-    /// Any number of frames, each equally often
-    Pushforward,
-    /// Scheduled sampling: each frame with a probability that rises from zero to one
-    Scheduled,
-    /// Every start is followed for all of the frames, and every one is an example
-    MultiStep,
 }
 
 /// Follows training, and draws its curves again with every line.
@@ -161,11 +155,7 @@ impl TrainArgs {
         };
         settings.noise.shift = self.noise;
         settings.noise.lead = self.lead;
-        settings.noise.exposure = match self.exposure {
-            ExposureName::Pushforward => Exposure::Pushforward,
-            ExposureName::Scheduled => Exposure::Scheduled,
-            ExposureName::MultiStep => Exposure::MultiStep,
-        };
+        settings.noise.exposure = self.exposure;
         for (name, even) in [("--width", self.width), ("--batch", self.batch)] {
             if even % 2 == 1 {
                 let message = format!("{name} must be even, not {even}");

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::scene::{Frame, Scene, Stroke, Tool, ToolMotion};
 use crate::store::{Form, Journal, RunManifest, StoreError, read_records};
-use crate::watch::Watch;
+use crate::watch::{Count, Watch};
 
 use super::config::DatasetConfig;
 use super::episode::Episode;
@@ -37,12 +36,11 @@ pub fn generate(
     config.check()?;
     let mut journal =
         Journal::open(dir, config.manifest(), Form::Frames, watch, &mut |record| index(record))?;
-    let done = AtomicU64::new(journal.done() as u64);
-    watch.progress(done.load(Ordering::Relaxed), config.episodes);
+    let count = Count::new(watch, journal.done(), config.episodes as usize);
     while (journal.done() as u64) < config.episodes {
         let first = journal.done() as u64;
         let range = first..(first + AT_ONCE).min(config.episodes);
-        let drawn = draw_range(config, range.clone(), &done, watch);
+        let drawn = draw_range(config, range.clone(), &count, watch);
         // Of what is stopped, the beginning without a hole can be kept.
         let whole = drawn.iter().map_while(Option::as_ref);
         let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;

@@ -28,7 +28,6 @@ use super::{chance::weighted, hand::HAND_RADIUS};
 /// Scenes that do not come to rest within three seconds are drawn again: 4 to 6 % of those with
 /// mixed joints, almost none of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
     /// One to three objects, sometimes obstacles, pushed by random tools of cuboids, now and

@@ -1,10 +1,8 @@
 //! A data set in memory.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::prelude::*;
 
-use crate::watch::Watch;
+use crate::watch::{Count, Watch};
 
 use super::{config::DatasetConfig, episode::Episode, error::DatasetError};
 
@@ -23,8 +21,8 @@ impl Dataset {
     /// If the configuration asks for nothing, or `watch` says to stop.
     pub fn in_memory(config: &DatasetConfig, watch: &dyn Watch) -> Result<Self, DatasetError> {
         config.check()?;
-        let done = AtomicU64::new(0);
-        let drawn = draw_range(config, 0..config.episodes, &done, watch);
+        let count = Count::new(watch, 0, config.episodes as usize);
+        let drawn = draw_range(config, 0..config.episodes, &count, watch);
         let episodes = drawn.into_iter().collect::<Option<_>>().ok_or(DatasetError::Cancelled)?;
         Ok(Self { config: config.clone(), episodes })
     }
@@ -44,12 +42,12 @@ impl Dataset {
     }
 }
 
-/// Draws the episodes of a range of indices in parallel, counting them in `done`; `None` for those
+/// Draws the episodes of a range of indices in parallel, counting them; `None` for those
 /// that were left when `watch` said to stop.
 pub(super) fn draw_range(
     config: &DatasetConfig,
     indices: std::ops::Range<u64>,
-    done: &AtomicU64,
+    count: &Count,
     watch: &dyn Watch,
 ) -> Vec<Option<Episode>> {
     indices
@@ -59,7 +57,7 @@ pub(super) fn draw_range(
                 return None;
             }
             let episode = Episode::draw(config, index);
-            watch.progress(done.fetch_add(1, Ordering::Relaxed) + 1, config.episodes);
+            count.one();
             Some(episode)
         })
         .collect()

@@ -105,6 +105,17 @@ impl Warning {
         }
     }
 
+    /// Whether `other` says the same of another object, or with another number.
+    pub fn is_like(&self, other: &Warning) -> bool {
+        match (self, other) {
+            (
+                Warning::OutsideRange { quantity, .. },
+                Warning::OutsideRange { quantity: other, .. },
+            ) => quantity == other,
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
+    }
+
     /// Whether this is about the model, so that simulating instead would help.
     pub fn questions_model(&self) -> bool {
         matches!(

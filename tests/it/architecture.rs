@@ -79,7 +79,7 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("rand", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
     ("rand_pcg", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
     ("postcard", &["dataset"]),
-    ("clap", &["dataset", "cli"]),
+    ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("indicatif", &["cli"]),
     ("ctrlc", &["cli"]),

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::watch::{Count, Watch};
 use crate::{
     dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids},
     judge::Trial,
@@ -94,9 +95,9 @@ impl CrowdSet {
     }
 
     /// The first `count` trajectories of the set under `seed`, simulated in the plane on all
-    /// threads of the current rayon pool; none for a family that is not drawn. `tick` is called
-    /// after each.
-    pub fn draw(&self, seed: u64, count: usize, tick: &(dyn Fn() + Sync)) -> Vec<Trial> {
+    /// threads of the current rayon pool; none for a family that is not drawn. `watch` is told
+    /// the trajectories done.
+    pub fn draw(&self, seed: u64, count: usize, watch: &dyn Watch) -> Vec<Trial> {
         let Some((preset, _)) = self.family.drawn() else { return Vec::new() };
         let config = DatasetConfig {
             // Sets must not share scenes either.
@@ -105,12 +106,14 @@ impl CrowdSet {
             preset,
             constraints: Constraints::test(self.objects, self.joints, self.solids),
         };
+        watch.stage("simulating");
+        let done = Count::new(watch, 0, count);
         (0..config.episodes)
             .into_par_iter()
             .map(|index| {
                 let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
                 let trial = Trial::of_frames(scene, motion, &frames);
-                tick();
+                done.one();
                 trial
             })
             .collect()

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::watch::{Count, Watch};
 use crate::{
     effect::EffectModel,
     judge::{Comparison, DriftSums, ObjectError, RelativeErrors, Trial, mean},
@@ -12,18 +13,16 @@ use super::report::{CrowdModel, CurvePoint, Phases};
 /// Steps of the curve of error by horizon: about every ten frames of a sparse trajectory.
 const CURVE_STEPS: usize = 20;
 
-/// Errors of `model` on `trials`, rolled out on all threads of the current rayon pool; `tick`
-/// is called after each trajectory.
-pub fn evaluate_crowd(
-    model: &dyn EffectModel,
-    trials: &[Trial],
-    tick: &(dyn Fn() + Sync),
-) -> CrowdModel {
+/// Errors of `model` on `trials`, rolled out on all threads of the current rayon pool;
+/// `watch` is told the trajectories done.
+pub fn evaluate_crowd(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) -> CrowdModel {
+    watch.stage(&model.spec().to_string());
+    let count = Count::new(watch, 0, trials.len());
     let judged: Vec<Judged> = trials
         .par_iter()
         .map(|trial| {
             let judged = Judged::of(&Comparison::of(model, trial));
-            tick();
+            count.one();
             judged
         })
         .collect();

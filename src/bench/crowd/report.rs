@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::watch::Watch;
 use crate::{
     effect::EffectModel,
     judge::{Drift, RelativeErrors, Trial},
@@ -32,25 +33,26 @@ pub struct CrowdReport {
 }
 
 impl CrowdReport {
-    /// Errors of `models` on the trajectories of a test set, drawn with `seed`; `tick` is called
-    /// after each rollout.
+    /// Errors of `models` on the trajectories of a test set, drawn with `seed`; `watch` is told
+    /// the rollouts of each that are done.
     pub fn of_set(
         set: &CrowdSet,
         seed: u64,
         trials: &[Trial],
         models: &[Box<dyn EffectModel>],
-        tick: &(dyn Fn() + Sync),
+        watch: &dyn Watch,
     ) -> Self {
-        let report = Self::of_recordings(set.title(), trials, models, tick);
+        let report = Self::of_recordings(set.title(), trials, models, watch);
         Self { family: set.family, set: Some(*set), seed: Some(seed), ..report }
     }
 
-    /// Errors of `models` on recorded trajectories; `tick` is called after each rollout.
+    /// Errors of `models` on recorded trajectories; `watch` is told the rollouts of each
+    /// that are done.
     pub fn of_recordings(
         title: String,
         trials: &[Trial],
         models: &[Box<dyn EffectModel>],
-        tick: &(dyn Fn() + Sync),
+        watch: &dyn Watch,
     ) -> Self {
         let frames: usize = trials.iter().map(|trial| trial.truth.len()).sum();
         Self {
@@ -60,7 +62,7 @@ impl CrowdReport {
             seed: None,
             trajectories: trials.len(),
             frames: frames as f64 / trials.len().max(1) as f64,
-            models: models.iter().map(|model| evaluate_crowd(&**model, trials, tick)).collect(),
+            models: models.iter().map(|model| evaluate_crowd(&**model, trials, watch)).collect(),
         }
     }
 }

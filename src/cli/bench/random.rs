@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde_json::json;
 
 use crate::bench::{RandomError, RandomSuite, TaskKind};
@@ -10,7 +10,8 @@ use crate::cli::{
     error::CliError,
     interrupt, model, output,
     session::Session,
-    solve::{EffortName, solve_error},
+    solve::solve_error,
+    words::{EFFORTS, KINDS, words},
 };
 use crate::report::random_document;
 use crate::solve::{Effort, Planner};
@@ -42,11 +43,11 @@ pub struct RandomArgs {
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
     /// Only tasks of this kind; may be given several times [default: all, in turn]
-    #[arg(long = "kind", value_enum, value_name = "KIND")]
-    kinds: Vec<KindName>,
+    #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
+    kinds: Vec<TaskKind>,
     /// How hard to try
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortName,
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
     /// Also write the tasks to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]
     save_tasks: Option<PathBuf>,
@@ -54,43 +55,13 @@ pub struct RandomArgs {
     keep: KeepArgs,
 }
 
-/// [`TaskKind`] with words for `--help`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum KindName {
-    /// Farther out than the end effector can go
-    Reach,
-    /// Towards the robot
-    Pull,
-    /// Sideways
-    Sweep,
-    /// Around an obstacle
-    Obstacle,
-    /// A cuboid, to a place and a heading
-    Heading,
-    /// One of two joined objects
-    Pair,
-}
-
-impl From<KindName> for TaskKind {
-    fn from(name: KindName) -> Self {
-        match name {
-            KindName::Reach => TaskKind::Reach,
-            KindName::Pull => TaskKind::Pull,
-            KindName::Sweep => TaskKind::Sweep,
-            KindName::Obstacle => TaskKind::Obstacle,
-            KindName::Heading => TaskKind::Heading,
-            KindName::Pair => TaskKind::Pair,
-        }
-    }
-}
-
 pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
-    let mut kinds: Vec<TaskKind> = args.kinds.iter().map(|kind| (*kind).into()).collect();
+    let mut kinds: Vec<TaskKind> = args.kinds.clone();
     kinds.sort_unstable();
     kinds.dedup();
     let suite = RandomSuite::new(&library, args.seed, &kinds);
-    let effort = Effort::from(args.effort);
+    let effort = args.effort;
     let spec = args.common.spec(effort);
     let planner = Planner::builder(model::load(&spec)?)
         .effort(effort)

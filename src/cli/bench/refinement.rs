@@ -9,7 +9,8 @@ use crate::cli::{
     error::CliError,
     model,
     session::Session,
-    solve::{EffortName, solve_error},
+    solve::solve_error,
+    words::{EFFORTS, words},
 };
 use crate::report::refinement_document;
 use crate::solve::{Effort, Planner, Settings};
@@ -26,8 +27,8 @@ pub struct RefinementArgs {
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: u32,
     /// How hard to try otherwise
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortName,
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
@@ -35,7 +36,7 @@ pub struct RefinementArgs {
 
 pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
-    let effort: Effort = args.effort.into();
+    let effort = args.effort;
     let model = Arc::new(model::load(&args.common.spec(effort))?);
     let settings = Settings { disturbed: 0, ..effort.settings() };
     let planner = |settings| {

@@ -11,11 +11,12 @@ use crate::cli::{
     error::CliError,
     model,
     session::Session,
-    solve::{EffortName, solve_error},
+    solve::solve_error,
+    words::{EFFORTS, words},
 };
 use crate::report::solved_document;
 use crate::scene::Task;
-use crate::solve::Planner;
+use crate::solve::{Effort, Planner};
 use crate::store::{Measured, RunManifest};
 
 use super::common::Common;
@@ -34,8 +35,8 @@ pub struct TasksArgs {
     #[arg(required = true, value_name = "TASK")]
     tasks: Vec<PathBuf>,
     /// How hard to try
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortName,
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -50,9 +51,9 @@ pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
         .iter()
         .map(|file| Ok(load_task(file, &library)?))
         .collect::<Result<Vec<Task>, CliError>>()?;
-    let spec = args.common.spec(args.effort.into());
+    let spec = args.common.spec(args.effort);
     let planner = Planner::builder(model::load(&spec)?)
-        .effort(args.effort.into())
+        .effort(args.effort)
         .seed(args.seed)
         .outside(args.common.outside.outside())
         .build();

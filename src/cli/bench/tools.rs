@@ -12,7 +12,8 @@ use crate::cli::{
     form::Form,
     model::{self, OutsideArgs},
     session::Session,
-    solve::{EffortName, solve_error},
+    solve::solve_error,
+    words::{EFFORTS, LAYOUTS, words},
 };
 use crate::report::{single_document, tools_document};
 use crate::scene::{ModelKind, ModelSpec};
@@ -34,14 +35,14 @@ pub struct ToolsArgs {
     #[command(flatten)]
     outside: OutsideArgs,
     /// Where the cylinder starts
-    #[arg(long, value_enum, default_value_t)]
-    layout: LayoutName,
+    #[arg(long, value_parser = words(&LAYOUTS), default_value = "grid")]
+    layout: Layout,
     /// The pushes
     #[arg(long, value_enum, default_value_t)]
     form: FormName,
     /// How hard the planner tries
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortName,
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
     /// Number of tasks of single pushes
     #[arg(long, value_name = "N", default_value_t = 10_000,
           value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
@@ -58,16 +59,6 @@ pub struct ToolsArgs {
     keep: KeepArgs,
 }
 
-/// Where the cylinder starts.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum LayoutName {
-    /// On the grid of the reference, where flat faces meet it nearly always
-    #[default]
-    Grid,
-    /// Anywhere within its cell of that grid
-    Scattered,
-}
-
 /// The pushes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum FormName {
@@ -78,17 +69,8 @@ enum FormName {
     Single,
 }
 
-impl From<LayoutName> for Layout {
-    fn from(name: LayoutName) -> Self {
-        match name {
-            LayoutName::Grid => Layout::Grid,
-            LayoutName::Scattered => Layout::Scattered,
-        }
-    }
-}
-
 pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
-    let layout = args.layout.into();
+    let layout = args.layout;
     let setup = ReferenceSetup::new(layout);
     if let Some(file) = &args.make_goals {
         let spinner = session.spinner("simulating");
@@ -104,7 +86,7 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
         .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
     let spec = args.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into());
     let model = args.outside.load(&spec)?;
-    let effort: Effort = args.effort.into();
+    let effort = args.effort;
     let planner = args.model.clone().unwrap_or_else(|| effort.spec());
     let planner = Planner::builder(model::load(&planner)?)
         // Disturbed replays tell how robust a plan is and change nothing in its choice.

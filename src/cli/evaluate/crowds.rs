@@ -3,6 +3,7 @@
 use crate::bench::{CrowdReport, assumed, crowd_baselines};
 use crate::cli::{
     error::CliError,
+    follow::Following,
     form::Form,
     model::{self, OutsideArgs},
     output,
@@ -11,7 +12,7 @@ use crate::cli::{
 use crate::effect::EffectModel;
 use crate::judge::Trial;
 use crate::report::{crowd_document, evaluation_document};
-use crate::scene::{Job, ModelSpec};
+use crate::scene::{Job, ModelSpec, Warning};
 
 use super::sources::{CrowdArgs, Sources};
 
@@ -40,14 +41,12 @@ impl Crowds<'_> {
             let models = self.models(false)?;
             for set in sets {
                 let count = self.args.count as usize;
-                let bar = session.bar(&set.title());
-                bar.set_length((count * (1 + models.len())) as u64);
-                let tick = || bar.inc(1);
+                let following = Following::bar(session, &set.title());
                 reports.push(session.compute(|| {
-                    let trials = set.draw(self.seed, count, &tick);
-                    CrowdReport::of_set(set, self.seed, &trials, &models, &tick)
+                    let trials = set.draw(self.seed, count, &following);
+                    CrowdReport::of_set(set, self.seed, &trials, &models, &following)
                 }));
-                bar.finish_and_clear();
+                following.finish()?;
                 self.show_newest(&reports, session)?;
             }
         }
@@ -73,25 +72,38 @@ impl Crowds<'_> {
             groups.push((format!("{} recordings", trials.len()), &trials));
         }
         for (title, trials) in groups {
-            let bar = session.bar(&title);
-            bar.set_length((trials.len() * models.len()) as u64);
-            let tick = || bar.inc(1);
+            let following = Following::bar(session, &title);
             reports.push(
-                session.compute(|| CrowdReport::of_recordings(title, trials, &models, &tick)),
+                session.compute(|| CrowdReport::of_recordings(title, trials, &models, &following)),
             );
-            bar.finish_and_clear();
+            following.finish()?;
             self.show_newest(reports, session)?;
         }
         Ok(())
     }
 
-    /// Says which recordings the model was not made for.
+    /// Says which recordings the model was not made for, one line for each kind of doubt.
     fn warn(&self, model: &dyn EffectModel, session: &Session) {
+        let mut kinds: Vec<(Warning, Vec<&str>)> = Vec::new();
         for recording in &self.sources.recordings {
             let job = Job::stated(&recording.scene, recording.replay().motion);
             for warning in model.trust(&recording.scene, &job).warnings() {
-                session.warn(&format!("{}: {warning}", recording.name));
+                match kinds.iter_mut().find(|(known, _)| known.is_like(&warning)) {
+                    Some((_, names)) if names.last() != Some(&&*recording.name) => {
+                        names.push(&recording.name);
+                    }
+                    Some(_) => {}
+                    None => kinds.push((warning, vec![&recording.name])),
+                }
             }
+        }
+        let all = self.sources.recordings.len();
+        for (warning, names) in kinds {
+            let more = match names.len() {
+                1 => String::new(),
+                count => format!(" (and the like in {} more of {all} recordings)", count - 1),
+            };
+            session.warn(&format!("{}: {warning}{more}", names[0]));
         }
     }
 

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use crate::asset::{self, Faults, Kind, TrajectoryFile};
 use crate::bench::{CrowdFamily, CrowdSet};
 use crate::cli::error::CliError;
+use crate::cli::words::{JOINTS, SOLIDS, words};
 use crate::dataset::{JointRule, Solids};
 use crate::recording::Recording;
 
@@ -21,11 +22,11 @@ pub struct CrowdArgs {
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
     /// Only sets with these joints
-    #[arg(long, value_enum, value_name = "JOINTS")]
-    joints: Option<Joints>,
+    #[arg(long, value_parser = words(&JOINTS[1..]), value_name = "JOINTS")]
+    joints: Option<JointRule>,
     /// Only sets of these solids
-    #[arg(long, value_enum, value_name = "SOLIDS")]
-    solids: Option<SolidsName>,
+    #[arg(long, value_parser = words(&SOLIDS), value_name = "SOLIDS")]
+    solids: Option<Solids>,
     /// Measure the model alone on sparse and dense scenes and recordings, without baselines
     #[arg(long)]
     pub no_baselines: bool,
@@ -33,22 +34,6 @@ pub struct CrowdArgs {
     /// horizon as SVG
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Joints {
-    /// Some neighbours joined rigidly
-    Fixed,
-    /// Some neighbours joined by joints of all kinds
-    Mixed,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum SolidsName {
-    /// Cylinders alone
-    Cylinders,
-    /// Cylinders and cuboids
-    Any,
 }
 
 /// What to measure on, read or ready to be drawn.
@@ -92,14 +77,8 @@ impl Sources {
 
 impl CrowdArgs {
     fn picks(&self, set: &CrowdSet) -> bool {
-        let joints = self.joints.is_none_or(|joints| match joints {
-            Joints::Fixed => set.joints == JointRule::Fixed,
-            Joints::Mixed => set.joints == JointRule::Mixed,
-        });
-        let solids = self.solids.is_none_or(|solids| match solids {
-            SolidsName::Cylinders => set.solids == Solids::Cylinders,
-            SolidsName::Any => set.solids == Solids::Any,
-        });
+        let joints = self.joints.is_none_or(|joints| set.joints == joints);
+        let solids = self.solids.is_none_or(|solids| set.solids == solids);
         let objects = self.objects.is_empty() || self.objects.contains(&set.objects);
         joints && solids && objects
     }

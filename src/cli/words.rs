@@ -1,0 +1,99 @@
+//! The words of the command line that stand for values, each with its line in `--help`.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+use crate::bench::{Layout, TaskKind};
+use crate::dataset::{JointRule, Preset, Solids};
+use crate::effect::Outside;
+use crate::scene::Engine;
+use crate::solve::Effort;
+#[cfg(feature = "train")]
+use crate::train::Exposure;
+
+/// Words, what they stand for, and what that means.
+pub type Words<T> = [(&'static str, T, &'static str)];
+
+/// How hard to try.
+pub static EFFORTS: [(&str, Effort, &str); 4] = [
+    ("draft", Effort::Draft, "A first look"),
+    ("standard", Effort::Standard, "Enough for most tasks"),
+    ("thorough", Effort::Thorough, "Several times as long"),
+    ("exhaustive", Effort::Exhaustive, "Whatever helps, up to minutes"),
+];
+
+/// What to do where a model should not be trusted.
+pub static OUTSIDE: [(&str, Outside, &str); 3] = [
+    ("simulate", Outside::Simulate, "Simulate in the plane instead"),
+    ("warn", Outside::Warn, "Predict and warn"),
+    ("refuse", Outside::Refuse, "Give no prediction; exit code 6"),
+];
+
+/// Simulation engines.
+pub static ENGINES: [(&str, Engine, &str); 2] =
+    [("planar", Engine::Planar, "Top-down, fast"), ("3d", Engine::Spatial, "Full 3-D")];
+
+/// Families of training scenes.
+pub static PRESETS: [(&str, Preset, &str); 5] = [
+    ("tools", Preset::Tools, "One to three objects, sometimes obstacles, pushed by random tools"),
+    ("sparse", Preset::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
+    ("sparse-line", Preset::SparseLine, "Scattered objects, one long stroke through them"),
+    ("dense", Preset::Dense, "Objects almost touching, one stroke into them"),
+    ("mixed", Preset::Mixed, "All of the above: what the shipped weights are trained on"),
+];
+
+/// Joints between near neighbours of a crowd.
+pub static JOINTS: [(&str, JointRule, &str); 3] = [
+    ("none", JointRule::None, "None"),
+    ("fixed", JointRule::Fixed, "Some neighbours joined rigidly"),
+    ("mixed", JointRule::Mixed, "Some neighbours joined by fixed, revolute and prismatic joints"),
+];
+
+/// Solids of a crowd.
+pub static SOLIDS: [(&str, Solids, &str); 2] = [
+    ("cylinders", Solids::Cylinders, "Cylinders alone"),
+    ("any", Solids::Any, "Cylinders and cuboids"),
+];
+
+/// Kinds of random tasks.
+pub static KINDS: [(&str, TaskKind, &str); 6] = [
+    ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
+    ("pull", TaskKind::Pull, "Towards the robot"),
+    ("sweep", TaskKind::Sweep, "Sideways"),
+    ("obstacle", TaskKind::Obstacle, "Around an obstacle"),
+    ("heading", TaskKind::Heading, "A cuboid, to a place and a heading"),
+    ("pair", TaskKind::Pair, "One of two joined objects"),
+];
+
+/// Where the cylinder of the tool benchmark starts.
+pub static LAYOUTS: [(&str, Layout, &str); 2] = [
+    ("grid", Layout::Grid, "On the reference's grid, where flat faces meet it nearly always"),
+    ("scattered", Layout::Scattered, "Anywhere within its cell of that grid"),
+];
+
+/// How far the network's own rollout leads up to an example.
+#[cfg(feature = "train")]
+pub static EXPOSURES: [(&str, Exposure, &str); 3] = [
+    ("pushforward", Exposure::Pushforward, "Any number of frames, each equally often"),
+    (
+        "scheduled",
+        Exposure::Scheduled,
+        "Scheduled sampling: each frame with a probability that rises from zero to one",
+    ),
+    (
+        "multi-step",
+        Exposure::MultiStep,
+        "Every start is followed for all of the frames, and every one is an example",
+    ),
+];
+
+/// Reads one of these words.
+pub fn words<T>(table: &'static Words<T>) -> impl TypedValueParser<Value = T>
+where
+    T: Clone + Send + Sync + 'static,
+{
+    let values = table.iter().map(|(word, _, meaning)| PossibleValue::new(*word).help(*meaning));
+    PossibleValuesParser::new(values).try_map(|given| {
+        let known = table.iter().find(|(word, ..)| *word == given);
+        known.map(|(_, value, _)| value.clone()).ok_or_else(|| format!("`{given}` is not known"))
+    })
+}
