@@ -20,7 +20,7 @@
 //!
 //! `f` is an [`EffectModel`]: a closed-form model of contacts (the *prior*), that prior corrected
 //! by a trained network, or a physics engine, each slower and more exact than the one before. A
-//! [`Planner`] searches candidates with it, refines the best of them by small quadratic programs
+//! [`Planner`] searches candidates with it, refines the best of them by small quadratic programmes
 //! and has them replayed in 3-D, by code that shares nothing with the search. Not finding a plan
 //! is an answer, [`PlanStatus`], and not an error.
 //!

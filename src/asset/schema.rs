@@ -14,8 +14,8 @@ metres, angles in degrees. Unknown keys are faults.";
 const TASK_RULES: &str = "A scene, a robot, the tools and pushes that it allows, and a goal. \
 Lengths are in metres, masses in kilograms, angles in degrees. The table is the plane z = 0; x \
 points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
-object and table included, is the mean of the two friction values. Up to 12 objects may hang \
-together by joints, without loops. The goal is reached when everything rests and the object's \
+object and table included, is the mean of the two friction values. Up to 12 objects may be \
+connected by joints, without loops. The goal is reached when everything rests and the object's \
 centre is within the tolerance, and its heading too where one is asked for. Unknown keys are faults.";
 
 /// The schema of tool files.

@@ -65,8 +65,8 @@ impl Routed {
         self
     }
 
-    /// The same with this done where a model should not be trusted; [`Outside::Warn`] unless said
-    /// otherwise.
+    /// The same with this done where a model should not be trusted; [`Outside::Warn`] by
+    /// default.
     pub fn outside(self, outside: Outside) -> Self {
         Self { outside, ..self }
     }

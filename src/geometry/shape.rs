@@ -41,7 +41,7 @@ impl Shape {
         }
     }
 
-    /// Whether this is a cylinder, whose heading nobody can see.
+    /// Whether this is a cylinder, whose heading cannot be seen.
     pub fn is_cylinder(&self) -> bool {
         matches!(self, Shape::Cylinder { .. })
     }

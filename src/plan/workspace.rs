@@ -13,8 +13,8 @@ use crate::scene::{Push, PushForm, State, Task, Tool};
 
 use super::{CandidatePush, Start};
 
-/// Travel of the contacting face before it meets the object, metres (the house's definition of
-/// a placed push).
+/// Travel of the contacting face before it meets the object, metres (by the definition of a
+/// placed push).
 pub const STAND_OFF: f64 = 0.005;
 
 /// A tool that comes down keeps at least this distance from every object, metres. Small against

@@ -7,8 +7,8 @@ use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
 
 use super::observed::{RecordedFrame, Recording};
 
-/// A pusher that moves less than this between frames stands still, metres and radians: what
-/// trackers tremble by.
+/// A pusher that moves less than this between frames stands still, metres and radians: the
+/// jitter of trackers.
 const STANDING: f64 = 2e-4;
 const STANDING_TURN: f64 = 4e-3;
 

@@ -1,4 +1,4 @@
-//! Disjoint sets: what hangs together by pairs.
+//! Disjoint sets: what pairs connect.
 
 /// Numbers that pairs connect, in sets that are named by their lowest member: joining towards
 /// the lower root keeps that name whatever the order of the pairs.

@@ -107,12 +107,11 @@ pub struct PushRules {
 }
 
 impl PushRules {
-    /// Travel of a push until said otherwise, metres: that of the reference benchmark.
+    /// Default travel of a push, metres: that of the reference benchmark.
     pub const LENGTH: f64 = 0.20;
-    /// Speed of a push until said otherwise, m/s: that of the reference benchmark.
+    /// Default speed of a push, m/s: that of the reference benchmark.
     pub const SPEED: f64 = 0.10;
-    /// Height of the tool above the table until said otherwise, metres: clear of it, yet below
-    /// every object.
+    /// Default height of the tool above the table, metres: clear of it, yet below every object.
     pub const LIFT: f64 = 0.002;
 }
 

@@ -35,10 +35,10 @@ pub struct Obstacle {
 }
 
 impl Object {
-    /// Mass of an object until said otherwise, kg: a full can.
+    /// Default mass of an object, kg: a full can.
     pub const MASS: f64 = 0.4;
 
-    /// Friction value of an object until said otherwise: wood or plastic.
+    /// Default friction value of an object: wood or plastic.
     pub const FRICTION: f64 = 0.4;
 
     /// An object at the origin, of mass [`Object::MASS`] and friction value [`Object::FRICTION`].
@@ -112,7 +112,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Friction value of the table and of obstacles until said otherwise: plain wood.
+    /// Default friction value of the table and of obstacles: plain wood.
     pub const FRICTION: f64 = 0.5;
 
     /// A table of friction value [`Scene::FRICTION`] with these objects.

@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::asset::Faults;
 use crate::scene::Warning;
 
-/// Why a task cannot even be tried. Not finding a plan is no error.
+/// Why a task cannot even be tried. Not finding a plan is not an error.
 #[derive(Error)]
 pub enum SolveError {
     /// The task names tools that the library does not have, or there are none.

@@ -21,11 +21,7 @@ use super::{Effort, Settings, Solution, SolveError};
 /// Finds tools and pushes for tasks, with one effect model and one effort.
 ///
 /// ```
-/// use pushplan::asset::ToolLibrary;
-/// use pushplan::effect::Simulated;
-/// use pushplan::scene::Task;
-/// use pushplan::sim::Simulator;
-/// use pushplan::solve::{Effort, PlanStatus, Planner};
+/// use pushplan::{Effort, PlanStatus, Planner, Simulated, Simulator, Task, ToolLibrary};
 ///
 /// let library = ToolLibrary::embedded()?;
 /// let task = Task::parse(include_str!("../../tasks/pull-back.yaml"), "pull-back.yaml")?;
@@ -34,7 +30,7 @@ use super::{Effort, Settings, Solution, SolveError};
 /// let solution = planner.solve(&task, &library)?;
 /// assert_eq!(solution.status, PlanStatus::Solved);
 /// println!("use the {}", solution.plans[0].plan.tool);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), pushplan::Error>(())
 /// ```
 pub struct Planner {
     model: Routed,
@@ -63,7 +59,7 @@ pub struct Prediction {
 }
 
 impl PlannerBuilder {
-    /// How hard to try; [`Effort::Standard`] unless said otherwise.
+    /// How hard to try; [`Effort::Standard`] by default.
     pub fn effort(self, effort: Effort) -> Self {
         self.settings(effort.settings())
     }
@@ -74,14 +70,14 @@ impl PlannerBuilder {
         self
     }
 
-    /// Seed of the samples of refinement and of the disturbances; 0 unless said otherwise.
+    /// Seed of the samples of refinement and of the disturbances; 0 by default.
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// What to do where the model should not be trusted; [`Outside::Warn`] unless said
-    /// otherwise.
+    /// What to do where the model should not be trusted; [`Outside::Warn`] by
+    /// default.
     pub fn outside(mut self, outside: Outside) -> Self {
         self.outside = outside;
         self

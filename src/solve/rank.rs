@@ -21,7 +21,7 @@ pub(super) fn sort(refined: &mut [Refined]) {
     refined.sort_by(|a, b| a.best.score.total_cmp(&b.best.score));
 }
 
-/// Whether the predicted error is at most the tolerance plus what the effect model misses by,
+/// Whether the predicted error is at most the tolerance plus the effect model's error,
 /// `error_p95` metres; for a heading this is taken at the object's mean radius. Where that was not
 /// measured, whatever can be carried out is.
 pub(super) fn is_worth_verifying(

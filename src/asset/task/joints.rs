@@ -259,7 +259,7 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
     }
 }
 
-/// Which objects hang together.
+/// Which objects joints connect.
 struct Groups {
     sets: DisjointSets,
     /// Whether the group that begins with an object has a joint that is not fixed.

@@ -276,7 +276,7 @@ fn parsed<T>(
     parse(value).ok_or_else(found)
 }
 
-/// The pieces between separators that do not stand in quotes, without the blanks around them.
+/// The pieces between separators that are not in quotes, trimmed of blanks.
 fn split(text: &str, separator: char) -> Vec<&str> {
     let mut inside = false;
     let pieces = text.split(|c| {
