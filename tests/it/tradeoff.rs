@@ -154,12 +154,12 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
 }
 
 #[test]
-fn the_readme_says_what_each_effort_costs_and_gives() {
+fn the_page_says_what_each_effort_costs_and_gives() {
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
     let document = tradeoff_document(&report);
     let efforts = document.sections.iter().find(|section| section.title == "Efforts");
     let table = efforts.expect("a table of efforts").table.to_markdown();
-    assert!(include_str!("../../README.md").contains(&table), "the README has not\n{table}");
+    assert!(include_str!("../../models/tradeoff.md").contains(&table), "the page has not\n{table}");
 }
 
 /// Share of the engine's cost below which a model is preferred: nearer to it the engine's smaller
@@ -231,9 +231,9 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
             assert!((said.p95 - measured.p95).abs() < 0.5e-5, "{name}: {said:?}");
         }
     }
-    // The prior's are those of the card, on four times as many pushes.
-    let card = include_str!("../../models/brdpn.md");
-    let rows: Vec<Vec<&str>> = card
+    // The prior's are those of the results, on four times as many pushes.
+    let results = include_str!("../../models/results.md");
+    let rows: Vec<Vec<&str>> = results
         .lines()
         .filter(|line| line.starts_with("| prior "))
         .map(|line| line.split('|').map(str::trim).collect())

@@ -127,7 +127,7 @@ fn damaged_plan_files_are_refused() {
       help: the file is damaged; make it again
     "#);
     assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
-    p.json:1:744: error: unknown variant `not_at_all`, expected one of `outside_training`, `not_at_rest`, `not_finite`, `toppled`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`
+    p.json:1:744: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `not_finite`, `toppled`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`
       help: the file is damaged or of another version; make it again
     "#);
     assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"
