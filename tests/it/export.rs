@@ -46,17 +46,18 @@ parts: [{name: bar, size: [0.04, 0.40, 0.05], position: [0, 0]}]
 #[test]
 fn a_scene_holds_bodies_pairs_pushes_and_goal() {
     let task = "
-name: <can> & wall
+name: can-and-wall
 scene:
   table: {friction: 0.5}
   objects:
     - {name: can, shape: {cylinder: {radius: 0.05, height: 0.10}}, mass: 0.4, friction: 0.4, position: [0.55, 0.10]}
+    - {name: box, shape: {cuboid: {size: [0.08, 0.06, 0.05]}}, mass: 0.6, friction: 0.3, position: [0.60, -0.10], yaw_deg: 90}
   obstacles:
     - {name: wall, size: [0.02, 0.30, 0.08], position: [0.80, 0.10], yaw_deg: 90, friction: 0.3}
 robot: {home: [0.3, 0.0], reach: {max: 0.9}}
 tools: [bar]
 pushes: {max_count: 2}
-goal: {object: can, position: [0.65, 0.10], tolerance: 0.02, heading_deg: 90, heading_tolerance_deg: 180}
+goal: {object: box, position: [0.65, -0.10], tolerance: 0.02, heading_deg: 90, heading_tolerance_deg: 10}
 ";
     let pushes = [([0.475, 0.1], 0.0, 0.1, 0.1), ([0.5, 0.1], 90.0, 0.05, 0.1)];
     let file = plan(task, BAR, PushForm::Placed, &pushes);
@@ -83,7 +84,7 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
 ";
     let file = plan(task, BAR, PushForm::Chained, &[([0.44, 0.0], 0.0, 0.1, 0.1)]);
     let text = mjcf(&file).unwrap();
-    let start = text.find("    <body name=\"object/a\"").expect("the first object");
+    let start = text.find("<body name=\"object/a\"").expect("the first object");
     let end = text.find("    <body name=\"tool\"").expect("the tool");
     assert_snapshot!(text[start..end]);
     // Neighbours on a joint touch each other, objects of one body do not.
