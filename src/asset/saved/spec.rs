@@ -182,6 +182,12 @@ const TRAJECTORY: Value = Value::Map(&[
         "First contacts, in order of time.",
     ),
     Key::required("warnings", WARNINGS, "What a reader should know."),
+    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
+]);
+
+const FORCE: Value = Value::Map(&[
+    Key::required("peak", UNSIGNED, "Largest force in one time step, newtons."),
+    Key::required("lasting", UNSIGNED, "Largest force that lasted three time steps, newtons."),
 ]);
 
 const FRAME: Value = Value::Map(&[
@@ -199,7 +205,11 @@ const CONTACT: Value = Value::Map(&[
         Value::Variant(&[
             Key::optional("object", INDEX, "Index of an object; no default."),
             Key::optional("obstacle", INDEX, "Index of an obstacle; no default."),
-            Key::optional("part", INDEX, "Index of a part of the tool; no default."),
+            Key::optional(
+                "part",
+                INDEX,
+                "Index of a piece of the tool's outline, in which flush parts are one; no default.",
+            ),
         ]),
         "What it touches.",
     ),

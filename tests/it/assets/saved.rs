@@ -6,8 +6,8 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Frame, ModelKind, Outcome, Plan, Push, Task,
-    Tool, Trajectory, Verdict, Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, ModelKind, Outcome, Plan, Push,
+    Task, Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -33,11 +33,11 @@ pub fn plan_file(name: &str) -> PlanFile {
         outcome: outcome.clone(),
         warnings: vec![Warning::NotAtRest { waited: 3.0 }],
         trajectory: None,
+        force: Some(Force { peak: 9.6, lasting: 0.7 }),
     };
     let disturbed =
         Evidence { disturbance: Disturbance::Disturbed { draw: 2 }, ..evidence.clone() };
-    let verdict =
-        Verdict { passed: false, evidence: vec![evidence, disturbed], robustness: Some(0.5) };
+    let verdict = Verdict::judge(Vec::new(), vec![evidence, disturbed], 0.75);
     PlanFile {
         task,
         tool,
@@ -62,6 +62,7 @@ pub fn trajectory_file(name: &str) -> TrajectoryFile {
         frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
         contacts: vec![contact],
         warnings: vec![Warning::NotFinite],
+        force: Some(Force { peak: 12.5, lasting: 0.1 + 0.2 }),
     };
     TrajectoryFile { task, tool, plan, trajectory }
 }
