@@ -17,6 +17,12 @@ pub trait EffectModel: Send + Sync {
     /// How far it is to be trusted with a job.
     fn trust(&self, scene: &Scene, job: &Job) -> Trust;
 
+    /// Whether the model takes `job` at all: [`EffectModel::trust`] without errors and warnings,
+    /// as every rollout asks for it.
+    fn takes(&self, scene: &Scene, job: &Job) -> bool {
+        self.trust(scene, job) != Trust::NotMine
+    }
+
     /// Rolls every job out until everything rests. Every trajectory says which model made it,
     /// which may be one of several that this one chooses among.
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory>;
@@ -32,6 +38,10 @@ macro_rules! models_behind {
 
             fn trust(&self, scene: &Scene, job: &Job) -> Trust {
                 (**self).trust(scene, job)
+            }
+
+            fn takes(&self, scene: &Scene, job: &Job) -> bool {
+                (**self).takes(scene, job)
             }
 
             fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {

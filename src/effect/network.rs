@@ -69,6 +69,10 @@ impl EffectModel for Network {
         Trust::Mine { error: self.error, warnings }
     }
 
+    fn takes(&self, _: &Scene, _: &Job) -> bool {
+        true
+    }
+
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map_init(

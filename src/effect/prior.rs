@@ -40,6 +40,10 @@ impl EffectModel for Prior {
         Trust::Mine { error, warnings: outside(&PRIOR_RANGES, scene, job) }
     }
 
+    fn takes(&self, _: &Scene, _: &Job) -> bool {
+        true
+    }
+
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         jobs.par_chunks(CHUNK)
             .map_init(

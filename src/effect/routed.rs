@@ -115,36 +115,44 @@ impl EffectModel for Routed {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
-        let strict = self.outside != Outside::Warn;
-        if let ([only], false) = (&self.models[..], strict) {
-            return only.rollout(scene, jobs, record);
-        }
         let work = (scene, jobs, record);
+        if self.outside == Outside::Warn {
+            if let [only] = &self.models[..] {
+                return only.rollout(scene, jobs, record);
+            }
+            // Which model it is decides alone; what speaks against it is not asked for.
+            let taker = |job| self.models.iter().position(|model| model.takes(scene, job));
+            let last = self.models.len() - 1;
+            let takers: Vec<usize> = jobs.iter().map(|job| taker(job).unwrap_or(last)).collect();
+            let mut places: Vec<Option<Trajectory>> = vec![None; jobs.len()];
+            for (index, model) in self.models.iter().enumerate() {
+                Self::fill(model, work, |k| takers[k] == index, &mut places);
+            }
+            return places.into_iter().flatten().collect();
+        }
         let routes: Vec<Route> = jobs.iter().map(|job| self.route(scene, job)).collect();
-        let inside = |k: usize| !strict || routes[k].warnings.is_empty();
+        let inside = |k: usize| routes[k].warnings.is_empty();
         let mut places: Vec<Option<Trajectory>> = vec![None; jobs.len()];
         for (index, model) in self.models.iter().enumerate() {
             let own = |k: usize| routes[k].model == index && inside(k);
             Self::fill(model, work, own, &mut places);
         }
-        if strict {
-            // What a model itself got wrong on the way counts as well.
-            let doubt = |place: &Option<Trajectory>| {
-                let warnings = place.iter().flat_map(|place| &place.warnings);
-                warnings.clone().find(|warning| warning.questions_model()).cloned()
-            };
-            let doubts: Vec<Option<Warning>> = places.iter().map(doubt).collect();
-            let out = |k: usize| !inside(k) || doubts[k].is_some();
-            if self.outside == Outside::Simulate {
-                Self::fill(&self.planar, work, out, &mut places);
-                for (place, doubt) in places.iter_mut().zip(doubts) {
-                    let doubt = doubt.map(simulated);
-                    place.iter_mut().for_each(|place| place.warnings.extend(doubt.clone()));
-                }
-            } else {
-                for k in (0..jobs.len()).filter(|&k| out(k)) {
-                    places[k] = Some(self.refused(&jobs[k], &routes[k], places[k].take()));
-                }
+        // What a model itself got wrong on the way counts as well.
+        let doubt = |place: &Option<Trajectory>| {
+            let warnings = place.iter().flat_map(|place| &place.warnings);
+            warnings.clone().find(|warning| warning.questions_model()).cloned()
+        };
+        let doubts: Vec<Option<Warning>> = places.iter().map(doubt).collect();
+        let out = |k: usize| !inside(k) || doubts[k].is_some();
+        if self.outside == Outside::Simulate {
+            Self::fill(&self.planar, work, out, &mut places);
+            for (place, doubt) in places.iter_mut().zip(doubts) {
+                let doubt = doubt.map(simulated);
+                place.iter_mut().for_each(|place| place.warnings.extend(doubt.clone()));
+            }
+        } else {
+            for k in (0..jobs.len()).filter(|&k| out(k)) {
+                places[k] = Some(self.refused(&jobs[k], &routes[k], places[k].take()));
             }
         }
         places.into_iter().flatten().collect()

@@ -20,6 +20,11 @@ impl<M: EffectModel> UpTo<M> {
         let spec = model.spec().clone().up_to(most);
         Self { model, most, spec }
     }
+
+    fn is_few(&self, scene: &Scene, job: &Job) -> bool {
+        let most = usize::from(self.most);
+        scene.objects.len() <= most || reachable(scene, job).len() <= most
+    }
 }
 
 impl<M: EffectModel> EffectModel for UpTo<M> {
@@ -28,12 +33,11 @@ impl<M: EffectModel> EffectModel for UpTo<M> {
     }
 
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
-        let most = usize::from(self.most);
-        if scene.objects.len() <= most || reachable(scene, job).len() <= most {
-            self.model.trust(scene, job)
-        } else {
-            Trust::NotMine
-        }
+        if self.is_few(scene, job) { self.model.trust(scene, job) } else { Trust::NotMine }
+    }
+
+    fn takes(&self, scene: &Scene, job: &Job) -> bool {
+        self.is_few(scene, job) && self.model.takes(scene, job)
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
