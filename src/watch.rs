@@ -1,6 +1,8 @@
 //! How a caller follows, and stops, a long job.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// Follows a long job and stops it. The one trait for everything that takes a while: solving,
 /// benchmarks, data, training. Called from many threads; whoever does not care about something
@@ -56,5 +58,67 @@ impl<'a> Count<'a> {
     /// One more is finished.
     pub fn one(&self) {
         self.watch.progress(self.done.fetch_add(1, Ordering::Relaxed) + 1, self.total);
+    }
+}
+
+/// Stops a job from another thread: whoever holds a clone can.
+///
+/// ```
+/// use pushplan::watch::{Cancel, Watch};
+///
+/// let cancel = Cancel::default();
+/// let handle = cancel.clone();
+/// std::thread::spawn(move || handle.cancel()).join().unwrap();
+/// assert!(cancel.cancelled());
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// Asks the job to stop.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Watch for Cancel {
+    fn cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Follows as another does, and stops when a time is over.
+pub struct Until<'a> {
+    watch: &'a dyn Watch,
+    end: Option<Instant>,
+}
+
+impl<'a> Until<'a> {
+    /// Like `watch`, for at most `limit` from now.
+    pub fn new(watch: &'a dyn Watch, limit: Option<Duration>) -> Self {
+        // A limit beyond what the clock can say is none.
+        Self { watch, end: limit.and_then(|limit| Instant::now().checked_add(limit)) }
+    }
+}
+
+impl Watch for Until<'_> {
+    fn stage(&self, what: &str) {
+        self.watch.stage(what);
+    }
+
+    fn progress(&self, done: u64, total: u64) {
+        self.watch.progress(done, total);
+    }
+
+    fn line(&self, text: &str) {
+        self.watch.line(text);
+    }
+
+    fn note(&self, message: &str) {
+        self.watch.note(message);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.watch.cancelled() || self.end.is_some_and(|end| Instant::now() >= end)
     }
 }

@@ -11,10 +11,12 @@ pub const USAGE: u8 = 2;
 pub const INVALID_FILE: u8 = 3;
 /// The search ended and no plan reaches the goal; the nearest one is shown.
 pub const NO_PLAN: u8 = 4;
-/// Plans reach the goal by prediction, but none of those tried does in the 3-D simulation.
+/// Plans reach the goal by prediction, but none of those tried works in simulation.
 pub const FAILED_VERIFICATION: u8 = 5;
 /// The model should not be trusted with this, and `--outside refuse` was asked for.
 pub const REFUSED: u8 = 6;
+/// The best plan works as written, but too seldom under small errors.
+pub const FRAGILE: u8 = 7;
 /// Stopped by Ctrl-C or a termination signal; what was finished is saved.
 pub const INTERRUPTED: u8 = 130;
 
@@ -28,6 +30,7 @@ Exit codes:
     4  no plan found
     5  plans were found but failed verification
     6  outside of what the model was trained on, and `--outside refuse` was given
+    7  the plan works, but too seldom under small errors of starts and frictions
   130  interrupted; finished work is saved";
 
 #[cfg(test)]
@@ -49,9 +52,10 @@ mod tests {
             NO_PLAN,
             FAILED_VERIFICATION,
             REFUSED,
+            FRAGILE,
             INTERRUPTED,
         ];
         assert_eq!(listed, all);
-        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 130]);
+        assert_eq!(all, [0, 1, 2, 3, 4, 5, 6, 7, 130]);
     }
 }

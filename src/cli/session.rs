@@ -50,6 +50,11 @@ impl Session {
         Ok(Self { pool, quiet: args.quiet })
     }
 
+    /// How many threads there are.
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
     /// Runs `work` on the session's threads.
     pub fn compute<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         self.pool.install(work)

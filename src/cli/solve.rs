@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Args;
 
@@ -31,7 +32,7 @@ use super::{
 
 Writes <out>/<task>.plan.json and <out>/<task>.svg, with --animate <out>/<task>.animated.svg, too.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
-<task>.failed.* (exit code 5).")]
+<task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
     /// The task file
     task: PathBuf,
@@ -45,6 +46,13 @@ pub struct SolveArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
+    /// says, 0.75 if nothing]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    robustness: Option<f64>,
+    /// Stop after this time and show the best plan so far
+    #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
+    time_limit: Option<Duration>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
@@ -59,15 +67,17 @@ pub struct SolveArgs {
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let task = load_task(&args.task, &library)?;
+    let mut task = load_task(&args.task, &library)?;
+    task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
     output::prepare(&args.out)?;
-    let planner = Planner::builder(effects)
-        .effort(effort)
-        .seed(args.seed)
-        .outside(args.outside.outside())
-        .build();
+    let planner =
+        Planner::builder(effects).effort(effort).seed(args.seed).outside(args.outside.outside());
+    let planner = match args.time_limit {
+        Some(limit) => planner.time_limit(limit).build(),
+        None => planner.build(),
+    };
     let following = Following::spinner(session, "solving");
     let solved = session.compute(|| planner.solve_with(&task, &library, &following));
     following.finish()?;
@@ -77,6 +87,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     }
     let (code, suffix) = match solution.status {
         PlanStatus::Solved => (exit_code::DONE, ""),
+        PlanStatus::Fragile => (exit_code::FRAGILE, ".fragile"),
         PlanStatus::NoPlan => (exit_code::NO_PLAN, ".nearest"),
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
@@ -89,6 +100,25 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
     written.map(|_| code)
+}
+
+/// A share from 0 to 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|_| "a share is a number from 0 to 1".to_owned())?;
+    match (0.0..=1.0).contains(&share) {
+        true => Ok(share),
+        false => Err("a share is from 0 to 1; three quarters are 0.75".to_owned()),
+    }
+}
+
+/// A time in seconds.
+pub fn time_limit(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
+    let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
+    match limit.is_zero() {
+        true => Err("in no time nothing can be done; half a second is 0.5".to_owned()),
+        false => Ok(limit),
+    }
 }
 
 /// What a task that cannot be tried means for the exit code.

@@ -55,13 +55,18 @@ pub static SOLIDS: [(&str, Solids, &str); 2] = [
 ];
 
 /// Kinds of random tasks.
-pub static KINDS: [(&str, TaskKind, &str); 6] = [
+pub static KINDS: [(&str, TaskKind, &str); 7] = [
     ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
     ("pull", TaskKind::Pull, "Towards the robot"),
     ("sweep", TaskKind::Sweep, "Sideways"),
     ("obstacle", TaskKind::Obstacle, "Around an obstacle"),
     ("heading", TaskKind::Heading, "A cuboid, to a place and a heading"),
     ("pair", TaskKind::Pair, "One of two joined objects"),
+    (
+        "gap",
+        TaskKind::Gap,
+        "Behind a gap that is too narrow: no plan can be right (only if asked for)",
+    ),
 ];
 
 /// Where the cylinder of the tool benchmark starts.

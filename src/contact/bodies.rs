@@ -1,7 +1,9 @@
 //! What a frame's equations need to know of every body, computed once per rollout.
 
+use std::sync::Arc;
+
 use crate::{
-    geometry::{Footprint, Pose},
+    geometry::{ContactPoint, Footprint, Pose, Rim},
     scene::{Body, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool},
 };
 
@@ -101,8 +103,10 @@ impl Groups {
 pub struct Bodies {
     /// Objects, in the order of the scene.
     pub objects: Vec<Movable>,
-    /// Parts of the tool.
+    /// The pieces of the tool's outline.
     pub parts: Vec<Given>,
+    /// Where every piece of the outline can be touched.
+    pub rims: Arc<[Option<Rim>]>,
     /// Obstacles.
     pub obstacles: Vec<Given>,
     /// Joints between objects.
@@ -127,6 +131,14 @@ pub enum Partner {
 }
 
 impl Bodies {
+    /// Whether the tool can be touched where a body meets number `part` of its pieces, which is at
+    /// `pose`: not at a seam between pieces.
+    pub fn shows(&self, part: usize, pose: &Pose, point: &ContactPoint) -> bool {
+        self.rims[self.parts[part].index].as_ref().is_none_or(|rim| {
+            rim.shows(pose.local_point(point.on_second), pose.local_vector(point.normal))
+        })
+    }
+
     /// The bodies of `scene` and a `tool` whose underside is `lift` metres above the table,
     /// under `physics`.
     pub fn new(scene: &Scene, tool: &Tool, lift: f64, physics: &Physics) -> Self {
@@ -154,17 +166,18 @@ impl Bodies {
             })
             .collect();
         let parts = tool
-            .parts
+            .outline
             .iter()
             .enumerate()
-            .map(|(index, part)| Given {
+            .map(|(index, piece)| Given {
                 index,
-                footprint: part.footprint(),
-                pose: part.pose,
+                footprint: piece.footprint(),
+                pose: piece.pose,
                 friction: tool.friction,
-                span: (lift, lift + part.shape.height()),
+                span: (lift, lift + piece.shape.height()),
             })
             .collect();
+        let rims = tool.outline.iter().map(|piece| piece.rim.clone()).collect();
         let obstacles = scene
             .obstacles
             .iter()
@@ -190,8 +203,8 @@ impl Bodies {
             .collect();
         let groups = Groups::new(scene, physics);
         let mechanisms = physics.groups(|_| true);
-        let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.parts.len());
-        Self { objects, parts, obstacles, joints, groups, mechanisms, pairs }
+        let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline.len());
+        Self { objects, parts, rims, obstacles, joints, groups, mechanisms, pairs }
     }
 
     /// The lasting id of an object and another body.

@@ -1,7 +1,7 @@
 //! Contacts: points of two bodies close enough to matter in a frame, each pair once.
 
 use crate::{
-    geometry::{Follows, Vector, contact_points, wrap_angle},
+    geometry::{ContactPoint, Follows, Vector, contact_points, wrap_angle},
     scene::{FrameStep, Scene, State},
 };
 
@@ -115,7 +115,12 @@ impl Scenery<'_> {
             }
         };
         let pair = bodies.pair(object, with);
-        for point in contact_points((&body.footprint, pose), other, reach).0.iter().flatten() {
+        let shows = |point: &&ContactPoint| match with {
+            Partner::Part(index) => bodies.shows(index, other.1, point),
+            _ => true,
+        };
+        let points = contact_points((&body.footprint, pose), other, reach).0;
+        for point in points.iter().flatten().filter(shows) {
             let (given, given_turn) = match with {
                 Partner::Part(_) if step.from != step.to => (
                     step.to.point(step.from.local_point(point.on_second)) - point.on_second,

@@ -1,6 +1,7 @@
 //! Some of the bodies at hand, under numbers of their own.
 
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 use crate::scene::State;
 
@@ -87,6 +88,7 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         bodies.objects.extend(objects.iter().map(|k| whole.objects[k.place()]));
         bodies.parts.clear();
         bodies.parts.extend(parts.iter().map(|&k| whole.parts[k]));
+        bodies.rims = Arc::clone(&whole.rims);
         bodies.obstacles.clear();
         bodies.obstacles.extend(obstacles.iter().map(|&k| whole.obstacles[k]));
         bodies.mechanisms.clear();

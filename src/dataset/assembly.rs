@@ -53,6 +53,7 @@ pub fn random_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
         description: "Random cuboids glued face to face.".to_owned(),
         grip: Pose::default(),
         friction,
+        outline: Tool::outline_of(&parts),
         parts,
         joints,
     }

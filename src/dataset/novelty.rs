@@ -86,15 +86,17 @@ mod tests {
     fn hook(mirrored: bool) -> Tool {
         let side = if mirrored { -1.0 } else { 1.0 };
         let part = |size, pose| Part::cuboid("", size, pose);
+        let parts = vec![
+            part([0.14, 0.08, 0.05], Pose::new(0.12, 0.0, 0.0)),
+            part([0.16, 0.08, 0.05], Pose::new(0.15, 0.12 * side, FRAC_PI_2)),
+        ];
         Tool {
             name: String::new(),
             description: String::new(),
             grip: Pose::default(),
             friction: 0.4,
-            parts: vec![
-                part([0.14, 0.08, 0.05], Pose::new(0.12, 0.0, 0.0)),
-                part([0.16, 0.08, 0.05], Pose::new(0.15, 0.12 * side, FRAC_PI_2)),
-            ],
+            outline: Tool::outline_of(&parts),
+            parts,
             joints: vec![[0, 1]],
         }
     }

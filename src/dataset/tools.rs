@@ -124,12 +124,14 @@ fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
 fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     let shape = Shape::Cylinder { radius: log_uniform(rng, ranges.part_radius), height: 0.05 };
     let pose = Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0);
+    let parts = vec![Part { name: "part-1".to_owned(), shape, pose }];
     Tool {
         name: "finger".to_owned(),
         description: "A single round part.".to_owned(),
         grip: Pose::default(),
         friction: uniform(rng, ranges.friction.low, ranges.friction.high),
-        parts: vec![Part::new("part-1", shape, pose)],
+        outline: Tool::outline_of(&parts),
+        parts,
         joints: Vec::new(),
     }
 }

@@ -24,6 +24,7 @@ use crate::scene::{
 use super::ExportError;
 use super::forest::{Node, forest};
 use super::pairs;
+use super::seamless::seamless;
 use super::xml::{Xml, numbers};
 
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
@@ -57,7 +58,7 @@ const FOOT: f64 = 1e-3;
 
 /// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
 ///
-/// Names are `object/NAME`, `obstacle/NAME` and `tool/PART`. The pushes, the goal, our rules and
+/// Names are `object/NAME`, `obstacle/NAME` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
 /// the end of our own 3-D replay (where the file has one) stand under `custom`.
 ///
 /// # Errors
@@ -232,9 +233,9 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
         xml.leaf("joint", &attributes);
     }
     let turned = Pose { heading: start.heading, ..Pose::default() };
-    for part in &motion.tool.parts {
-        let height = motion.lift + part.shape.height() / 2.0;
-        solid(xml, format!("tool/{}", part.name), &part.shape, &(turned * part.pose), height, 0.0);
+    for (name, shape, pose) in seamless(&motion.tool.outline) {
+        let height = motion.lift + shape.height() / 2.0;
+        solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, 0.0);
     }
     xml.close();
 }

@@ -10,6 +10,7 @@ mod error;
 mod forest;
 mod mjcf;
 mod pairs;
+mod seamless;
 mod xml;
 
 pub use error::ExportError;

@@ -28,8 +28,8 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
         for obstacle in &scene.obstacles {
             add(own(), format!("obstacle/{}", obstacle.name), obstacle.friction);
         }
-        for part in &tool.parts {
-            add(own(), format!("tool/{}", part.name), tool.friction);
+        for piece in &tool.outline {
+            add(own(), format!("tool/{}", piece.name), tool.friction);
         }
         for (other, body) in scene.objects.iter().enumerate().skip(index + 1) {
             if rigid[index] != rigid[other] {

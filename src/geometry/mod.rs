@@ -6,13 +6,17 @@
 mod cast;
 mod clearance;
 mod contact;
+mod outline;
 mod pose;
+mod rim;
 mod shape;
 mod turn;
 
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, Follows, contact_points};
+pub use outline::{Extent, OutlinePiece, outline};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
+pub use rim::Rim;
 pub use shape::{Footprint, Shape};
 pub use turn::Turn;

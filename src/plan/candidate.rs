@@ -31,6 +31,9 @@ pub struct CandidatePush {
     pub direction: f64,
     /// Travel, metres.
     pub length: f64,
+    /// How far from where it is predicted the object may stand when the push begins, metres: the
+    /// tool is set down by so much farther away. None for the first push.
+    pub room: f64,
 }
 
 /// A tool, its grip yaw and the pushes to make with it.

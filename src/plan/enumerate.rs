@@ -96,7 +96,8 @@ fn pushes(
     for direction in rules.directions.headings() {
         let mut add = |start| {
             if list.len() < MOST_PER_GRIP {
-                list.push(CandidatePush { start, direction, length: rules.length });
+                let room = node.room;
+                list.push(CandidatePush { start, direction, length: rules.length, room });
             }
         };
         if !workspace.is_placed() {
@@ -132,7 +133,7 @@ fn extend(
     mut planned: CandidatePush,
 ) -> Result<Extension, Infeasible> {
     let depth = node.candidate.as_ref().map_or(0, |c| c.pushes.len());
-    let start = workspace.place(pair, &node.state, &planned, depth, node.end)?;
+    let start = workspace.place(pair, &node.state, &planned, node.end)?;
     planned.length = workspace.free_travel(pair, start, planned.direction, planned.length)?;
     let push = Push {
         start,
@@ -140,7 +141,7 @@ fn extend(
         length: planned.length,
         speed: workspace.task.pushes.speed,
     };
-    let set_down = workspace.is_placed() || depth == 0;
+    let set_down = (workspace.is_placed() || depth == 0).then_some(planned.room);
     if let Some(reason) = workspace.margins(pair, &node.state, &push, set_down).broken() {
         return Err(reason);
     }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::effect::Job;
 use crate::scene::{Push, Record, State, ToolMotion};
 
-use super::rollouts::{final_score, single_push};
+use super::rollouts::single_push;
+use super::score::{behind, final_score, is_behind};
 use super::{Candidate, Infeasible, Margins, Rollouts, Workspace};
 
 /// A candidate with its pushes placed and its outcome predicted.
@@ -20,7 +21,8 @@ pub struct Evaluation {
     pub margins: Vec<Margins>,
     /// Predicted state at rest.
     pub outcome: State,
-    /// Predicted error in units of the tolerance; infinite if the outcome cannot count.
+    /// Predicted error in units of the tolerance; infinite if the outcome cannot count, and behind
+    /// all others (see [`super::is_behind`]) if something could not pass on the way.
     pub score: f64,
 }
 
@@ -28,6 +30,11 @@ impl Evaluation {
     /// Whether every push keeps every rule.
     pub fn is_feasible(&self) -> bool {
         self.margins.iter().all(|margins| margins.broken().is_none())
+    }
+
+    /// Whether the outcome counts, and nothing is in the way.
+    pub fn is_sound(&self) -> bool {
+        self.score.is_finite() && !is_behind(self.score)
     }
 }
 
@@ -110,7 +117,7 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
     let Some(planned) = evaluation.candidate.pushes.get(stage).copied() else { return };
     let pair = (evaluation.candidate.tool, evaluation.candidate.grip_yaw);
     let previous = evaluation.pushes.last().map(Push::end);
-    match workspace.place(pair, &evaluation.outcome, &planned, stage, previous) {
+    match workspace.place(pair, &evaluation.outcome, &planned, previous) {
         Ok(start) => {
             let push = Push {
                 start,
@@ -118,7 +125,7 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
                 length: planned.length,
                 speed: workspace.task.pushes.speed,
             };
-            let set_down = workspace.is_placed() || stage == 0;
+            let set_down = (workspace.is_placed() || stage == 0).then_some(planned.room);
             let margins = workspace.margins(pair, &evaluation.outcome, &push, set_down);
             evaluation.pushes.push(push);
             evaluation.margins.push(margins);
@@ -149,7 +156,9 @@ fn run(
         if let (Ok(evaluation), Some(frame)) = (&mut results[k], trajectory.frames.last()) {
             // A push that could not count spoils those after it.
             if evaluation.score.is_finite() {
-                evaluation.score = final_score(&workspace.task.goal, &trajectory);
+                let score = final_score(&workspace.task.goal, &trajectory);
+                let blocked = is_behind(evaluation.score);
+                evaluation.score = if blocked { behind(score) } else { score };
             }
             evaluation.outcome = frame.state.clone();
         }

@@ -14,7 +14,9 @@ mod parameters;
 mod qp;
 mod refine;
 mod rollouts;
+mod score;
 mod search;
+mod spread;
 mod statistics;
 mod workspace;
 
@@ -24,6 +26,7 @@ pub use field::Field;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
+pub use score::{bare, behind, is_behind};
 pub use search::{Found, Search, SearchSettings, kinds};
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{

@@ -19,6 +19,7 @@ use crate::watch::Watch;
 
 use super::linear::slopes;
 use super::parameters::Parameters;
+use super::score::bare;
 use super::{
     Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
     Workspace, evaluate,
@@ -82,7 +83,8 @@ struct Work {
 }
 
 /// Refines candidates that keep all rules; those that do not are left out of the answer, which
-/// is otherwise in the order given. `watch` is told the rounds done and to do.
+/// is otherwise in the order given. `watch` is told the rounds done and to do, and can stop
+/// it between rounds.
 pub fn refine(
     workspace: &Workspace,
     rollouts: &mut Rollouts,
@@ -111,6 +113,9 @@ pub fn refine(
         })
         .collect();
     for round in 0..settings.rounds {
+        if watch.cancelled() {
+            break;
+        }
         watch.progress(round as u64, settings.rounds as u64);
         let left = settings.rounds - round;
         if work.iter().filter(|w| w.is_good()).count() >= settings.enough {
@@ -134,7 +139,7 @@ impl Work {
 
     /// Whether more rounds, `left` of them, can be worth their rollouts.
     fn is_open(&self, left: usize) -> bool {
-        let score = self.refined.best.score;
+        let score = bare(self.refined.best.score);
         if self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
             return false;
         }
@@ -143,7 +148,7 @@ impl Work {
             1 => self.refined.before.score,
             n => self.refined.rounds[n - 2],
         };
-        score - HOPE * (before - score) * left as f64 <= 1.0
+        score - HOPE * (bare(before) - score) * left as f64 <= 1.0
     }
 
     /// Takes over an evaluation that is better and keeps the rules.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::effect::{EffectModel, Job};
-use crate::scene::{Goal, Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory};
+use crate::scene::{Push, Record, Situation, State, Stroke, Tool, ToolMotion, Trajectory};
 
 /// An effect model in one situation, with a count of the rollouts made.
 pub struct Rollouts<'a> {
@@ -43,20 +43,6 @@ impl<'a> Rollouts<'a> {
 /// One straight push that ends with waiting for rest.
 pub(super) fn single_push(tool: &Arc<Tool>, lift: f64, grip_yaw: f64, push: &Push) -> ToolMotion {
     ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, std::slice::from_ref(push), true)
-}
-
-/// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
-/// cannot count (not finite, not at rest).
-pub(super) fn final_score(goal: &Goal, trajectory: &Trajectory) -> f64 {
-    let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
-    let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
-    if sound { finite_score(goal, &frame.state) } else { f64::INFINITY }
-}
-
-/// Score of a state, infinite where it is not a number.
-pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
-    let score = if state.is_finite() { goal.score(state) } else { f64::NAN };
-    if score.is_nan() { f64::INFINITY } else { score }
 }
 
 /// The moving frames of a recorded single stroke and the tool's travel up to each:

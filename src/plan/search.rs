@@ -16,7 +16,9 @@ use crate::watch::Watch;
 use super::beam::{Stop, choose};
 use super::enumerate::{Extension, extensions};
 use super::field::Field;
-use super::rollouts::{final_score, finite_score, single_push, stops};
+use super::rollouts::{single_push, stops};
+use super::score::{final_score, finite_score, is_blocked};
+use super::spread::{Spread, room};
 use super::statistics::SearchStatistics;
 use super::workspace::MIN_LENGTH;
 use super::{Candidate, Rollouts, Workspace};
@@ -29,7 +31,7 @@ const BATCH: usize = 256;
 const BEAM_STRIDE: usize = 5;
 
 /// How much to search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchSettings {
     /// Lateral offsets tried per contacting face, where the task lists none.
     pub offsets: usize,
@@ -39,6 +41,8 @@ pub struct SearchSettings {
     pub rollouts: usize,
     /// Scored candidates that are kept.
     pub kept: usize,
+    /// By how much the effect model is off at times, metres: room that later pushes get for it.
+    pub model_error: f64,
 }
 
 /// A candidate as the search scored it.
@@ -47,7 +51,7 @@ pub struct Found {
     /// The candidate, its last push cut to the best stop.
     pub candidate: Candidate,
     /// Predicted error in units of the tolerance at that stop, estimated where the tool stops
-    /// early.
+    /// early; behind all others where something could not pass (see [`super::is_behind`]).
     pub score: f64,
 }
 
@@ -76,6 +80,10 @@ pub(super) struct Node {
     pub state: State,
     /// Where the end effector is then.
     pub end: Option<Vector>,
+    /// Where small errors at the start lead instead, see [`Spread`]; nothing if nobody will ask.
+    pub others: Vec<State>,
+    /// Room for where the object may stand, metres.
+    pub room: f64,
 }
 
 /// A search in progress.
@@ -86,6 +94,7 @@ pub struct Search<'a> {
     field: Field<'a>,
     grips: Vec<(usize, f64)>,
     nodes: Vec<Node>,
+    spread: Spread,
     depth: usize,
     statistics: SearchStatistics,
 }
@@ -97,7 +106,14 @@ impl<'a> Search<'a> {
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
-        let start = Node { candidate: None, state: situation.start.clone(), end: None };
+        let spread = Spread::around(situation);
+        let start = Node {
+            candidate: None,
+            state: situation.start.clone(),
+            end: None,
+            others: spread.starts().to_vec(),
+            room: 0.0,
+        };
         Self {
             workspace,
             situation: situation.clone(),
@@ -105,6 +121,7 @@ impl<'a> Search<'a> {
             field: Field::new(workspace.task),
             grips,
             nodes: vec![start],
+            spread,
             depth: 0,
             statistics: SearchStatistics::default(),
         }
@@ -126,7 +143,8 @@ impl<'a> Search<'a> {
     }
 
     /// Looks at all sequences of one push more and returns the best of them, best first.
-    /// `watch` is told the rollouts done and to do.
+    /// `watch` is told the rollouts done and to do; stopped, the best of what was rolled out are
+    /// returned.
     pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<Found> {
         let before = rollouts.used();
         let mut list = extensions(
@@ -141,6 +159,9 @@ impl<'a> Search<'a> {
         let mut found = Vec::with_capacity(list.len());
         let mut offers = Vec::new();
         for (batch, chunk) in list.chunks(BATCH).enumerate() {
+            if watch.cancelled() {
+                break;
+            }
             watch.progress((batch * BATCH) as u64, list.len() as u64);
             let jobs: Vec<_> = chunk.iter().map(|extension| self.job(extension)).collect();
             let trajectories = rollouts.run(&jobs, Record::Frames);
@@ -160,7 +181,7 @@ impl<'a> Search<'a> {
         }
         watch.progress(list.len() as u64, list.len() as u64);
         self.depth += 1;
-        if self.depth < self.workspace.task.pushes.max_count {
+        if self.depth < self.workspace.task.pushes.max_count && !watch.cancelled() {
             self.nodes = self.continue_from(rollouts, &list, offers);
         }
         self.statistics.rollouts += rollouts.used() - before;
@@ -207,7 +228,10 @@ impl<'a> Search<'a> {
         let mut offers: Vec<Stop> = Vec::new();
         let mut cheapest: Option<Stop> = None;
         let moving = stroke.frames();
-        for (frame, travel) in stops(stroke, trajectory.frames.len()) {
+        // What something could not pass is recorded up to there, and then its outcome.
+        let blocked = is_blocked(trajectory);
+        let recorded = trajectory.frames.len() - usize::from(blocked);
+        for (frame, travel) in stops(stroke, recorded) {
             if travel < MIN_LENGTH {
                 continue;
             }
@@ -233,7 +257,7 @@ impl<'a> Search<'a> {
             // The whole push is known exactly and need not be rolled out again.
             let index = if placed { trajectory.frames.len() - 1 } else { moving };
             let known = trajectory.frames.get(index).unwrap_or(last).state.clone();
-            if known.is_finite() {
+            if known.is_finite() && !blocked {
                 let rest = self.situation.coasted(&known);
                 let cost = self.field.cost(&rest);
                 let object = task.goal.object;
@@ -277,14 +301,44 @@ impl<'a> Search<'a> {
                     .map(|frame| frame.state),
             };
             if let Some(state) = state.filter(State::is_finite) {
-                nodes.push(Node {
-                    candidate: Some(self.candidate(&extension, stop.length)),
-                    state,
-                    end: Some(extension.push.end()),
-                });
+                nodes.push((
+                    extension.clone(),
+                    Node {
+                        candidate: Some(self.candidate(&extension, stop.length)),
+                        state,
+                        end: Some(extension.push.end()),
+                        others: Vec::new(),
+                        room: 0.0,
+                    },
+                ));
             }
         }
-        nodes
+        self.with_room(rollouts, nodes)
+    }
+
+    /// The nodes, each with room for where the object may stand there after its extension.
+    fn with_room(&self, rollouts: &mut Rollouts, nodes: Vec<(Extension, Node)>) -> Vec<Node> {
+        // A chained push goes on where the last one ended, wherever the object is.
+        if !self.workspace.is_placed() {
+            return nodes.into_iter().map(|(_, node)| node).collect();
+        }
+        let jobs: Vec<Job> = nodes
+            .iter()
+            .flat_map(|(extension, _)| {
+                let others = &self.nodes[extension.node].others;
+                self.spread.jobs(&self.motion(extension), others)
+            })
+            .collect();
+        let mut ends = rollouts.run(&jobs, Record::Outcome).into_iter();
+        let (scene, object) = (&self.situation.scene, self.workspace.task.goal.object);
+        let finish = |(extension, mut node): (Extension, Node)| {
+            let count = self.nodes[extension.node].others.len();
+            node.others = ends.by_ref().take(count).map(|end| end.outcome().clone()).collect();
+            let error = self.settings.model_error;
+            node.room = room(scene, object, &node.state, &node.others, error);
+            node
+        };
+        nodes.into_iter().map(finish).collect()
     }
 }
 

@@ -21,6 +21,10 @@ pub const STAND_OFF: f64 = 0.005;
 /// the stand-off, because a glancing face stands closer to a round object than it travels.
 pub const SET_DOWN_CLEARANCE: f64 = 0.001;
 
+/// Room for where an object may stand is kept on all sides up to this, metres: between the arms of
+/// a hook there is no more.
+const MOST_ASIDE: f64 = 0.01;
+
 /// A tool keeps at least this distance from obstacles, also while pushing, metres: the error of a
 /// robot arm and its calibration.
 pub const OBSTACLE_CLEARANCE: f64 = 0.005;
@@ -81,7 +85,7 @@ pub struct Margins {
     pub base: f64,
     /// Of the moving tool to the obstacles, beyond [`OBSTACLE_CLEARANCE`].
     pub obstacle: f64,
-    /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`].
+    /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
     pub object: f64,
 }
 
@@ -115,15 +119,12 @@ pub struct Workspace<'a> {
     pub task: &'a Task,
     /// The tools that candidates name by index.
     pub tools: &'a [Arc<Tool>],
-    /// Added to the stand-off of every placed push after the first, metres: where the object
-    /// then stands is itself a prediction, and the tool must not come down on it.
-    pub later_stand_off: f64,
 }
 
 impl Workspace<'_> {
     /// End-effector position at which the push of a candidate starts: for a placed push so that
-    /// the part's leading face meets the goal object after exactly the stand-off, with the
-    /// wanted offset; for a chained one `previous`, or home. `index` counts the pushes before.
+    /// the part's leading face meets the goal object after exactly the stand-off and the push's
+    /// room, with the wanted offset; for a chained one `previous`, or home.
     ///
     /// # Errors
     /// [`Infeasible::NoContact`] and [`Infeasible::OtherPartFirst`]. Reach and collisions are
@@ -133,7 +134,6 @@ impl Workspace<'_> {
         (tool, grip_yaw): (usize, f64),
         state: &State,
         push: &CandidatePush,
-        index: usize,
         previous: Option<Vector>,
     ) -> Result<Vector, Infeasible> {
         let Start::Placed { part, offset } = push.start else {
@@ -151,13 +151,13 @@ impl Workspace<'_> {
             .map(|k| (tool.parts[k].footprint(), tool.part_pose(k, &frame)))
             .collect();
         let (face, pose) = parts[part];
-        let behind = face.bounding_radius() + footprint.bounding_radius() + 2.0 * STAND_OFF;
+        let stand_off = STAND_OFF + push.room;
+        let behind = face.bounding_radius() + footprint.bounding_radius() + 2.0 * stand_off;
         let lateral = at.position.dot(&left) - offset;
         let far = left * lateral + ahead * (at.position.dot(&ahead) - behind);
         let from = Pose { position: far, heading: pose.heading };
         let travel = travel_to_contact((&face, &from), ahead, (&footprint, &at))
             .ok_or(Infeasible::NoContact)?;
-        let stand_off = self.stand_off(index);
         let start = far + ahead * (travel - stand_off) - pose.position;
         for (other, (face, pose)) in parts.iter().enumerate() {
             let there = Pose { position: pose.position + start, ..*pose };
@@ -167,11 +167,6 @@ impl Workspace<'_> {
             }
         }
         Ok(start)
-    }
-
-    /// Stand-off of the placed push number `index` (from 0), metres.
-    pub fn stand_off(&self, index: usize) -> f64 {
-        if index == 0 { STAND_OFF } else { STAND_OFF + self.later_stand_off }
     }
 
     /// Longest travel, at most `length` metres, that keeps reach and obstacle clearance.
@@ -220,14 +215,15 @@ impl Workspace<'_> {
         if free < MIN_LENGTH { Err(Infeasible::NoRoom) } else { Ok(free) }
     }
 
-    /// By how much a push keeps every rule, when it starts from `state`. A chained push after
-    /// the first (`set_down` false) begins in contact, so it has no objects to keep clear of.
+    /// By how much a push keeps every rule, when it starts from `state`. A tool that is set down
+    /// keeps clear of the objects, with the push's room as `set_down`; a chained push after the
+    /// first begins in contact.
     pub fn margins(
         &self,
         (tool, grip_yaw): (usize, f64),
         state: &State,
         push: &Push,
-        set_down: bool,
+        set_down: Option<f64>,
     ) -> Margins {
         let (task, tool) = (self.task, &*self.tools[tool]);
         let frame = |position| tool.pose(Pose { position, heading: grip_yaw });
@@ -241,12 +237,13 @@ impl Workspace<'_> {
                 let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
                 obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
             }
-            if set_down {
+            if let Some(room) = set_down {
+                let clear = SET_DOWN_CLEARANCE + room.min(MOST_ASIDE);
                 for (other, pose) in task.scene.objects.iter().zip(&state.poses) {
                     if self.meets(other.shape.height()) {
                         let still = (&other.shape.footprint(), pose);
-                        let gap = clearance((&shape, &from), still, FAR + SET_DOWN_CLEARANCE);
-                        object = object.min(gap - SET_DOWN_CLEARANCE);
+                        let gap = clearance((&shape, &from), still, FAR + clear);
+                        object = object.min(gap - clear);
                     }
                 }
             }

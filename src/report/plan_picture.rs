@@ -74,7 +74,7 @@ fn still<'a>(
         title: format!("{}: {}", task.name, plan_line(&plan.plan)),
         notes: vec![
             format!("error: {}; allowed {allowed}", errors.join(", ")),
-            format!("verdict: {}", verdict_line(plan.verdict.as_ref())),
+            format!("verdict: {}", verdict_line(task, plan.verdict.as_ref())),
         ],
         scene: &task.scene,
         goal: Some(&task.goal),

@@ -1,7 +1,7 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Vector, wrap_angle};
-use crate::scene::{Engine, Outcome, Plan, Task};
+use crate::scene::{Engine, Outcome, Plan, Task, Warning};
 
 use super::{
     document::Section,
@@ -41,10 +41,10 @@ fn push_table(plan: &Plan) -> Table {
     )
 }
 
-/// Where the goal object ends by several sources, one row each.
+/// Where the goal object ends by several sources, one row each, and what went wrong on the way.
 pub(super) fn outcome_table<'a>(
     task: &Task,
-    outcomes: impl Iterator<Item = (String, &'a Outcome)>,
+    outcomes: impl Iterator<Item = (String, &'a Outcome, Option<&'a Warning>)>,
 ) -> Table {
     let end = |outcome: &Outcome| {
         let end = outcome.state.poses.get(task.goal.object);
@@ -54,12 +54,14 @@ pub(super) fn outcome_table<'a>(
     Table::of(
         outcomes,
         &[
-            ("", Left, &|(source, _)| source.clone()),
-            ("final position", Left, &|(_, outcome)| end(outcome)),
-            ("error", Right, &|(_, outcome)| millimetres(outcome.error)),
-            ("heading error", Right, &|(_, outcome)| heading(outcome)),
-            ("reached", Left, &|(_, outcome)| {
-                if outcome.reached { "yes" } else { "no" }.to_owned()
+            ("", Left, &|(source, ..)| source.clone()),
+            ("final position", Left, &|(_, outcome, _)| end(outcome)),
+            ("error", Right, &|(_, outcome, _)| millimetres(outcome.error)),
+            ("heading error", Right, &|(_, outcome, _)| heading(outcome)),
+            ("reached", Left, &|(_, outcome, fault)| match (outcome.reached, fault) {
+                (true, _) => "yes".to_owned(),
+                (false, None) => "no".to_owned(),
+                (false, Some(fault)) => format!("no, {}", fault.word()),
             }),
         ],
     )

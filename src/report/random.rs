@@ -295,8 +295,8 @@ fn rows(runs: &[RandomRun]) -> Table {
                 vec![run.model.clone(), effort.to_owned(), record.kind.name().to_owned()];
             cells.extend(solved_cells(*index, &record.solved, seconds));
             cells.extend([
-                record.maker.tool.clone(),
-                record.maker.pushes.to_string(),
+                record.maker.as_ref().map_or(String::new(), |maker| maker.tool.clone()),
+                record.maker.as_ref().map_or(String::new(), |maker| maker.pushes.to_string()),
                 record.nothing.error.to_string(),
                 random(&|choice| choice.planar),
                 random(&|choice| choice.spatial),

@@ -168,6 +168,7 @@ pub(super) fn progress_note(run: &RunManifest, done: usize) -> Option<String> {
 pub(super) fn status(status: PlanStatus) -> &'static str {
     match status {
         PlanStatus::Solved => "solved",
+        PlanStatus::Fragile => "fragile",
         PlanStatus::NoPlan => "no plan",
         PlanStatus::FailedVerification => "failed verification",
     }

@@ -3,21 +3,25 @@
 use serde_json::json;
 
 use crate::asset::PlanFile;
-use crate::scene::{Engine, Evidence, Outcome, Task, Verdict, Warning};
+use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Task, Verdict, Warning};
 
 use super::document::{Document, Section};
+use super::number::{degrees, millimetres};
 use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, push_section};
 
 /// A plan that was replayed.
 pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
     let predicted = file.model.as_ref().zip(file.predicted.as_ref());
-    let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome));
+    let predicted = predicted.map(|(model, outcome)| (model.to_string(), outcome, None));
     let outcomes = outcome_section(&file.task, predicted, Some(verdict));
     Document {
         title: format!("{}: {}", file.task.name, plan_line(&file.plan)),
         notes: vec![format!("goal: {}", goal_line(&file.task))],
         sections: push_section(&file.plan).into_iter().chain([outcomes]).collect(),
-        json: json!({"task": file.task.name, "plan": file.plan, "verdict": verdict}),
+        json: json!({
+            "task": file.task.name, "plan": file.plan, "verdict": verdict,
+            "reason": verdict_line(&file.task, Some(verdict)),
+        }),
         ..Document::default()
     }
 }
@@ -40,37 +44,82 @@ pub fn replay_warnings(verdict: &Verdict) -> Vec<String> {
     found.into_iter().map(line).collect()
 }
 
-/// Where a plan ends by prediction (which model, where) and in both engines, and what the verdict
-/// is.
+/// Where a plan ends by prediction (which model, where, what goes wrong) and in both engines, and
+/// what the verdict is.
 pub(super) fn outcome_section(
     task: &Task,
-    predicted: Option<(String, &Outcome)>,
+    predicted: Option<(String, &Outcome, Option<&Warning>)>,
     verdict: Option<&Verdict>,
 ) -> Section {
-    let predicted = predicted.map(|(model, outcome)| (format!("predicted ({model})"), outcome));
+    let predicted =
+        predicted.map(|(model, outcome, fault)| (format!("predicted ({model})"), outcome, fault));
     let replayed = verdict.into_iter().flat_map(nominal);
-    let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome));
+    let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome, e.fault()));
+    let mut lines = vec![format!("verdict: {}", verdict_line(task, verdict))];
+    lines.extend(verdict.and_then(force_line).map(|force| format!("force: {force}")));
     Section {
         table: outcome_table(task, predicted.into_iter().chain(replayed)),
-        lines: vec![format!("verdict: {}", verdict_line(verdict))],
+        lines,
         ..Section::default()
     }
 }
 
-/// Whether it passed and what that means.
-pub(super) fn verdict_line(verdict: Option<&Verdict>) -> String {
+/// What the verdict is, and why, in a sentence.
+pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "not verified, as the prediction misses the goal".to_owned();
     };
-    let word = if verdict.passed { "passed" } else { "failed" };
-    let does = if verdict.passed { "reaches" } else { "misses" };
-    let draws: Vec<&Evidence> = verdict.disturbed(Engine::Spatial).collect();
-    let reached = draws.iter().filter(|evidence| evidence.outcome.reached).count();
-    let robust = match draws.len() {
-        0 => String::new(),
-        count => format!("; {reached} of {count} disturbed replays reach it"),
-    };
-    format!("{word}: {does} the goal in the 3-D simulation{robust}")
+    match &verdict.reason {
+        None => format!("passed: reaches the goal in both simulations{}", disturbed(verdict)),
+        Some(Reason::Forbidden(what)) => format!("failed: {what}"),
+        Some(Reason::GoesWrong { engine, fault }) => {
+            format!("failed: in the {} simulation {fault}", engine_name(*engine))
+        }
+        Some(Reason::Misses { engine, error, heading_error }) => {
+            let mut by = Vec::new();
+            if *error > task.goal.tolerance {
+                let allowed = millimetres(task.goal.tolerance);
+                by.push(format!("{} ({allowed} allowed)", millimetres(*error)));
+            }
+            if let (Some(turned), Some((_, allowed))) = (heading_error, task.goal.heading)
+                && *turned > allowed
+            {
+                by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
+            }
+            let engine = engine_name(*engine);
+            format!("failed: misses the goal by {} in the {engine} simulation", by.join(" and "))
+        }
+        Some(Reason::Fragile { engine, reached, replays, wanted }) => format!(
+            "fragile: works as written, but with small errors of starts and frictions {reached} of \
+             {replays} {} replays reach the goal ({:.0} % asked for)",
+            engine_name(*engine),
+            100.0 * wanted
+        ),
+    }
+}
+
+/// How many of the disturbed replays reach the goal.
+fn disturbed(verdict: &Verdict) -> String {
+    let mut found = Vec::new();
+    for engine in Engine::ALL {
+        let count = verdict.disturbed(engine).count();
+        let reached = verdict.disturbed(engine).filter(|e| e.outcome.reached).count();
+        if count > 0 {
+            found.push(format!("{reached} of {count} in the {} one", engine_name(engine)));
+        }
+    }
+    match found.is_empty() {
+        true => String::new(),
+        false => format!("; of the disturbed replays {} do", found.join(" and ")),
+    }
+}
+
+/// How hard the tool presses when the plan is carried out as written.
+fn force_line(verdict: &Verdict) -> Option<String> {
+    let forces: Vec<Force> = nominal(verdict).filter_map(|evidence| evidence.force).collect();
+    let most = |of: fn(&Force) -> f64| forces.iter().map(of).reduce(f64::max);
+    let (lasting, peak) = (most(|force| force.lasting)?, most(|force| force.peak)?);
+    Some(format!("about {lasting:.0} N lasting, {peak:.0} N at first touch"))
 }
 
 /// The nominal replays, planar first.
@@ -94,16 +143,14 @@ mod tests {
             disturbance: Disturbance::Nominal,
             outcome: outcome.clone(),
             warnings,
+            force: None,
             trajectory: None,
         };
-        let verdict = Verdict {
-            passed: false,
-            evidence: vec![
-                evidence(Engine::Planar, vec![landed()]),
-                evidence(Engine::Spatial, vec![landed(), toppled]),
-            ],
-            robustness: None,
-        };
+        let evidence = vec![
+            evidence(Engine::Planar, vec![landed()]),
+            evidence(Engine::Spatial, vec![landed(), toppled]),
+        ];
+        let verdict = Verdict::judge(Vec::new(), evidence, 0.75);
         insta::assert_snapshot!(replay_warnings(&verdict).join("\n"), @r"
         planar and 3-D: the tool came down on can for push 2 instead of beside it, so the plan does not work as written
         3-D: can toppled; its pose on the table means little, push lower or slower

@@ -14,40 +14,68 @@ pub(super) const DEEP: f64 = 0.002;
 /// the projection leaves where it converges.
 const LOOSE: f64 = 1e-3;
 
-/// The deepest overlap of an object that `moved` with another body, deeper than [`DEEP`]: the
-/// object, the body, and the depth in metres. The tool's frame is at `tool`.
-pub(super) fn deepest_overlap(
-    bodies: &Bodies,
-    state: &State,
-    tool: &Pose,
-    moved: impl Fn(usize) -> bool,
-) -> Option<(usize, Body, f64)> {
-    let mut deepest = None;
-    let mut meet = |object: usize, with: Body, footprint: &Footprint, pose: &Pose| {
-        let own = (&bodies.objects[object].footprint, &state.poses[object]);
-        let depth = contact_points(own, (footprint, pose), -DEEP).0[0].map(|point| -point.gap);
-        if let Some(depth) = depth
-            && deepest.is_none_or(|(_, _, most)| depth > most)
-        {
-            deepest = Some((object, with, depth));
+/// An object, the body it is inside of, and how deep, metres.
+pub(super) type Overlap = (usize, Body, f64);
+
+/// The deepest overlaps of a rollout.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Depths {
+    /// Of any two bodies, deeper than [`DEEP`].
+    any: Option<Overlap>,
+    /// Of bodies that jam so deep in each other, see [`Body::most_overlap`].
+    pub jam: Option<Overlap>,
+}
+
+impl Depths {
+    /// Notes an overlap; whether it is the first that jams.
+    pub fn note(&mut self, object: usize, with: Body, depth: f64) -> bool {
+        let deeper = |known: Option<Overlap>| known.is_none_or(|(_, _, most)| depth > most);
+        if depth > DEEP && deeper(self.any) {
+            self.any = Some((object, with, depth));
         }
-    };
-    for (object, body) in bodies.objects.iter().enumerate().filter(|(k, _)| moved(*k)) {
-        for (k, other) in bodies.objects.iter().enumerate() {
-            if bodies.mechanisms[k] != bodies.mechanisms[object] && !(moved(k) && k < object) {
-                meet(object, Body::Object(k), &other.footprint, &state.poses[k]);
+        let first = self.jam.is_none();
+        let jams = depth > with.most_overlap() && deeper(self.jam);
+        if jams {
+            self.jam = Some((object, with, depth));
+        }
+        jams && first
+    }
+
+    /// Notes the overlaps of objects that `moved`. The tool's frame is at `tool`.
+    pub fn note_all(
+        &mut self,
+        bodies: &Bodies,
+        state: &State,
+        tool: &Pose,
+        moved: impl Fn(usize) -> bool,
+    ) {
+        let mut meet = |object: usize, with: Body, footprint: &Footprint, pose: &Pose| {
+            let own = (&bodies.objects[object].footprint, &state.poses[object]);
+            if let Some(point) = contact_points(own, (footprint, pose), -DEEP).0[0] {
+                self.note(object, with, -point.gap);
             }
-        }
-        for (k, obstacle) in bodies.obstacles.iter().enumerate() {
-            meet(object, Body::Obstacle(k), &obstacle.footprint, &obstacle.pose);
-        }
-        for (k, part) in bodies.parts.iter().enumerate() {
-            if part.span.0 < body.height {
-                meet(object, Body::Part(k), &part.footprint, &(*tool * part.pose));
+        };
+        for (object, body) in bodies.objects.iter().enumerate().filter(|(k, _)| moved(*k)) {
+            for (k, other) in bodies.objects.iter().enumerate() {
+                if bodies.mechanisms[k] != bodies.mechanisms[object] && !(moved(k) && k < object) {
+                    meet(object, Body::Object(k), &other.footprint, &state.poses[k]);
+                }
+            }
+            for (k, obstacle) in bodies.obstacles.iter().enumerate() {
+                meet(object, Body::Obstacle(k), &obstacle.footprint, &obstacle.pose);
+            }
+            for (k, part) in bodies.parts.iter().enumerate() {
+                if part.span.0 < body.height {
+                    meet(object, Body::Part(k), &part.footprint, &(*tool * part.pose));
+                }
             }
         }
     }
-    deepest
+
+    /// The deepest overlap, where it is not that of bodies that jam.
+    pub fn sunk(&self) -> Option<Overlap> {
+        self.any.filter(|any| self.jam != Some(*any))
+    }
 }
 
 /// The joint farthest from what it allows, farther than [`LOOSE`], with an object that `moved`:

@@ -10,7 +10,7 @@ use crate::{
 };
 
 use super::{
-    doubt::{DEEP, deepest_overlap, loosest_joint},
+    doubt::{Depths, loosest_joint},
     integrate::integrate,
     pressing::Pressing,
     reach::{Course, Listed, Reach},
@@ -56,8 +56,10 @@ pub(super) struct Run<'a> {
     step: Option<FrameStep>,
     /// How many of the stroke's frames it stands for.
     span: usize,
-    /// The deepest overlap met on the way, see [`deepest_overlap`].
-    deepest: Option<(usize, Body, f64)>,
+    /// How deep bodies came into each other on the way.
+    depths: Depths,
+    /// Whether something could not pass: no frames are kept any more but the last.
+    blocked: bool,
     pressing: Pressing,
     work: Work,
     trajectory: Trajectory,
@@ -90,7 +92,8 @@ impl<'a> Run<'a> {
             axis: Vector::x(),
             step: None,
             span: 1,
-            deepest: None,
+            depths: Depths::default(),
+            blocked: false,
             pressing: Pressing::default(),
             work: Work { rollouts: 1, ..Work::default() },
             trajectory: Trajectory::new(by.clone()),
@@ -194,12 +197,16 @@ impl<'a> Run<'a> {
             Body::Obstacle(k) => obstacles[k].name.clone(),
             Body::Part(k) => {
                 let tool = &self.job.motion.tool;
-                format!("{}/{}", tool.name, tool.parts[k].name)
+                format!("{}/{}", tool.name, tool.outline[k].name)
             }
         };
-        let end = deepest_overlap(self.whole, &self.state, &stroke.to, moved);
-        let deepest = [self.deepest, end].into_iter().flatten().max_by(|a, b| a.2.total_cmp(&b.2));
-        let overlap = deepest.map(|(object, with, depth)| Warning::Overlap {
+        self.depths.note_all(self.whole, &self.state, &stroke.to, moved);
+        let jam = self.depths.jam.map(|(object, with, depth)| Warning::Jammed {
+            object: objects[object].name.clone(),
+            against: name(with),
+            depth,
+        });
+        let overlap = self.depths.sunk().map(|(object, with, depth)| Warning::Overlap {
             between: [name(Body::Object(object)), name(with)],
             depth,
         });
@@ -213,6 +220,7 @@ impl<'a> Run<'a> {
             between: between.map(name),
         });
         self.trajectory.warnings.extend(pressed);
+        self.trajectory.warnings.extend(jam);
         self.trajectory.warnings.extend(overlap);
         self.trajectory.warnings.extend(loose);
     }
@@ -250,11 +258,16 @@ impl<'a> Run<'a> {
     /// Counts the frame of `step` as done and records it.
     fn end_frame(&mut self, step: &FrameStep) {
         self.frame += self.span;
-        if self.record == Record::Frames && self.span > 1 {
+        if self.record == Record::Frames && self.span > 1 && !self.blocked {
             self.keep_between(step);
         }
         self.time += step.duration;
-        if self.record == Record::Frames {
+        if let Some(object) = self.scene.off_table(&self.state).filter(|_| !self.blocked) {
+            let object = self.scene.objects[object].name.clone();
+            self.trajectory.warnings.push(Warning::OffTable { object });
+            self.blocked = true;
+        }
+        if self.record == Record::Frames && !self.blocked {
             self.keep_frame(step.to);
         }
     }
@@ -311,8 +324,12 @@ impl<'a> Run<'a> {
     /// Notes that `object` meets another body.
     fn meet(&mut self, object: usize, with: Body, depth: f64) {
         // What the tool is set down on, or what overlaps at the start, is no fault of the model.
-        if self.frame > 0 && depth > self.deepest.map_or(DEEP, |(_, _, most)| most) {
-            self.deepest = Some((object, with, depth));
+        if self.frame > 0 && self.depths.note(object, with, depth) {
+            // They were so deep already where the last frame ended.
+            if self.trajectory.frames.len() > 1 {
+                self.trajectory.frames.pop();
+            }
+            self.blocked = true;
         }
         if self.record != Record::Frames {
             return;
@@ -327,7 +344,7 @@ impl<'a> Run<'a> {
     /// What became of the job.
     pub fn finish(mut self) -> Trajectory {
         self.doubt();
-        if self.trajectory.frames.is_empty() {
+        if self.trajectory.frames.is_empty() || self.blocked {
             self.stroke = self.job.motion.strokes.len().saturating_sub(1);
             let tool = self.job.motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default();
             self.keep_frame(tool);

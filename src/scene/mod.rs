@@ -14,6 +14,7 @@ mod job;
 mod joint;
 mod model;
 mod motion;
+mod outline;
 mod physics;
 mod plan;
 mod quantity;
@@ -25,6 +26,7 @@ mod state;
 mod task;
 mod tool;
 mod trajectory;
+mod verdict;
 mod warning;
 mod world;
 
@@ -38,8 +40,9 @@ pub use model::{
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
+pub use outline::Piece;
 pub use physics::Physics;
-pub use plan::{Disturbance, Engine, Evidence, Outcome, Plan, Verdict};
+pub use plan::{Engine, Outcome, Plan};
 pub use quantity::Quantity;
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 pub use separation::{JOINT_ARM, Misfit, Separation};
@@ -48,6 +51,7 @@ pub use situation::Situation;
 pub use state::{State, Velocity};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
-pub use trajectory::{Body, Contact, Frame, Record, TOUCHING, Trajectory};
+pub use trajectory::{Body, Contact, Force, Frame, Record, TOUCHING, Trajectory};
+pub use verdict::{Disturbance, Evidence, Reason, Verdict};
 pub use warning::Warning;
-pub use world::{GRAVITY, Object, Obstacle, Scene};
+pub use world::{GRAVITY, Object, Obstacle, Scene, TableTop};

@@ -1,10 +1,10 @@
-//! A plan and the evidence that it works.
+//! A plan, and where it ends.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Goal, Push, PushForm, State, Tool, ToolMotion, Trajectory, Warning};
+use super::{Goal, Push, PushForm, State, Tool, ToolMotion, Trajectory};
 
 /// A physics engine of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -69,63 +69,5 @@ impl Outcome {
             reached: sound && state.is_finite() && goal.reached(&state),
             state,
         }
-    }
-}
-
-/// What a replay changes against the task as written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Disturbance {
-    /// Nothing.
-    Nominal,
-    /// Where objects start and every friction value, by little and at random.
-    Disturbed {
-        /// Number of the draw, from 1; the same for the same seed in both engines.
-        draw: usize,
-    },
-}
-
-/// One replay of a plan in an engine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Evidence {
-    /// Which engine.
-    pub engine: Engine,
-    /// What was changed against the task as written.
-    pub disturbance: Disturbance,
-    /// Where it ended.
-    pub outcome: Outcome,
-    /// What happened on the way that a reader should know.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<Warning>,
-    /// What happened frame by frame, of a nominal replay. Not written to files: replaying the
-    /// plan brings it back.
-    #[serde(skip)]
-    pub trajectory: Option<Trajectory>,
-}
-
-/// Whether a plan works, with what shows it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
-    /// Passed: the nominal replay in the 3-D engine reaches the goal at rest.
-    pub passed: bool,
-    /// All replays, nominal ones first.
-    pub evidence: Vec<Evidence>,
-    /// Share of the disturbed 3-D replays that reach the goal, 0 to 1; `None` if none was made.
-    pub robustness: Option<f64>,
-}
-
-impl Verdict {
-    /// The replay as written in an engine.
-    pub fn nominal(&self, engine: Engine) -> Option<&Evidence> {
-        self.of(engine).find(|evidence| evidence.disturbance == Disturbance::Nominal)
-    }
-
-    /// The disturbed replays in an engine, in the order of their draws.
-    pub fn disturbed(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
-        self.of(engine).filter(|evidence| evidence.disturbance != Disturbance::Nominal)
-    }
-
-    fn of(&self, engine: Engine) -> impl Iterator<Item = &Evidence> {
-        self.evidence.iter().filter(move |evidence| evidence.engine == engine)
     }
 }

@@ -16,13 +16,17 @@ pub struct Robot {
     pub reach_min: f64,
     /// Largest distance of the end effector from the base, metres.
     pub reach_max: f64,
+    /// Largest force that the arm can press with for longer than a blow, newtons; any if nothing
+    /// is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_force: Option<f64>,
 }
 
 impl Robot {
     /// A robot whose end effector reaches from `min` to `max` metres from the world's origin, with
     /// its home `min` metres in front of it.
     pub fn reaching(min: f64, max: f64) -> Self {
-        Self { home: Vector::new(min, 0.0), reach_min: min, reach_max: max }
+        Self { home: Vector::new(min, 0.0), reach_min: min, reach_max: max, max_force: None }
     }
 
     /// Whether the end effector can stand at `position` (metres).
@@ -204,6 +208,13 @@ pub struct Task {
     pub pushes: PushRules,
     /// What to reach.
     pub goal: Goal,
+    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
+    pub robustness: f64,
+}
+
+impl Task {
+    /// The robustness of a task that does not state one.
+    pub const ROBUSTNESS: f64 = 0.75;
 }
 
 impl Task {
@@ -228,12 +239,18 @@ impl Task {
             tools: ToolChoice::All,
             pushes: PushRules::default(),
             goal,
+            robustness: Self::ROBUSTNESS,
         }
     }
 
     /// The task with a choice of these tools only, by name.
     pub fn choosing<N: Into<String>>(self, tools: impl IntoIterator<Item = N>) -> Self {
         Self { tools: ToolChoice::Named(tools.into_iter().map(Into::into).collect()), ..self }
+    }
+
+    /// The task with plans that work in this share of the disturbed replays, 0 to 1.
+    pub fn robust(self, share: f64) -> Self {
+        Self { robustness: share, ..self }
     }
 
     /// The task with other rules for pushes.

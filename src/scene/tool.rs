@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 
 use super::DisjointSets;
+use super::outline::{Piece, pieces};
 
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
@@ -44,6 +45,7 @@ impl Part {
 
 /// A rigid assembly of solids, moved by the end effector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Stated")]
 pub struct Tool {
     /// Unique within a library.
     pub name: String,
@@ -53,10 +55,33 @@ pub struct Tool {
     pub grip: Pose,
     /// Friction value.
     pub friction: f64,
-    /// At least one.
+    /// At least one, as written.
     pub parts: Vec<Part>,
+    /// The same without the seams between flush parts: what bodies touch, see
+    /// [`Tool::outline_of`].
+    #[serde(skip_serializing)]
+    pub outline: Vec<Piece>,
     /// Pairs of parts joined by a fixed joint; together they make one rigid piece.
     pub joints: Vec<[usize; 2]>,
+}
+
+/// A tool as it is written down: its outline follows from its parts.
+#[derive(Deserialize)]
+struct Stated {
+    name: String,
+    description: String,
+    grip: Pose,
+    friction: f64,
+    parts: Vec<Part>,
+    joints: Vec<[usize; 2]>,
+}
+
+impl From<Stated> for Tool {
+    fn from(stated: Stated) -> Self {
+        let Stated { name, description, grip, friction, parts, joints } = stated;
+        let outline = Self::outline_of(&parts);
+        Self { name, description, grip, friction, parts, outline, joints }
+    }
 }
 
 /// Why parts do not make a tool.
@@ -155,9 +180,15 @@ impl Tool {
             description: String::new(),
             grip: Pose::default(),
             friction: Self::FRICTION,
+            outline: Self::outline_of(&parts),
             parts,
             joints,
         })
+    }
+
+    /// The outline of parts that are joined into one piece.
+    pub fn outline_of(parts: &[Part]) -> Vec<Piece> {
+        pieces(parts)
     }
 
     /// The tool held with the end effector at `grip`, a pose in the tool frame.

@@ -31,8 +31,25 @@ pub enum Body {
     Object(usize),
     /// Index into the scene's obstacles.
     Obstacle(usize),
-    /// Index into the tool's parts.
+    /// Index into the pieces of the tool's outline.
     Part(usize),
+}
+
+impl Body {
+    /// An object deeper inside such a body than this is jammed, metres: rigid ones do not get
+    /// there.
+    ///
+    /// Nothing comes into an obstacle: over 300 solved random tasks 0 mm, squeezed through gaps too
+    /// narrow 2.5 mm and more. Light objects before heavy ones sink honestly into what pushes
+    /// them: in 3-D 0.1 kg before three of 1 kg by 3.1 mm into the tool and 4.4 mm into its
+    /// neighbour.
+    pub fn most_overlap(&self) -> f64 {
+        match self {
+            Body::Obstacle(_) => 2e-3,
+            Body::Part(_) => 5e-3,
+            Body::Object(_) => 8e-3,
+        }
+    }
 }
 
 /// The first frame in which two bodies touched.
@@ -44,6 +61,17 @@ pub struct Contact {
     pub object: usize,
     /// What it touches.
     pub with: Body,
+}
+
+/// How hard the tool presses against objects, newtons.
+///
+/// Read from the impulses of an engine's contacts, which tell it to within a factor of two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Force {
+    /// The largest force in a single time step: mostly that of a first touch.
+    pub peak: f64,
+    /// The largest force that lasted for three time steps in a row.
+    pub lasting: f64,
 }
 
 /// The effect of a tool motion.
@@ -60,12 +88,15 @@ pub struct Trajectory {
     pub contacts: Vec<Contact>,
     /// What the reader should know about the trust this deserves.
     pub warnings: Vec<Warning>,
+    /// How hard the tool pressed; nothing where the model does not tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<Force>,
 }
 
 impl Trajectory {
     /// Nothing yet, computed `by` this model.
     pub fn new(by: ModelSpec) -> Self {
-        Self { by, frames: Vec::new(), contacts: Vec::new(), warnings: Vec::new() }
+        Self { by, frames: Vec::new(), contacts: Vec::new(), warnings: Vec::new(), force: None }
     }
 
     /// `state` alone, the tool at `tool`, where nothing is done.

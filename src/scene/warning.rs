@@ -35,10 +35,56 @@ pub enum Warning {
     },
     /// A number became infinite or undefined and the rollout stopped at the last good frame.
     NotFinite,
+    /// The replay was stopped before it was over.
+    Stopped,
     /// An object fell over or leans, so that its planar pose no longer tells where it is.
     Toppled {
         /// Its name.
         object: String,
+    },
+    /// An object was pressed into what does not give way: rigid bodies get stuck there, and an arm
+    /// stops or something breaks. The replay ended.
+    Jammed {
+        /// Its name.
+        object: String,
+        /// The name of the obstacle, the tool's part or the other object.
+        against: String,
+        /// How deep it was inside, metres.
+        depth: f64,
+    },
+    /// An object's centre left the table, so that it falls. The replay ended.
+    OffTable {
+        /// Its name.
+        object: String,
+    },
+    /// The tool pressed harder than the robot's arm can.
+    TooMuchForce {
+        /// How hard, newtons; to within a factor of two.
+        needed: f64,
+        /// What the arm can, newtons.
+        limit: f64,
+    },
+    /// The end effector leaves the robot's reach.
+    OutOfReach {
+        /// Index of the push.
+        push: usize,
+    },
+    /// The tool passes through an obstacle.
+    ThroughObstacle {
+        /// Index of the push.
+        push: usize,
+        /// Name of the obstacle.
+        obstacle: String,
+    },
+    /// The task does not allow the tool.
+    ForbiddenTool {
+        /// Its name.
+        tool: String,
+    },
+    /// The task does not allow the grip yaw.
+    ForbiddenYaw {
+        /// The yaw, radians.
+        yaw: f64,
     },
     /// The tool came down on an object instead of beside it.
     SetDownOn {
@@ -99,7 +145,15 @@ impl Warning {
             | Warning::Simulated { .. } => false,
             Warning::NotAtRest { .. }
             | Warning::NotFinite
+            | Warning::Stopped
             | Warning::Toppled { .. }
+            | Warning::Jammed { .. }
+            | Warning::OffTable { .. }
+            | Warning::TooMuchForce { .. }
+            | Warning::OutOfReach { .. }
+            | Warning::ThroughObstacle { .. }
+            | Warning::ForbiddenTool { .. }
+            | Warning::ForbiddenYaw { .. }
             | Warning::SetDownOn { .. }
             | Warning::Refused => true,
         }
@@ -116,6 +170,12 @@ impl Warning {
         }
     }
 
+    /// Whether something on the way cannot pass. An engine ends a replay there; an effect model
+    /// records no frames from there on but the last.
+    pub fn blocks(&self) -> bool {
+        matches!(self, Warning::Jammed { .. } | Warning::OffTable { .. })
+    }
+
     /// Whether this is about the model, so that simulating instead would help.
     pub fn questions_model(&self) -> bool {
         matches!(
@@ -127,6 +187,31 @@ impl Warning {
                 | Warning::LooseJoint { .. }
                 | Warning::NotFinite
         )
+    }
+
+    /// What is the matter, in a word or two for a table.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Warning::OutsideRange { .. } => "outside its range",
+            Warning::Declined { .. } => "declined",
+            Warning::NotAtRest { .. } => "not at rest",
+            Warning::NotFinite => "not finite",
+            Warning::Stopped => "stopped",
+            Warning::Toppled { .. } => "toppled",
+            Warning::Jammed { .. } => "jammed",
+            Warning::OffTable { .. } => "off the table",
+            Warning::TooMuchForce { .. } => "too much force",
+            Warning::OutOfReach { .. } => "out of reach",
+            Warning::ThroughObstacle { .. } => "through an obstacle",
+            Warning::ForbiddenTool { .. } | Warning::ForbiddenYaw { .. } => "forbidden",
+            Warning::SetDownOn { .. } => "set down on it",
+            Warning::Pressed { .. } => "pressed",
+            Warning::Overlap { .. } => "overlapping",
+            Warning::LooseJoint { .. } => "loose joint",
+            Warning::Differs { .. } => "differing",
+            Warning::Simulated { .. } => "simulated",
+            Warning::Refused => "refused",
+        }
     }
 
     /// What is the matter, without what it means or helps.
@@ -196,6 +281,32 @@ impl fmt::Display for Warning {
                  not work as written",
                 stroke + 1
             ),
+            Warning::Jammed { object, against, depth } => write!(
+                f,
+                "{object} jams against {against}: it would have to go {:.1} mm into it, so the tool \
+                 cannot go on",
+                depth * 1e3
+            ),
+            Warning::Stopped => write!(f, "the replay was stopped before it was over"),
+            Warning::OffTable { object } => {
+                write!(f, "{object} is pushed off the table")
+            }
+            Warning::TooMuchForce { needed, limit } => write!(
+                f,
+                "pushing takes about {needed:.0} N for longer than a blow, and the robot has {limit:.0}"
+            ),
+            Warning::OutOfReach { push } => {
+                write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
+            }
+            Warning::ThroughObstacle { push, obstacle } => {
+                write!(f, "the tool passes through {obstacle} in push {}", push + 1)
+            }
+            Warning::ForbiddenTool { tool } => {
+                write!(f, "the task does not allow the tool {tool}")
+            }
+            Warning::ForbiddenYaw { yaw } => {
+                write!(f, "the task does not allow a grip yaw of {:.1} degrees", yaw.to_degrees())
+            }
             Warning::Toppled { object } => write!(
                 f,
                 "{object} toppled; its pose on the table means little, push lower or slower"

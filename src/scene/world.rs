@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape};
+use crate::geometry::{Pose, Shape, Vector};
 
 use super::{Joint, JointKind, REST_SPEED, State};
 
@@ -98,11 +98,30 @@ impl Obstacle {
     }
 }
 
+/// A table that ends somewhere: a rectangle along the world's axes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TableTop {
+    /// Full extents along x and y, metres.
+    pub size: [f64; 2],
+    /// Its middle, metres.
+    pub middle: Vector,
+}
+
+impl TableTop {
+    /// Whether a body with its centre of mass there stays on the table.
+    pub fn holds(&self, position: Vector) -> bool {
+        let off = position - self.middle;
+        2.0 * off.x.abs() <= self.size[0] && 2.0 * off.y.abs() <= self.size[1]
+    }
+}
+
 /// A table with movable objects, joints between them and fixed obstacles.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Friction value of the table.
     pub table_friction: f64,
+    /// Where the table ends; nowhere near if nothing is said.
+    pub table_top: Option<TableTop>,
     /// Movable bodies; indices into this list name them everywhere.
     pub objects: Vec<Object>,
     /// Joints between objects.
@@ -118,7 +137,13 @@ impl Scene {
     /// A table of friction value [`Scene::FRICTION`] with these objects.
     pub fn new(objects: impl IntoIterator<Item = Object>) -> Self {
         let objects = objects.into_iter().collect();
-        Self { table_friction: Self::FRICTION, objects, joints: Vec::new(), obstacles: Vec::new() }
+        Self {
+            table_friction: Self::FRICTION,
+            table_top: None,
+            objects,
+            joints: Vec::new(),
+            obstacles: Vec::new(),
+        }
     }
 
     /// The scene on a table with another friction value.
@@ -163,6 +188,12 @@ impl Scene {
             joints: joints.collect(),
             ..self.clone()
         }
+    }
+
+    /// The first object whose centre has left the table.
+    pub fn off_table(&self, state: &State) -> Option<usize> {
+        let top = self.table_top?;
+        state.poses.iter().position(|pose| !top.holds(pose.position))
     }
 
     /// The index of the object called `name`.

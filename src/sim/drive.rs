@@ -10,7 +10,10 @@ use crate::scene::{
     Record, Scene, State, ToolMotion, Trajectory, Warning,
 };
 
+use crate::watch::Watch;
+
 use super::Simulator;
+use super::strain::{Overlap, Strain};
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
@@ -38,6 +41,13 @@ pub(super) trait World: Sized {
 
     /// The objects that no longer stand upright.
     fn toppled(&self) -> Vec<usize>;
+
+    /// Calls `found` with every object inside something else, as deep as it was before the last
+    /// step.
+    fn overlaps(&self, found: &mut dyn FnMut(Overlap));
+
+    /// Force with which contacts pressed against the tool during the last step, newtons.
+    fn force_on_tool(&self) -> f64;
 }
 
 /// Plays `job` in a world `W` with the simulator's steps.
@@ -46,6 +56,7 @@ pub(super) fn drive<W: World>(
     job: &Job,
     simulator: &Simulator,
     record: Record,
+    watch: &dyn Watch,
 ) -> Trajectory {
     let Job { start, motion, physics } = job;
     let step = simulator.step();
@@ -64,6 +75,7 @@ pub(super) fn drive<W: World>(
             // are the same computation. What lies on its side cannot be told by a planar state
             // and stays in the old one, where the tool jumps.
             world = W::build(scene, &world.state(), physics, motion, &stroke.from);
+            recorder.strain.begin();
         }
         if index == 0 || lifted {
             let below = motion.set_down_on(scene, &recorder.last().state, index);
@@ -73,11 +85,22 @@ pub(super) fn drive<W: World>(
                 .collect();
             recorder.trajectory.warnings.extend(warnings);
         }
+        let mut go = |frame: &FrameStep, world: &mut W, recorder: &mut Recorder| {
+            let played = play(world, frame, step, recorder);
+            time += played.share * frame.duration;
+            let tool = frame.from.towards(&frame.to, played.share);
+            let recorded = recorder.record(world, time, index, tool);
+            let fallen = scene.off_table(&recorder.last().state);
+            let jam = played.jam.map(|jam| jammed(scene, motion, jam));
+            let fallen =
+                fallen.map(|k| Warning::OffTable { object: scene.objects[k].name.clone() });
+            let ends = jam.or(fallen).or_else(|| watch.cancelled().then_some(Warning::Stopped));
+            let goes_on = recorded && ends.is_none();
+            recorder.trajectory.warnings.extend(ends);
+            goes_on
+        };
         for k in 0..stroke.frames() {
-            let frame = stroke.frame(k);
-            play(&mut world, &frame, step, &mut recorder);
-            time += frame.duration;
-            if !recorder.record(&world, time, index, frame.to) {
+            if !go(&stroke.frame(k), &mut world, &mut recorder) {
                 return recorder.finish(scene);
             }
         }
@@ -92,10 +115,8 @@ pub(super) fn drive<W: World>(
                 recorder.trajectory.warnings.push(Warning::NotAtRest { waited });
                 break;
             }
-            play(&mut world, &still, step, &mut recorder);
-            time += COAST_FRAME;
             waited += 1;
-            if !recorder.record(&world, time, index, still.to) {
+            if !go(&still, &mut world, &mut recorder) {
                 return recorder.finish(scene);
             }
         }
@@ -103,22 +124,49 @@ pub(super) fn drive<W: World>(
     recorder.finish(scene)
 }
 
-/// Plays one frame in equal steps.
-fn play<W: World>(world: &mut W, frame: &FrameStep, longest: f64, recorder: &mut Recorder) {
+/// What became of a frame.
+struct Played {
+    /// How much of it was played, 1 if nothing went wrong.
+    share: f64,
+    /// The object that jammed, which ended it.
+    jam: Option<Overlap>,
+}
+
+/// Plays one frame in equal steps, until something jams.
+fn play<W: World>(
+    world: &mut W,
+    frame: &FrameStep,
+    longest: f64,
+    recorder: &mut Recorder,
+) -> Played {
     // The small part keeps 0.1 / (1 / 240) at twenty-four steps however it is rounded.
     let steps = (frame.duration / longest - 1e-9).ceil().max(1.0);
     let step = frame.duration / steps;
     // A jump takes no time, so nothing can happen in it; the next frame starts where it ends.
     if !(step > 0.0 && step.is_finite()) {
-        return;
+        return Played { share: 1.0, jam: None };
     }
     world.begin_frame(frame, step);
-    for _ in 0..steps as usize {
+    for k in 1..=steps as usize {
         world.step();
         if recorder.record == Record::Frames {
             recorder.note_contacts(world);
         }
+        if let Some(jam) = recorder.strain.look(world) {
+            return Played { share: k as f64 / steps, jam: Some(jam) };
+        }
     }
+    Played { share: 1.0, jam: None }
+}
+
+/// What is said about an object that jammed.
+fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
+    let against = match jam.with {
+        Body::Object(index) => scene.objects[index].name.clone(),
+        Body::Obstacle(index) => scene.obstacles[index].name.clone(),
+        Body::Part(index) => format!("{}/{}", motion.tool.name, motion.tool.outline[index].name),
+    };
+    Warning::Jammed { object: scene.objects[jam.object].name.clone(), against, depth: jam.depth }
 }
 
 /// Keeps the trajectory as it grows.
@@ -129,12 +177,13 @@ struct Recorder {
     seen: usize,
     /// Objects that have toppled, in order.
     toppled: Vec<usize>,
+    strain: Strain,
 }
 
 impl Recorder {
     fn new(by: ModelSpec, record: Record, start: &State, tool: Pose) -> Self {
         let trajectory = Trajectory::standing(by, tool, start.clone());
-        Self { record, trajectory, seen: 1, toppled: Vec::new() }
+        Self { record, trajectory, seen: 1, toppled: Vec::new(), strain: Strain::default() }
     }
 
     fn finish(mut self, scene: &Scene) -> Trajectory {
@@ -143,6 +192,7 @@ impl Recorder {
             .iter()
             .map(|&index| Warning::Toppled { object: scene.objects[index].name.clone() });
         self.trajectory.warnings.extend(toppled);
+        self.trajectory.force = Some(self.strain.force);
         self.trajectory
     }
 

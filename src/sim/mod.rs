@@ -16,8 +16,10 @@ mod drive;
 mod groups;
 mod parameters;
 mod planar;
+mod seams;
 mod simulator;
 mod spatial;
+mod strain;
 mod support;
 
 pub use simulator::Simulator;

@@ -6,10 +6,10 @@
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, GenericJointBuilder, Group as Layer,
-    InteractionGroups, InteractionTestMode, JointAxesMask, JointAxis, PhysicsWorld,
-    Pose2 as RapierPose, Real, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
-    Vector as RapierVector,
+    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactData,
+    ContactManifold, GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode,
+    JointAxesMask, JointAxis, PhysicsWorld, Pose2 as RapierPose, Real, RigidBodyBuilder,
+    RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
@@ -21,6 +21,8 @@ use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, STIFF_CONTACT, centre, is_articulated,
     needs_stiff_contacts,
 };
+use super::seams::Seams;
+use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 
 /// Tool parts.
@@ -42,6 +44,7 @@ pub(super) struct PlanarWorld {
     objects: Vec<(Member, Support)>,
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
+    seams: Seams,
 }
 
 /// A body and how far it has come since the world was built.
@@ -67,6 +70,7 @@ impl World for PlanarWorld {
             bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
+            seams: Seams::default(),
         };
         this.add_tool(motion, tool);
         let groups = Group::of(scene, state, physics);
@@ -110,7 +114,7 @@ impl World for PlanarWorld {
             body.add_force(force, true);
             body.add_torque(turning * -torque as Real + arm.perp_dot(force), true);
         }
-        self.world.step();
+        self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
             let angle = f64::from(self.world.bodies[tracked.handle].rotation().angle());
             tracked.turned += wrap_angle(angle - tracked.last_angle);
@@ -136,12 +140,10 @@ impl World for PlanarWorld {
 
     fn touches(&self, found: &mut dyn FnMut(usize, Body)) {
         for pair in self.world.narrow_phase.contact_pairs() {
-            let touching = pair.manifolds.iter().any(|manifold| {
-                manifold
-                    .points
-                    .iter()
-                    .any(|point| point.data.impulse > 0.0 || point.dist <= ALLOWED_ERROR as Real)
-            });
+            let touching =
+                pair.manifolds.iter().flat_map(solved).any(|(_, point)| {
+                    point.data.impulse > 0.0 || point.dist <= ALLOWED_ERROR as Real
+                });
             if touching {
                 let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
                 for (object, with) in [(a, b), (b, a)] {
@@ -156,6 +158,37 @@ impl World for PlanarWorld {
     fn toppled(&self) -> Vec<usize> {
         Vec::new()
     }
+
+    fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
+        for pair in self.world.narrow_phase.contact_pairs() {
+            let depth = pair
+                .manifolds
+                .iter()
+                .flat_map(solved)
+                .fold(0.0, |most: f64, (_, point)| most.max(-f64::from(point.dist)));
+            if depth > 0.0 {
+                let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
+                overlap(a, b, depth, found);
+            }
+        }
+    }
+
+    fn force_on_tool(&self) -> f64 {
+        let mut impulse = RapierVector::ZERO;
+        for pair in self.world.narrow_phase.contact_pairs() {
+            let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
+            let sign = match (a, b) {
+                (Body::Part(_), _) => -1.0,
+                (_, Body::Part(_)) => 1.0,
+                _ => continue,
+            };
+            for (manifold, point) in pair.manifolds.iter().flat_map(solved) {
+                impulse += manifold.data.normal * (sign * point.data.impulse);
+            }
+        }
+        let settings = &self.world.integration_parameters;
+        force(impulse.length().into(), settings.dt.into(), settings.num_solver_iterations)
+    }
 }
 
 impl PlanarWorld {
@@ -168,12 +201,19 @@ impl PlanarWorld {
             .pose(to_rapier(at, self.origin))
             .can_sleep(false);
         self.tool = self.world.insert_body(body);
-        for (index, part) in motion.tool.parts.iter().enumerate() {
+        for (index, part) in motion.tool.outline.iter().enumerate() {
             // Without mass the centre of mass, which rapier's velocity is of, is the tool frame.
             let collider = collider(&part.footprint(), motion.tool.friction)
                 .density(0.0)
                 .position(to_rapier(&part.pose, Vector::zeros()))
                 .collision_groups(groups(PART, TALL));
+            let collider = match &part.rim {
+                Some(rim) => {
+                    self.seams.set(self.labels.len(), rim);
+                    collider.active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS)
+                }
+                None => collider,
+            };
             self.insert(collider, Body::Part(index), self.tool);
         }
     }
@@ -269,6 +309,14 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
     let (frequency, damping) = if stiff { STIFF_CONTACT } else { PLANAR_CONTACT };
     settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world
+}
+
+/// The points of a manifold that were solved, and not taken away as those of a seam.
+fn solved(
+    manifold: &ContactManifold,
+) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {
+    let contacts = manifold.data.solver_contacts.iter();
+    contacts.map(move |contact| (manifold, &manifold.points[contact.contact_id[0] as usize]))
 }
 
 fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {

@@ -1,6 +1,7 @@
 //! An engine with its step, playing tool motions.
 
 use crate::scene::{Engine, Job, ModelKind, ModelSpec, Rate, Record, Scene, Trajectory};
+use crate::watch::{Unwatched, Watch};
 
 use super::drive::drive;
 use super::planar::PlanarWorld;
@@ -66,10 +67,21 @@ impl Simulator {
     /// The trajectory always has at least one frame; what went wrong on the way stands in its
     /// warnings.
     pub fn run(&self, scene: &Scene, job: &Job, record: Record) -> Trajectory {
+        self.run_watched(scene, job, record, &Unwatched)
+    }
+
+    /// [`Simulator::run`], which `watch` can stop after any frame; that stands in the warnings.
+    pub fn run_watched(
+        &self,
+        scene: &Scene,
+        job: &Job,
+        record: Record,
+        watch: &dyn Watch,
+    ) -> Trajectory {
         let play = match self.engine {
             Engine::Planar => drive::<PlanarWorld>,
             Engine::Spatial => drive::<SpatialWorld>,
         };
-        play(scene, job, self, record)
+        play(scene, job, self, record, watch)
     }
 }

@@ -8,9 +8,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, FrictionModel, GenericJointBuilder,
-    JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation,
-    SharedShape, SpringCoefficients, Vector as RapierVector,
+    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactData,
+    ContactManifold, FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld,
+    Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape, SpringCoefficients,
+    TrackedContact, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
@@ -24,6 +25,8 @@ use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
     needs_stiff_contacts,
 };
+use super::seams::Seams;
+use super::strain::{Overlap, force, overlap};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -42,6 +45,7 @@ pub(super) struct SpatialWorld {
     objects: Vec<(Member, f64)>,
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
+    seams: Seams,
 }
 
 /// A body and how far it has come since the world was built.
@@ -69,6 +73,7 @@ impl World for SpatialWorld {
             bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
+            seams: Seams::default(),
         };
         let table = rubbing(
             ColliderBuilder::new(SharedShape::halfspace(RapierVector::Z)),
@@ -99,7 +104,7 @@ impl World for SpatialWorld {
     }
 
     fn step(&mut self) {
-        self.world.step();
+        self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
             let angle = yaw(self.world.bodies[tracked.handle].rotation());
             tracked.turned += wrap_angle(angle - tracked.last_angle);
@@ -132,10 +137,11 @@ impl World for SpatialWorld {
             else {
                 continue;
             };
-            let touching = pair.manifolds.iter().any(|manifold| {
-                let points = &manifold.points;
-                points.iter().any(|p| p.data.impulse > 0.0 || p.dist <= ALLOWED_ERROR)
-            });
+            let touching = pair
+                .manifolds
+                .iter()
+                .flat_map(solved)
+                .any(|(_, point)| point.data.impulse > 0.0 || point.dist <= ALLOWED_ERROR);
             if touching {
                 for (object, with) in [(a, b), (b, a)] {
                     if let Body::Object(object) = object {
@@ -153,6 +159,34 @@ impl World for SpatialWorld {
         };
         (0..self.objects.len()).filter(|&index| leans(&self.objects[index])).collect()
     }
+
+    fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
+        for pair in self.world.narrow_phase.contact_pairs() {
+            let points = pair.manifolds.iter().flat_map(solved);
+            let depth = points.fold(0.0, |most: f64, (_, point)| most.max(-point.dist));
+            if depth > 0.0
+                && let (Some(a), Some(b)) = (self.label(pair.collider1), self.label(pair.collider2))
+            {
+                overlap(a, b, depth, found);
+            }
+        }
+    }
+
+    fn force_on_tool(&self) -> f64 {
+        let mut impulse = RapierVector::ZERO;
+        for pair in self.world.narrow_phase.contact_pairs() {
+            let sign = match (self.label(pair.collider1), self.label(pair.collider2)) {
+                (Some(Body::Part(_)), Some(_)) => -1.0,
+                (Some(_), Some(Body::Part(_))) => 1.0,
+                _ => continue,
+            };
+            for (manifold, point) in pair.manifolds.iter().flat_map(solved) {
+                impulse += manifold.data.normal * (sign * point.data.impulse);
+            }
+        }
+        let settings = &self.world.integration_parameters;
+        force(impulse.length(), settings.dt, settings.num_solver_iterations)
+    }
 }
 
 impl SpatialWorld {
@@ -166,11 +200,18 @@ impl SpatialWorld {
             .pose(to_rapier(at, self.origin, self.lift))
             .can_sleep(false);
         self.tool = self.world.insert_body(body);
-        for (index, part) in motion.tool.parts.iter().enumerate() {
+        for (index, part) in motion.tool.outline.iter().enumerate() {
             // The tool frame lies at the parts' underside. Without mass the centre of mass,
             // which rapier's velocity is of, is the tool frame.
             let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
             let collider = rubbing(upright(&part.shape, placed), motion.tool.friction).density(0.0);
+            let collider = match &part.rim {
+                Some(rim) => {
+                    self.seams.set(self.labels.len(), rim);
+                    collider.active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS)
+                }
+                None => collider,
+            };
             self.insert(collider, Body::Part(index), self.tool);
         }
     }
@@ -276,6 +317,14 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }
     world
+}
+
+/// The points of a manifold that were solved, and not taken away as those of a seam.
+fn solved(
+    manifold: &ContactManifold,
+) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {
+    let contacts = manifold.data.solver_contacts.iter();
+    contacts.map(move |contact| (manifold, &manifold.points[contact.contact_id[0] as usize]))
 }
 
 fn solid(shape: &Shape) -> ColliderBuilder {

@@ -129,9 +129,9 @@ fn with_yaw(
             length: asked.length.unwrap_or(rules.length),
             speed: asked.speed.unwrap_or(rules.speed),
         };
-        let set_down = k == 0 || form == PushForm::Placed;
+        let set_down = (k == 0 || form == PushForm::Placed).then_some(0.0);
         let tools = std::slice::from_ref(tool);
-        let workspace = Workspace { task, tools, later_stand_off: 0.0 };
+        let workspace = Workspace { task, tools };
         let rule = workspace.margins((0, grip_yaw), &state, &push, set_down).broken();
         broken.extend(rule.map(|rule| (k, rule)));
         plan.pushes.push(push);
@@ -174,13 +174,13 @@ fn start(
     let mut of_object = task.clone();
     of_object.goal.object = index;
     let tools = std::slice::from_ref(tool);
-    let workspace = Workspace { task: &of_object, tools, later_stand_off: 0.0 };
+    let workspace = Workspace { task: &of_object, tools };
     let length = asked.length.unwrap_or(task.pushes.length);
     let mut why = Infeasible::NoContact;
     for part in 0..tool.parts.len() {
         let start = Start::Placed { part, offset };
-        let push = CandidatePush { start, direction: asked.direction, length };
-        match workspace.place((0, grip_yaw), state, &push, 0, previous) {
+        let push = CandidatePush { start, direction: asked.direction, length, room: 0.0 };
+        match workspace.place((0, grip_yaw), state, &push, previous) {
             Ok(start) => return Ok(start),
             Err(infeasible) => why = infeasible,
         }

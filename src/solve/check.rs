@@ -32,10 +32,21 @@ pub(super) fn check(
         ("the lift", rules.lift),
         ("the smallest reach", robot.reach_min),
         ("the friction of the table", physics.table_friction),
+        ("the robustness", task.robustness),
     ] {
         if !(value.is_finite() && value >= 0.0) {
             return fault(format!("{name} is {value}, but must not be negative"));
         }
+    }
+    if task.robustness > 1.0 {
+        return fault(format!("the robustness is {}, but is a share", task.robustness));
+    }
+    if robot.max_force.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
+        return fault("the largest force of the robot must be a positive number".into());
+    }
+    let ends = scene.table_top;
+    if ends.is_some_and(|top| !top.size.iter().chain(top.middle.iter()).all(|v| v.is_finite())) {
+        return fault("the table must end somewhere finite, or nowhere".into());
     }
     let headings = rules.directions.headings();
     let lists: [(&str, &[f64]); 2] = [("directions", &headings), ("grip yaws", &rules.grip_yaws)];

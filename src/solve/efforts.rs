@@ -57,7 +57,7 @@ impl Effort {
     /// each engine: what a look, a usual answer, a careful one and a thorough study are worth.
     const fn level(self) -> (ModelKind, Settings, usize) {
         match self {
-            Effort::Draft => (ModelKind::PRIOR, COARSE, 0),
+            Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
             Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
             Effort::Thorough => (ModelKind::NETWORK, MEDIUM, 16),
             Effort::Exhaustive => (ModelKind::NETWORK, FINE, 64),

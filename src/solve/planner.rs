@@ -1,6 +1,7 @@
 //! The planner.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ use crate::scene::{
     ModelKind, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
     Warning,
 };
-use crate::watch::{Unwatched, Watch};
+use crate::watch::{Until, Unwatched, Watch};
 
 use super::check::check;
 use super::solving::Solving;
@@ -37,6 +38,7 @@ pub struct Planner {
     outside: Outside,
     settings: Settings,
     seed: u64,
+    time_limit: Option<Duration>,
 }
 
 /// Builds a [`Planner`].
@@ -45,6 +47,7 @@ pub struct PlannerBuilder {
     outside: Outside,
     settings: Settings,
     seed: u64,
+    time_limit: Option<Duration>,
 }
 
 /// What an effect model says about a plan.
@@ -83,10 +86,18 @@ impl PlannerBuilder {
         self
     }
 
+    /// Stops after this time with the best plan so far; never unless said otherwise. What comes
+    /// back then depends on how fast the machine is.
+    pub fn time_limit(mut self, limit: Duration) -> Self {
+        self.time_limit = Some(limit);
+        self
+    }
+
     /// The planner.
     pub fn build(self) -> Planner {
-        let Self { model, outside, settings, seed } = self;
-        Planner { model: Routed::new(model).outside(outside), outside, settings, seed }
+        let Self { model, outside, settings, seed, time_limit } = self;
+        let model = Routed::new(model).outside(outside);
+        Planner { model, outside, settings, seed, time_limit }
     }
 }
 
@@ -94,7 +105,8 @@ impl Planner {
     /// Starts building a planner that predicts with `model`.
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
-        PlannerBuilder { model: Arc::new(model), outside: Outside::default(), settings, seed: 0 }
+        let (model, outside) = (Arc::new(model), Outside::default());
+        PlannerBuilder { model, outside, settings, seed: 0, time_limit: None }
     }
 
     /// Starts building the planner that an effort stands for, effect model included.
@@ -134,7 +146,8 @@ impl Planner {
         tasks.par_iter().map(|task| self.solve(task, library)).collect()
     }
 
-    /// [`Planner::solve`], telling `watch` what it does.
+    /// [`Planner::solve`], telling `watch` what it does; stopped by it, the best plan so far comes
+    /// back. A [`Cancel`](crate::watch::Cancel) stops it from another thread.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
@@ -164,7 +177,8 @@ impl Planner {
         check(task, situation, &tools)?;
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
         self.refuse(task, situation, tools.iter().map(motion))?;
-        Ok(Solving::new(self, task, situation, &tools, watch).run())
+        let until = Until::new(watch, self.time_limit);
+        Ok(Solving::new(self, task, situation, &tools, &until).run())
     }
 
     /// What the effect model predicts for a plan made with `tool`.

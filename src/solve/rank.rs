@@ -1,19 +1,26 @@
 //! Which candidates are refined, which are worth verifying, and in what order.
 
-use crate::plan::{Candidate, Evaluation, Found, Refined, kinds};
+use crate::plan::{Candidate, Evaluation, Found, Refined, is_behind, kinds};
 use crate::scene::{Goal, Scene};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the
-/// next best ones. `found` is sorted, best first, and so is the answer.
-pub(super) fn distinct(found: &[Found], count: usize) -> Vec<Candidate> {
+/// next best ones; at most `most_behind` of them such that something is in the way. `found` is
+/// sorted, best first, and so is the answer.
+pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec<Candidate> {
     let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
     kinds.iter().for_each(|&k| taken[k] = true);
     let missing = count.saturating_sub(kinds.len());
     let spare: Vec<usize> = (0..found.len()).filter(|&k| !taken[k]).take(missing).collect();
     spare.into_iter().for_each(|k| taken[k] = true);
-    let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken);
-    kept.map(|(one, _)| one.candidate.clone()).collect()
+    let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken).map(|(one, _)| one);
+    // What leads through a wall stands behind everything else.
+    let (behind, sound): (Vec<&Found>, Vec<&Found>) = kept.partition(|one| is_behind(one.score));
+    sound
+        .into_iter()
+        .chain(behind.into_iter().take(most_behind))
+        .map(|one| one.candidate.clone())
+        .collect()
 }
 
 /// Sorts by predicted score; equal scores keep their order.
@@ -21,9 +28,13 @@ pub(super) fn sort(refined: &mut [Refined]) {
     refined.sort_by(|a, b| a.best.score.total_cmp(&b.best.score));
 }
 
+/// A prediction that is outside the tolerance by no more than this share of it is tried, however
+/// good the model is said to be: it is good on average.
+const HAIR: f64 = 0.1;
+
 /// Whether the predicted error is at most the tolerance plus the effect model's error,
-/// `error_p95` metres; for a heading this is taken at the object's mean radius. Where that was not
-/// measured, whatever can be carried out is.
+/// `error_p95` metres, or a hair; for a heading this is taken at the object's mean radius. Where
+/// that was not measured, whatever can be carried out is.
 pub(super) fn is_worth_verifying(
     scene: &Scene,
     goal: &Goal,
@@ -34,6 +45,7 @@ pub(super) fn is_worth_verifying(
         return false;
     }
     let Some(error_p95) = error_p95 else { return true };
+    let error_p95 = error_p95.max(HAIR * goal.tolerance);
     let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
     let radius = scene.objects[goal.object].shape.footprint().mean_radius();
     let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {

@@ -1,9 +1,9 @@
 //! What failed replays teach: ways that do not work are left for others, and plans that end near
 //! the goal are aimed again, by as much as they missed it.
 
-use crate::geometry::wrap_angle;
-use crate::plan::{Candidate, CandidatePush, Found};
-use crate::scene::{Engine, Goal, Verdict};
+use crate::geometry::{Pose, Vector, wrap_angle};
+use crate::plan::{Candidate, CandidatePush, Found, is_behind};
+use crate::scene::{Engine, Goal, Verdict, Warning};
 
 use super::rank::distinct;
 use super::solving::{Solving, Tried};
@@ -15,6 +15,13 @@ const REFUTED: f64 = 1.25;
 /// A plan is aimed again if its replay misses the goal by at most this many tolerances. Farther
 /// out the prediction is wrong in kind, and shifting the aim shifts something else.
 const NEAR: f64 = 4.0;
+
+/// A plan that ends within this share of the tolerance on average cannot be aimed better.
+const ON_THE_GOAL: f64 = 0.1;
+
+/// Room that a push gets after its tool came down on the object, metres.
+const LEAST_ROOM: f64 = 0.01;
+const MOST_ROOM: f64 = 0.04;
 
 /// Pushes whose directions differ by no more, radians, and lengths by no more, metres, move the
 /// object alike, whatever tool makes them.
@@ -55,16 +62,19 @@ impl Solving<'_> {
             .filter(|one| !known.iter().any(|known| one.candidate.is_variant_of(known)))
             .cloned()
             .collect();
+        let most_behind = self.planner.settings().verified_at_once;
         if others.is_empty() && known.is_empty() {
-            distinct(found, count)
+            distinct(found, count, most_behind)
         } else {
-            distinct(&others, count)
+            distinct(&others, count, most_behind)
         }
     }
 
-    /// Reorders the queue of plans of one length after the plans `failed` did not pass: first those
-    /// of them that came near, aimed again; then other ways, of which new ones are refined where
-    /// too few are left; then the rest. `first` is the first plan of this length.
+    /// Reorders the queue of plans of one length after the plans `failed` did not pass, or were not
+    /// safe: first those of them that reached the goal before their last push, without it; those
+    /// whose tool came down on an object, set down farther away; those that came near, aimed
+    /// again; then other ways, of which new ones are refined where too few are left; then the
+    /// rest. `first` is the first plan of this length.
     pub(super) fn reconsider(
         &mut self,
         queue: &mut Vec<usize>,
@@ -81,7 +91,9 @@ impl Solving<'_> {
             }
         }
         let at_once = self.planner.settings().verified_at_once.max(1);
-        let mut next = self.aim_anew(failed, at_once.div_ceil(2), pushes);
+        let mut next = self.shortened(failed);
+        next.extend(self.set_down_farther(failed, pushes));
+        next.extend(self.aim_again(failed, at_once.div_ceil(2), pushes));
         let (fresh, rest): (Vec<usize>, Vec<usize>) = queue.iter().partition(|&&k| {
             self.tried[k].candidate.as_ref().is_some_and(|candidate| !self.is_refuted(candidate))
         });
@@ -95,12 +107,82 @@ impl Solving<'_> {
             next.extend(self.refined(&others, goal, pushes));
         }
         next.extend(rest);
+        // Stable: what leads through a wall goes behind, everything else keeps its order.
+        next.sort_by_key(|&k| is_behind(self.tried[k].score));
         *queue = next;
     }
 
+    /// Plans that reached the goal after an earlier push than the last, in both engines, without
+    /// the pushes that spoiled it.
+    fn shortened(&mut self, failed: &[usize]) -> Vec<usize> {
+        let mut next = Vec::new();
+        for &k in failed {
+            let tried = &self.tried[k];
+            let (Some(candidate), Some(verdict)) = (&tried.candidate, &tried.verdict) else {
+                continue;
+            };
+            let reached = |count: usize| {
+                Engine::ALL.into_iter().all(|engine| {
+                    let frames = verdict.nominal(engine).and_then(|e| e.trajectory.as_ref());
+                    let mut frames = frames.iter().flat_map(|t| t.frames.iter().rev());
+                    let end = frames.find(|frame| frame.stroke + 1 == count);
+                    end.is_some_and(|frame| self.task.goal.reached(&frame.state))
+                })
+            };
+            let placed = self.workspace.is_placed();
+            let count = (1..tried.plan.pushes.len()).find(|&count| placed && reached(count));
+            let Some(count) = count else { continue };
+            let mut candidate = candidate.clone();
+            candidate.pushes.truncate(count);
+            let mut plan = tried.plan.clone();
+            plan.pushes.truncate(count);
+            let known = self.tried.iter().any(|tried| tried.plan == plan);
+            if !known {
+                let shorter = Tried {
+                    plan,
+                    candidate: Some(candidate),
+                    tool: tried.tool.clone(),
+                    refinement: tried.refinement.clone(),
+                    verdict: None,
+                    ..*tried
+                };
+                next.push(self.tried.len());
+                self.tried.push(shorter);
+            }
+        }
+        next
+    }
+
+    /// Plans whose tool came down on an object for a later push, with more room there.
+    fn set_down_farther(&mut self, failed: &[usize], pushes: usize) -> Vec<usize> {
+        let mut wider = Vec::new();
+        for &k in failed {
+            let tried = &self.tried[k];
+            let (Some(candidate), Some(verdict)) = (&tried.candidate, &tried.verdict) else {
+                continue;
+            };
+            let landed = verdict.evidence.iter().find_map(|evidence| match evidence.fault() {
+                Some(Warning::SetDownOn { stroke, .. }) if *stroke > 0 => Some(*stroke),
+                _ => None,
+            });
+            let mut candidate = candidate.clone();
+            if let Some(push) = landed.and_then(|stroke| candidate.pushes.get_mut(stroke))
+                && push.room < MOST_ROOM
+            {
+                push.room = (2.0 * push.room).clamp(LEAST_ROOM, MOST_ROOM);
+                wider.push(candidate);
+            }
+        }
+        let goal = self.task.goal;
+        match wider.is_empty() {
+            true => Vec::new(),
+            false => self.refined(&wider, goal, pushes),
+        }
+    }
+
     /// Refines the nearest of the failed plans towards goals that lie as far on the other side
-    /// of ours as their replays in 3-D ended beside it.
-    fn aim_anew(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
+    /// of ours as their replays ended beside it.
+    fn aim_again(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
         let goal = self.task.goal;
         let mut near: Vec<(f64, usize)> = failed
             .iter()
@@ -126,35 +208,57 @@ impl Solving<'_> {
     }
 }
 
-/// By how many tolerances the 3-D replay of a failed plan misses the goal; infinite where its end
-/// does not count at all.
+/// By how many tolerances a plan misses the goal as written, in the engine where it misses by more;
+/// infinite where its end does not count at all.
 fn missed(goal: &Goal, tried: &Tried) -> f64 {
-    let spatial = tried.verdict.as_ref().and_then(|verdict| verdict.nominal(Engine::Spatial));
-    spatial.map_or(f64::INFINITY, |evidence| {
-        let counts = evidence.warnings.iter().all(|warning| !warning.forbids_success());
-        let score = goal.score(&evidence.outcome.state);
-        if counts && score.is_finite() { score } else { f64::INFINITY }
-    })
+    let Some(verdict) = &tried.verdict else { return f64::INFINITY };
+    if !verdict.forbidden.is_empty() {
+        return f64::INFINITY;
+    }
+    let missed = |engine| {
+        let nominal = verdict.nominal(engine).filter(|evidence| evidence.fault().is_none());
+        let score = nominal.map(|evidence| goal.score(&evidence.outcome.state));
+        score.filter(|score| score.is_finite()).unwrap_or(f64::INFINITY)
+    };
+    Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
 /// Where to aim next, when a plan aimed at `aim` ended beside the goal: as far on the other side.
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
-/// the effect model's own slopes.
+/// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
+/// not. Nothing if that is on the goal already.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
-    let end = verdict.nominal(Engine::Spatial)?.outcome.state.poses[goal.object];
-    let heading = match (goal.heading, aim.heading) {
-        (Some((wanted, tolerance)), Some((aimed, _))) => {
-            Some((aimed - wrap_angle(end.heading - wanted), tolerance))
+    let wanted = goal.heading.map_or(0.0, |(heading, _)| heading);
+    let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
+    for engine in Engine::ALL {
+        let all = verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine));
+        let ends: Vec<Pose> = all
+            .filter(|evidence| evidence.fault().is_none())
+            .map(|evidence| evidence.outcome.state.poses[goal.object])
+            .collect();
+        if !ends.is_empty() {
+            let count = ends.len() as f64;
+            shift += ends.iter().map(|end| end.position - goal.position).sum::<Vector>() / count;
+            turn += ends.iter().map(|end| wrap_angle(end.heading - wanted)).sum::<f64>() / count;
+            engines += 1.0;
         }
+    }
+    if engines == 0.0 {
+        return None;
+    }
+    let (shift, turn) = (shift / engines, turn / engines);
+    let heading = match (goal.heading, aim.heading) {
+        (Some((_, tolerance)), Some((aimed, _))) => Some((aimed - turn, tolerance)),
         _ => None,
     };
-    Some(Goal { position: aim.position - (end.position - goal.position), heading, ..*goal })
+    let off = goal.heading.map_or(0.0, |(_, tolerance)| turn.abs() / tolerance);
+    let off = off.max(shift.norm() / goal.tolerance);
+    (off > ON_THE_GOAL).then(|| Goal { position: aim.position - shift, heading, ..*goal })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Pose, Vector};
     use crate::plan::Start;
     use crate::scene::{Disturbance, Evidence, Outcome, State};
 
@@ -163,6 +267,7 @@ mod tests {
             start: Start::Placed { part: 0, offset: 0.0 },
             direction,
             length,
+            room: 0.0,
         };
         Candidate { tool: 0, grip_yaw: 0.0, pushes: pushes.iter().map(push).collect() }
     }
@@ -193,9 +298,10 @@ mod tests {
                 disturbance: Disturbance::Nominal,
                 outcome,
                 warnings: Vec::new(),
+                force: None,
                 trajectory: None,
             };
-            Verdict { passed: false, evidence: vec![evidence], robustness: None }
+            Verdict::judge(Vec::new(), vec![evidence], 0.75)
         };
         let first = aim(&goal, &goal, &ended(0.53, 0.09, -3.2)).expect("an aim");
         assert!((first.position - Vector::new(0.47, 0.11)).norm() < 1e-12, "{first:?}");

@@ -83,14 +83,15 @@ impl Settings {
         disturbed: 0,
     };
 
-    /// The part that the search takes.
-    pub fn search(&self) -> SearchSettings {
+    /// The part that the search takes, with a model that is off by `model_error` metres at times.
+    pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,
             beam: self.beam,
             rollouts: self.search_rollouts,
             // Variants of one kind stand close together in the ranking; enough to get past them.
             kept: self.refined.saturating_mul(64),
+            model_error,
         }
     }
 }

@@ -14,12 +14,16 @@ use crate::verify::{Verifier, VerifySettings};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlanStatus {
-    /// The first plan reaches the goal in the nominal 3-D replay.
+    /// The first plan passes: it keeps the rules of the task, its replays as written reach the goal
+    /// in both engines, and so does the share of the disturbed ones that the task asks for.
     Solved,
+    /// The first plan works as written, but in fewer of the disturbed replays than the task asks
+    /// for, and none was found that is more robust.
+    Fragile,
     /// After refinement no candidate's predicted error was at most the tolerance plus the effect
     /// model's 95th-percentile error. The first plan is the nearest one.
     NoPlan,
-    /// Some candidates were good enough to be verified, and none of those passed. The first plan
+    /// Some candidates were good enough to be verified, and none of those works. The first plan
     /// is the best predicted of them, with the evidence against it.
     FailedVerification,
 }
@@ -106,6 +110,9 @@ pub struct Statistics {
 pub struct Solution {
     /// How it ended.
     pub status: PlanStatus,
+    /// Whether it was stopped, by its time limit or from outside, before the search was over: the
+    /// plans are the best so far.
+    pub stopped: bool,
     /// Ranked plans, the one to use first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
     /// What it cost.

@@ -6,23 +6,26 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, refine,
+    Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, bare, behind,
+    is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
+use super::grade::{Class, Grade};
 use super::planner::typical;
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
-use super::{PlanStatus, Planner, RankedPlan, Refinement, Solution, Statistics};
+use super::{PlanStatus, Planner, Refinement, Solution, Statistics};
 
-/// The stand-off of later pushes grows by the model's error, but by no more than this, metres:
-/// a longer approach costs reach and time.
-const MOST_LATER_STAND_OFF: f64 = 0.02;
+/// Later pushes get room for the model's error, but no more than this, metres: a longer approach
+/// costs reach and time.
+const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 
-/// At most this many plans come back: what a reader looks at.
-const REPORTED: usize = 8;
+/// Of the plans that were replayed together and work, so many are replayed with disturbances, best
+/// first: the others miss by more.
+const DISTURBED_AT_ONCE: usize = 3;
 
 /// A plan that was refined, and verified where it was worth that.
 pub(super) struct Tried {
@@ -43,12 +46,14 @@ pub(super) struct Solving<'a> {
     pub situation: &'a Situation,
     pub workspace: Workspace<'a>,
     pub rollouts: Rollouts<'a>,
-    verifier: Verifier,
-    watch: &'a dyn Watch,
+    verifier: Verifier<'a>,
+    pub watch: &'a dyn Watch,
     pub statistics: Statistics,
     pub tried: Vec<Tried>,
     /// What replays have shown not to work.
     pub refuted: Vec<Way>,
+    /// The best plan that was replayed with disturbances.
+    pub best: Option<(Grade, usize)>,
 }
 
 impl<'a> Solving<'a> {
@@ -60,61 +65,57 @@ impl<'a> Solving<'a> {
         watch: &'a dyn Watch,
     ) -> Self {
         let (model, settings) = (planner.model(), planner.settings());
-        let errors = tools.iter().map(|tool| {
-            let job = Job::new(situation, typical(task, &situation.start, tool));
-            error_p95(planner, situation, &job).unwrap_or(f64::INFINITY)
-        });
-        let later_stand_off = errors.fold(0.0, f64::max).min(MOST_LATER_STAND_OFF);
         let verify = VerifySettings { disturbed: settings.disturbed, seed: planner.seed() };
         Self {
             planner,
             task,
             situation,
-            workspace: Workspace { task, tools, later_stand_off },
+            workspace: Workspace { task, tools },
             rollouts: Rollouts::new(model, situation.clone()),
-            verifier: Verifier::new(verify),
+            verifier: Verifier::new(verify).watched(watch),
             watch,
             statistics: Statistics::default(),
             tried: Vec::new(),
             refuted: Vec::new(),
+            best: None,
         }
     }
 
     pub fn run(mut self) -> Solution {
         let began = Instant::now();
         let nothing = self.without_pushes();
-        let reached = self.task.goal.reached(&self.situation.start);
         self.tried.push(nothing);
-        let mut winner = reached.then_some(0);
-        let mut search =
-            Search::new(self.workspace, self.situation, self.planner.settings().search());
-        while winner.is_none() && search.can_deepen() {
-            winner = self.attempt(&mut search);
+        if self.task.goal.reached(&self.situation.start) {
+            self.verify(&[0]);
         }
-        if let Some(index) = winner {
-            let since = Instant::now();
-            let Tried { plan, tool, verdict, .. } = &mut self.tried[index];
-            let verdict = verdict.get_or_insert_with(|| {
-                self.verifier.nominal(self.task, self.situation, tool, plan)
-            });
-            self.verifier.disturb(self.task, self.situation, tool, plan, verdict);
-            self.statistics.timing.verification += since.elapsed().as_secs_f64();
+        let errors = self.workspace.tools.iter().map(|tool| {
+            let start = &self.situation.start;
+            let job = Job::new(self.situation, typical(self.task, start, tool));
+            error_p95(self.planner, self.situation, &job).unwrap_or(f64::INFINITY)
+        });
+        let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
+        let settings = self.planner.settings().search(error);
+        let mut search = Search::new(self.workspace, self.situation, settings);
+        // Longer plans are no better than one that passes.
+        let goes_on = |this: &Self| this.best.is_none_or(|(grade, _)| grade.class < Class::Passes);
+        while goes_on(&self) && search.can_deepen() && !self.watch.cancelled() {
+            self.attempt(&mut search);
         }
-        let status = match winner {
-            Some(_) => PlanStatus::Solved,
-            None if self.tried.iter().any(|tried| tried.verdict.is_some()) => {
+        let status = match self.best {
+            Some((grade, _)) if grade.class > Class::Fails => grade.class.status(),
+            _ if self.tried.iter().any(|tried| tried.verdict.is_some()) => {
                 PlanStatus::FailedVerification
             }
-            None => PlanStatus::NoPlan,
+            _ => PlanStatus::NoPlan,
         };
+        let best = self.best.filter(|(grade, _)| grade.class > Class::Fails).map(|(_, k)| k);
         self.statistics.search = search.statistics().clone();
         self.statistics.depth = search.depth();
-        self.report(status, winner, began)
+        self.ranked(status, best, began)
     }
 
-    /// Searches, refines and verifies plans of one push more; the index of the first that
-    /// passes.
-    fn attempt(&mut self, search: &mut Search) -> Option<usize> {
+    /// Searches, refines and verifies plans of one push more, until one is safe.
+    fn attempt(&mut self, search: &mut Search) {
         let settings = *self.planner.settings();
         let pushes = search.depth() + 1;
         let began = Instant::now();
@@ -123,13 +124,13 @@ impl<'a> Solving<'a> {
         self.statistics.timing.search += began.elapsed().as_secs_f64();
 
         let began = Instant::now();
+        let at_once = settings.verified_at_once.max(1);
         let candidates = self.choose(&found, settings.refined, &[]);
         let first = self.tried.len();
         let mut queue = self.refined(&candidates, self.task.goal, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
 
-        let (mut passed, mut failed) = (None, Vec::new());
-        let at_once = settings.verified_at_once.max(1);
+        let mut failed = Vec::new();
         for batch in 0..settings.verify_batches {
             if batch > 0 {
                 let began = Instant::now();
@@ -137,21 +138,23 @@ impl<'a> Solving<'a> {
                 self.statistics.timing.refinement += began.elapsed().as_secs_f64();
             }
             let indices: Vec<usize> = queue.drain(..queue.len().min(at_once)).collect();
-            if indices.is_empty() {
+            let Some(&leader) = indices.first() else { break };
+            if self.watch.cancelled() {
                 break;
             }
             let began = Instant::now();
             let left = settings.verify_batches * at_once;
             self.tell("verify", pushes);
             self.watch.progress((batch * at_once) as u64, left as u64);
-            passed = self.verify(&indices);
+            self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
-            if passed.is_some() {
+            let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
+            // Where even the most promising one leads through a wall, a few tries are enough.
+            if safe || is_behind(self.tried[leader].score) {
                 break;
             }
             failed = indices;
         }
-        passed
     }
 
     /// Says what is done to plans of so many pushes.
@@ -201,8 +204,9 @@ impl<'a> Solving<'a> {
         worth
     }
 
-    /// Verifies plans in parallel; the first that passes.
-    fn verify(&mut self, indices: &[usize]) -> Option<usize> {
+    /// Replays plans as written, in parallel, and the best of those that work with disturbances,
+    /// until one is safe. Keeps the best.
+    fn verify(&mut self, indices: &[usize]) {
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
@@ -211,11 +215,34 @@ impl<'a> Solving<'a> {
             })
             .collect();
         self.statistics.verified += indices.len();
-        let passed = verdicts.iter().position(|verdict| verdict.passed).map(|k| indices[k]);
+        let mut working = Vec::new();
         for (&k, verdict) in indices.iter().zip(verdicts) {
+            if verdict.was_stopped() {
+                continue;
+            }
+            let grade = Grade::of(&self.task.goal, &verdict);
+            if verdict.works() {
+                working.push((grade, k));
+            }
             self.tried[k].verdict = Some(verdict);
         }
-        passed
+        // Stable, so equal ones keep the order of their predictions.
+        working.sort_by(|a, b| b.0.compare(&a.0));
+        for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
+            let tried = &mut self.tried[k];
+            if let Some(verdict) = tried.verdict.take() {
+                let (tool, plan) = (&tried.tool, &tried.plan);
+                let verdict = self.verifier.disturb(self.task, self.situation, tool, plan, verdict);
+                let grade = Grade::of(&self.task.goal, &verdict);
+                tried.verdict = Some(verdict);
+                if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {
+                    self.best = Some((grade, k));
+                }
+                if grade.class == Class::Safe || self.watch.cancelled() {
+                    break;
+                }
+            }
+        }
     }
 
     fn tried(&self, refined: Refined, aim: Goal) -> Tried {
@@ -227,14 +254,14 @@ impl<'a> Solving<'a> {
                 before: error(&before),
                 after: error(&best),
                 aimed_at: (aim != self.task.goal).then_some(aim.position),
-                rounds,
+                rounds: rounds.into_iter().map(bare).collect(),
             },
             aim,
             // Of our goal, whatever goal it was refined towards.
-            score: if best.score.is_finite() {
-                self.task.goal.score(&best.outcome)
-            } else {
-                best.score
+            score: match best.score {
+                score if is_behind(score) => behind(self.task.goal.score(&best.outcome)),
+                score if score.is_finite() => self.task.goal.score(&best.outcome),
+                score => score,
             },
             verdict: None,
             plan: self.plan(&tool, &best),
@@ -278,49 +305,6 @@ impl<'a> Solving<'a> {
             score: self.task.goal.score(start),
             verdict: None,
         }
-    }
-
-    fn report(mut self, status: PlanStatus, winner: Option<usize>, began: Instant) -> Solution {
-        // The winner; then those that passed, are untried, have failed - or, where none passed,
-        // the evidence first.
-        let rank = |index: usize, tried: &Tried| match (&tried.verdict, status) {
-            _ if Some(index) == winner => 0,
-            (Some(verdict), PlanStatus::Solved) => {
-                if verdict.passed {
-                    1
-                } else {
-                    3
-                }
-            }
-            (Some(_), _) => 1,
-            (None, _) => 2,
-        };
-        let mut order: Vec<(usize, Tried)> = std::mem::take(&mut self.tried)
-            .into_iter()
-            .enumerate()
-            .map(|(index, tried)| (rank(index, &tried), tried))
-            .collect();
-        order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
-        order.truncate(REPORTED);
-        let plans: Vec<(&Plan, &Arc<Tool>)> =
-            order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
-        let predictions = self.planner.predict_all(self.task, self.situation, &plans);
-        self.statistics.rollouts = self.rollouts.used() + plans.len();
-        let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
-        let plans = order
-            .into_iter()
-            .zip(predictions)
-            .map(|((_, tried), prediction)| RankedPlan {
-                plan: tried.plan,
-                tool: tried.tool,
-                predicted: prediction.trajectory,
-                outcome: prediction.outcome,
-                verdict: tried.verdict,
-                refinement: tried.refinement,
-            })
-            .collect();
-        self.statistics.timing.total = began.elapsed().as_secs_f64();
-        Solution { status, plans, statistics: self.statistics, warnings }
     }
 }
 

@@ -25,6 +25,7 @@ mod prior;
 mod pruning;
 mod random_tasks;
 mod readme;
+mod seams;
 mod simulation;
 mod solving;
 mod symmetry;

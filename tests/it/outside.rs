@@ -106,7 +106,7 @@ fn jobs_keep_their_order_when_some_are_simulated() {
 }
 
 #[test]
-fn a_box_crushed_against_a_wall_is_said_to_overlap_and_is_simulated_when_asked() {
+fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
     let mut scene = scene(0.5);
     scene.obstacles.push(Obstacle {
         name: "wall".into(),
@@ -116,7 +116,7 @@ fn a_box_crushed_against_a_wall_is_said_to_overlap_and_is_simulated_when_asked()
     });
     let found = run(Outside::Warn, &scene).warnings;
     let depth = found.iter().find_map(|warning| match warning {
-        Warning::Overlap { depth, .. } => Some(*depth),
+        Warning::Jammed { depth, .. } => Some(*depth),
         _ => None,
     });
     // The tool ends 10 cm on; box and wall leave it 2 cm.

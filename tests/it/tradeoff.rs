@@ -33,7 +33,9 @@ fn longer_frames_give_the_same_instants_and_tool_poses_and_nearly_the_same_end()
             let [fine, coarse] = [&fine, model]
                 .map(|model| model.rollout(&case.scene, &jobs, Record::Frames).remove(0));
             let moving = case.motion.strokes[0].frames();
-            for (a, b) in fine.frames.iter().zip(&coarse.frames).take(moving + 1) {
+            // What jams is recorded up to there; its last frame is the end.
+            let shown = fine.frames.len().min(coarse.frames.len()) - 1;
+            for (a, b) in fine.frames.iter().zip(&coarse.frames).take(shown.min(moving + 1)) {
                 assert!((a.time - b.time).abs() < 1e-9, "{}", model.spec());
                 assert!((a.tool.position - b.tool.position).norm() < 1e-9, "{}", model.spec());
             }

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use pushplan::geometry::Vector;
-use pushplan::scene::{Disturbance, Engine, Plan, Push, PushForm, Situation, Task, Tool, Warning};
+use pushplan::geometry::{Pose, Vector};
+use pushplan::scene::{
+    Disturbance, Engine, Obstacle, Part, Plan, Push, PushForm, Reason, Situation, TableTop, Task,
+    Tool, ToolChoice, Warning,
+};
 use pushplan::verify::{Verifier, VerifySettings};
 
 const TASK: &str = "
@@ -101,4 +104,72 @@ fn a_toppled_object_is_no_pass() {
     assert!(!verdict.passed);
     let spatial = &verdict.evidence[1];
     assert!(spatial.warnings.iter().any(|w| matches!(w, Warning::Toppled { .. })));
+}
+
+#[test]
+fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let mut task = task();
+    // The can is 8 cm wide, the gap before its goal 7.5 cm.
+    for (name, side) in [("left", 1.0), ("right", -1.0)] {
+        let at = Pose::new(0.575, side * (0.0375 + 0.15), 0.0);
+        task.scene.obstacles.push(Obstacle::new(name, [0.05, 0.3, 0.1], at));
+    }
+    // A finger pushes, which fits through itself.
+    let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::new(0.22, 0.0, 0.0));
+    let tool = Arc::new(Tool::new("finger", [finger]).expect("one part"));
+    let through = Plan { tool: "finger".into(), ..plan(vec![push([0.225, 0.0], 0.0, 0.155)]) };
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &tool, &through);
+    assert!(!verdict.passed);
+    for evidence in &verdict.evidence {
+        let fault = evidence.fault().expect("a fault");
+        let Warning::Jammed { object, depth, .. } = fault else { panic!("{fault}") };
+        // The replay ends at the jam, not where the tool would have gone.
+        assert!(object == "can" && *depth < 4e-3, "{depth}");
+    }
+}
+
+#[test]
+fn what_the_task_does_not_allow_is_said_of_any_plan() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let mut task = task();
+    task.tools = ToolChoice::Named(vec!["stick".into()]);
+    task.robot.reach_max = 0.3;
+    let behind = Pose::new(0.3, 0.0, 0.0);
+    task.scene.obstacles.push(Obstacle::new("post", [0.02, 0.02, 0.1], behind));
+    let mut askew = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    askew.grip_yaw = 0.3;
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &askew);
+    let says = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
+    assert!(says(|w| matches!(w, Warning::ForbiddenTool { .. })));
+    assert!(says(|w| matches!(w, Warning::ForbiddenYaw { .. })));
+    assert!(says(|w| matches!(w, Warning::OutOfReach { push: 0 })));
+    assert!(says(|w| matches!(w, Warning::ThroughObstacle { push: 0, .. })));
+    assert!(matches!(verdict.reason, Some(Reason::Forbidden(_))) && !verdict.passed);
+}
+
+#[test]
+fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let text = TASK.replace("mass: 0.4", "mass: 200");
+    let mut task = Task::parse(&text, "safe.yaml").unwrap();
+    assert_eq!(task.scene.objects[0].mass, 200.0);
+    task.robot.max_force = Some(100.0);
+    let moved = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &moved);
+    assert!(!verdict.passed);
+    for evidence in &verdict.evidence {
+        assert!(evidence.warnings.iter().any(|w| matches!(w, Warning::TooMuchForce { .. })));
+    }
+}
+
+#[test]
+fn an_object_pushed_beyond_the_table_falls() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let mut task = task();
+    task.scene.table_top = Some(TableTop { size: [1.2, 1.0], middle: Vector::zeros() });
+    let off = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &off);
+    let fell = Warning::OffTable { object: "can".into() };
+    assert!(!verdict.passed && verdict.evidence.iter().all(|e| e.warnings.contains(&fell)));
 }

@@ -5,25 +5,30 @@ use serde_json::{Value as Json, json};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
-    Span, Task, Tool, ToolChoice,
+    Span, TableTop, Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
+    let mut robot = json!({
+        "home": vector(task.robot.home),
+        "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
+    });
+    if let Some(force) = task.robot.max_force {
+        robot["max_force"] = json!(force);
+    }
     json!({
         "name": task.name,
         "description": task.description,
         "scene": scene(&task.scene),
-        "robot": {
-            "home": vector(task.robot.home),
-            "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
-        },
+        "robot": robot,
         "tools": match &task.tools {
             ToolChoice::All => json!("all"),
             ToolChoice::Named(names) => json!(names),
         },
         "pushes": pushes(&task.pushes),
         "goal": goal(&task.goal, &task.scene),
+        "robustness": task.robustness,
     })
 }
 
@@ -101,8 +106,13 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         }
         fields
     };
+    let mut table = json!({"friction": scene.table_friction});
+    if let Some(TableTop { size, middle }) = scene.table_top {
+        table["size"] = json!(size);
+        table["position"] = json!(vector(middle));
+    }
     json!({
-        "table": {"friction": scene.table_friction},
+        "table": table,
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
         "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),

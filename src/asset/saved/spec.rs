@@ -121,12 +121,16 @@ const STATE: Value = Value::Map(&[
     ),
 ]);
 
+const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
+
+const ENGINE: Value = Value::Word(&["planar", "spatial"]);
+
 const OUTCOME: Value = Value::Map(&[
     Key::required("state", STATE, "Final poses of all objects."),
     Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
     Key::optional(
         "heading_error",
-        Value::Either(&[UNSIGNED, Value::Nothing]),
+        HEADING_ERROR,
         "Heading error, radians; by default none is asked for.",
     ),
     Key::required("reached", Value::Switch, "Whether the goal is reached at rest."),
@@ -138,8 +142,10 @@ const VERDICT: Value = Value::Map(&[
     Key::required(
         "passed",
         Value::Switch,
-        "Whether the nominal replay in 3-D reaches the goal at rest.",
+        "Whether the plan breaks no rule and reaches the goal, as written and often enough disturbed.",
     ),
+    Key::optional("reason", REASON, "Why not; by default unknown."),
+    Key::optional("forbidden", WARNINGS, "What the task does not allow; by default nothing."),
     Key::required(
         "evidence",
         Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 1000 },
@@ -152,6 +158,47 @@ const VERDICT: Value = Value::Map(&[
     ),
 ]);
 
+const REASON: Value = Value::Variant(&[
+    Key::optional(
+        "forbidden",
+        Value::Anything,
+        "The plan does what its task does not allow; no default.",
+    ),
+    Key::optional(
+        "goes_wrong",
+        GOES_WRONG,
+        "Something goes wrong when it is replayed as written; no default.",
+    ),
+    Key::optional("misses", MISSES, "The object ends beside the goal; no default."),
+    Key::optional(
+        "fragile",
+        FRAGILE,
+        "Too few of the disturbed replays reach the goal; no default.",
+    ),
+]);
+
+const GOES_WRONG: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "Which engine says so."),
+    Key::required("fault", Value::Anything, "What goes wrong."),
+]);
+
+const MISSES: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "Which engine says so."),
+    Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
+    Key::optional(
+        "heading_error",
+        HEADING_ERROR,
+        "Heading error, radians; by default none is asked for.",
+    ),
+]);
+
+const FRAGILE: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "In which engine fewer reach it."),
+    Key::required("reached", INDEX, "Disturbed replays that reach the goal."),
+    Key::required("replays", INDEX, "Disturbed replays."),
+    Key::required("wanted", SHARE, "Share that was asked for."),
+]);
+
 const DISTURBED: Key = Key::required(
     "disturbed",
     Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
@@ -159,7 +206,7 @@ const DISTURBED: Key = Key::required(
 );
 
 const EVIDENCE: Value = Value::Map(&[
-    Key::required("engine", Value::Word(&["planar", "spatial"]), "Which engine replayed it."),
+    Key::required("engine", ENGINE, "Which engine replayed it."),
     Key::required(
         "disturbance",
         Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[DISTURBED])]),
@@ -167,6 +214,7 @@ const EVIDENCE: Value = Value::Map(&[
     ),
     Key::required("outcome", OUTCOME, "Where it ended."),
     Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
+    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
 ]);
 
 const TRAJECTORY: Value = Value::Map(&[
@@ -182,6 +230,12 @@ const TRAJECTORY: Value = Value::Map(&[
         "First contacts, in order of time.",
     ),
     Key::required("warnings", WARNINGS, "What a reader should know."),
+    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
+]);
+
+const FORCE: Value = Value::Map(&[
+    Key::required("peak", UNSIGNED, "Largest force in one time step, newtons."),
+    Key::required("lasting", UNSIGNED, "Largest force that lasted three time steps, newtons."),
 ]);
 
 const FRAME: Value = Value::Map(&[
@@ -199,7 +253,11 @@ const CONTACT: Value = Value::Map(&[
         Value::Variant(&[
             Key::optional("object", INDEX, "Index of an object; no default."),
             Key::optional("obstacle", INDEX, "Index of an obstacle; no default."),
-            Key::optional("part", INDEX, "Index of a part of the tool; no default."),
+            Key::optional(
+                "part",
+                INDEX,
+                "Index of a piece of the tool's outline, in which flush parts are one; no default.",
+            ),
         ]),
         "What it touches.",
     ),

@@ -7,7 +7,7 @@ use crate::asset::take::{angle, name_of, number_or, pose, position, shape, tripl
 use crate::asset::text::named_after;
 use crate::geometry::Vector;
 use crate::scene::{
-    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Task,
+    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, TableTop, Task,
     ToolChoice,
 };
 
@@ -30,6 +30,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
             None => PushRules::default(),
         },
         goal,
+        robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
 }
 
@@ -39,13 +40,27 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
     Some(Scene {
         table_friction: match node.get("table") {
-            Some(table) => table.get("friction")?.number()?,
+            Some(table) => number_or(table, "friction", Scene::FRICTION)?,
             None => Scene::FRICTION,
+        },
+        table_top: match node.get("table").filter(|table| table.get("size").is_some()) {
+            Some(table) => Some(table_top(table)?),
+            None => None,
         },
         joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
         obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
         objects,
     })
+}
+
+/// Where a table with a size ends.
+pub(super) fn table_top(table: &Node) -> Option<TableTop> {
+    let size = vector(table.get("size")?)?;
+    let middle = match table.get("position") {
+        Some(position) => vector(position)?,
+        None => Vector::zeros(),
+    };
+    Some(TableTop { size: [size.x, size.y], middle })
 }
 
 fn object(node: &Node) -> Option<Object> {
@@ -77,6 +92,10 @@ fn robot(node: &Node) -> Option<Robot> {
         },
         reach_min,
         reach_max: reach.get("max")?.number()?,
+        max_force: match node.get("max_force") {
+            Some(force) => Some(force.number()?),
+            None => None,
+        },
     })
 }
 

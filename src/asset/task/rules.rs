@@ -3,7 +3,7 @@
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
-use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names};
+use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, vector};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules};
 
@@ -33,6 +33,32 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     goal(section("goal"), objects, obstacles, ledger);
+    on_table(scene, section("goal"), ledger);
+}
+
+/// Objects and goal must lie on a table that ends.
+fn on_table(scene: &Node, goal: &Node, ledger: &mut Ledger) {
+    let Some(table) = scene.get("table") else { return };
+    let Some(top) = table.get("size").and_then(|_| build::table_top(table)) else {
+        if let (Some(position), None) = (table.get("position"), table.get("size")) {
+            let advice = "add `size: [x, y]`, or remove the position";
+            ledger.fault(position, "a table without a size has no middle", advice);
+        }
+        return;
+    };
+    let objects = scene.get("objects").map(Node::items).unwrap_or_default();
+    let named = objects.iter().map(|object| (object, name_of(object).unwrap_or("?").to_owned()));
+    for (node, what) in named.chain([(goal, "the goal".to_owned())]) {
+        let Some(position) = node.get("position") else { continue };
+        if vector(position).is_some_and(|position| !top.holds(position)) {
+            let (size, middle) = (top.size, top.middle);
+            let message = format!(
+                "{what} lies beyond the table, which is {} x {} m about ({}, {})",
+                size[0], size[1], middle.x, middle.y
+            );
+            ledger.fault(position, message, "move it, make the table larger, or move the table");
+        }
+    }
 }
 
 /// Notes every fault of a scene, in which bodies may be `slack` metres deep in each other.

@@ -1,6 +1,8 @@
 //! What a task file may hold.
 
-use crate::asset::spec::{ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, Value};
+use crate::asset::spec::{
+    ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
+};
 
 use super::joints::JOINT;
 
@@ -29,6 +31,17 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     ),
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
     Key::required("goal", GOAL, "Where an object must come to rest."),
+    Key::optional(
+        "robustness",
+        Value::Number(Range {
+            what: "a share",
+            low: 0.0,
+            high: 1.0,
+            advice: "three quarters are 0.75",
+        }),
+        "Share of the replays with small errors of starts and frictions that must reach the goal \
+         for a plan to count; default 0.75.",
+    ),
 ];
 
 const SCENE: Value = Value::Map(&[
@@ -45,8 +58,21 @@ const SCENE: Value = Value::Map(&[
 /// What the objects stand on.
 pub(in crate::asset) const TABLE: Key = Key::optional(
     "table",
-    Value::Map(&[Key::required("friction", FRICTION, "Friction value of the table top.")]),
-    "The table; by default of friction 0.5.",
+    Value::Map(&[
+        Key::optional("friction", FRICTION, "Friction value of the table top; default 0.5."),
+        Key::optional(
+            "size",
+            numbers(&SIZE, 2),
+            "Extents [x, y] of the table top in metres; by default it has no end. An object whose \
+             centre leaves it has fallen off.",
+        ),
+        Key::optional(
+            "position",
+            POSITION,
+            "Middle of a table top with a size, [x, y] in metres; default [0, 0], the robot's base.",
+        ),
+    ]),
+    "The table; by default of friction 0.5 and without an end.",
 );
 
 /// Joints of one scene.
@@ -103,6 +129,16 @@ const ROBOT: Value = Value::Map(&[
             Key::required("max", REACH, "Largest distance from the base, metres."),
         ]),
         "Distances from the base, at the origin, at which the end effector can be.",
+    ),
+    Key::optional(
+        "max_force",
+        Value::Number(Range {
+            what: "a force in newtons",
+            low: 0.1,
+            high: 1e6,
+            advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
+        }),
+        "Largest force in newtons that the arm can press with; by default any.",
     ),
 ]);
 

@@ -26,6 +26,8 @@ pub enum TaskKind {
     Heading,
     /// One of two objects that are joined.
     Pair,
+    /// The goal lies behind a gap too narrow for the object: no plan can be right.
+    Gap,
 }
 
 /// Room that a kind gives, and how hard its tasks are.
@@ -52,7 +54,7 @@ const LEAST_TURN: f64 = PI / 12.0;
 const LEANING: f64 = PI / 6.0;
 
 impl TaskKind {
-    /// All of them.
+    /// All that can be solved.
     pub const ALL: [TaskKind; 6] = [
         TaskKind::Reach,
         TaskKind::Pull,
@@ -71,6 +73,7 @@ impl TaskKind {
             TaskKind::Obstacle => "obstacle",
             TaskKind::Heading => "heading",
             TaskKind::Pair => "pair",
+            TaskKind::Gap => "gap",
         }
     }
 
@@ -83,6 +86,7 @@ impl TaskKind {
             TaskKind::Obstacle => "An object to bring around an obstacle.",
             TaskKind::Heading => "A cuboid to bring to a place and a heading.",
             TaskKind::Pair => "One of two objects that are joined.",
+            TaskKind::Gap => "A goal behind a gap that is too narrow.",
         }
     }
 
@@ -110,7 +114,7 @@ impl TaskKind {
                 ..usual
             },
             TaskKind::Heading => Rules { least_way: 0.05, ..usual },
-            TaskKind::Pair => usual,
+            TaskKind::Pair | TaskKind::Gap => usual,
         }
     }
 
@@ -132,7 +136,7 @@ impl TaskKind {
             TaskKind::Sweep => (outwards + side, 0.7),
             // Around a corner.
             TaskKind::Obstacle if index > 0 => (before + side, 0.4),
-            TaskKind::Obstacle | TaskKind::Heading | TaskKind::Pair => (0.0, PI),
+            TaskKind::Obstacle | TaskKind::Heading | TaskKind::Pair | TaskKind::Gap => (0.0, PI),
         }
     }
 
@@ -150,7 +154,7 @@ impl TaskKind {
             TaskKind::Pull => off >= PI - LEANING,
             TaskKind::Sweep => (off - FRAC_PI_2).abs() <= LEANING,
             TaskKind::Heading => wrap_angle(end.heading - start.heading).abs() >= LEAST_TURN,
-            TaskKind::Obstacle | TaskKind::Pair => true,
+            TaskKind::Obstacle | TaskKind::Pair | TaskKind::Gap => true,
         }
     }
 }

@@ -180,6 +180,6 @@ fn round_pose(pose: &Pose) -> Pose {
 }
 
 /// The nearest multiple of 1 / `parts`.
-fn round(value: f64, parts: f64) -> f64 {
+pub(super) fn round(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }

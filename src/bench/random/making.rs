@@ -15,14 +15,14 @@ use super::one_push::{TRAVEL, WAYS};
 /// Further pushes of the plans that make goals stand off by this much more than the first,
 /// metres: the object does not stand quite where it was predicted, and the tool must not come
 /// down on it.
-const LATER_STAND_OFF: f64 = 0.01;
+const LATER_ROOM: f64 = 0.01;
 
 /// First pushes that are drawn before a table is given up: most tools do not fit most ways.
 const DRAWS: usize = 60;
 
 /// What a task allows with these tools, for plans that make goals.
 pub(super) fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
-    Workspace { task, tools, later_stand_off: LATER_STAND_OFF }
+    Workspace { task, tools }
 }
 
 /// A random candidate of a kind whose first push can be made; `None` if none was found.
@@ -66,14 +66,14 @@ pub(super) fn carried_out(
     candidate: &Candidate,
 ) -> Option<Evaluation> {
     let made = evaluate(workspace, rollouts, std::slice::from_ref(candidate)).pop()?.ok()?;
-    (made.is_feasible() && made.score.is_finite()).then_some(made)
+    (made.is_feasible() && made.is_sound()).then_some(made)
 }
 
 /// Whether the tool keeps clear of the obstacles on these pushes.
 pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
     let (pair, start) = ((candidate.tool, candidate.grip_yaw), workspace.task.scene.start());
     pushes.iter().all(|push| {
-        let margins = workspace.margins(pair, &start, push, false);
+        let margins = workspace.margins(pair, &start, push, None);
         margins.broken().is_none()
     })
 }
@@ -112,7 +112,8 @@ fn draw(
         let offset = rng.random_range(-span..=span);
         let length = rng.random_range(travel.low..travel.high);
         let start = Start::Placed { part, offset };
-        candidate.pushes.push(CandidatePush { start, direction, length });
+        let room = if index > 0 { LATER_ROOM } else { 0.0 };
+        candidate.pushes.push(CandidatePush { start, direction, length, room });
         before = direction;
     }
     candidate
@@ -122,14 +123,14 @@ fn draw(
 fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
     let (start, planned) = (workspace.task.scene.start(), candidate.pushes.first()?);
     let pair = (candidate.tool, candidate.grip_yaw);
-    let from = workspace.place(pair, &start, planned, 0, None).ok()?;
+    let from = workspace.place(pair, &start, planned, None).ok()?;
     let push = Push {
         start: from,
         direction: planned.direction,
         length: planned.length,
         speed: workspace.task.pushes.speed,
     };
-    workspace.margins(pair, &start, &push, true).broken().is_none().then_some(push)
+    workspace.margins(pair, &start, &push, Some(0.0)).broken().is_none().then_some(push)
 }
 
 /// A direction near `wanted` that refinement comes to from one of the ways that the search

@@ -21,8 +21,8 @@ use super::suite::{NoTask, RandomSuite, SuiteTask};
 pub struct RandomRecord {
     /// What kind of task.
     pub kind: TaskKind,
-    /// The plan that made the goal.
-    pub maker: Maker,
+    /// The plan that made the goal; nothing of a task that none can solve.
+    pub maker: Option<Maker>,
     /// The planner's plan.
     pub solved: SolvedTask,
     /// Where the object is if nothing is done.
@@ -76,7 +76,9 @@ impl RandomSuite {
     ) -> Result<Measured<RandomRecord>, RandomError> {
         let made = self.task(index)?;
         let solution = planner.solve(&made.task, library)?;
-        let maker = Maker { tool: made.plan.tool.clone(), pushes: made.plan.pushes.len() };
+        let maker = made.made.as_ref();
+        let maker =
+            maker.map(|(plan, _)| Maker { tool: plan.tool.clone(), pushes: plan.pushes.len() });
         let record = RandomRecord {
             kind: made.kind,
             maker,

@@ -5,6 +5,7 @@
 //! [`RandomSuite`] (several kinds, up to three pushes), so that the plan that made a task passes
 //! its verification.
 
+mod gap;
 mod kind;
 mod layout;
 mod making;

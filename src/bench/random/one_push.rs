@@ -45,7 +45,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
     loop {
         let mut task = open_task(&mut rng, &ranges, index);
         let candidate = random_candidate(&mut rng, &task, &tools);
-        let workspace = Workspace { task: &task, tools: &tools, later_stand_off: 0.0 };
+        let workspace = Workspace { task: &task, tools: &tools };
         let scene = task.scene.clone();
         let mut rollouts = Rollouts::new(&planar, Situation::stated(&scene));
         let Some(Ok(made)) = evaluate(&workspace, &mut rollouts, &[candidate]).pop() else {
@@ -53,7 +53,7 @@ pub fn random_task(library: &ToolLibrary, seed: u64, index: usize) -> Task {
         };
         let (start, end) = (task.scene.objects[0].pose, made.outcome.poses[0]);
         let moved = (end.position - start.position).norm();
-        if made.is_feasible() && made.score.is_finite() && moved > FARTHEST_TRIVIAL {
+        if made.is_feasible() && made.is_sound() && moved > FARTHEST_TRIVIAL {
             task.goal.position = end.position;
             return task;
         }
@@ -100,10 +100,11 @@ fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candid
     let part = rng.random_range(0..tools[tool].parts.len());
     let way = TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32));
     let direction = way + rng.random_range(-FRAC_PI_8..FRAC_PI_8);
-    let workspace = Workspace { task, tools, later_stand_off: 0.0 };
+    let workspace = Workspace { task, tools };
     let span = workspace.offset_span((tool, grip_yaw), &task.scene.start(), part, direction);
     let offset = rng.random_range(-span..=span);
     let length = rng.random_range(TRAVEL.low..TRAVEL.high);
-    let push = CandidatePush { start: Start::Placed { part, offset }, direction, length };
+    let push =
+        CandidatePush { start: Start::Placed { part, offset }, direction, length, room: 0.0 };
     Candidate { tool, grip_yaw, pushes: vec![push] }
 }

@@ -14,6 +14,7 @@ use crate::scene::{Plan, Scene, Situation, Task, Tool};
 use crate::sim::Simulator;
 use crate::verify::{Verifier, VerifySettings};
 
+use super::gap::gap_task;
 use super::kind::TaskKind;
 use super::layout::{open_task, set_goal, wall};
 use super::making::{carried_out, keeps_clear, plan, random_candidate, workspace};
@@ -45,10 +46,8 @@ pub struct SuiteTask {
     pub kind: TaskKind,
     /// The task.
     pub task: Task,
-    /// A plan that reaches its goal.
-    pub plan: Plan,
-    /// The tool of that plan.
-    pub tool: Arc<Tool>,
+    /// A plan that reaches its goal, and its tool; nothing where there is no such plan.
+    pub made: Option<(Plan, Arc<Tool>)>,
 }
 
 /// With these tools no task of a kind could be drawn.
@@ -61,7 +60,7 @@ pub struct NoTask {
 
 impl RandomSuite {
     /// Version of the drawing: another one gives other tasks.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// Tasks for the tools of `library`, of the given kinds (all of them, if none is given).
     pub fn new(library: &ToolLibrary, seed: u64, kinds: &[TaskKind]) -> Self {
@@ -96,6 +95,9 @@ impl RandomSuite {
         // Kinds must not share tables.
         let seed = self.seed ^ 0x5EED ^ ((kind as u64 + 1) << 40);
         let mut rng = generator(seed, round as u64);
+        if kind == TaskKind::Gap {
+            return Ok(SuiteTask { kind, task: gap_task(&mut rng, round), made: None });
+        }
         let tables = if self.tools.is_empty() { 0 } else { MOST_TABLES };
         (0..tables).find_map(|_| self.draw(&mut rng, kind, round)).ok_or(NoTask { kind })
     }
@@ -112,7 +114,7 @@ impl RandomSuite {
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
         let verdict = verifier.nominal(&task, &Situation::stated(&task.scene), &tool, &plan);
         let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
-        (verdict.passed && both).then_some(SuiteTask { kind, task, plan, tool })
+        (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tool)) })
     }
 
     /// Sets the goal where the candidate ends in the planar engine, if that makes a task of the

@@ -180,6 +180,7 @@ fn reference_tools() -> Vec<Tool> {
                 grip: Pose::default(),
                 friction: 0.4,
                 joints: (1..parts.len()).map(|k| [k - 1, k]).collect(),
+                outline: Tool::outline_of(&parts),
                 parts,
             }
         })

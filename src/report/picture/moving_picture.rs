@@ -288,7 +288,12 @@ mod tests {
             source: Source::Simulated(Engine::Spatial),
             scene: &scene,
             goal: &goal,
-            robot: &Robot { home: Vector::zeros(), reach_min: 0.1, reach_max: 0.9 },
+            robot: &Robot {
+                home: Vector::zeros(),
+                reach_min: 0.1,
+                reach_max: 0.9,
+                max_force: None,
+            },
             motion: &motion,
             trajectory: &trajectory,
         }

@@ -6,8 +6,8 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Frame, ModelKind, Outcome, Plan, Push, Task,
-    Tool, Trajectory, Verdict, Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, ModelKind, Outcome, Plan, Push,
+    Task, Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -33,11 +33,11 @@ pub fn plan_file(name: &str) -> PlanFile {
         outcome: outcome.clone(),
         warnings: vec![Warning::NotAtRest { waited: 3.0 }],
         trajectory: None,
+        force: Some(Force { peak: 9.6, lasting: 0.7 }),
     };
     let disturbed =
         Evidence { disturbance: Disturbance::Disturbed { draw: 2 }, ..evidence.clone() };
-    let verdict =
-        Verdict { passed: false, evidence: vec![evidence, disturbed], robustness: Some(0.5) };
+    let verdict = Verdict::judge(Vec::new(), vec![evidence, disturbed], 0.75);
     PlanFile {
         task,
         tool,
@@ -62,6 +62,7 @@ pub fn trajectory_file(name: &str) -> TrajectoryFile {
         frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
         contacts: vec![contact],
         warnings: vec![Warning::NotFinite],
+        force: Some(Force { peak: 12.5, lasting: 0.1 + 0.2 }),
     };
     TrajectoryFile { task, tool, plan, trajectory }
 }
@@ -115,7 +116,7 @@ fn damaged_plan_files_are_refused() {
       help: write a number that is smaller than 1e308
     "#);
     assert_snapshot!(damaged("\"mass\":0.4", "\"mass\":-1"), @r#"
-    p.json:1:1986: error: expected a mass in kg from 0.001 to 1000, found the number -1
+    p.json:1:2158: error: expected a mass in kg from 0.001 to 1000, found the number -1
       help: masses are in kilograms: 250 g is 0.25
     "#);
     assert_snapshot!(damaged("\"plan\":{\"tool\":\"stick\"", "\"plan\":{\"tool\":\"rake\""), @r#"
@@ -127,7 +128,7 @@ fn damaged_plan_files_are_refused() {
       help: the file is damaged; make it again
     "#);
     assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
-    p.json:1:744: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `not_finite`, `toppled`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`
+    p.json:1:559: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `too_much_force`, `out_of_reach`, `through_obstacle`, `forbidden_tool`, `forbidden_yaw`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`
       help: the file is damaged or of another version; make it again
     "#);
     assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"

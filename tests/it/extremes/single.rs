@@ -225,5 +225,6 @@ fn tool(parts: Vec<Part>) -> Arc<Tool> {
     let joints = (1..parts.len()).map(|k| [k - 1, k]).collect();
     let grip = Pose::default();
     let name = "extreme".to_owned();
-    Arc::new(Tool { name, description: String::new(), grip, friction: 0.4, parts, joints })
+    let outline = Tool::outline_of(&parts);
+    Arc::new(Tool { name, description: String::new(), grip, friction: 0.4, parts, outline, joints })
 }

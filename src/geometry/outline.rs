@@ -1,0 +1,340 @@
+//! The body that several rectangles make up: few rectangles of which each straight stretch of the
+//! boundary belongs whole to one.
+//!
+//! All rectangles have sides along the axes. Their edges divide the plane into a grid; of the
+//! largest rectangles that fit into the union, those are taken that are needed to hold every
+//! stretch of its boundary from end to end and every cell.
+
+use super::Rim;
+use super::rim::corner;
+
+/// Edges closer together than this lie in line, metres: rounding, and gaps that count as none.
+const IN_LINE: f64 = 1e-4;
+
+/// A rectangle along the axes: its lower left and its upper right corner, metres.
+pub type Extent = [[f64; 2]; 2];
+
+/// One of the rectangles that make up the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlinePiece {
+    /// Where it is.
+    pub extent: Extent,
+    /// Where it can be touched, in the frame of its centre.
+    pub rim: Rim,
+}
+
+/// The pieces of the union of `extents`.
+pub fn outline(extents: &[Extent]) -> Vec<OutlinePiece> {
+    let grid = Grid::new(extents);
+    let stretches = grid.stretches();
+    let largest = grid.largest();
+    let mut taken: Vec<Cells> = Vec::new();
+    for stretch in &stretches {
+        if !taken.iter().any(|cells| stretch.lies_on(cells)) {
+            // The stretch lies on the boundary, so one of the largest rectangles holds it.
+            taken.extend(largest.iter().find(|cells| stretch.lies_on(cells)));
+        }
+    }
+    for cells in &largest {
+        if !cells.each().all(|cell| taken.iter().any(|other| other.holds(cell))) {
+            taken.push(*cells);
+        }
+    }
+    let mut pieces: Vec<OutlinePiece> = taken.iter().map(|cells| grid.piece(cells)).collect();
+    for stretch in stretches {
+        if let Some(owner) = taken.iter().position(|cells| stretch.lies_on(cells)) {
+            grid.give(&stretch, &taken[owner], &mut pieces[owner]);
+        }
+    }
+    pieces
+}
+
+/// A rectangle of grid cells: from the first up to, but not including, the last, of each axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Cells {
+    from: [usize; 2],
+    to: [usize; 2],
+}
+
+impl Cells {
+    fn holds(&self, cell: [usize; 2]) -> bool {
+        (0..2).all(|axis| self.from[axis] <= cell[axis] && cell[axis] < self.to[axis])
+    }
+
+    fn each(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        (self.from[0]..self.to[0])
+            .flat_map(|column| (self.from[1]..self.to[1]).map(move |row| [column, row]))
+    }
+}
+
+/// A straight stretch of the boundary.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    /// 0 to 3: the body lies on its -x, -y, +x, +y side.
+    side: usize,
+    /// The grid line that it lies on, and the lines between which, of the other axis.
+    line: usize,
+    from: usize,
+    to: usize,
+}
+
+impl Stretch {
+    /// The axis across it.
+    fn across(&self) -> usize {
+        self.side % 2
+    }
+
+    /// Whether it is part of the boundary of `cells`, which lie on its inner side.
+    fn lies_on(&self, cells: &Cells) -> bool {
+        let (across, along) = (self.across(), 1 - self.across());
+        let line = if self.side < 2 { cells.to[across] } else { cells.from[across] };
+        line == self.line && cells.from[along] <= self.from && self.to <= cells.to[along]
+    }
+}
+
+/// The plane cut along all edges.
+struct Grid {
+    /// Coordinates of the lines across each axis.
+    lines: [Vec<f64>; 2],
+    filled: Vec<bool>,
+}
+
+impl Grid {
+    fn new(extents: &[Extent]) -> Self {
+        let lines = [0, 1].map(|axis| {
+            let mut edges: Vec<f64> =
+                extents.iter().flat_map(|extent| [extent[0][axis], extent[1][axis]]).collect();
+            edges.sort_by(f64::total_cmp);
+            edges.dedup_by(|next, kept| *next - *kept <= IN_LINE);
+            edges
+        });
+        let mut grid = Self { filled: vec![false; lines[0].len() * lines[1].len()], lines };
+        for extent in extents {
+            let at = |corner: usize| [0, 1].map(|axis| grid.nearest(axis, extent[corner][axis]));
+            let cells = Cells { from: at(0), to: at(1) };
+            for cell in cells.each() {
+                let index = grid.index(cell);
+                grid.filled[index] = true;
+            }
+        }
+        grid
+    }
+
+    /// The line that an edge lies in.
+    fn nearest(&self, axis: usize, edge: f64) -> usize {
+        // Lines are sorted, and each edge lies at most IN_LINE above its own.
+        self.lines[axis].partition_point(|line| *line <= edge).saturating_sub(1)
+    }
+
+    fn index(&self, [column, row]: [usize; 2]) -> usize {
+        row * self.lines[0].len() + column
+    }
+
+    /// Whether the cell above and to the right of these lines is filled; those outside are not.
+    fn is_filled(&self, column: isize, row: isize) -> bool {
+        match (usize::try_from(column), usize::try_from(row)) {
+            (Ok(column), Ok(row)) if column < self.lines[0].len() && row < self.lines[1].len() => {
+                self.filled[self.index([column, row])]
+            }
+            _ => false,
+        }
+    }
+
+    /// All rectangles of filled cells that cannot be made larger on any side, largest area first.
+    fn largest(&self) -> Vec<Cells> {
+        let [columns, rows] = [0, 1].map(|axis| self.lines[axis].len() - 1);
+        let full = |cells: Cells| cells.each().all(|cell| self.filled[self.index(cell)]);
+        let mut found = Vec::new();
+        for left in 0..columns {
+            // Rows that are filled from `left` on, column by column.
+            let mut open: Vec<bool> = vec![true; rows];
+            for right in left + 1..=columns {
+                for (row, open) in open.iter_mut().enumerate() {
+                    *open &= self.filled[self.index([right - 1, row])];
+                }
+                let mut row = 0;
+                while row < rows {
+                    let run = open[row..].iter().take_while(|open| **open).count();
+                    let cells = Cells { from: [left, row], to: [right, row + run] };
+                    let beside = |column: usize| {
+                        full(Cells { from: [column, row], to: [column + 1, row + run] })
+                    };
+                    let wider = left > 0 && beside(left - 1) || right < columns && beside(right);
+                    if run > 0 && !wider {
+                        found.push(cells);
+                    }
+                    row += run.max(1);
+                }
+            }
+        }
+        let area = |cells: &Cells| -> f64 {
+            [0, 1]
+                .map(|k| self.lines[k][cells.to[k]] - self.lines[k][cells.from[k]])
+                .iter()
+                .product()
+        };
+        found.sort_by(|a, b| area(b).total_cmp(&area(a)));
+        found
+    }
+
+    /// The straight stretches of the boundary, longest first.
+    fn stretches(&self) -> Vec<Stretch> {
+        let mut found = Vec::new();
+        for side in 0..4 {
+            let across = side % 2;
+            let along = 1 - across;
+            // The body is on the side of smaller coordinates of the first two.
+            let is_edge = |line: usize, place: usize| {
+                let filled = |offset: isize| {
+                    let mut cell = [0; 2];
+                    cell[across] = line as isize + offset;
+                    cell[along] = place as isize;
+                    self.is_filled(cell[0], cell[1])
+                };
+                let (inner, outer) = if side < 2 { (-1, 0) } else { (0, -1) };
+                filled(inner) && !filled(outer)
+            };
+            for line in 0..self.lines[across].len() {
+                let mut place = 0;
+                while place < self.lines[along].len() {
+                    let run = (place..self.lines[along].len())
+                        .take_while(|&place| is_edge(line, place))
+                        .count();
+                    if run > 0 {
+                        found.push(Stretch { side, line, from: place, to: place + run });
+                    }
+                    place += run.max(1);
+                }
+            }
+        }
+        let length = |stretch: &Stretch| {
+            let lines = &self.lines[1 - stretch.across()];
+            lines[stretch.to] - lines[stretch.from]
+        };
+        found.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        found
+    }
+
+    fn piece(&self, cells: &Cells) -> OutlinePiece {
+        let corner = |lines: [usize; 2]| [0, 1].map(|axis| self.lines[axis][lines[axis]]);
+        OutlinePiece { extent: [corner(cells.from), corner(cells.to)], rim: Rim::default() }
+    }
+
+    /// Lets a stretch, with the corners of the body at its ends, be touched on a piece.
+    fn give(&self, stretch: &Stretch, cells: &Cells, piece: &mut OutlinePiece) {
+        let along = 1 - stretch.across();
+        let middle = 0.5 * (piece.extent[0][along] + piece.extent[1][along]);
+        let [from, to] = [stretch.from, stretch.to].map(|line| self.lines[along][line] - middle);
+        piece.rim.sides[stretch.side].push((from, to));
+        let outwards = stretch.side < 2;
+        for (line, high) in [(stretch.from, false), (stretch.to, true)] {
+            let end = if high { cells.to[along] } else { cells.from[along] };
+            // Beyond an inner corner of the body the piece goes on.
+            if line == end && self.is_corner(stretch, line, high) {
+                let (right, upper) = if along == 1 { (outwards, high) } else { (high, outwards) };
+                piece.rim.corners[corner(right, upper)] = true;
+            }
+        }
+    }
+
+    /// Whether the boundary turns inwards, around the body, at an end of a stretch.
+    fn is_corner(&self, stretch: &Stretch, line: usize, high: bool) -> bool {
+        let (across, along) = (stretch.across(), 1 - stretch.across());
+        let beyond = if high { line as isize } else { line as isize - 1 };
+        [stretch.line as isize - 1, stretch.line as isize].into_iter().all(|place| {
+            let mut cell = [0; 2];
+            cell[across] = place;
+            cell[along] = beyond;
+            !self.is_filled(cell[0], cell[1])
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+
+    /// Centre and size.
+    fn extent(x: f64, y: f64, width: f64, height: f64) -> Extent {
+        [[x - width / 2.0, y - height / 2.0], [x + width / 2.0, y + height / 2.0]]
+    }
+
+    fn close(a: Extent, b: Extent) -> bool {
+        a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-9)
+    }
+
+    #[test]
+    fn a_row_is_one_rectangle_touched_all_around() {
+        let row: Vec<Extent> =
+            (0..4).map(|k| extent(0.12 + 0.14 * k as f64, 0.0, 0.14, 0.08)).collect();
+        let pieces = outline(&row);
+        assert_eq!(pieces.len(), 1);
+        assert!(close(pieces[0].extent, extent(0.33, 0.0, 0.56, 0.08)));
+        assert_eq!(pieces[0].rim.corners, [true; 4]);
+        for (side, half) in [0.04, 0.28, 0.04, 0.28].into_iter().enumerate() {
+            let [(low, high)] = pieces[0].rim.sides[side][..] else { panic!("one stretch") };
+            assert!((low + half).abs() < 1e-9 && (high - half).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn each_face_of_an_l_belongs_to_one_of_two_rectangles() {
+        let parts: Vec<Extent> = [(0.12, 0.0, 0.14, 0.08), (0.26, 0.0, 0.14, 0.08)]
+            .into_iter()
+            .chain([(0.40, 0.0, 0.14, 0.08), (0.43, 0.12, 0.08, 0.16)])
+            .map(|(x, y, width, height)| extent(x, y, width, height))
+            .collect();
+        let pieces = outline(&parts);
+        assert_eq!(pieces.len(), 2);
+        let [handle, bar] = [0.42, 0.24].map(|length| {
+            pieces.iter().find(|piece| {
+                let [from, to] = piece.extent;
+                ((to[0] - from[0]).max(to[1] - from[1]) - length).abs() < 1e-9
+            })
+        });
+        let (handle, bar) = (handle.expect("the handle"), bar.expect("the bar"));
+        // The end face is the bar's, the long back face the handle's, and none is that of both.
+        let shows = |piece: &OutlinePiece, x: f64, y: f64, normal: Vector| {
+            let [from, to] = piece.extent;
+            let centre = Vector::new(from[0] + to[0], from[1] + to[1]) / 2.0;
+            piece.rim.shows(Vector::new(x, y) - centre, normal)
+        };
+        for y in [-0.04, 0.0, 0.04, 0.1, 0.2] {
+            assert!(shows(bar, 0.47, y, Vector::x()) && !shows(handle, 0.47, y, Vector::x()));
+        }
+        for x in [0.05, 0.3, 0.4, 0.47] {
+            let down = -Vector::y();
+            assert!(shows(handle, x, -0.04, down) && !shows(bar, x, -0.04, down), "{x}");
+        }
+        // What catches a box that slides along the back.
+        assert!(!shows(bar, 0.39, -0.04, -Vector::x()));
+        assert!(!shows(bar, 0.39, -0.04, Vector::new(-0.8, -0.6)));
+        // The inner corner has both faces, the outer corners are corners.
+        assert!(shows(bar, 0.39, 0.05, -Vector::x()) && shows(handle, 0.38, 0.04, Vector::y()));
+        let outer = Vector::new(0.6, -0.8);
+        assert!(shows(bar, 0.47, -0.04, outer) || shows(handle, 0.47, -0.04, outer));
+        assert!(shows(bar, 0.39, 0.20, Vector::new(-0.8, 0.6)));
+    }
+
+    #[test]
+    fn what_does_not_touch_stays_apart_and_a_hole_is_no_fault() {
+        let apart = [extent(0.0, 0.0, 0.1, 0.1), extent(0.3, 0.0, 0.1, 0.1)];
+        assert_eq!(outline(&apart).len(), 2);
+        let frame = [
+            extent(0.0, 0.1, 0.3, 0.1),
+            extent(0.0, -0.1, 0.3, 0.1),
+            extent(0.1, 0.0, 0.1, 0.3),
+            extent(-0.1, 0.0, 0.1, 0.3),
+        ];
+        let pieces = outline(&frame);
+        assert_eq!(pieces.len(), 4);
+        let inner = pieces.iter().filter(|piece| {
+            let [from, to] = piece.extent;
+            let centre = Vector::new(from[0] + to[0], from[1] + to[1]) / 2.0;
+            let is_its_side = (from[0] - 0.05).abs() < 1e-9;
+            is_its_side && piece.rim.shows(Vector::new(0.05, 0.0) - centre, -Vector::x())
+        });
+        assert_eq!(inner.count(), 1);
+    }
+}

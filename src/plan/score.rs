@@ -1,0 +1,46 @@
+//! How good a rollout is: the error in units of the tolerance, and what stands behind all others.
+
+use crate::scene::{Goal, State, Trajectory, Warning};
+
+/// Added to the score of a rollout that leads through what a rigid body cannot pass. More than any
+/// error in units of a tolerance, so such a candidate is tried only when there is no other: it is
+/// not refused, because a prediction of a few millimetres too much is no proof.
+const BEHIND: f64 = 1e6;
+
+/// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
+/// cannot count (not finite, not at rest).
+pub(super) fn final_score(goal: &Goal, trajectory: &Trajectory) -> f64 {
+    let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
+    let fatal = |warning: &Warning| warning.forbids_success() && !warning.blocks();
+    if trajectory.warnings.iter().any(fatal) {
+        return f64::INFINITY;
+    }
+    let score = finite_score(goal, &frame.state);
+    if is_blocked(trajectory) { behind(score) } else { score }
+}
+
+/// Score of a state, infinite where it is not a number.
+pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
+    let score = if state.is_finite() { goal.score(state) } else { f64::NAN };
+    if score.is_nan() { f64::INFINITY } else { score }
+}
+
+/// Whether something on the way of a rollout could not pass.
+pub(super) fn is_blocked(trajectory: &Trajectory) -> bool {
+    trajectory.warnings.iter().any(Warning::blocks)
+}
+
+/// The score, put behind those of all rollouts that are not blocked.
+pub fn behind(score: f64) -> f64 {
+    bare(score) + BEHIND
+}
+
+/// Whether a score stands behind those of all rollouts that are not blocked.
+pub fn is_behind(score: f64) -> bool {
+    score >= BEHIND && score.is_finite()
+}
+
+/// The score without regard to whether something is in the way.
+pub fn bare(score: f64) -> f64 {
+    if is_behind(score) { score - BEHIND } else { score }
+}

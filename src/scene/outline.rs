@@ -1,0 +1,184 @@
+//! What of a tool can be touched: its parts without the seams between them.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::geometry::{Extent, Footprint, Pose, Rim, Shape, Vector, outline};
+
+use super::Part;
+
+/// Parts whose turns differ by this little from quarter turns, radians, have sides along the same
+/// axes: written in degrees, turns are rounded.
+const SAME_AXES: f64 = 1e-6;
+
+/// Parts whose heights differ by less reach equally high, metres.
+const SAME_HEIGHT: f64 = 1e-6;
+
+/// A solid of the tool's outline.
+///
+/// Cuboids of one height whose sides lie along the same axes are taken as one body, made of as
+/// few and as large cuboids as hold each of its faces whole; so a row of parts is one cuboid, and
+/// the end of an L is one face. Any other part is a piece of its own. Engines, prior and network
+/// know the tool by its pieces: to the graph each is a node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// The names of the parts that it holds whole, or of those it has a share in.
+    pub name: String,
+    /// Its solid, upright.
+    pub shape: Shape,
+    /// Pose of the centre in the tool frame.
+    pub pose: Pose,
+    /// Where it can be touched; everywhere where nothing is said.
+    pub rim: Option<Rim>,
+}
+
+impl Piece {
+    /// What it covers on the table.
+    pub fn footprint(&self) -> Footprint {
+        self.shape.footprint()
+    }
+
+    fn of(part: &Part) -> Self {
+        Self { name: part.name.clone(), shape: part.shape, pose: part.pose, rim: None }
+    }
+}
+
+/// The pieces of a tool of these parts.
+pub(super) fn pieces(parts: &[Part]) -> Vec<Piece> {
+    let mut pieces = Vec::with_capacity(parts.len());
+    let mut done = vec![false; parts.len()];
+    for first in 0..parts.len() {
+        if done[first] {
+            continue;
+        }
+        let mut alike = Vec::new();
+        for (part, done) in parts.iter().zip(&mut done).skip(first) {
+            if alike.is_empty() || !*done && are_alike(&parts[first], part) {
+                *done = true;
+                alike.push(part);
+            }
+        }
+        match alike[..] {
+            [only] => pieces.push(Piece::of(only)),
+            _ => pieces.extend(merged(&alike)),
+        }
+    }
+    pieces
+}
+
+/// Whether both are cuboids of one height with sides along the same axes.
+fn are_alike(a: &Part, b: &Part) -> bool {
+    let (Shape::Cuboid { size: first }, Shape::Cuboid { size: second }) = (a.shape, b.shape) else {
+        return false;
+    };
+    let turns = (b.pose.heading - a.pose.heading) / FRAC_PI_2;
+    (turns - turns.round()).abs() * FRAC_PI_2 <= SAME_AXES
+        && (first[2] - second[2]).abs() <= SAME_HEIGHT
+}
+
+/// The pieces of cuboids that are alike.
+fn merged(parts: &[&Part]) -> Vec<Piece> {
+    let axes = Pose { position: Vector::zeros(), heading: parts[0].pose.heading };
+    let height = parts[0].shape.height();
+    let extents: Vec<Extent> = parts.iter().map(|part| extent(part, &axes)).collect();
+    let found = outline(&extents);
+    let piece = |extent: Extent, rim: Rim| {
+        let [from, to] = extent.map(|[x, y]| Vector::new(x, y));
+        let (size, centre) = (to - from, (from + to) / 2.0);
+        Piece {
+            name: name(parts, &extents, extent),
+            shape: Shape::Cuboid { size: [size.x, size.y, height] },
+            pose: Pose { position: axes.point(centre), ..axes },
+            rim: Some(rim),
+        }
+    };
+    match &found[..] {
+        // One rectangle has no seams.
+        [only] => vec![Piece { rim: None, ..piece(only.extent, Rim::default()) }],
+        _ => found.into_iter().map(|found| piece(found.extent, found.rim)).collect(),
+    }
+}
+
+/// Where a cuboid part lies as seen along `axes`.
+fn extent(part: &Part, axes: &Pose) -> Extent {
+    let centre = axes.local_point(part.pose.position);
+    let turned = ((part.pose.heading - axes.heading) / FRAC_PI_2).round().rem_euclid(2.0) == 1.0;
+    let half = match part.footprint() {
+        Footprint::Rectangle { half } if turned => Vector::new(half.y, half.x),
+        Footprint::Rectangle { half } => half,
+        Footprint::Disc { radius } => Vector::new(radius, radius),
+    };
+    let (low, high) = (centre - half, centre + half);
+    [[low.x, low.y], [high.x, high.y]]
+}
+
+fn name(parts: &[&Part], extents: &[Extent], piece: Extent) -> String {
+    /// What rounding and gaps that count as none may hide, metres.
+    const SLACK: f64 = 2e-4;
+    let among = |is_in: &dyn Fn(&Extent, usize) -> bool| -> Vec<&str> {
+        let within = |extent: &Extent| (0..2).all(|axis| is_in(extent, axis));
+        let named = parts.iter().zip(extents).filter(|(_, extent)| within(extent));
+        named.map(|(part, _)| part.name.as_str()).collect()
+    };
+    let whole = among(&|extent, axis| {
+        piece[0][axis] <= extent[0][axis] + SLACK && extent[1][axis] <= piece[1][axis] + SLACK
+    });
+    if !whole.is_empty() {
+        return whole.join("+");
+    }
+    let shared = among(&|extent, axis| {
+        piece[0][axis] + SLACK < extent[1][axis] && extent[0][axis] + SLACK < piece[1][axis]
+    });
+    shared.join("+")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hook_written_with_turned_parts_has_two_pieces() {
+        let row = (1..4).map(|k| {
+            let x = -0.02 + 0.14 * f64::from(k);
+            Part::cuboid(format!("handle-{k}"), [0.14, 0.08, 0.05], Pose::new(x, 0.0, 0.0))
+        });
+        let bar = Part::cuboid("bar", [0.16, 0.08, 0.05], Pose::new(0.43, 0.12, FRAC_PI_2));
+        let mut parts: Vec<Part> = row.chain([bar]).collect();
+        let pieces = super::pieces(&parts);
+        let names: Vec<&str> = pieces.iter().map(|piece| piece.name.as_str()).collect();
+        assert_eq!(names, ["handle-1+handle-2+handle-3", "bar"]);
+        let Shape::Cuboid { size } = pieces[1].shape else { panic!("a cuboid") };
+        assert!((size[0] - 0.08).abs() < 1e-12 && (size[1] - 0.24).abs() < 1e-12);
+        // Held askew it is the same tool.
+        let askew = Pose::new(0.2, -0.1, 0.7);
+        parts.iter_mut().for_each(|part| part.pose = askew * part.pose);
+        for (piece, straight) in super::pieces(&parts).iter().zip(&pieces) {
+            let expected = askew * straight.pose;
+            assert!((piece.pose.position - expected.position).norm() < 1e-12);
+            assert!((piece.pose.heading - expected.heading).abs() < 1e-12);
+            assert_eq!(piece.name, straight.name);
+        }
+    }
+
+    #[test]
+    fn parts_that_differ_stay_as_they_are() {
+        let part = |name: &str, size: [f64; 3], yaw: f64| {
+            Part::cuboid(name, size, Pose::new(0.1 * yaw, 0.0, yaw))
+        };
+        let mut parts = vec![
+            part("low", [0.1, 0.02, 0.03], 0.0),
+            part("high", [0.1, 0.02, 0.05], 0.0),
+            part("slanted", [0.1, 0.02, 0.05], 0.8),
+        ];
+        parts.push(Part {
+            name: "round".into(),
+            shape: Shape::Cylinder { radius: 0.02, height: 0.05 },
+            pose: Pose::default(),
+        });
+        let pieces = super::pieces(&parts);
+        assert_eq!(pieces.len(), 4);
+        for (piece, part) in pieces.iter().zip(&parts) {
+            assert_eq!((&piece.name, piece.shape, piece.pose), (&part.name, part.shape, part.pose));
+            assert_eq!(piece.rim, None);
+        }
+    }
+}

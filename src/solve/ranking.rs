@@ -1,0 +1,63 @@
+//! What comes back: the plans that were tried, ranked.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::scene::{Plan, Tool};
+
+use super::solving::{Solving, Tried};
+use super::{PlanStatus, RankedPlan, Solution};
+
+/// At most this many plans come back: what a reader looks at.
+const REPORTED: usize = 8;
+
+impl Solving<'_> {
+    /// Ranks what was tried: the best; then those that passed, are untried, have failed - or, where
+    /// none passed, the evidence first.
+    pub(super) fn ranked(
+        mut self,
+        status: PlanStatus,
+        best: Option<usize>,
+        began: Instant,
+    ) -> Solution {
+        let rank = |index: usize, tried: &Tried| match (&tried.verdict, status) {
+            _ if Some(index) == best => 0,
+            (Some(verdict), PlanStatus::Solved) => {
+                if verdict.passed {
+                    1
+                } else {
+                    3
+                }
+            }
+            (Some(_), _) => 1,
+            (None, _) => 2,
+        };
+        let mut order: Vec<(usize, Tried)> = std::mem::take(&mut self.tried)
+            .into_iter()
+            .enumerate()
+            .map(|(index, tried)| (rank(index, &tried), tried))
+            .collect();
+        order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
+        order.truncate(REPORTED);
+        let plans: Vec<(&Plan, &Arc<Tool>)> =
+            order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
+        let predictions = self.planner.predict_all(self.task, self.situation, &plans);
+        self.statistics.rollouts = self.rollouts.used() + plans.len();
+        let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
+        let plans = order
+            .into_iter()
+            .zip(predictions)
+            .map(|((_, tried), prediction)| RankedPlan {
+                plan: tried.plan,
+                tool: tried.tool,
+                predicted: prediction.trajectory,
+                outcome: prediction.outcome,
+                verdict: tried.verdict,
+                refinement: tried.refinement,
+            })
+            .collect();
+        self.statistics.timing.total = began.elapsed().as_secs_f64();
+        let stopped = self.watch.cancelled();
+        Solution { status, stopped, plans, statistics: self.statistics, warnings }
+    }
+}

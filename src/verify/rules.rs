@@ -1,0 +1,61 @@
+//! What a plan does that its task does not allow, whatever it leads to.
+//!
+//! Written apart from the planner's own rules, which are stricter: it keeps distances, this only
+//! says what no robot can do or the task forbids.
+
+use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};
+use crate::scene::{Plan, Push, Robot, Scene, Task, Tool, ToolChoice, Warning};
+
+/// Slack for rounding, metres and radians.
+const SLACK: f64 = 1e-5;
+
+/// Everything that is wrong with `plan`, which `tool` carries out in `scene`, before anything
+/// moves.
+pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec<Warning> {
+    let mut found = Vec::new();
+    if plan.pushes.is_empty() {
+        return found;
+    }
+    if let ToolChoice::Named(names) = &task.tools
+        && !names.contains(&tool.name)
+    {
+        found.push(Warning::ForbiddenTool { tool: tool.name.clone() });
+    }
+    let same = |yaw: &f64| wrap_angle(yaw - plan.grip_yaw).abs() <= SLACK;
+    if !task.pushes.grip_yaws.iter().any(same) {
+        found.push(Warning::ForbiddenYaw { yaw: plan.grip_yaw });
+    }
+    let through = |push: &Push| {
+        let frame = |at: Vector| tool.pose(Pose { position: at, heading: plan.grip_yaw });
+        let (from, to) = (frame(push.start), frame(push.end()));
+        scene.obstacles.iter().find(|obstacle| {
+            let still = (&obstacle.shape().footprint(), &obstacle.pose);
+            let meets = |k: usize| {
+                let (part, ends) = (tool.parts[k].footprint(), [from, to]);
+                let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
+                swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
+            };
+            plan.lift < obstacle.size[2] && (0..tool.parts.len()).any(meets)
+        })
+    };
+    for (index, push) in plan.pushes.iter().enumerate() {
+        if !is_within_reach(&task.robot, push) {
+            found.push(Warning::OutOfReach { push: index });
+        }
+        if let Some(obstacle) = through(push) {
+            let obstacle = obstacle.name.clone();
+            found.push(Warning::ThroughObstacle { push: index, obstacle });
+        }
+    }
+    found
+}
+
+/// Whether the end effector is within reach all along a push.
+fn is_within_reach(robot: &Robot, push: &Push) -> bool {
+    let (from, to) = (push.start, push.end());
+    let way = to - from;
+    let square = way.norm_squared();
+    let nearest = if square > 0.0 { (-from.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    from.norm().max(to.norm()) <= robot.reach_max + SLACK
+        && (from + nearest * way).norm() >= robot.reach_min - SLACK
+}

@@ -1,0 +1,177 @@
+//! Flush parts of a tool are one body: what slides along a row of parts moves as along one cuboid.
+//!
+//! Engines and contact solvers look at each solid alone. A box whose flat side lies on a row of
+//! parts sinks into it by micrometres, so the corner of the next part seems to stand in its way;
+//! before tools had outlines, 30 % of the pushes below ended more than 3 mm away.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::scene::{Job, Object, Part, Record, Scene, Situation, Stroke, Tool, ToolMotion};
+use pushplan::sim::Simulator;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// What parts and one cuboid may differ by, metres.
+const SAME: f64 = 1e-4;
+
+/// Draws for each face and model.
+const DRAWS: usize = 40;
+
+/// A face of a tool, and a tool of one cuboid that has the same face.
+struct Face {
+    name: &'static str,
+    parts: Vec<Part>,
+    alone: Part,
+    /// Direction in which the face looks, radians in the tool frame.
+    looks: f64,
+    /// The face's middle in the tool frame, metres.
+    middle: Vector,
+    /// How far from there the box may start, metres.
+    room: f64,
+}
+
+fn cuboid(x: f64, y: f64, width: f64, height: f64) -> Part {
+    Part::cuboid(format!("{x} {y}"), [width, height, 0.05], Pose::new(x, y, 0.0))
+}
+
+fn row(count: usize) -> Vec<Part> {
+    (0..count).map(|k| cuboid(0.12 + 0.14 * k as f64, 0.0, 0.14, 0.08)).collect()
+}
+
+fn hook() -> Vec<Part> {
+    let bar = Part::cuboid("bar", [0.16, 0.08, 0.05], Pose::new(0.43, 0.12, FRAC_PI_2));
+    row(3).into_iter().chain([bar]).collect()
+}
+
+fn rake() -> Vec<Part> {
+    vec![
+        cuboid(0.225, 0.0, 0.43, 0.03),
+        cuboid(0.455, 0.0, 0.03, 0.24),
+        cuboid(0.42, 0.105, 0.04, 0.03),
+        cuboid(0.42, -0.105, 0.04, 0.03),
+    ]
+}
+
+fn faces() -> Vec<Face> {
+    let halved = |count: usize| -> Vec<Part> {
+        let width = 0.42 / count as f64;
+        (0..count).map(|k| cuboid(0.05 + (k as f64 + 0.5) * width, 0.0, width, 0.08)).collect()
+    };
+    let side = |name, parts, alone| Face {
+        name,
+        parts,
+        alone,
+        looks: FRAC_PI_2,
+        middle: Vector::new(0.26, 0.04),
+        room: 0.10,
+    };
+    let whole = cuboid(0.26, 0.0, 0.42, 0.08);
+    vec![
+        side("row of three", row(3), whole.clone()),
+        side("row of six", halved(6), whole.clone()),
+        side("stick", row(4), cuboid(0.33, 0.0, 0.56, 0.08)),
+        Face {
+            name: "end of the hook",
+            parts: hook(),
+            alone: cuboid(0.43, 0.08, 0.08, 0.24),
+            looks: 0.0,
+            middle: Vector::new(0.47, 0.08),
+            room: 0.06,
+        },
+        Face {
+            name: "back of the hook",
+            parts: hook(),
+            alone: whole,
+            looks: -FRAC_PI_2,
+            middle: Vector::new(0.30, -0.04),
+            room: 0.10,
+        },
+        Face {
+            name: "end of the rake",
+            parts: rake(),
+            alone: cuboid(0.455, 0.0, 0.03, 0.24),
+            looks: 0.0,
+            middle: Vector::new(0.47, 0.0),
+            room: 0.06,
+        },
+    ]
+}
+
+fn tool(parts: Vec<Part>) -> Arc<Tool> {
+    Arc::new(Tool::new("tool", parts).expect("one piece"))
+}
+
+/// A box beside a face, and a motion of the tool that makes it slide along it.
+fn slide(face: &Face, parts: Vec<Part>, random: &mut Pcg64) -> (Scene, Job) {
+    let size = [random.random_range(0.05..0.09), random.random_range(0.05..0.09), 0.08];
+    let aside = random.random_range(-face.room..face.room);
+    // Away from the side on which the box starts, so that it slides over the middle.
+    let lean = -aside.signum() * random.random_range(30f64..57.0).to_radians();
+    let turn = random.random_range(-17f64..17.0).to_radians();
+    let flush = random.random_bool(0.5);
+    let outwards = Pose { position: face.middle, heading: face.looks };
+    let tool_pose = Pose::new(0.3, -0.2, random.random_range(-3.0..3.0));
+    let turn = if flush { 0.0 } else { turn };
+    let half: f64 = turn.cos() * size[0] / 2.0 + turn.sin().abs() * size[1] / 2.0;
+    let at = tool_pose * outwards * Pose::new(half + 1e-3, aside, turn);
+    let object = Object {
+        name: "box".into(),
+        shape: Shape::Cuboid { size },
+        mass: random.random_range(0.2..1.0),
+        friction: 0.4,
+        pose: at,
+    };
+    let scene = Scene { table_friction: 0.5, objects: vec![object], ..Scene::default() };
+    // The tool goes against the slide: along the face towards the box's side.
+    let way = (tool_pose * outwards).vector(Vector::new(lean.cos(), -lean.sin()));
+    let to = Pose { position: tool_pose.position + 0.15 * way, ..tool_pose };
+    let stroke = Stroke { from: tool_pose, to, duration: 1.5, settle: true };
+    let motion = ToolMotion { tool: tool(parts), lift: 0.002, strokes: vec![stroke] };
+    let job = Job::new(&Situation::stated(&scene), motion);
+    (scene, job)
+}
+
+fn moves_as_along_one_cuboid(model: &dyn EffectModel) {
+    for face in faces() {
+        let mut slid = 0;
+        for draw in 0..DRAWS {
+            let end = |parts: Vec<Part>| {
+                let (scene, job) = slide(&face, parts, &mut Pcg64::seed_from_u64(draw as u64));
+                let trajectory = model.rollout(&scene, &[job], Record::Outcome).remove(0);
+                let start = scene.objects[0].pose;
+                (start, trajectory.outcome().poses[0])
+            };
+            let (start, joined) = end(face.parts.clone());
+            let (_, alone) = end(vec![face.alone.clone()]);
+            let apart = (joined.position - alone.position).norm();
+            let name = model.spec();
+            assert!(apart <= SAME, "{name}, {}, draw {draw}: {:.2} mm", face.name, 1e3 * apart);
+            slid += usize::from((alone.position - start.position).norm() > 0.03);
+        }
+        assert!(slid > DRAWS / 2, "{}: only {slid} were pushed", face.name);
+    }
+}
+
+#[test]
+fn in_the_planar_engine() {
+    moves_as_along_one_cuboid(&Simulated::new(Simulator::planar()));
+}
+
+#[test]
+fn in_the_3d_engine() {
+    moves_as_along_one_cuboid(&Simulated::new(Simulator::spatial()));
+}
+
+#[test]
+fn by_the_prior() {
+    moves_as_along_one_cuboid(&Prior::default());
+}
+
+#[test]
+fn by_the_network() {
+    let weights = EffectModels::weights().expect("the shipped weights");
+    moves_as_along_one_cuboid(&Network::new(weights));
+}
