@@ -143,7 +143,13 @@ fn planning(criterion: &mut Criterion) {
     criterion.bench_function("search of 500 pushes", |b| b.iter(search));
 
     let best: Vec<_> = search().into_iter().map(|found| found.candidate).collect();
-    let settings = RefineSettings { rounds: 4, extra: 2, seed: SEED, enough: best.len() };
+    let settings = RefineSettings {
+        rounds: 4,
+        extra: 2,
+        seed: SEED,
+        enough: best.len(),
+        rollouts: usize::MAX,
+    };
     criterion.bench_function("refinement of 8 pushes", |b| {
         b.iter(|| {
             let mut rollouts = Rollouts::new(&model, Situation::stated(&task.scene));

@@ -79,6 +79,14 @@ impl Footprint {
         }
     }
 
+    /// Radius of the largest circle about the origin inside the shape, metres.
+    pub fn inner_radius(&self) -> f64 {
+        match *self {
+            Footprint::Disc { radius } => radius,
+            Footprint::Rectangle { half } => half.x.min(half.y),
+        }
+    }
+
     /// Radius of gyration about the vertical through the centre, metres: I = m rho^2.
     pub fn gyration_radius(&self) -> f64 {
         match *self {
@@ -116,11 +124,7 @@ impl Footprint {
     /// The same shape smaller by `margin` metres on every side, but by no more than half its
     /// smallest half extent.
     pub fn shrunk(&self, margin: f64) -> Footprint {
-        let inner = match *self {
-            Footprint::Disc { radius } => radius,
-            Footprint::Rectangle { half } => half.x.min(half.y),
-        };
-        self.grown(-margin.min(0.5 * inner))
+        self.grown(-margin.min(0.5 * self.inner_radius()))
     }
 
     /// Distance from the centre to the boundary along the unit vector `direction`, given in the

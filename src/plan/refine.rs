@@ -62,6 +62,8 @@ pub struct RefineSettings {
     pub seed: u64,
     /// Stop when this many candidates have nothing left to gain: more will not be looked at.
     pub enough: usize,
+    /// Stop after the round in which this many rollouts are reached.
+    pub rollouts: usize,
 }
 
 /// A candidate before and after.
@@ -118,7 +120,8 @@ pub fn refine(
         }
         watch.progress(round as u64, settings.rounds as u64);
         let left = settings.rounds - round;
-        if work.iter().filter(|w| w.is_good()).count() >= settings.enough {
+        let good = work.iter().filter(|w| w.is_good()).count();
+        if good >= settings.enough || rollouts.used() - before >= settings.rollouts {
             break;
         }
         let mut active: Vec<&mut Work> = work.iter_mut().filter(|w| w.is_open(left)).collect();

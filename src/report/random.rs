@@ -47,17 +47,22 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
     }
     let kinds: Vec<TaskKind> = TaskKind::ALL
         .into_iter()
+        .chain([TaskKind::Gap])
         .filter(|kind| methods.iter().any(|m| m.tasks.iter().any(|row| row.kind == *kind)))
         .collect();
     let count = runs.iter().map(|(_, tasks)| tasks.len()).max().unwrap_or(0);
     let seed = runs.first().map_or(0, |(run, _)| run.seed);
-    let mut notes = vec![
-        "Solved means that the plan's replay in the 3-D engine ends within the tolerance at rest. \
-         Every task is solvable: its goal is where a random plan that it allows really ends, in \
-         both engines. Errors are final distances from the goal, of the nearest plan where none \
-         was solved; times are of the planner alone."
-            .to_owned(),
-    ];
+    let solvable = match kinds.contains(&TaskKind::Gap) {
+        true => "No task of the kind gap can be solved; every other one can",
+        false => "Every task is solvable",
+    };
+    let mut notes = vec![format!(
+        "Solved means that the verdict is passed: in both engines the plan ends within the \
+         tolerance at rest, nothing jams or topples on the way, and so do enough of the disturbed \
+         replays; fragile means all but the last. {solvable}: its goal is where a random plan that \
+         it allows really ends, in both engines. Errors are final distances from the goal, of the \
+         nearest plan where none was solved; times are of the planner alone."
+    )];
     notes.extend(runs.iter().filter_map(|(run, tasks)| progress_note(run, tasks.len())));
     let errors: Vec<(String, Vec<f64>)> = methods
         .iter()
@@ -201,6 +206,7 @@ fn effort(methods: &[Method], kinds: &[TaskKind]) -> Table {
         ("method", Align::Left),
         ("no plan", Align::Right),
         ("failed verification", Align::Right),
+        ("fragile", Align::Right),
         ("pushes", Align::Right),
         ("attempts", Align::Right),
         ("rollouts", Align::Right),
@@ -238,6 +244,7 @@ fn effort(methods: &[Method], kinds: &[TaskKind]) -> Table {
                 method.name.clone(),
                 ended(PlanStatus::NoPlan).to_string(),
                 ended(PlanStatus::FailedVerification).to_string(),
+                ended(PlanStatus::Fragile).to_string(),
                 average(&|task| task.plan.as_ref().map_or(0.0, |plan| plan.pushes.len() as f64)),
                 average(&|task| task.attempts as f64),
                 average(&|task| task.rollouts as f64),

@@ -23,6 +23,11 @@ use super::{PlanStatus, Planner, Refinement, Solution, Statistics};
 /// costs reach and time.
 const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 
+/// Rollouts that a refinement gets, times the objects on the table. A push into a crowd costs up to
+/// a hundred times one of a single object, and its outcome is not smooth enough for late rounds to
+/// gain much; with up to four objects the rounds end first.
+const REFINE_WORK: usize = 20_000;
+
 /// Of the plans that were replayed together and work, so many are replayed with disturbances, best
 /// first: the others miss by more.
 const DISTURBED_AT_ONCE: usize = 3;
@@ -180,6 +185,7 @@ impl<'a> Solving<'a> {
             // Another stream for every length, so that no two share their samples.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
             enough: settings.verified_at_once,
+            rollouts: REFINE_WORK / self.situation.scene.objects.len().max(1),
         };
         let mut refined = refine(
             &Workspace { task: &task, ..self.workspace },

@@ -217,12 +217,47 @@ fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
     let Some(name) = goal.get("object") else { return };
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
     let solid = object.get("shape").and_then(shape);
+    if let Some(solid) = solid {
+        room_at_the_goal(goal, &solid.footprint(), name, obstacles, ledger);
+    }
     if let (Some(heading), Some(true)) = (goal.get("heading_deg"), solid.map(|s| s.is_cylinder())) {
         ledger.fault(
             heading,
             "a cylinder looks the same at every heading, so it cannot have a heading goal",
             "remove `heading_deg`, or make the object a cuboid",
         );
+    }
+}
+
+/// A goal at which the object would be inside an obstacle, however it is turned and wherever
+/// within the tolerance it lies.
+fn room_at_the_goal(
+    goal: &Node,
+    object: &Footprint,
+    name: &Node,
+    obstacles: &[Node],
+    ledger: &mut Ledger,
+) {
+    let (Some(node), Some(tolerance)) =
+        (goal.get("position"), goal.get("tolerance").and_then(Node::number))
+    else {
+        return;
+    };
+    let Some(at) = vector(node).map(|position| Pose { position, heading: 0.0 }) else { return };
+    let core = Footprint::Disc { radius: object.inner_radius() - tolerance - SLACK };
+    if core.inner_radius() <= 0.0 {
+        return;
+    }
+    for obstacle in obstacles {
+        let Some((solid, pose)) = body(obstacle) else { continue };
+        if clearance((&core, &at), (&solid, &pose), SLACK) <= 0.0 {
+            let [object, obstacle] = [name.text(), name_of(obstacle)].map(|n| n.unwrap_or("?"));
+            ledger.fault(
+                node,
+                format!("at the goal `{object}` would be inside `{obstacle}`"),
+                "move the goal or the obstacle, or allow a larger tolerance",
+            );
+        }
     }
 }
 

@@ -195,6 +195,19 @@ fn a_heading_for_a_cylinder() {
 }
 
 #[test]
+fn a_goal_inside_an_obstacle() {
+    let at = |x: &str| ("[0.35, 0.1], tolerance: 0.05", format!("[{x}, 0.1], tolerance: 0.03"));
+    let (old, inside) = at("0.88");
+    assert_snapshot!(task(&[(old, &inside)]), @r#"
+    t.yaml:15:31: error: at the goal `can` would be inside `wall`
+      help: move the goal or the obstacle, or allow a larger tolerance
+    "#);
+    // 3.5 cm before the wall its centre may stop 6.5 cm before it, where the can has room.
+    let (old, beside) = at("0.855");
+    Task::parse(&spoiled(TASK, &[(old, &beside)]), "t.yaml").unwrap();
+}
+
+#[test]
 fn an_unreachable_home() {
     assert_snapshot!(task(&[("home: [0.2, 0]", "home: [0.6, 0.3]")]), @r#"
     t.yaml:12:15: error: home is 0.671 m from the base, outside the reach of 0.1 to 0.5 m
