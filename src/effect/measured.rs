@@ -23,8 +23,8 @@ struct Errors {
 
 /// `pushplan evaluate --on single touching`: 2000 pushes of seed 7 each.
 const PRIOR: Errors = Errors {
-    one: Quantiles { median: 0.48e-3, p95: 4.29e-3 },
-    several: Quantiles { median: 0.57e-3, p95: 7.97e-3 },
+    one: Quantiles { median: 0.46e-3, p95: 4.04e-3 },
+    several: Quantiles { median: 0.58e-3, p95: 7.66e-3 },
 };
 
 /// `pushplan tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
