@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Feet, Joint, Scene};
+use super::{Feet, Joint, Scene, Support};
 
 /// Physical parameters under which a motion is played. What computes effects reads these and not
 /// what the scene states, so that several beliefs about one scene can be rolled out side by side.
@@ -33,6 +33,22 @@ impl Physics {
             table_friction: scene.table_friction,
             feet: scene.objects.iter().map(|object| Arc::new(object.feet())).collect(),
             joints: scene.joints.clone(),
+        }
+    }
+
+    /// Lets all objects rest on the table in another plausible way, in turn for each `draw`.
+    ///
+    /// Nobody sees the underside of an object; most rest somewhere between even pressure and their
+    /// corners. Every fourth draw leaves them as they are believed to be.
+    pub fn doubt_supports(&mut self, scene: &Scene, draw: usize) {
+        let support = match draw % 4 {
+            0 => return,
+            1 => Support::Spread(0.75),
+            2 => Support::Even,
+            _ => Support::Corners,
+        };
+        for (feet, object) in self.feet.iter_mut().zip(&scene.objects) {
+            *feet = Arc::new(Feet::new(&support, &object.shape.footprint()));
         }
     }
 

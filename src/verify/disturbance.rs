@@ -6,7 +6,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Feet, Job, Situation, Support, Tool, ToolMotion};
+use crate::scene::{Job, Situation, Tool, ToolMotion};
 
 /// Largest shift of an object at the start along each axis, metres.
 const SHIFT: f64 = 1e-3;
@@ -16,11 +16,6 @@ const TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Largest relative change of every friction value.
 const FRICTION: f64 = 0.1;
-
-/// How the weight rests on the table instead, one after the other; nothing: as believed. Nobody
-/// sees the underside of an object, and most rest somewhere between even pressure and the corners.
-const SUPPORTS: [Option<Support>; 4] =
-    [None, Some(Support::Spread(0.75)), Some(Support::Even), Some(Support::Corners)];
 
 /// One draw of disturbances, uniform within their ranges; the same for the same seed and draw.
 pub(super) struct Disturbed {
@@ -51,11 +46,7 @@ impl Disturbed {
         for friction in values {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }
-        if let Some(support) = &SUPPORTS[draw % SUPPORTS.len()] {
-            for (feet, object) in physics.feet.iter_mut().zip(&situation.scene.objects) {
-                *feet = Arc::new(Feet::new(support, &object.shape.footprint()));
-            }
-        }
+        physics.doubt_supports(&situation.scene, draw);
         Self { situation, tool: Arc::new(tool) }
     }
 
