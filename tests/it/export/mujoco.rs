@@ -98,7 +98,7 @@ scene:
   obstacles: [{obstacles}]
 robot: {{home: [0.3, 0.0], reach: {{max: 0.9}}}}
 tools: [bar]
-goal: {{object: box, position: [0.60, 0.0], tolerance: 0.02}}
+goal: {{object: box, position: [0.80, 0.0], tolerance: 0.02}}
 "
     )
 }
