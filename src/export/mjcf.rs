@@ -49,9 +49,13 @@ const CONTACT: [(&str, &str); 4] = [
 /// So heavy that nothing moves it, kg.
 const TOOL_MASS: f64 = 1e5;
 
-/// Radius of the points that an object stands on, metres. It never stands on its solid: MuJoCo rests
-/// that on corners, and throws standing cylinders over.
+/// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
+/// would rest on corners.
 const FOOT: f64 = 1e-3;
+
+/// How far a cuboid hangs above the table, metres; it meets it when it tips beyond its feet. A
+/// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
+const CLEAR: f64 = 5e-4;
 
 /// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
 ///
@@ -175,7 +179,13 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         None => xml.leaf("freejoint", &[]),
         Some((_, link)) => joint(xml, scene, node.object, link),
     }
-    solid(xml, name, &object.shape, &Pose::default(), 0.0, object.mass);
+    let (shape, rise) = match object.shape {
+        Shape::Cuboid { size: [x, y, z] } => {
+            (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
+        }
+        round => (round, 0.0),
+    };
+    solid(xml, name, &shape, &Pose::default(), rise, object.mass);
     for (index, (at, _)) in object.feet().each().enumerate() {
         let at = numbers(&[at.x, at.y, FOOT - half]);
         let name = foot_name(object, index);

@@ -22,6 +22,9 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             pairs.push(Pair { geoms: [geom, with], friction });
         };
         let own = || format!("object/{}", object.name);
+        if !object.shape.is_cylinder() {
+            add(own(), "table".into(), scene.table_friction);
+        }
         for foot in 0..object.feet().count {
             add(foot_name(object, foot), "table".into(), scene.table_friction);
         }

@@ -13,8 +13,9 @@ use crate::geometry::Shape;
 const SOLID: Layer = Layer::GROUP_1;
 /// What objects stand on.
 const FEET: Layer = Layer::GROUP_2;
-/// The table.
+/// The table, for solids and for feet.
 const TABLE_TOP: Layer = Layer::GROUP_3;
+const FLOOR: Layer = Layer::GROUP_4;
 
 /// Radius of a foot, metres. From 0.5 to 5 mm it makes no difference.
 pub(super) const FOOT: f64 = 2e-3;
@@ -22,16 +23,24 @@ pub(super) const FOOT: f64 = 2e-3;
 /// How far an object's solid hangs above the table, metres.
 pub(super) const CLEAR: f64 = 5e-4;
 
-/// The table.
+/// The table as solids meet it.
 pub(super) fn table(friction: f64) -> ColliderBuilder {
-    let table = ColliderBuilder::new(SharedShape::halfspace(Vector::Z));
-    rubbing(table, friction, groups(TABLE_TOP, SOLID | FEET))
+    rubbing(half_space(), friction).collision_groups(groups(TABLE_TOP, SOLID))
 }
 
-/// A foot at `pose`; it meets the table alone.
-pub(super) fn foot(pose: Pose3, friction: f64) -> ColliderBuilder {
-    let ball = ColliderBuilder::ball(FOOT).position(pose).density(0.0);
-    rubbing(ball, friction, groups(FEET, TABLE_TOP))
+/// The table as feet meet it, whose friction says what that of the pair is.
+pub(super) fn floor() -> ColliderBuilder {
+    half_space().friction(1.0).collision_groups(groups(FLOOR, FEET))
+}
+
+/// A foot at `pose` with this coefficient of friction; it meets the table alone.
+pub(super) fn foot(pose: Pose3, coefficient: f64) -> ColliderBuilder {
+    ColliderBuilder::ball(FOOT)
+        .position(pose)
+        .density(0.0)
+        .friction(coefficient)
+        .friction_combine_rule(CoefficientCombineRule::Multiply)
+        .collision_groups(groups(FEET, FLOOR))
 }
 
 /// A solid with its middle at `pose` and its axis along z; rapier's cylinder has it along y.
@@ -46,7 +55,7 @@ pub(super) fn solid(shape: &Shape, pose: Pose3, friction: f64) -> ColliderBuilde
             ColliderBuilder::cuboid(x / 2.0, y / 2.0, z / 2.0).position(pose)
         }
     };
-    rubbing(collider, friction, groups(SOLID, SOLID | TABLE_TOP))
+    rubbing(collider, friction).collision_groups(groups(SOLID, SOLID | TABLE_TOP))
 }
 
 /// The shape without what lies within [`CLEAR`] of the table.
@@ -57,11 +66,12 @@ pub(super) fn raised(shape: &Shape) -> Shape {
     }
 }
 
-fn rubbing(collider: ColliderBuilder, friction: f64, meets: InteractionGroups) -> ColliderBuilder {
-    collider
-        .friction(friction)
-        .friction_combine_rule(CoefficientCombineRule::Average)
-        .collision_groups(meets)
+fn half_space() -> ColliderBuilder {
+    ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
+}
+
+fn rubbing(collider: ColliderBuilder, friction: f64) -> ColliderBuilder {
+    collider.friction(friction).friction_combine_rule(CoefficientCombineRule::Average)
 }
 
 fn groups(own: Layer, meets: Layer) -> InteractionGroups {

@@ -26,7 +26,7 @@ use super::parameters::{
     needs_stiff_contacts,
 };
 use super::seams::Seams;
-use super::solids::{CLEAR, FOOT, foot, raised, solid, table};
+use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table};
 use super::strain::{Overlap, force, overlap};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
@@ -76,14 +76,18 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             labels: Vec::new(),
             seams: Seams::default(),
         };
-        let table = table(physics.table_friction).user_data(TABLE);
-        this.world.insert_collider(table, None);
+        for table in [table(physics.table_friction), floor()] {
+            this.world.insert_collider(table.user_data(TABLE), None);
+        }
         this.add_tool(motion, tool);
         let groups = Group::of(scene, state, physics);
         groups.iter().for_each(|group| this.add_body(scene, group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, physics, index, member);
+            let objects = &groups[member.body].objects;
+            let mass: f64 = objects.iter().map(|&k| physics.masses[k]).sum();
+            let feet: usize = objects.iter().map(|&k| physics.feet[k].count).sum();
+            this.add_object(scene, physics, index, member, mass / feet as f64);
         }
         this.add_obstacles(scene);
         this.add_joints(scene, physics);
@@ -238,18 +242,28 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         });
     }
 
-    fn add_object(&mut self, scene: &Scene, physics: &Physics, index: usize, member: Member) {
+    /// `evenly` is the mass (kg) on each foot of its body, were all loaded alike.
+    fn add_object(
+        &mut self,
+        scene: &Scene,
+        physics: &Physics,
+        index: usize,
+        member: Member,
+        evenly: f64,
+    ) {
         let shape = &scene.objects[index].shape;
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
         let rise = shape.height() / 2.0 - first_position.z;
         let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
         let friction = physics.frictions[index];
-        // Feet meet the table alone; they are no part of the solid that others touch.
-        for (at, _) in physics.feet[index].each() {
+        let coefficient = physics.support_friction(index);
+        for (at, load) in physics.feet[index].each() {
             let pose = Pose { position: at, heading: 0.0 };
             let placed =
                 to_rapier(&(member.local * pose), Vector::zeros(), FOOT - first_position.z);
-            let foot = foot(placed, friction);
+            // What cannot tip rests on all feet alike; friction then stands for the load.
+            let share = if TIPS { 1.0 } else { load * physics.masses[index] / evenly };
+            let foot = foot(placed, share * coefficient);
             self.insert(foot, Body::Object(index), handle);
         }
         let collider = solid(&raised(shape), placed, friction).mass(physics.masses[index]);
