@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    geometry::{Pose, Turn, Vector},
+    geometry::{Turn, Vector},
     scene::{Drag, State},
 };
 
@@ -63,6 +63,8 @@ impl Quantity {
 pub(super) struct Unknown {
     /// Mean position of its members at the start of the frame.
     pub centre: Vector,
+    /// Where the own x axis of every member points then, unit vectors.
+    axes: Vec<Vector>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
     /// What pulls it without contacts and joints, force and torque.
@@ -83,6 +85,11 @@ impl Unknown {
     pub fn place(&mut self, members: &[usize], state: &State) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
+        self.axes.clear();
+        self.axes.extend(members.iter().map(|&k| {
+            let (sin, cos) = state.poses[k].heading.sin_cos();
+            Vector::new(cos, sin)
+        }));
         (self.share, self.turn) = (0.0, Turn::NONE);
     }
 
@@ -107,15 +114,14 @@ impl Unknown {
         coasts: &[Motion],
     ) {
         self.pull = Vector3::zeros();
-        for &k in members {
+        for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
             let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
             let arm = state.poses[k].position - self.centre;
             let own = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
-                    let rub =
-                        self.rub((bodies, k), &state.poses[k], coast.shift, coast.turn, quantity);
+                    let rub = rub((bodies, k), *axis, (coast.shift, coast.turn), quantity);
                     let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
                     rub.about(Vector::zeros()) * moved
                         + Vector3::new(slide, slide, turn).component_mul(&moved)
@@ -140,16 +146,16 @@ impl Unknown {
         reach: Option<f64>,
     ) {
         let mut weight = Matrix3::zeros();
-        for &k in members {
-            let (body, pose) = (&bodies.objects[k], &state.poses[k]);
-            let arm = pose.position - self.centre;
+        for (&k, axis) in members.iter().zip(&self.axes) {
+            let body = &bodies.objects[k];
+            let arm = state.poses[k].position - self.centre;
             let mut rub = match reach {
                 Some(moved) => {
                     Rub::new(body, bodies.feet(k).even_drag(moved.max(quantity.stuck())))
                 }
                 None => {
                     let moved = shift(&self.twist, arm);
-                    self.rub((bodies, k), pose, moved, self.twist.z, quantity)
+                    rub((bodies, k), *axis, (moved, self.twist.z), quantity)
                 }
             };
             let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
@@ -160,19 +166,16 @@ impl Unknown {
         self.inverse = inverse(&weight);
         self.free = self.inverse * self.pull;
     }
+}
 
-    /// How the support of object `k` at `pose` resists a motion.
-    fn rub(
-        &self,
-        (bodies, k): (&Bodies, usize),
-        pose: &Pose,
-        shift: Vector,
-        turn: f64,
-        quantity: Quantity,
-    ) -> Rub {
-        let (body, feet) = (&bodies.objects[k], bodies.feet(k));
-        Rub::new(body, feet.drag(pose.heading, shift, turn, quantity.stuck()))
-    }
+/// How the support of object `k`, whose own x axis points along `axis`, resists a shift and a turn.
+fn rub(
+    (bodies, k): (&Bodies, usize),
+    axis: Vector,
+    (shift, turn): (Vector, f64),
+    quantity: Quantity,
+) -> Rub {
+    Rub::new(&bodies.objects[k], bodies.feet(k).drag(axis, shift, turn, quantity.stuck()))
 }
 
 /// The moments of what resists an object, about its centre in world axes: N/m, N, N m.

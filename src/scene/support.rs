@@ -129,16 +129,16 @@ impl Feet {
         (0..self.count).map(|k| (Vector::new(self.x[k], self.y[k]), self.load[k]))
     }
 
-    /// What resists a planar motion of the object, turned by `heading`, when every point drags with
-    /// its load along its own motion, and those slower than `least` as if they were so fast. With d
+    /// What resists a planar motion of the object, whose own x axis points along the unit vector
+    /// `axis`, when every point drags with its load along its own motion, and those slower than `least` as if they were so fast. With d
     /// the motion of a point, the weight of its place is load / max(|d|, `least`).
-    pub fn drag(&self, heading: f64, linear: Vector, angular: f64, least: f64) -> Drag {
+    pub fn drag(&self, axis: Vector, linear: Vector, angular: f64, least: f64) -> Drag {
         let speed = linear.norm();
         // The points of what is round stand for all of its turns, so they turn with the motion.
         let (cos, sin) = match self.round {
             true if speed > 0.0 => (linear.x / speed, linear.y / speed),
             true => (1.0, 0.0),
-            false => (heading.cos(), heading.sin()),
+            false => (axis.x, axis.y),
         };
         let local = Vector::new(cos * linear.x + sin * linear.y, cos * linear.y - sin * linear.x);
         let mut drag = self.drag_along(local, angular, least);
@@ -150,28 +150,24 @@ impl Feet {
     /// The same in the points' own frame.
     #[inline]
     fn drag_along(&self, linear: Vector, angular: f64, least: f64) -> Drag {
-        let mut drag = Drag::default();
-        let mut first = [0.0; 2];
-        // Whole blocks, so that the compiler makes vectors of them; spare points carry nothing.
+        // Whole blocks and a sum for each place in them, so that the compiler makes vectors of
+        // them; spare points carry nothing.
+        let mut sums = [[0.0; BLOCK]; 4];
         for block in 0..self.count.div_ceil(BLOCK) {
             let range = block * BLOCK..(block + 1) * BLOCK;
             let (x, y) = (&self.x[range.clone()], &self.y[range.clone()]);
             let load = &self.load[range];
-            let mut weight = [0.0; BLOCK];
             for k in 0..BLOCK {
                 let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
-                weight[k] = load[k] / (u * u + v * v).sqrt().max(least);
-            }
-            for k in 0..BLOCK {
-                let w = weight[k];
-                drag.sum += w;
-                first[0] += w * x[k];
-                first[1] += w * y[k];
-                drag.second += w * (x[k] * x[k] + y[k] * y[k]);
+                let weight = load[k] / (u * u + v * v).sqrt().max(least);
+                sums[0][k] += weight;
+                sums[1][k] += weight * x[k];
+                sums[2][k] += weight * y[k];
+                sums[3][k] += weight * (x[k] * x[k] + y[k] * y[k]);
             }
         }
-        drag.first = Vector::from(first);
-        drag
+        let [sum, x, y, second] = sums.map(|places| places.iter().sum::<f64>());
+        Drag { sum, first: Vector::new(x, y), second }
     }
 
     /// The same where every point moves by `moved`.
@@ -275,7 +271,7 @@ mod tests {
                 Footprint::Rectangle { half } => half.x * half.x / 3.0,
             };
             let (speed, turning) = (0.1, 1e-4);
-            let drag = feet.drag(0.0, Vector::new(speed, 0.0), turning, 1e-9);
+            let drag = feet.drag(Vector::x(), Vector::new(speed, 0.0), turning, 1e-9);
             // Torque: the slide pulls at the points' first moment, the turn at their second.
             let torque = -drag.first.y * speed + drag.second * turning;
             assert!((torque / (second * turning / speed) - 1.0).abs() < 1e-3, "{shape:?}");

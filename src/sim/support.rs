@@ -47,7 +47,8 @@ impl Support {
         if least == 0.0 {
             return (Vector::zeros(), 0.0);
         }
-        let drag = self.feet.drag(heading, linear, angular, least);
+        let axis = Vector::new(heading.cos(), heading.sin());
+        let drag = self.feet.drag(axis, linear, angular, least);
         let load = self.mass * self.deceleration;
         let force = drag.sum * linear + angular * perpendicular(drag.first);
         let torque = cross(drag.first, linear) + drag.second * angular;
