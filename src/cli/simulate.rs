@@ -62,6 +62,7 @@ pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     let (simulator, name) = match args.engine {
         Engine::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
         Engine::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
+        Engine::Upright => (Simulator::upright(), format!("{}.3d-upright", task.name)),
     };
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let trajectory = session.compute(|| simulator.run(&task.scene, &job, Record::Frames));

@@ -29,8 +29,15 @@ pub static OUTSIDE: [(&str, Outside, &str); 3] = [
 ];
 
 /// Simulation engines.
-pub static ENGINES: [(&str, Engine, &str); 2] =
-    [("planar", Engine::Planar, "Top-down, fast"), ("3d", Engine::Spatial, "Full 3-D")];
+pub static ENGINES: [(&str, Engine, &str); 3] = [
+    ("planar", Engine::Planar, "Top-down, fast"),
+    ("3d", Engine::Spatial, "Full 3-D"),
+    (
+        "3d-upright",
+        Engine::Upright,
+        "3-D, but nothing tips: the physics of the plane by other code",
+    ),
+];
 
 /// Families of training scenes.
 pub static PRESETS: [(&str, Preset, &str); 5] = [

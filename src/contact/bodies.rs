@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     geometry::{ContactPoint, Footprint, Pose, Rim},
-    scene::{Body, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool},
+    scene::{Body, Feet, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool},
 };
 
 use super::{
@@ -22,7 +22,7 @@ pub struct Movable {
     pub footprint: Footprint,
     /// Radius of a circle about the centre that holds it, metres.
     pub radius: f64,
-    /// Length c of the support's limit surface, metres.
+    /// Mean distance c of the support's points from the centre, metres.
     pub support: f64,
     /// (c / rho)^2, the ratio of the spin's friction deceleration (in c omega) to the slide's.
     pub spin: f64,
@@ -111,6 +111,8 @@ pub struct Bodies {
     pub obstacles: Vec<Given>,
     /// Joints between objects.
     pub joints: Vec<Jointed>,
+    /// What every object of the scene stands on.
+    pub feet: Arc<[Arc<Feet>]>,
     /// Objects that fixed joints make one rigid body, single ones included.
     pub groups: Groups,
     /// For every object the lowest one that joints of any kind connect it with.
@@ -139,6 +141,11 @@ impl Bodies {
         })
     }
 
+    /// What the object with that number here stands on.
+    pub fn feet(&self, object: usize) -> &Feet {
+        &self.feet[self.objects[object].index.0]
+    }
+
     /// The bodies of `scene` and a `tool` whose underside is `lift` metres above the table,
     /// under `physics`.
     pub fn new(scene: &Scene, tool: &Tool, lift: f64, physics: &Physics) -> Self {
@@ -148,7 +155,7 @@ impl Bodies {
             .enumerate()
             .map(|(k, object)| {
                 let footprint = object.shape.footprint();
-                let support = footprint.mean_radius();
+                let support = physics.feet[k].mean_radius;
                 let friction = physics.support_friction(k);
                 let spin = (support / footprint.gyration_radius()).powi(2);
                 Movable {
@@ -204,7 +211,8 @@ impl Bodies {
         let groups = Groups::new(scene, physics);
         let mechanisms = physics.groups(|_| true);
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline.len());
-        Self { objects, parts, rims, obstacles, joints, groups, mechanisms, pairs }
+        let feet = physics.feet.iter().cloned().collect();
+        Self { objects, parts, rims, obstacles, joints, feet, groups, mechanisms, pairs }
     }
 
     /// The lasting id of an object and another body.

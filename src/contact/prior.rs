@@ -258,7 +258,7 @@ mod tests {
     use super::*;
     use crate::{
         contact::{bodies::Bodies, coast::coast, points::find_contacts},
-        geometry::{Pose, Shape},
+        geometry::{Pose, Shape, cross},
         scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
     };
 
@@ -307,19 +307,25 @@ mod tests {
         assert!(motion.turn.abs() < 1e-9, "{motion:?}");
     }
 
-    /// Lynch, Maekawa and Tanie 1992, eq. 6-8: the twist of a sticking push by the limit surface.
+    /// A slow push at one point that sticks: friction over the whole underside and the force at that
+    /// point balance, as forces and as torques (Goyal, Ruina and Papadopoulos 1991).
     #[test]
-    fn an_off_centre_push_that_sticks_turns_the_object_as_its_limit_surface_says() {
+    fn an_off_centre_push_that_sticks_balances_friction_under_even_pressure() {
         let scene = table(vec![cuboid(0.03, -0.01)]);
-        let [motion] = prior(&scene, Vector::new(0.005, 0.0))[..] else { panic!("one object") };
-        let c2 = scene.objects[0].shape.footprint().mean_radius().powi(2);
+        let [motion] = prior(&scene, Vector::new(0.002, 0.0))[..] else { panic!("one object") };
         let arm = Vector::new(-0.03, 0.01);
-        // The push is along x: shift (c^2 + x^2, x y) / (c^2 + x^2 + y^2) times its length.
-        let share = 0.005 / (c2 + arm.norm_squared());
-        let expected = Vector::new(c2 + arm.x * arm.x, arm.x * arm.y) * share;
-        assert!((motion.shift - expected).norm() < 5e-5, "{motion:?} {expected}");
-        let turn = (arm.x * expected.y - arm.y * expected.x) / c2;
-        assert!((motion.turn - turn).abs() < 2e-3, "{motion:?} {turn}");
+        assert!((motion.at(arm) - Vector::new(0.002, 0.0)).norm() < 5e-5, "{motion:?}");
+        let (mut force, mut torque, count) = (Vector::zeros(), 0.0, 200);
+        for k in 0..count * count {
+            let place = |k: i32| 0.06 * ((f64::from(k) + 0.5) / f64::from(count) - 0.5);
+            let at = Vector::new(place(k % count), place(k / count));
+            let drag = motion.at(at).normalize() / f64::from(count * count);
+            force += drag;
+            torque += cross(at, drag);
+        }
+        // Off by the arm of a millimetre.
+        assert!((torque - cross(arm, force)).abs() < 1e-3 * force.norm(), "{torque} {force}");
+        assert!(motion.turn < -0.01, "{motion:?}");
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! A rigid group as the unknown of a frame's equations, and how it resists being moved.
 //!
-//! For an object of mass m whose motion xi = (shift, c turn) has the length s = |xi|, support
-//! friction of an ellipsoidal limit surface answers with mu m g xi / s. Inertia adds, with
-//! velocities v0 at the start of the frame of T seconds,
+//! Every point under an object drags with its share of the weight against its own motion (Coulomb;
+//! Goyal, Ruina and Papadopoulos 1991): a point that moves by d and carries the share n of an
+//! object of mass m answers with mu n m g d / |d|. Written with a weight K that depends on the motion
+//! xi = (shift, turn), that is K xi, the sum of mu n m g / |d| J^T J over all points, J giving d from
+//! xi. Inertia M adds, with velocities v0 at the start of the frame of T seconds,
 //!
 //! ```text
-//! (mu m g / s + 2 m / T^2) xi     = 2 m v0 / T + f      for the displacement
-//! (mu m g / s +   m / T^2) (v T)  =   m v0 / T + f      for the velocity at the end
+//! (K + 2 M / T^2) xi     = 2 M v0 / T + f      for the displacement
+//! (K +   M / T^2) (v T)  =   M v0 / T + f      for the velocity at the end
 //! ```
 //!
 //! the first because displacements are the mean of both velocities times T, which keeps their
@@ -17,7 +19,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     geometry::{Turn, Vector},
-    scene::State,
+    scene::{Drag, State},
 };
 
 use super::{
@@ -61,6 +63,8 @@ impl Quantity {
 pub(super) struct Unknown {
     /// Mean position of its members at the start of the frame.
     pub centre: Vector,
+    /// Where the own x axis of every member points then, unit vectors.
+    axes: Vec<Vector>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
     /// What pulls it without contacts and joints, force and torque.
@@ -81,6 +85,11 @@ impl Unknown {
     pub fn place(&mut self, members: &[usize], state: &State) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
+        self.axes.clear();
+        self.axes.extend(members.iter().map(|&k| {
+            let (sin, cos) = state.poses[k].heading.sin_cos();
+            Vector::new(cos, sin)
+        }));
         (self.share, self.turn) = (0.0, Turn::NONE);
     }
 
@@ -105,24 +114,25 @@ impl Unknown {
         coasts: &[Motion],
     ) {
         self.pull = Vector3::zeros();
-        for &k in members {
+        for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
-            let inertia = quantity.inertia_of(body, duration);
-            let (pull, spin) = match quantity {
+            let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
+            let arm = state.poses[k].position - self.centre;
+            let own = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
-                    let moved = length(coast.shift, body.support * coast.turn);
-                    let (slide, turn) = resistance(body, inertia, moved.max(quantity.stuck()));
-                    (slide * coast.shift, turn * coast.turn)
+                    let rub = rub((bodies, k), *axis, (coast.shift, coast.turn), quantity);
+                    let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
+                    rub.about(Vector::zeros()) * moved
+                        + Vector3::new(slide, slide, turn).component_mul(&moved)
                 }
                 Quantity::Velocity => {
                     let start = &state.velocities[k];
-                    let (slide, turn) = inertias(body, inertia);
-                    (slide * duration * start.linear, turn * duration * start.angular)
+                    let pull = slide * duration * start.linear;
+                    Vector3::new(pull.x, pull.y, turn * duration * start.angular)
                 }
             };
-            let arm = state.poses[k].position - self.centre;
-            self.pull += along(pull, arm) + Vector3::new(0.0, 0.0, spin);
+            self.pull += along(own.xy(), arm) + Vector3::new(0.0, 0.0, own.z);
         }
     }
 
@@ -135,43 +145,83 @@ impl Unknown {
         (quantity, duration): (Quantity, f64),
         reach: Option<f64>,
     ) {
-        let weights = |body: &Movable, arm: Vector| {
-            let moved = reach
-                .unwrap_or_else(|| length(shift(&self.twist, arm), body.support * self.twist.z));
-            resistance(body, quantity.inertia_of(body, duration), moved.max(quantity.stuck()))
-        };
-        self.inverse = if let [k] = *members {
-            let (slide, turn) = weights(&bodies.objects[k], Vector::zeros());
-            Matrix3::from_diagonal(&Vector3::new(1.0 / slide, 1.0 / slide, 1.0 / turn))
-        } else {
-            let mut weight = Matrix3::zeros();
-            for &k in members {
-                let arm = state.poses[k].position - self.centre;
-                let (slide, turn) = weights(&bodies.objects[k], arm);
-                let (x, y) = (arm.x, arm.y);
-                weight += slide * Matrix3::new(1.0, 0.0, -y, 0.0, 1.0, x, -y, x, x * x + y * y);
-                weight.m33 += turn;
-            }
-            weight.try_inverse().unwrap_or_else(Matrix3::identity)
-        };
+        let mut weight = Matrix3::zeros();
+        for (&k, axis) in members.iter().zip(&self.axes) {
+            let body = &bodies.objects[k];
+            let arm = state.poses[k].position - self.centre;
+            let mut rub = match reach {
+                Some(moved) => {
+                    Rub::new(body, bodies.feet(k).even_drag(moved.max(quantity.stuck())))
+                }
+                None => {
+                    let moved = shift(&self.twist, arm);
+                    rub((bodies, k), *axis, (moved, self.twist.z), quantity)
+                }
+            };
+            let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
+            rub.sum += slide;
+            rub.second += turn;
+            weight += rub.about(arm);
+        }
+        self.inverse = inverse(&weight);
         self.free = self.inverse * self.pull;
     }
 }
 
-/// Length of a motion that shifts and turns, the turn times the support's length, metres.
-fn length(shift: Vector, turn: f64) -> f64 {
-    (shift.norm_squared() + turn * turn).sqrt()
+/// How the support of object `k`, whose own x axis points along `axis`, resists a shift and a turn.
+fn rub(
+    (bodies, k): (&Bodies, usize),
+    axis: Vector,
+    (shift, turn): (Vector, f64),
+    quantity: Quantity,
+) -> Rub {
+    Rub::new(&bodies.objects[k], bodies.feet(k).drag(axis, shift, turn, quantity.stuck()))
 }
 
-/// Resistance of an object that moves by `moved` metres in all: to shifts, N/m, and to turns,
-/// N m; `inertia` in N/m.
-fn resistance(body: &Movable, inertia: f64, moved: f64) -> (f64, f64) {
-    let rub = body.mass * body.deceleration / moved;
-    let (slide, turn) = inertias(body, inertia);
-    (slide + rub, turn + rub * body.support * body.support)
+/// The moments of what resists an object, about its centre in world axes: N/m, N, N m.
+struct Rub {
+    sum: f64,
+    first: Vector,
+    second: f64,
 }
 
-/// The part of it that inertia makes.
+impl Rub {
+    fn new(body: &Movable, drag: Drag) -> Self {
+        let rub = body.mass * body.deceleration;
+        Self { sum: rub * drag.sum, first: rub * drag.first, second: rub * drag.second }
+    }
+
+    /// The resistance against shifts of a point and turns about it, `arm` leading from there to the
+    /// object's centre.
+    fn about(&self, arm: Vector) -> Matrix3<f64> {
+        let first = self.first + self.sum * arm;
+        let second = self.second + 2.0 * self.first.dot(&arm) + self.sum * arm.norm_squared();
+        let (x, y) = (first.x, first.y);
+        Matrix3::new(self.sum, 0.0, -y, 0.0, self.sum, x, -y, x, second)
+    }
+}
+
+/// The inverse of a resistance [[s, 0, -y], [0, s, x], [-y, x, t]], in closed form.
+fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
+    let (s, x, y, t) = (weight.m11, weight.m23, -weight.m13, weight.m33);
+    let (p, q) = (-x / s, y / s);
+    // Turning about the point that turning alone leaves in place.
+    let turn = 1.0 / (t - (x * x + y * y) / s);
+    Matrix3::new(
+        1.0 / s + q * q * turn,
+        q * p * turn,
+        q * turn,
+        q * p * turn,
+        1.0 / s + p * p * turn,
+        p * turn,
+        q * turn,
+        p * turn,
+        turn,
+    )
+}
+
+/// The part of the resistance to shifts, N/m, and to turns, N m, that inertia makes; `inertia` in
+/// N/m.
 fn inertias(body: &Movable, inertia: f64) -> (f64, f64) {
     (inertia, inertia * body.support * body.support / body.spin)
 }

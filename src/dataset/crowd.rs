@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Footprint, Pose},
-    scene::{Object, Ranges, Scene},
+    scene::{Object, Ranges, Scene, Support},
 };
 
 use super::{
@@ -36,6 +36,7 @@ pub(super) fn crowd(
         let shape = random_shape(rng, ranges, solids);
         let pose = place(rng, &scene.objects, &shape.footprint());
         scene.objects.push(Object {
+            support: Support::Even,
             name: format!("object-{}", index + 1),
             shape,
             mass: log_uniform(rng, masses),

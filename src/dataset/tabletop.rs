@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
-    scene::{Object, Ranges, Scene, Span},
+    scene::{Object, Ranges, Scene, Span, Support},
 };
 
 use super::chance::{heading, log_uniform, uniform};
@@ -55,6 +55,7 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
             beside(rng, &scene.objects, shape.footprint(), crowd.touching)
         };
         scene.objects.push(Object {
+            support: Support::Even,
             name: format!("object-{}", index + 1),
             shape,
             mass: if index == 0 { middle } else { log_uniform(rng, masses) },

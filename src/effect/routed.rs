@@ -196,6 +196,7 @@ mod tests {
     /// A row of three cans, and one far from them; a push into the row, and one of the can alone.
     fn row() -> (Scene, [Job; 2]) {
         let can = |x: f64, y: f64| Object {
+            support: crate::scene::Support::Even,
             name: format!("{x} {y}"),
             shape: Shape::Cylinder { radius: 0.03, height: 0.1 },
             mass: 0.5,

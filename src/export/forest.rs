@@ -62,6 +62,7 @@ mod tests {
 
     fn scene(joints: &[(usize, usize, JointKind)]) -> Scene {
         let object = |k: usize| Object {
+            support: crate::scene::Support::Even,
             name: format!("o{k}"),
             shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
             mass: 1.0,

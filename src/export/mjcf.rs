@@ -1,7 +1,7 @@
 //! A plan as a scene of MuJoCo (MJCF), pushes and goal included.
 //!
 //! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
-//! masses and joints, friction of every pair as the mean of two values, and a tool that nothing
+//! masses, joints and the points that they stand on, friction of every pair as the mean of two values, and a tool that nothing
 //! stops. It stands on two sliding joints, whose positions *and* velocities the script sets before
 //! every step: a `mocap` body has no velocity, so what it pushes rubs against it as if it stood
 //! still (a box pushed 10 degrees aside then slips by 35 mm of 200 instead of sticking).
@@ -49,12 +49,13 @@ const CONTACT: [(&str, &str); 4] = [
 /// So heavy that nothing moves it, kg.
 const TOOL_MASS: f64 = 1e5;
 
-/// How many points a cylinder stands on: MuJoCo's own contact of a cylinder and a plane throws
-/// standing cylinders over.
-pub(super) const FEET: usize = 8;
-
-/// Radius of such a point, metres.
+/// Radius of the points that an object stands on, metres. It never stands on its solid, which MuJoCo
+/// would rest on corners.
 const FOOT: f64 = 1e-3;
+
+/// How far a cuboid hangs above the table, metres; it meets it when it tips beyond its feet. A
+/// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
+const CLEAR: f64 = 5e-4;
 
 /// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
 ///
@@ -178,14 +179,17 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         None => xml.leaf("freejoint", &[]),
         Some((_, link)) => joint(xml, scene, node.object, link),
     }
-    solid(xml, name, &object.shape, &Pose::default(), 0.0, object.mass);
-    if let Shape::Cylinder { radius, .. } = object.shape {
-        for index in 0..FEET {
-            let (y, x) = (std::f64::consts::TAU * index as f64 / FEET as f64).sin_cos();
-            let at = numbers(&[radius * x, radius * y, FOOT - half]);
-            let name = foot_name(object, index);
-            xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
+    let (shape, rise) = match object.shape {
+        Shape::Cuboid { size: [x, y, z] } => {
+            (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
         }
+        round => (round, 0.0),
+    };
+    solid(xml, name, &shape, &Pose::default(), rise, object.mass);
+    for (index, (at, _)) in object.feet().each().enumerate() {
+        let at = numbers(&[at.x, at.y, FOOT - half]);
+        let name = foot_name(object, index);
+        xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
     }
     for child in &node.children {
         body(xml, scene, child);

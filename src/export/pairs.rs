@@ -1,8 +1,8 @@
 //! What may touch what, and how it rubs.
 
-use crate::scene::{Object, Physics, Scene, Tool};
+use crate::scene::{Physics, Scene, Tool};
 
-use super::mjcf::{FEET, foot_name};
+use super::mjcf::foot_name;
 
 /// Two geoms that may touch.
 pub(super) struct Pair {
@@ -22,8 +22,11 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             pairs.push(Pair { geoms: [geom, with], friction });
         };
         let own = || format!("object/{}", object.name);
-        for foot in feet(object) {
-            add(foot, "table".into(), scene.table_friction);
+        if !object.shape.is_cylinder() {
+            add(own(), "table".into(), scene.table_friction);
+        }
+        for foot in 0..object.feet().count {
+            add(foot_name(object, foot), "table".into(), scene.table_friction);
         }
         for obstacle in &scene.obstacles {
             add(own(), format!("obstacle/{}", obstacle.name), obstacle.friction);
@@ -38,13 +41,4 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
         }
     }
     pairs
-}
-
-/// What an object stands on: a cuboid on its own corners.
-fn feet(object: &Object) -> Vec<String> {
-    if object.shape.is_cylinder() {
-        (0..FEET).map(|index| foot_name(object, index)).collect()
-    } else {
-        vec![format!("object/{}", object.name)]
-    }
 }

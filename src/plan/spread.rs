@@ -16,7 +16,7 @@ use crate::scene::{Physics, Scene, Situation, State, Tool, ToolMotion};
 /// Rollouts with errors for every state. The largest of six is about the 85th percentile.
 const DRAWS: usize = 6;
 
-/// Errors of where objects are seen, metres and radians, and of every friction value, relative.
+/// Errors, beside those of supports, of where objects are seen, metres and radians, and of every friction value, relative.
 const SHIFT: f64 = 1e-3;
 const TURN: f64 = std::f64::consts::PI / 180.0;
 const FRICTION: f64 = 0.1;
@@ -41,8 +41,9 @@ impl Spread {
         let mut within = |range: f64| random.random_range(-range..=range);
         let (mut physics, mut tools, mut starts) = (Vec::new(), Vec::new(), Vec::new());
         let groups = situation.physics.groups(|_| true);
-        for _ in 0..DRAWS {
+        for draw in 0..DRAWS {
             let mut drawn = (*situation.physics).clone();
+            drawn.doubt_supports(&situation.scene, draw);
             let mut change = |friction: &mut f64| *friction *= 1.0 + within(FRICTION);
             drawn.frictions.iter_mut().for_each(&mut change);
             change(&mut drawn.table_friction);

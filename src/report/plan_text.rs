@@ -72,6 +72,7 @@ pub(super) fn engine_name(engine: Engine) -> &'static str {
     match engine {
         Engine::Planar => "planar",
         Engine::Spatial => "3-D",
+        Engine::Upright => "3-D, upright",
     }
 }
 

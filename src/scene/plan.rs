@@ -14,10 +14,13 @@ pub enum Engine {
     Planar,
     /// Full 3-D: the independent check.
     Spatial,
+    /// The 3-D engine in which nothing tips: the physics of the plane, solved by other code.
+    Upright,
 }
 
 impl Engine {
-    /// Both, in the order in which they are shown: predictions are compared with the planar one.
+    /// Those that a verdict rests on, in the order in which they are shown: predictions are
+    /// compared with the planar one.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }
 

@@ -32,9 +32,9 @@ impl Situation {
     /// for a result.
     pub fn coasted(&self, state: &State) -> State {
         let mut rest = state.clone();
-        for (k, object) in self.scene.objects.iter().enumerate() {
+        for k in 0..self.scene.objects.len() {
             let velocity = state.velocities[k];
-            let c = object.shape.footprint().mean_radius();
+            let c = self.physics.feet[k].mean_radius;
             let s = velocity.linear.norm().hypot(c * velocity.angular);
             let braking = self.physics.support_friction(k) * GRAVITY;
             if s > 0.0 && braking > 0.0 {

@@ -4,15 +4,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Shape, Vector};
 
-use super::{Joint, JointKind, REST_SPEED, State};
+use super::{Feet, Joint, JointKind, REST_SPEED, State, Support};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Object {
     /// Unique among objects and obstacles.
     pub name: String,
-    /// Its solid; the whole underside rests on the table with even pressure.
+    /// Its solid.
     pub shape: Shape,
+    /// How its weight is spread over its underside.
+    #[serde(default)]
+    pub support: Support,
     /// Mass, kg.
     pub mass: f64,
     /// Friction value; the coefficient of a pair is the mean of the two values.
@@ -52,7 +55,7 @@ impl Object {
     /// ```
     pub fn new(name: impl Into<String>, shape: Shape) -> Self {
         let (mass, friction, pose) = (Self::MASS, Self::FRICTION, Pose::default());
-        Self { name: name.into(), shape, mass, friction, pose }
+        Self { name: name.into(), shape, support: Support::Even, mass, friction, pose }
     }
 
     /// [`Object::new`] for an upright cylinder, metres.
@@ -73,6 +76,16 @@ impl Object {
     /// The object with another friction value.
     pub fn friction(self, friction: f64) -> Self {
         Self { friction, ..self }
+    }
+
+    /// The object with its weight spread in another way than evenly.
+    pub fn standing_on(self, support: Support) -> Self {
+        Self { support, ..self }
+    }
+
+    /// The points under it, with their shares of its weight, that stand for its support.
+    pub fn feet(&self) -> Feet {
+        Feet::new(&self.support, &self.shape.footprint())
     }
 
     /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.

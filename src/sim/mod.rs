@@ -18,6 +18,7 @@ mod parameters;
 mod planar;
 mod seams;
 mod simulator;
+mod solids;
 mod spatial;
 mod strain;
 mod support;

@@ -108,11 +108,12 @@ impl World for PlanarWorld {
             let arm = vector(member.arm(tracked.turned));
             let turning = body.angvel();
             let velocity = body.linvel() + arm.perp() * turning;
-            let (force, torque) =
-                support.drag(f64::from(velocity.length()), f64::from(turning), dt);
-            let force = velocity * -force as Real;
+            let heading = member.start.heading + tracked.turned;
+            let velocity = Vector::new(velocity.x.into(), velocity.y.into());
+            let (force, torque) = support.drag(heading, velocity, turning.into(), dt);
+            let force = vector(force);
             body.add_force(force, true);
-            body.add_torque(turning * -torque as Real + arm.perp_dot(force), true);
+            body.add_torque(torque as Real + arm.perp_dot(force), true);
         }
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
@@ -251,7 +252,8 @@ impl PlanarWorld {
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
         let table = Scene::pair_friction(friction, physics.table_friction);
-        self.objects.push((member, Support::new(&footprint, table, physics.masses[index])));
+        let (feet, mass) = (&physics.feet[index], physics.masses[index]);
+        self.objects.push((member, Support::new(feet, &footprint, table, mass)));
     }
 
     fn add_obstacles(&mut self, scene: &Scene) {

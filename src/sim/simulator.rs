@@ -47,6 +47,11 @@ impl Simulator {
         Self::new(Engine::Spatial, Rate::DEFAULT)
     }
 
+    /// The 3-D engine in which nothing tips, at its default step.
+    pub const fn upright() -> Self {
+        Self::new(Engine::Upright, Rate::DEFAULT)
+    }
+
     /// Which engine this is.
     pub fn engine(&self) -> Engine {
         self.engine
@@ -80,7 +85,8 @@ impl Simulator {
     ) -> Trajectory {
         let play = match self.engine {
             Engine::Planar => drive::<PlanarWorld>,
-            Engine::Spatial => drive::<SpatialWorld>,
+            Engine::Spatial => drive::<SpatialWorld<true>>,
+            Engine::Upright => drive::<SpatialWorld<false>>,
         };
         play(scene, job, self, record, watch)
     }

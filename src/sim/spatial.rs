@@ -1,20 +1,20 @@
 //! The 3-D engine: rapier3d in `f64`, gravity and table included.
 //!
-//! Every object stands on a half-space with rapier's own contacts: a solid rests on the corners
-//! of its underside (a cylinder on four points of its rim), so its resistance to turning is
-//! larger than that of the planar engine's even pressure. The friction model, the allowed error
-//! and the plain cylinder are choices that were measured; rapier's defaults are centimetres off.
+//! Every object stands on feet, small balls at the points of its support; on rapier's own contacts
+//! a cuboid would rest on its corners and a cylinder on four points of its rim, whatever is stated.
+//! The solid hangs a little above the table, which it meets when it tips beyond its feet. The
+//! friction model, the allowed error and the plain cylinder are choices that were measured; rapier's
+//! defaults are centimetres off.
 
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactData,
-    ContactManifold, FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld,
-    Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SharedShape, SpringCoefficients,
-    TrackedContact, Vector as RapierVector,
+    ActiveHooks, ColliderBuilder, ColliderHandle, ContactData, ContactManifold, FrictionModel,
+    GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder,
+    RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact, Vector as RapierVector,
 };
 
-use crate::geometry::{Pose, Shape, Vector, wrap_angle};
+use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::scene::{
     Body, FrameStep, GRAVITY, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity,
 };
@@ -26,6 +26,7 @@ use super::parameters::{
     needs_stiff_contacts,
 };
 use super::seams::Seams;
+use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table};
 use super::strain::{Overlap, force, overlap};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
@@ -34,8 +35,8 @@ const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// The `user_data` of the table, which no contact names.
 const TABLE: u128 = u128::MAX;
 
-/// A scene in rapier3d.
-pub(super) struct SpatialWorld {
+/// A scene in rapier3d, in which objects tip or only turn about the vertical.
+pub(super) struct SpatialWorld<const TIPS: bool> {
     world: PhysicsWorld,
     /// Where rapier's origin lies on the table, metres.
     origin: Vector,
@@ -57,7 +58,7 @@ struct Tracked {
     turned: f64,
 }
 
-impl World for SpatialWorld {
+impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     fn build(
         scene: &Scene,
         state: &State,
@@ -75,17 +76,18 @@ impl World for SpatialWorld {
             labels: Vec::new(),
             seams: Seams::default(),
         };
-        let table = rubbing(
-            ColliderBuilder::new(SharedShape::halfspace(RapierVector::Z)),
-            physics.table_friction,
-        );
-        this.world.insert_collider(table.user_data(TABLE), None);
+        for table in [table(physics.table_friction), floor()] {
+            this.world.insert_collider(table.user_data(TABLE), None);
+        }
         this.add_tool(motion, tool);
         let groups = Group::of(scene, state, physics);
         groups.iter().for_each(|group| this.add_body(scene, group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, physics, index, member);
+            let objects = &groups[member.body].objects;
+            let mass: f64 = objects.iter().map(|&k| physics.masses[k]).sum();
+            let feet: usize = objects.iter().map(|&k| physics.feet[k].count).sum();
+            this.add_object(scene, physics, index, member, mass / feet as f64);
         }
         this.add_obstacles(scene);
         this.add_joints(scene, physics);
@@ -189,7 +191,7 @@ impl World for SpatialWorld {
     }
 }
 
-impl SpatialWorld {
+impl<const TIPS: bool> SpatialWorld<TIPS> {
     fn label(&self, collider: ColliderHandle) -> Option<Body> {
         let index = usize::try_from(self.world.colliders[collider].user_data).ok()?;
         self.labels.get(index).copied()
@@ -204,7 +206,7 @@ impl SpatialWorld {
             // The tool frame lies at the parts' underside. Without mass the centre of mass,
             // which rapier's velocity is of, is the tool frame.
             let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
-            let collider = rubbing(upright(&part.shape, placed), motion.tool.friction).density(0.0);
+            let collider = solid(&part.shape, placed, motion.tool.friction).density(0.0);
             let collider = match &part.rim {
                 Some(rim) => {
                     self.seams.set(self.labels.len(), rim);
@@ -227,6 +229,7 @@ impl SpatialWorld {
             .pose(to_rapier(&group.pose, self.origin, height))
             .linvel(RapierVector::new(linear.x, linear.y, 0.0))
             .angvel(RapierVector::Z * angular)
+            .enabled_rotations(TIPS, TIPS, true)
             .can_sleep(false);
         let handle = self.world.insert_body(body);
         let body = &self.world.bodies[handle];
@@ -239,13 +242,31 @@ impl SpatialWorld {
         });
     }
 
-    fn add_object(&mut self, scene: &Scene, physics: &Physics, index: usize, member: Member) {
+    /// `evenly` is the mass (kg) on each foot of its body, were all loaded alike.
+    fn add_object(
+        &mut self,
+        scene: &Scene,
+        physics: &Physics,
+        index: usize,
+        member: Member,
+        evenly: f64,
+    ) {
         let shape = &scene.objects[index].shape;
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
         let rise = shape.height() / 2.0 - first_position.z;
-        let placed = to_rapier(&member.local, Vector::zeros(), rise);
-        let collider =
-            rubbing(upright(shape, placed), physics.frictions[index]).mass(physics.masses[index]);
+        let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
+        let friction = physics.frictions[index];
+        let coefficient = physics.support_friction(index);
+        for (at, load) in physics.feet[index].each() {
+            let pose = Pose { position: at, heading: 0.0 };
+            let placed =
+                to_rapier(&(member.local * pose), Vector::zeros(), FOOT - first_position.z);
+            // What cannot tip rests on all feet alike; friction then stands for the load.
+            let share = if TIPS { 1.0 } else { load * physics.masses[index] / evenly };
+            let foot = foot(placed, share * coefficient);
+            self.insert(foot, Body::Object(index), handle);
+        }
+        let collider = solid(&raised(shape), placed, friction).mass(physics.masses[index]);
         self.insert(collider, Body::Object(index), handle);
         self.objects.push((member, rise));
     }
@@ -254,7 +275,7 @@ impl SpatialWorld {
         for (index, obstacle) in scene.obstacles.iter().enumerate() {
             let pose = to_rapier(&obstacle.pose, self.origin, obstacle.size[2] / 2.0);
             let body = self.world.insert_body(RigidBodyBuilder::fixed().pose(pose));
-            let collider = rubbing(solid(&obstacle.shape()), obstacle.friction);
+            let collider = solid(&obstacle.shape(), Pose3::IDENTITY, obstacle.friction);
             self.insert(collider, Body::Obstacle(index), body);
         }
     }
@@ -325,28 +346,6 @@ fn solved(
 ) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {
     let contacts = manifold.data.solver_contacts.iter();
     contacts.map(move |contact| (manifold, &manifold.points[contact.contact_id[0] as usize]))
-}
-
-fn solid(shape: &Shape) -> ColliderBuilder {
-    match *shape {
-        Shape::Cylinder { radius, height } => ColliderBuilder::cylinder(height / 2.0, radius),
-        Shape::Cuboid { size: [x, y, z] } => ColliderBuilder::cuboid(x / 2.0, y / 2.0, z / 2.0),
-    }
-}
-
-/// The solid at `pose` with its axis along z; rapier's cylinder has it along y.
-fn upright(shape: &Shape, pose: Pose3) -> ColliderBuilder {
-    match shape {
-        Shape::Cylinder { .. } => {
-            let turn = Rotation::from_rotation_x(FRAC_PI_2);
-            solid(shape).position(Pose3::from_parts(pose.translation, pose.rotation * turn))
-        }
-        Shape::Cuboid { .. } => solid(shape).position(pose),
-    }
-}
-
-fn rubbing(collider: ColliderBuilder, friction: f64) -> ColliderBuilder {
-    collider.friction(friction).friction_combine_rule(CoefficientCombineRule::Average)
 }
 
 fn to_rapier(pose: &Pose, origin: Vector, height: f64) -> Pose3 {

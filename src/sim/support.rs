@@ -1,82 +1,88 @@
 //! Friction between an object's underside and the table, in the plane.
 //!
-//! Ellipsoidal limit surface with uniform pressure (Goyal, Ruina and Papadopoulos 1991, Wear 143,
-//! 307; Lynch and Howe 1992): with s = sqrt(|v|^2 + c^2 w^2) the force is -mu m g v / s and the
-//! torque -mu m g c^2 w / s, so over a step dt
-//!
-//! ```text
-//! dv = -mu g dt v / s        dw = -mu g dt (c / rho)^2 w / s
-//! ```
-//!
-//! where c is the footprint's mean radius and rho its radius of gyration. Neither change may
-//! turn its velocity around: friction stops, it does not push.
+//! Every point under the object drags with its share of the weight against its own motion
+//! (Coulomb). What is so slow that friction would stop it within a step is slowed down in
+//! proportion to its speed: friction stops, it does not push.
 //!
 //! The change is given to rapier as a force, so that it is spread over the small steps inside a
 //! step; made at once before the step it would shorten every slide by v dt / 2, four times as
 //! much (measured at 0.1 m/s and 1/240 s: 0.21 mm against 0.06).
 
-use crate::geometry::Footprint;
-use crate::scene::GRAVITY;
+use std::sync::Arc;
+
+use crate::geometry::{Footprint, Vector, cross, perpendicular};
+use crate::scene::{Feet, GRAVITY};
 
 /// The support law of one object.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Support {
+    feet: Arc<Feet>,
     /// mu g, m/s^2.
     deceleration: f64,
-    /// c, metres.
-    mean_radius: f64,
-    /// (c / rho)^2.
-    spin_ratio: f64,
     /// m, kg.
     mass: f64,
-    /// m rho^2, kg m^2.
-    inertia: f64,
+    /// How much more than a slide friction can slow a turn, one if less: the mean square distance
+    /// of the points over that of the mass.
+    stiffest: f64,
 }
 
 impl Support {
-    /// For a footprint, a coefficient of friction and a mass (kg).
-    pub(super) fn new(footprint: &Footprint, friction: f64, mass: f64) -> Self {
-        let (c, rho) = (footprint.mean_radius(), footprint.gyration_radius());
-        Self {
-            deceleration: friction * GRAVITY,
-            mean_radius: c,
-            spin_ratio: (c / rho) * (c / rho),
-            mass,
-            inertia: mass * rho * rho,
-        }
+    /// For the points under an object that covers `footprint`, a coefficient of friction and a mass
+    /// (kg).
+    pub(super) fn new(feet: &Arc<Feet>, footprint: &Footprint, friction: f64, mass: f64) -> Self {
+        let stiffest = (feet.mean_square / footprint.gyration_radius().powi(2)).max(1.0);
+        Self { feet: Arc::clone(feet), deceleration: friction * GRAVITY, mass, stiffest }
     }
 
-    /// Resistance during a step of `dt` seconds to sliding at `speed` (m/s) while turning at
-    /// `turning` (rad/s): force per velocity (N s/m) and torque per turning (N m s/rad).
-    pub(super) fn drag(&self, speed: f64, turning: f64, dt: f64) -> (f64, f64) {
-        let s = speed.hypot(self.mean_radius * turning);
-        if s == 0.0 {
-            return (0.0, 0.0);
+    /// Force (N) and torque (N m) on an object turned by `heading` that slides at `linear` (m/s)
+    /// and turns at `angular` (rad/s), during a step of `dt` seconds.
+    pub(super) fn drag(
+        &self,
+        heading: f64,
+        linear: Vector,
+        angular: f64,
+        dt: f64,
+    ) -> (Vector, f64) {
+        let least = self.deceleration * dt * self.stiffest;
+        if least == 0.0 {
+            return (Vector::zeros(), 0.0);
         }
-        let loss = self.deceleration * dt / s;
-        let (slide, turn) = (loss.min(1.0), (loss * self.spin_ratio).min(1.0));
-        (self.mass * slide / dt, self.inertia * turn / dt)
+        let axis = Vector::new(heading.cos(), heading.sin());
+        let drag = self.feet.drag(axis, linear, angular, least);
+        let load = self.mass * self.deceleration;
+        let force = drag.sum * linear + angular * perpendicular(drag.first);
+        let torque = cross(drag.first, linear) + drag.second * angular;
+        (-load * force, -load * torque)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene;
+
+    const DISC: Footprint = Footprint::Disc { radius: 0.05 };
+
+    fn support() -> Support {
+        let feet = Feet::new(&scene::Support::Even, &DISC);
+        Support::new(&Arc::new(feet), &DISC, 0.4, 2.0)
+    }
 
     #[test]
     fn sliding_alone_feels_mu_m_g_until_a_step_would_turn_it_around() {
-        let support = Support::new(&Footprint::Disc { radius: 0.05 }, 0.4, 2.0);
         let dt = 1e-3;
-        assert!((support.drag(0.2, 0.0, dt).0 * 0.2 - 0.4 * 2.0 * GRAVITY).abs() < 1e-12);
-        assert_eq!(support.drag(1e-4, 0.0, dt).0 * dt, 2.0);
-        assert_eq!(support.drag(0.0, 0.0, dt), (0.0, 0.0));
+        let (force, torque) = support().drag(0.7, Vector::new(0.12, -0.16), 0.0, dt);
+        let expected = -0.4 * 2.0 * GRAVITY * Vector::new(0.6, -0.8);
+        assert!((force - expected).norm() < 1e-12 && torque.abs() < 1e-12, "{force} {torque}");
+        let (force, _) = support().drag(0.0, Vector::new(1e-4, 0.0), 0.0, dt);
+        assert!((force.x * dt + 2.0 * 1e-4).abs() < 1e-12, "{force}");
+        assert_eq!(support().drag(0.0, Vector::zeros(), 0.0, dt), (Vector::zeros(), 0.0));
     }
 
     #[test]
     fn turning_alone_feels_mu_m_g_times_the_mean_radius() {
-        let footprint = Footprint::Disc { radius: 0.05 };
-        let support = Support::new(&footprint, 0.4, 2.0);
-        let torque = support.drag(0.0, 5.0, 1e-3).1 * 5.0;
-        assert!((torque - 0.4 * 2.0 * GRAVITY * footprint.mean_radius()).abs() < 1e-12);
+        let (force, torque) = support().drag(0.3, Vector::zeros(), 5.0, 1e-3);
+        assert!((torque + 0.4 * 2.0 * GRAVITY * DISC.mean_radius()).abs() < 1e-12, "{torque}");
+        assert!(force.norm() < 1e-12, "{force}");
     }
 }

@@ -46,6 +46,7 @@ impl Disturbed {
         for friction in values {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }
+        physics.doubt_supports(&situation.scene, draw);
         Self { situation, tool: Arc::new(tool) }
     }
 

@@ -40,8 +40,7 @@ fn motion() -> ToolMotion {
 fn every_relation_carries_the_lasting_id_of_its_pair() {
     let scene = scene();
     let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), 1);
-    let supports: Vec<f64> =
-        scene.objects.iter().map(|object| object.shape.footprint().mean_radius()).collect();
+    let supports: Vec<f64> = scene.objects.iter().map(|object| object.feet().mean_radius).collect();
     let which = |support: f64| supports.iter().position(|own| *own == support).expect("an object");
     let mut frames: HashMap<PairId, usize> = HashMap::new();
     let mut sizes = HashSet::new();

@@ -115,7 +115,14 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
         if free {
             let name = format!("o{}", objects.len());
             let (mass, friction) = (rng.random_range(0.1..1.0), rng.random_range(0.1..0.8));
-            objects.push(Object { name, shape, mass, friction, pose });
+            objects.push(Object {
+                support: pushplan::scene::Support::Even,
+                name,
+                shape,
+                mass,
+                friction,
+                pose,
+            });
         }
     }
     scene.objects = objects;

@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Job, Object, Part, Record, Scene, Situation, Stroke, Tool, ToolMotion};
+use pushplan::scene::{
+    Job, Object, Part, Record, Scene, Situation, Stroke, Support, Tool, ToolMotion,
+};
 use pushplan::sim::Simulator;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -120,6 +122,7 @@ fn slide(face: &Face, parts: Vec<Part>, random: &mut Pcg64) -> (Scene, Job) {
     let object = Object {
         name: "box".into(),
         shape: Shape::Cuboid { size },
+        support: Support::Even,
         mass: random.random_range(0.2..1.0),
         friction: 0.4,
         pose: at,

@@ -10,5 +10,6 @@ mod rapier_035_friction_direction;
 mod sequences;
 mod sliding;
 mod steps;
+mod supports;
 mod symmetry;
 mod travel;

@@ -2,7 +2,9 @@
 
 use crate::asset::saved::VERSION;
 use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
-use crate::asset::task::{self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE};
+use crate::asset::task::{
+    self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE,
+};
 use crate::asset::tool::TOOL_KEYS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -59,6 +61,7 @@ const SCENE: Value = Value::Map(&[
 const OBJECT: Value = Value::Map(&[
     OBJECT_NAME,
     OBJECT_SHAPE,
+    OBJECT_SUPPORT,
     Key::optional("mass", MASS, "Mass in kg; default 0.5."),
     Key::optional("friction", FRICTION, "Friction value; default 0.4."),
     Key::optional(

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
-    Span, TableTop, Task, Tool, ToolChoice,
+    Span, Support, TableTop, Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
@@ -67,11 +67,23 @@ fn shape(shape: &Shape) -> Json {
     }
 }
 
+fn support(support: &Support) -> Json {
+    match support {
+        Support::Even => json!("even"),
+        Support::Corners => json!("corners"),
+        Support::Spread(share) => json!({"spread": share}),
+        Support::Points(points) => {
+            json!({"points": points.iter().map(|point| vector(*point)).collect::<Vec<_>>()})
+        }
+    }
+}
+
 /// A scene as in a task file.
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |object: &Object| {
         let fields = json!({
-            "name": object.name, "shape": shape(&object.shape), "mass": object.mass, "friction": object.friction,
+            "name": object.name, "shape": shape(&object.shape), "support": support(&object.support),
+            "mass": object.mass, "friction": object.friction,
         });
         posed(fields, &object.pose)
     };

@@ -7,8 +7,8 @@ use crate::asset::take::{angle, name_of, number_or, pose, position, shape, tripl
 use crate::asset::text::named_after;
 use crate::geometry::Vector;
 use crate::scene::{
-    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, TableTop, Task,
-    ToolChoice,
+    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
+    TableTop, Task, ToolChoice,
 };
 
 use super::joints;
@@ -67,10 +67,24 @@ fn object(node: &Node) -> Option<Object> {
     Some(Object {
         name: name_of(node)?.into(),
         shape: shape(node.get("shape")?)?,
+        support: support(node)?,
         mass: node.get("mass")?.number()?,
         friction: node.get("friction")?.number()?,
         pose: pose(node)?,
     })
+}
+
+/// What an object stands on.
+pub(super) fn support(object: &Node) -> Option<Support> {
+    let Some(node) = object.get("support") else { return Some(Support::Even) };
+    if let Some(word) = node.text() {
+        return Some(if word == "corners" { Support::Corners } else { Support::Even });
+    }
+    if let Some(spread) = node.get("spread") {
+        return spread.number().map(Support::Spread);
+    }
+    let points = node.get("points")?.items().iter().map(vector);
+    points.collect::<Option<_>>().map(Support::Points)
 }
 
 fn obstacle(node: &Node) -> Option<Obstacle> {

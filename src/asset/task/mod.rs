@@ -9,4 +9,6 @@ mod spec;
 
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
-pub(super) use spec::{JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBSTACLES, TABLE, TASK, TASK_KEYS};
+pub(super) use spec::{
+    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE, TASK, TASK_KEYS,
+};

@@ -5,7 +5,7 @@ use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, vector};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
-use crate::scene::{PushForm, PushRules};
+use crate::scene::{PushForm, PushRules, Support, carries};
 
 use super::{build, joints};
 
@@ -68,6 +68,7 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     unique_names(objects.iter().chain(obstacles), "bodies", ledger);
     overlaps(objects, obstacles, slack, ledger);
     masses(objects, ledger);
+    objects.iter().for_each(|object| stands(object, ledger));
     joints::check(items("joints"), objects, obstacles, ledger);
 }
 
@@ -96,6 +97,20 @@ pub(super) fn body(node: &Node) -> Option<(Footprint, Pose)> {
         None => Shape::Cuboid { size: triple(node, "size")? },
     };
     Some((shape.footprint(), pose(node)?))
+}
+
+/// The points under an object must carry it.
+fn stands(object: &Node, ledger: &mut Ledger) {
+    if let (Some(node), Some(Support::Points(points))) =
+        (object.get("support"), build::support(object))
+        && carries(&points).is_none()
+    {
+        ledger.fault(
+            node,
+            "the object would fall: its centre does not lie between these points",
+            "the points are in the object's own frame, [0, 0] being its centre",
+        );
+    }
 }
 
 fn masses(objects: &[Node], ledger: &mut Ledger) {

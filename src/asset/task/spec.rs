@@ -95,13 +95,40 @@ const OBJECT: Value = Value::Map(&[
         FRICTION,
         "Friction value; the coefficient of a pair is the mean of the two values.",
     ),
+    OBJECT_SUPPORT,
     Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
+]);
+
+/// How an object's weight is spread over its underside.
+const SUPPORT: Value = Value::Either(&[
+    Value::Word(&["even", "corners"]),
+    Value::Variant(&[
+        Key::optional(
+            "spread",
+            Value::Number(Range {
+                what: "a share",
+                low: 0.1,
+                high: 1.0,
+                advice: "1 is the corners, or the rim; even pressure is like 0.5 to 0.7",
+            }),
+            "Share of the corners' distance, or of the radius, at which it rests; no default.",
+        ),
+        Key::optional(
+            "points",
+            Value::List { of: &POSITION, items: "points", min: 3, max: 8 },
+            "Points that it stands on, [x, y] in metres in the object's frame; no default.",
+        ),
+    ]),
 ]);
 
 /// What messages and other keys call an object.
 pub(in crate::asset) const OBJECT_NAME: Key =
     Key::required("name", Value::Name, "The object's name, unique in the scene.");
+
+/// What an object stands on.
+pub(in crate::asset) const OBJECT_SUPPORT: Key =
+    Key::optional("support", SUPPORT, "How the weight rests on the table; default `even`.");
 
 /// What an object looks like.
 pub(in crate::asset) const OBJECT_SHAPE: Key =

@@ -6,7 +6,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Shape, Vector};
-use crate::scene::{Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice};
+use crate::scene::{Goal, Object, Obstacle, Robot, Scene, Span, Support, Task, ToolChoice};
 
 use super::kind::TaskKind;
 use super::layout::round;
@@ -60,6 +60,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
     let object = Object {
         name: "object".to_owned(),
         shape,
+        support: Support::Even,
         mass: round(rng.random_range(0.1..2.0), 1e2),
         friction: round(rng.random_range(0.2..0.8), 1e2),
         pose: place(near, rng.random_range(-0.02..0.02), turn),

@@ -92,6 +92,7 @@ fn play(setup: &ReferenceSetup, task: &Task, engine: Engine, action: &Action) ->
     let simulator = match engine {
         Engine::Planar => Simulator::planar(),
         Engine::Spatial => Simulator::spatial(),
+        Engine::Upright => Simulator::upright(),
     };
     let job = Job::stated(scene, action.motion(setup));
     landing(&simulator.run(scene, &job, Record::Outcome))

@@ -34,6 +34,7 @@ impl fmt::Display for Source {
             Source::Predicted => "predicted",
             Source::Simulated(Engine::Planar) => "simulated in the plane",
             Source::Simulated(Engine::Spatial) => "simulated in 3-D",
+            Source::Simulated(Engine::Upright) => "simulated in 3-D, upright",
         })
     }
 }
@@ -196,6 +197,7 @@ impl ScenePicture<'_> {
                 Source::Predicted => "predicted way and end",
                 Source::Simulated(Engine::Planar) => "simulated, planar",
                 Source::Simulated(Engine::Spatial) => "simulated, 3-D",
+                Source::Simulated(Engine::Upright) => "simulated, 3-D upright",
             };
             add(Sample::Way(style(track.source)), words.to_owned());
         }
@@ -230,7 +232,9 @@ fn style(source: Source) -> Style {
     match source {
         Source::Predicted => Style::stroke(colour, 2.0).dashed("6 4"),
         Source::Simulated(Engine::Planar) => Style::stroke(colour, 2.0),
-        Source::Simulated(Engine::Spatial) => Style::stroke(colour, 1.6).dashed("2 3"),
+        Source::Simulated(Engine::Spatial | Engine::Upright) => {
+            Style::stroke(colour, 1.6).dashed("2 3")
+        }
     }
 }
 
@@ -238,7 +242,7 @@ fn colour(source: Source) -> &'static str {
     match source {
         Source::Predicted => palette::PREDICTED,
         Source::Simulated(Engine::Planar) => palette::PLANAR,
-        Source::Simulated(Engine::Spatial) => palette::SPATIAL,
+        Source::Simulated(Engine::Spatial | Engine::Upright) => palette::SPATIAL,
     }
 }
 

@@ -129,6 +129,8 @@ impl ModelKind {
     pub const PLANAR: Self = Self::Simulated { engine: Engine::Planar, rate: Rate::DEFAULT };
     /// The 3-D engine.
     pub const SPATIAL: Self = Self::Simulated { engine: Engine::Spatial, rate: Rate::DEFAULT };
+    /// The 3-D engine in which nothing tips, at its default step.
+    pub const UPRIGHT: Self = Self::Simulated { engine: Engine::Upright, rate: Rate::DEFAULT };
 }
 
 impl ModelSpec {

@@ -16,8 +16,8 @@ use super::{Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, Str
 pub enum SpecError {
     /// No such kind.
     #[error(
-        "`{found}` is not an effect model; use network, prior, planar, 3d, projection, follow or \
-         still, or a file that ends in .safetensors"
+        "`{found}` is not an effect model; use network, prior, planar, 3d, 3d-upright, projection, \
+         follow or still, or a file that ends in .safetensors"
     )]
     Kind {
         /// What stands in its place.
@@ -69,6 +69,7 @@ impl ModelKind {
             Self::Prior { .. } => "prior",
             Self::Simulated { engine: Engine::Planar, .. } => "planar",
             Self::Simulated { engine: Engine::Spatial, .. } => "3d",
+            Self::Simulated { engine: Engine::Upright, .. } => "3d-upright",
             Self::Projection => "projection",
             Self::Follow => "follow",
             Self::Still => "still",
@@ -81,6 +82,7 @@ impl ModelKind {
             Self::PRIOR,
             Self::PLANAR,
             Self::SPATIAL,
+            Self::UPRIGHT,
             Self::Projection,
             Self::Follow,
             Self::Still,

@@ -195,6 +195,29 @@ fn a_heading_for_a_cylinder() {
 }
 
 #[test]
+fn supports_that_do_not_carry() {
+    let standing = |support: &str| ("mass: 0.4, ", format!("mass: 0.4, support: {support}, "));
+    let (old, aside) = standing("{points: [[0.01, 0], [0.03, 0.01], [0.03, -0.01]]}");
+    assert_snapshot!(task(&[(old, &aside)]), @r#"
+    t.yaml:4:88: error: the object would fall: its centre does not lie between these points
+      help: the points are in the object's own frame, [0, 0] being its centre
+    "#);
+    let (old, wrong) = standing("{spread: 1.5}");
+    assert_snapshot!(task(&[(old, &wrong)]), @r#"
+    t.yaml:4:97: error: expected a share from 0.1 to 1, found the number 1.5
+      help: 1 is the corners, or the rim; even pressure is like 0.5 to 0.7
+    "#);
+    for support in
+        ["even", "corners", "{spread: 0.6}", "{points: [[0, 1e-2], [1e-2, 0], [-0.02, -0.02]]}"]
+    {
+        let (old, sound) = standing(support);
+        let read = Task::parse(&spoiled(TASK, &[(old, &sound)]), "t.yaml").unwrap();
+        let feet = read.scene.objects[0].feet();
+        assert!((feet.load.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{support}");
+    }
+}
+
+#[test]
 fn a_goal_inside_an_obstacle() {
     let at = |x: &str| ("[0.35, 0.1], tolerance: 0.05", format!("[{x}, 0.1], tolerance: 0.03"));
     let (old, inside) = at("0.88");
@@ -315,7 +338,7 @@ fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     t.yaml:4:7: error: missing key `mass`
       help: Mass in kg.
     t.yaml:4:68: error: unknown key `ma\u001b[31mss`
-      help: use `name`, `shape`, `mass`, `friction`, `position` or `yaw_deg`
+      help: use `name`, `shape`, `mass`, `friction`, `support`, `position` or `yaw_deg`
     t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
       help: use letters, digits, `-` and `_`, at most 64
     "#);

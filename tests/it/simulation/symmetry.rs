@@ -46,7 +46,7 @@ fn tolerance(engine: Engine, objects: &[Object]) -> f64 {
     match engine {
         Engine::Planar => 0.05e-3,
         Engine::Spatial if objects.iter().any(|object| object.shape.is_cylinder()) => 4e-3,
-        Engine::Spatial => 0.1e-3,
+        Engine::Spatial | Engine::Upright => 0.1e-3,
     }
 }
 

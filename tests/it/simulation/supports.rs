@@ -1,0 +1,59 @@
+//! What an object stands on decides how it turns, alike in both engines.
+
+use std::sync::Arc;
+
+use pushplan::geometry::{Pose, Vector, wrap_angle};
+use pushplan::scene::{Job, Object, Part, Push, Record, Scene, Support, Tool, ToolMotion};
+use pushplan::sim::Simulator;
+
+use crate::fixtures::{brick, can};
+
+/// Where an object at the origin ends when a narrow finger pushes it by 15 cm, `aside` metres
+/// beside its centre.
+fn pushed(simulator: &Simulator, object: Object, aside: f64) -> Pose {
+    let part = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
+    let tool = Arc::new(Tool::new("finger", [part]).expect("one piece"));
+    let push = Push { start: Vector::new(-0.09, aside), direction: 0.0, length: 0.15, speed: 0.1 };
+    let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
+    let scene = Scene::new([object]);
+    let trajectory = simulator.run(&scene, &Job::stated(&scene, motion), Record::Outcome);
+    trajectory.outcome().poses[0]
+}
+
+fn supports() -> [Support; 4] {
+    let tripod = [(0.03, 0.0), (-0.02, 0.02), (-0.02, -0.015)];
+    [
+        Support::Even,
+        Support::Corners,
+        Support::Spread(0.75),
+        Support::Points(tripod.map(|(x, y)| Vector::new(x, y)).to_vec()),
+    ]
+}
+
+#[test]
+fn the_same_points_lead_to_the_same_end_in_the_plane_and_in_3d_where_nothing_tips() {
+    let mut apart = Vec::new();
+    for support in supports() {
+        for object in [can(), brick()] {
+            for aside in [-0.02, -0.008, 0.013] {
+                let object = object.clone().standing_on(support.clone());
+                let [a, b] = [Simulator::planar(), Simulator::upright()]
+                    .map(|simulator| pushed(&simulator, object.clone(), aside));
+                assert!(a.position.norm() > 0.05, "{support:?} {aside}: {a:?}");
+                apart.push((a.position - b.position).norm());
+            }
+        }
+    }
+    let mean = apart.iter().sum::<f64>() / apart.len() as f64;
+    assert!(mean < 1.5e-3, "{mean}: {apart:?}");
+}
+
+#[test]
+fn a_box_turns_the_less_the_farther_out_it_rests() {
+    for simulator in [Simulator::planar(), Simulator::spatial(), Simulator::upright()] {
+        let turns = [Support::Spread(0.3), Support::Even, Support::Corners].map(|support| {
+            wrap_angle(pushed(&simulator, brick().standing_on(support), 0.012).heading).abs()
+        });
+        assert!(turns[0] > turns[1] && turns[1] > 1.1 * turns[2], "{turns:?}");
+    }
+}
