@@ -36,6 +36,15 @@ pub struct Movable {
     pub friction: f64,
     /// Vertical extent, metres.
     pub height: f64,
+    /// How far the load moves when it is pressed as hard as friction resists, metres.
+    pub lean: f64,
+}
+
+impl Movable {
+    /// Largest friction of the table, N.
+    pub fn load(&self) -> f64 {
+        self.mass * self.deceleration
+    }
 }
 
 /// A body whose motion is given: a tool part or an obstacle.
@@ -169,6 +178,7 @@ impl Bodies {
                     mass: physics.masses[k],
                     friction: physics.frictions[k],
                     height: object.shape.height(),
+                    lean: physics.lean(&scene.objects[k], friction, (tool, lift)),
                 }
             })
             .collect();

@@ -111,6 +111,7 @@ mod tests {
             mass: 1.0,
             friction: 0.4,
             height: 0.1,
+            lean: 0.0,
         }
     }
 

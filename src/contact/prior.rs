@@ -270,8 +270,9 @@ mod tests {
         Object { shape: Shape::Cylinder { radius: 0.03, height: 0.1 }, ..cuboid(x, y) }
     }
 
+    /// Pushed at the table's height, so that the load stays where it is.
     fn table(objects: Vec<Object>) -> Scene {
-        Scene::new(objects)
+        Scene { push_height: Some(0.0), ..Scene::new(objects) }
     }
 
     /// The motions of one slow frame in which a round finger of 2 cm, its far side touching the

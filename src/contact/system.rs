@@ -79,6 +79,9 @@ impl System {
         let of = (self.quantity, duration);
         for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
             unknown.place(members, state);
+            if !follows {
+                unknown.forget();
+            }
             unknown.pull((bodies, members), state, of, coasts);
             unknown.weigh((bodies, members), state, of, (!follows).then_some(reach));
             if !follows {

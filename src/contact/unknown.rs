@@ -4,7 +4,8 @@
 //! Goyal, Ruina and Papadopoulos 1991): a point that moves by d and carries the share n of an
 //! object of mass m answers with mu n m g d / |d|. Written with a weight K that depends on the motion
 //! xi = (shift, turn), that is K xi, the sum of mu n m g / |d| J^T J over all points, J giving d from
-//! xi. Inertia M adds, with velocities v0 at the start of the frame of T seconds,
+//! xi. Where contacts press, the load moves ahead (see [`crate::scene::Physics::lean`]). Inertia M
+//! adds, with velocities v0 at the start of the frame of T seconds,
 //!
 //! ```text
 //! (K + 2 M / T^2) xi     = 2 M v0 / T + f      for the displacement
@@ -75,6 +76,10 @@ pub(super) struct Unknown {
     pub twist: Vector3<f64>,
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
+    /// How hard contacts and joints press, as a share of the largest friction, at most one. It
+    /// follows `pressed` by halves from one update of the weights to the next: at once, where the
+    /// load goes and what then presses can take turns for ever.
+    pressing: Vector,
     /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
     pub share: f64,
     pub turn: Turn,
@@ -104,6 +109,12 @@ impl Unknown {
         self.centre + self.share * self.twist.xy() + self.turn.of(point - self.centre)
     }
 
+    /// Nothing presses on it, as far as is known.
+    pub fn forget(&mut self) {
+        self.pressed = Vector3::zeros();
+        self.pressing = Vector::zeros();
+    }
+
     /// Takes what pulls the group in a frame of this kind and duration: friction and inertia of
     /// members that coast.
     pub fn pull(
@@ -121,7 +132,8 @@ impl Unknown {
             let own = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
-                    let rub = rub((bodies, k), *axis, (coast.shift, coast.turn), quantity);
+                    let moved = (coast.shift, coast.turn);
+                    let rub = rub((bodies, k), *axis, moved, quantity, Vector::zeros());
                     let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
                     rub.about(Vector::zeros()) * moved
                         + Vector3::new(slide, slide, turn).component_mul(&moved)
@@ -146,6 +158,10 @@ impl Unknown {
         reach: Option<f64>,
     ) {
         let mut weight = Matrix3::zeros();
+        let load: f64 = members.iter().map(|&k| bodies.objects[k].load()).sum();
+        let pressed = self.pressed.xy();
+        let pressed = pressed / pressed.norm().max(load).max(f64::MIN_POSITIVE);
+        self.pressing += 0.5 * (pressed - self.pressing);
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
             let arm = state.poses[k].position - self.centre;
@@ -155,7 +171,8 @@ impl Unknown {
                 }
                 None => {
                     let moved = shift(&self.twist, arm);
-                    rub((bodies, k), *axis, (moved, self.twist.z), quantity)
+                    let lean = body.lean * self.pressing;
+                    rub((bodies, k), *axis, (moved, self.twist.z), quantity, lean)
                 }
             };
             let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
@@ -168,14 +185,17 @@ impl Unknown {
     }
 }
 
-/// How the support of object `k`, whose own x axis points along `axis`, resists a shift and a turn.
+/// How the support of object `k`, whose own x axis points along `axis` and whose load has moved by
+/// `lean`, resists a shift and a turn.
 fn rub(
     (bodies, k): (&Bodies, usize),
     axis: Vector,
     (shift, turn): (Vector, f64),
     quantity: Quantity,
+    lean: Vector,
 ) -> Rub {
-    Rub::new(&bodies.objects[k], bodies.feet(k).drag(axis, shift, turn, quantity.stuck()))
+    let drag = bodies.feet(k).drag(axis, (shift, turn), quantity.stuck(), lean);
+    Rub::new(&bodies.objects[k], drag)
 }
 
 /// The moments of what resists an object, about its centre in world axes: N/m, N, N m.
@@ -187,7 +207,7 @@ struct Rub {
 
 impl Rub {
     fn new(body: &Movable, drag: Drag) -> Self {
-        let rub = body.mass * body.deceleration;
+        let rub = body.load();
         Self { sum: rub * drag.sum, first: rub * drag.first, second: rub * drag.second }
     }
 

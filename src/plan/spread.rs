@@ -16,7 +16,8 @@ use crate::scene::{Physics, Scene, Situation, State, Tool, ToolMotion};
 /// Rollouts with errors for every state. The largest of six is about the 85th percentile.
 const DRAWS: usize = 6;
 
-/// Errors, beside those of supports, of where objects are seen, metres and radians, and of every friction value, relative.
+/// Errors, beside those of supports and of the push's height, of where objects are seen, metres
+/// and radians, and of every friction value, relative.
 const SHIFT: f64 = 1e-3;
 const TURN: f64 = std::f64::consts::PI / 180.0;
 const FRICTION: f64 = 0.1;
@@ -48,6 +49,7 @@ impl Spread {
             drawn.frictions.iter_mut().for_each(&mut change);
             change(&mut drawn.table_friction);
             tools.push(1.0 + within(FRICTION));
+            drawn.push_height = Some(0.5 + within(0.5));
             let mut start = situation.start.clone();
             for first in 0..groups.len() {
                 let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));

@@ -51,6 +51,7 @@ mod tests {
             frictions: vec![0.4; 6],
             table_friction: 0.4,
             feet: Vec::new(),
+            push_height: None,
             joints: [[4, 5], [3, 4], [0, 3]].map(joint).to_vec(),
         };
         assert_eq!(physics.groups(|_| true), [0, 1, 2, 0, 0, 0]);

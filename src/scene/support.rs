@@ -43,6 +43,8 @@ pub struct Feet {
     pub mean_radius: f64,
     /// Mean square distance from the centre, square metres.
     pub mean_square: f64,
+    /// The inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
+    stiffness: [f64; 3],
 }
 
 impl Feet {
@@ -77,6 +79,27 @@ impl Feet {
         feet
     }
 
+    /// Fewer points with the same first and second moments, for engines in which all of them are
+    /// contacts of a body that tips: how it spreads its weight over many is left to chance there,
+    /// and each costs time. Four under a cuboid, eight under a cylinder.
+    pub fn few(&self, footprint: &Footprint) -> Self {
+        if self.count < MAX_FEET {
+            return self.clone();
+        }
+        let mut feet = match *footprint {
+            Footprint::Disc { .. } => Self::equal(ring(self.mean_square.sqrt(), 0.0)),
+            Footprint::Rectangle { .. } => {
+                let square = |at: &[f64; MAX_FEET]| -> f64 {
+                    at.iter().zip(&self.load).map(|(at, load)| load * at * at).sum::<f64>().sqrt()
+                };
+                let half = Vector::new(square(&self.x), square(&self.y));
+                Self::corners(&Footprint::Rectangle { half }, 1.0)
+            }
+        };
+        feet.round = self.round;
+        feet
+    }
+
     /// These points with loads that leave the centre of mass where it is, as equal as can be; see
     /// [`carries`].
     fn on(points: &[Vector]) -> Self {
@@ -96,11 +119,9 @@ impl Feet {
     }
 
     fn equal(points: impl IntoIterator<Item = Vector>) -> Self {
-        let mut feet = Self::of(points.into_iter().map(|point| (point, 1.0)));
-        feet.load.iter_mut().for_each(|load| *load /= feet.count as f64);
-        feet.mean_radius /= feet.count as f64;
-        feet.mean_square /= feet.count as f64;
-        feet
+        let points: Vec<Vector> = points.into_iter().collect();
+        let load = 1.0 / points.len() as f64;
+        Self::of(points.into_iter().map(|point| (point, load)))
     }
 
     fn of(points: impl IntoIterator<Item = (Vector, f64)>) -> Self {
@@ -113,13 +134,23 @@ impl Feet {
             round: false,
             mean_radius: 0.0,
             mean_square: 0.0,
+            stiffness: [0.0; 3],
         };
+        let [mut xx, mut xy, mut yy] = [0.0; 3];
         for (point, load) in points.into_iter().take(MAX_FEET) {
             let k = feet.count;
             (feet.x[k], feet.y[k], feet.load[k]) = (point.x, point.y, load);
             feet.count += 1;
             feet.mean_radius += load * point.norm();
             feet.mean_square += load * point.norm_squared();
+            xx += load * point.x * point.x;
+            xy += load * point.x * point.y;
+            yy += load * point.y * point.y;
+        }
+        // Nothing leans on points in a line, which could not carry it.
+        let whole = xx * yy - xy * xy;
+        if whole > 1e-9 * (xx + yy) * (xx + yy) {
+            feet.stiffness = [yy / whole, -xy / whole, xx / whole];
         }
         feet
     }
@@ -130,9 +161,16 @@ impl Feet {
     }
 
     /// What resists a planar motion of the object, whose own x axis points along the unit vector
-    /// `axis`, when every point drags with its load along its own motion, and those slower than `least` as if they were so fast. With d
-    /// the motion of a point, the weight of its place is load / max(|d|, `least`).
-    pub fn drag(&self, axis: Vector, linear: Vector, angular: f64, least: f64) -> Drag {
+    /// `axis`, when every point drags with its load along its own motion, and those slower than
+    /// `least` as if they were so fast. With d the motion of a point, the weight of its place is
+    /// load / max(|d|, `least`). The object leans: the centre of its load lies `lean` metres aside.
+    pub fn drag(
+        &self,
+        axis: Vector,
+        (linear, angular): (Vector, f64),
+        least: f64,
+        lean: Vector,
+    ) -> Drag {
         let speed = linear.norm();
         // The points of what is round stand for all of its turns, so they turn with the motion.
         let (cos, sin) = match self.round {
@@ -140,34 +178,56 @@ impl Feet {
             true => (1.0, 0.0),
             false => (axis.x, axis.y),
         };
-        let local = Vector::new(cos * linear.x + sin * linear.y, cos * linear.y - sin * linear.x);
-        let mut drag = self.drag_along(local, angular, least);
+        let local = |v: Vector| Vector::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
+        let mut drag = self.drag_along(local(linear), angular, least, self.slope(local(lean)));
         let Drag { first, .. } = drag;
         drag.first = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
         drag
     }
 
-    /// The same in the points' own frame.
+    /// How much more of its load than at the centre a point carries per metre, so that the centre
+    /// of the load lies at `lean`: the least change that does it (even springs).
+    fn slope(&self, lean: Vector) -> Vector {
+        let [xx, xy, yy] = self.stiffness;
+        Vector::new(xx * lean.x + xy * lean.y, xy * lean.x + yy * lean.y)
+    }
+
+    /// Shares of the weight when the centre of the load lies at `lean`, in the object's frame.
+    /// Points do not pull: where some would have to, the rest carries all, a little less far aside.
+    pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
+        let slope = self.slope(lean);
+        let mut load = self.load;
+        for (k, load) in load.iter_mut().enumerate() {
+            *load *= (1.0 + slope.x * self.x[k] + slope.y * self.y[k]).max(0.0);
+        }
+        let whole: f64 = load.iter().sum();
+        load.map(|load| load / whole)
+    }
+
+    /// [`Self::drag`] in the points' own frame.
     #[inline]
-    fn drag_along(&self, linear: Vector, angular: f64, least: f64) -> Drag {
+    fn drag_along(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
         // Whole blocks and a sum for each place in them, so that the compiler makes vectors of
         // them; spare points carry nothing.
-        let mut sums = [[0.0; BLOCK]; 4];
+        let mut sums = [[0.0; BLOCK]; 5];
         for block in 0..self.count.div_ceil(BLOCK) {
             let range = block * BLOCK..(block + 1) * BLOCK;
             let (x, y) = (&self.x[range.clone()], &self.y[range.clone()]);
             let load = &self.load[range];
             for k in 0..BLOCK {
                 let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
-                let weight = load[k] / (u * u + v * v).sqrt().max(least);
+                let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
+                let weight = load / (u * u + v * v).sqrt().max(least);
                 sums[0][k] += weight;
                 sums[1][k] += weight * x[k];
                 sums[2][k] += weight * y[k];
                 sums[3][k] += weight * (x[k] * x[k] + y[k] * y[k]);
+                sums[4][k] += load;
             }
         }
-        let [sum, x, y, second] = sums.map(|places| places.iter().sum::<f64>());
-        Drag { sum, first: Vector::new(x, y), second }
+        let [sum, x, y, second, whole] = sums.map(|places| places.iter().sum::<f64>());
+        let scale = 1.0 / whole;
+        Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
     }
 
     /// The same where every point moves by `moved`.
@@ -261,6 +321,35 @@ mod tests {
         }
     }
 
+    #[test]
+    fn what_leans_has_the_centre_of_its_load_there() {
+        for shape in SHAPES {
+            for support in [Support::Even, Support::Corners] {
+                let feet = Feet::new(&support, &shape);
+                let lean = Vector::new(0.004, -0.002);
+                let loads = feet.leaning(lean);
+                let centre: Vector = feet.each().zip(loads).map(|((at, _), load)| load * at).sum();
+                assert!((centre - lean).norm() < 1e-12, "{shape:?} {support:?}: {centre}");
+                // So slow that all points weigh alike, what is left is the load's first moment.
+                let motion = (Vector::new(0.1, 0.03), 0.4);
+                let drag = feet.drag(Vector::x(), motion, 1.0, lean);
+                assert!((drag.first - lean).norm() < 1e-12, "{shape:?} {support:?}: {drag:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn fewer_feet_have_the_same_second_moments() {
+        for shape in SHAPES {
+            let feet = Feet::new(&Support::Even, &shape);
+            let few = feet.few(&shape);
+            assert!(few.count <= 8 && few.round == feet.round);
+            for (a, b) in few.stiffness.iter().zip(&feet.stiffness) {
+                assert!((a - b).abs() < 1e-9 * feet.stiffness[0], "{shape:?}");
+            }
+        }
+    }
+
     /// Turning little while it slides, a disc under even pressure resists with a quarter of R^2.
     #[test]
     fn a_slide_that_hardly_turns_feels_the_second_moment_along_it() {
@@ -271,7 +360,8 @@ mod tests {
                 Footprint::Rectangle { half } => half.x * half.x / 3.0,
             };
             let (speed, turning) = (0.1, 1e-4);
-            let drag = feet.drag(Vector::x(), Vector::new(speed, 0.0), turning, 1e-9);
+            let drag =
+                feet.drag(Vector::x(), (Vector::new(speed, 0.0), turning), 1e-9, Vector::zeros());
             // Torque: the slide pulls at the points' first moment, the turn at their second.
             let torque = -drag.first.y * speed + drag.second * turning;
             assert!((torque / (second * turning / speed) - 1.0).abs() < 1e-3, "{shape:?}");

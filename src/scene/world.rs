@@ -135,6 +135,10 @@ pub struct Scene {
     pub table_friction: f64,
     /// Where the table ends; nowhere near if nothing is said.
     pub table_top: Option<TableTop>,
+    /// How high tools press on objects, where it is known: see [`Physics::push_height`].
+    ///
+    /// [`Physics::push_height`]: super::Physics::push_height
+    pub push_height: Option<f64>,
     /// Movable bodies; indices into this list name them everywhere.
     pub objects: Vec<Object>,
     /// Joints between objects.
@@ -153,6 +157,7 @@ impl Scene {
         Self {
             table_friction: Self::FRICTION,
             table_top: None,
+            push_height: None,
             objects,
             joints: Vec::new(),
             obstacles: Vec::new(),

@@ -22,5 +22,6 @@ mod solids;
 mod spatial;
 mod strain;
 mod support;
+mod upright;
 
 pub use simulator::Simulator;

@@ -23,7 +23,7 @@ use super::parameters::{
 };
 use super::seams::Seams;
 use super::strain::{Overlap, force, overlap};
-use super::support::Support;
+use super::support::{Pressed, Support};
 
 /// Tool parts.
 const PART: Layer = Layer::GROUP_1;
@@ -53,6 +53,9 @@ struct Tracked {
     first_position: RapierVector,
     last_angle: f64,
     turned: f64,
+    pressed: Pressed,
+    /// How hard it is pressed in this step.
+    pressing: Vector,
 }
 
 impl World for PlanarWorld {
@@ -77,7 +80,7 @@ impl World for PlanarWorld {
         groups.iter().for_each(|group| this.add_body(group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            this.add_object(scene, physics, motion.lift, index, member);
+            this.add_object(scene, physics, motion, index, member);
         }
         this.add_obstacles(scene);
         this.add_joints(scene, physics);
@@ -97,20 +100,25 @@ impl World for PlanarWorld {
 
     fn step(&mut self) {
         let dt = f64::from(self.world.integration_parameters.dt);
-        for tracked in &self.bodies {
+        for tracked in &mut self.bodies {
             let body = &mut self.world.bodies[tracked.handle];
             body.reset_forces(true);
             body.reset_torques(true);
+            let velocity = body.linvel();
+            let velocity = Vector::new(velocity.x.into(), velocity.y.into());
+            tracked.pressing = tracked.pressed.look(velocity, dt);
         }
         for (member, support) in &self.objects {
-            let tracked = &self.bodies[member.body];
+            let tracked = &mut self.bodies[member.body];
             let body = &mut self.world.bodies[tracked.handle];
             let arm = vector(member.arm(tracked.turned));
             let turning = body.angvel();
             let velocity = body.linvel() + arm.perp() * turning;
             let heading = member.start.heading + tracked.turned;
             let velocity = Vector::new(velocity.x.into(), velocity.y.into());
-            let (force, torque) = support.drag(heading, velocity, turning.into(), dt);
+            let (force, torque) =
+                support.drag(heading, velocity, turning.into(), tracked.pressing, dt);
+            tracked.pressed.rub(force);
             let force = vector(force);
             body.add_force(force, true);
             body.add_torque(torque as Real + arm.perp_dot(force), true);
@@ -231,6 +239,8 @@ impl PlanarWorld {
             first_position: self.world.bodies[handle].translation(),
             last_angle: self.world.bodies[handle].rotation().angle().into(),
             turned: 0.0,
+            pressed: Pressed::default(),
+            pressing: Vector::zeros(),
         });
     }
 
@@ -238,14 +248,14 @@ impl PlanarWorld {
         &mut self,
         scene: &Scene,
         physics: &Physics,
-        lift: f64,
+        motion: &ToolMotion,
         index: usize,
         member: Member,
     ) {
         let (shape, friction) = (&scene.objects[index].shape, physics.frictions[index]);
         let footprint = shape.footprint();
         // All parts have their underside at the same height, so the object alone decides.
-        let own = if shape.height() > lift { TALL } else { LOW };
+        let own = if shape.height() > motion.lift { TALL } else { LOW };
         let collider = collider(&footprint, friction)
             .mass(physics.masses[index] as Real)
             .position(to_rapier(&member.local, Vector::zeros()))
@@ -253,7 +263,11 @@ impl PlanarWorld {
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
         let table = Scene::pair_friction(friction, physics.table_friction);
         let (feet, mass) = (&physics.feet[index], physics.masses[index]);
-        self.objects.push((member, Support::new(feet, &footprint, table, mass)));
+        let (object, lift) = (&scene.objects[index], motion.lift);
+        let lean = physics.lean(object, table, (&motion.tool, lift));
+        let support = Support::new(feet, &footprint, table, mass, lean);
+        self.bodies[member.body].pressed.add(&support);
+        self.objects.push((member, support));
     }
 
     fn add_obstacles(&mut self, scene: &Scene) {

@@ -16,7 +16,7 @@ use rapier3d_f64::prelude::{
 
 use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::scene::{
-    Body, FrameStep, GRAVITY, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity,
+    Body, Feet, FrameStep, GRAVITY, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity,
 };
 
 use super::drive::World;
@@ -28,6 +28,8 @@ use super::parameters::{
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table};
 use super::strain::{Overlap, force, overlap};
+use super::support::Support;
+use super::upright::{Standing, Upright};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -44,6 +46,8 @@ pub(super) struct SpatialWorld<const TIPS: bool> {
     tool: RigidBodyHandle,
     bodies: Vec<Tracked>,
     objects: Vec<(Member, f64)>,
+    /// Supports of bodies that cannot tip.
+    upright: Upright,
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
     seams: Seams,
@@ -73,6 +77,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
             objects: Vec::with_capacity(scene.objects.len()),
+            upright: Upright::default(),
             labels: Vec::new(),
             seams: Seams::default(),
         };
@@ -84,10 +89,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         groups.iter().for_each(|group| this.add_body(scene, group));
         for index in 0..scene.objects.len() {
             let member = Member::of(&groups, state, index);
-            let objects = &groups[member.body].objects;
-            let mass: f64 = objects.iter().map(|&k| physics.masses[k]).sum();
-            let feet: usize = objects.iter().map(|&k| physics.feet[k].count).sum();
-            this.add_object(scene, physics, index, member, mass / feet as f64);
+            this.add_object(scene, physics, motion, index, member);
+        }
+        if !TIPS {
+            this.upright.join(&groups, &physics.masses);
         }
         this.add_obstacles(scene);
         this.add_joints(scene, physics);
@@ -106,6 +111,11 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     }
 
     fn step(&mut self) {
+        if !TIPS {
+            let state = self.state();
+            let dt = self.world.integration_parameters.dt;
+            self.upright.load(&state, &mut self.world.colliders, dt);
+        }
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
             let angle = yaw(self.world.bodies[tracked.handle].rotation());
@@ -242,32 +252,39 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         });
     }
 
-    /// `evenly` is the mass (kg) on each foot of its body, were all loaded alike.
     fn add_object(
         &mut self,
         scene: &Scene,
         physics: &Physics,
+        motion: &ToolMotion,
         index: usize,
         member: Member,
-        evenly: f64,
     ) {
-        let shape = &scene.objects[index].shape;
+        let object = &scene.objects[index];
+        let (footprint, height) = (object.shape.footprint(), object.shape.height());
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
-        let rise = shape.height() / 2.0 - first_position.z;
-        let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
-        let friction = physics.frictions[index];
-        let coefficient = physics.support_friction(index);
-        for (at, load) in physics.feet[index].each() {
-            let pose = Pose { position: at, heading: 0.0 };
-            let placed =
-                to_rapier(&(member.local * pose), Vector::zeros(), FOOT - first_position.z);
-            // What cannot tip rests on all feet alike; friction then stands for the load.
-            let share = if TIPS { 1.0 } else { load * physics.masses[index] / evenly };
-            let foot = foot(placed, share * coefficient);
-            self.insert(foot, Body::Object(index), handle);
+        let friction = physics.support_friction(index);
+        let points = &physics.feet[index];
+        let feet = if TIPS { points.few(&footprint) } else { Feet::clone(points) };
+        let place = |at: Vector| {
+            let pose = member.local * Pose { position: at, heading: 0.0 };
+            to_rapier(&pose, Vector::zeros(), FOOT - first_position.z)
+        };
+        let feet = feet
+            .each()
+            .map(|(at, _)| self.insert(foot(place(at), friction), Body::Object(index), handle))
+            .collect();
+        if !TIPS {
+            let lean = physics.lean(object, friction, (&motion.tool, motion.lift));
+            let mass = physics.masses[index];
+            let support = Support::new(points, &footprint, friction, mass, lean);
+            self.upright.add(Standing { support, feet, friction });
         }
-        let collider = solid(&raised(shape), placed, friction).mass(physics.masses[index]);
-        self.insert(collider, Body::Object(index), handle);
+        let rise = height / 2.0 - first_position.z;
+        let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
+        let own = physics.frictions[index];
+        let solid = solid(&raised(&object.shape), placed, own).mass(physics.masses[index]);
+        self.insert(solid, Body::Object(index), handle);
         self.objects.push((member, rise));
     }
 
@@ -315,10 +332,15 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         }
     }
 
-    fn insert(&mut self, collider: ColliderBuilder, label: Body, body: RigidBodyHandle) {
+    fn insert(
+        &mut self,
+        collider: ColliderBuilder,
+        label: Body,
+        body: RigidBodyHandle,
+    ) -> ColliderHandle {
         let collider = collider.user_data(self.labels.len() as u128);
         self.labels.push(label);
-        self.world.insert_collider(collider, Some(body));
+        self.world.insert_collider(collider, Some(body))
     }
 }
 

@@ -47,6 +47,7 @@ impl Disturbed {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }
         physics.doubt_supports(&situation.scene, draw);
+        physics.push_height = Some(random.random_range(0.0..=1.0));
         Self { situation, tool: Arc::new(tool) }
     }
 

@@ -3,7 +3,7 @@
 use crate::asset::saved::VERSION;
 use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
 use crate::asset::task::{
-    self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE,
+    self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, TABLE,
 };
 use crate::asset::tool::TOOL_KEYS;
 
@@ -45,6 +45,7 @@ const MOST_FRAMES: usize = 100_000;
 
 const SCENE: Value = Value::Map(&[
     TABLE,
+    PUSH_HEIGHT,
     Key::required(
         "objects",
         Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },

@@ -123,12 +123,16 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         table["size"] = json!(size);
         table["position"] = json!(vector(middle));
     }
-    json!({
+    let mut fields = json!({
         "table": table,
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
         "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
-    })
+    });
+    if let Some(share) = scene.push_height {
+        fields["push_height"] = json!(share);
+    }
+    fields
 }
 
 fn pushes(rules: &PushRules) -> Json {

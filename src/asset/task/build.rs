@@ -47,6 +47,10 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             Some(table) => Some(table_top(table)?),
             None => None,
         },
+        push_height: match node.get("push_height") {
+            Some(share) => Some(share.number()?),
+            None => None,
+        },
         joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
         obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
         objects,

@@ -10,5 +10,6 @@ mod spec;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use spec::{
-    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE, TASK, TASK_KEYS,
+    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, TABLE, TASK,
+    TASK_KEYS,
 };

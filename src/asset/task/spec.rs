@@ -46,6 +46,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
 
 const SCENE: Value = Value::Map(&[
     TABLE,
+    PUSH_HEIGHT,
     Key::required(
         "objects",
         Value::List { of: &OBJECT, items: "objects", min: 1, max: 64 },
@@ -54,6 +55,20 @@ const SCENE: Value = Value::Map(&[
     Key::optional("joints", JOINTS, "Joints between objects; by default none."),
     OBSTACLES,
 ]);
+
+/// How high tools press.
+pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
+    "push_height",
+    Value::Number(Range {
+        what: "a share",
+        low: 0.0,
+        high: 1.0,
+        advice: "a fingertip at half the height of the middle is 0.5",
+    }),
+    "How high the tool presses on objects, as a share of the mean height of where their faces \
+     meet: 0 at the table, 1 in the middle. The higher, the more of an object's weight moves \
+     ahead; by default unknown, as two flat faces leave it.",
+);
 
 /// What the objects stand on.
 pub(in crate::asset) const TABLE: Key = Key::optional(

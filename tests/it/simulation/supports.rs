@@ -11,11 +11,15 @@ use crate::fixtures::{brick, can};
 /// Where an object at the origin ends when a narrow finger pushes it by 15 cm, `aside` metres
 /// beside its centre.
 fn pushed(simulator: &Simulator, object: Object, aside: f64) -> Pose {
+    pushed_at(simulator, object, aside, None)
+}
+
+fn pushed_at(simulator: &Simulator, object: Object, aside: f64, push_height: Option<f64>) -> Pose {
     let part = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
     let tool = Arc::new(Tool::new("finger", [part]).expect("one piece"));
     let push = Push { start: Vector::new(-0.09, aside), direction: 0.0, length: 0.15, speed: 0.1 };
     let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
-    let scene = Scene::new([object]);
+    let scene = Scene { push_height, ..Scene::new([object]) };
     let trajectory = simulator.run(&scene, &Job::stated(&scene, motion), Record::Outcome);
     trajectory.outcome().poses[0]
 }
@@ -55,5 +59,23 @@ fn a_box_turns_the_less_the_farther_out_it_rests() {
             wrap_angle(pushed(&simulator, brick().standing_on(support), 0.012).heading).abs()
         });
         assert!(turns[0] > turns[1] && turns[1] > 1.1 * turns[2], "{turns:?}");
+    }
+}
+
+/// A push R at height z must not tip an object of weight m g, so its load lies z R / (m g) ahead,
+/// which turns it less when it is pushed aside of its centre.
+#[test]
+fn the_higher_a_push_the_less_it_turns_alike_in_the_plane_and_upright_in_3d() {
+    let object = brick().standing_on(Support::Corners);
+    let turn = |simulator: &Simulator, share: f64| {
+        pushed_at(simulator, object.clone(), 0.012, Some(share)).heading.abs()
+    };
+    let [planar, upright] = [Simulator::planar(), Simulator::upright()]
+        .map(|simulator| [0.0, 0.5, 1.0].map(|share| turn(&simulator, share)));
+    for [low, middle, high] in [planar, upright] {
+        assert!(low > 1.02 * middle && middle > 1.02 * high, "{planar:?} {upright:?}");
+    }
+    for (a, b) in planar.iter().zip(upright) {
+        assert!((a - b).abs() < 0.01, "{planar:?} {upright:?}");
     }
 }

@@ -1,0 +1,77 @@
+//! Supports of bodies that cannot tip, in the 3-D engine.
+//!
+//! rapier loads all feet of such a body alike. So their coefficients of friction stand for the load,
+//! and where it moves under a push is computed as in the plane.
+
+use rapier3d_f64::prelude::{ColliderHandle, ColliderSet};
+
+use crate::geometry::Vector;
+use crate::scene::State;
+
+use super::groups::Group;
+use super::support::{Pressed, Support};
+
+/// What one object stands on.
+pub(super) struct Standing {
+    pub support: Support,
+    pub feet: Vec<ColliderHandle>,
+    /// Its coefficient of friction with the table.
+    pub friction: f64,
+}
+
+/// What all objects stand on.
+#[derive(Default)]
+pub(super) struct Upright {
+    objects: Vec<Standing>,
+    bodies: Vec<Body>,
+}
+
+/// A body of one object or more.
+struct Body {
+    objects: Vec<usize>,
+    masses: Vec<f64>,
+    /// Number of feet over mass, 1/kg.
+    feet: f64,
+    pressed: Pressed,
+}
+
+impl Upright {
+    /// Adds the next object.
+    pub fn add(&mut self, standing: Standing) {
+        self.objects.push(standing);
+    }
+
+    /// Joins the objects of each group to one body; the masses of all objects in kg.
+    pub fn join(&mut self, groups: &[Group], masses: &[f64]) {
+        let body = |group: &Group| {
+            let objects = group.objects.clone();
+            let mut pressed = Pressed::default();
+            objects.iter().for_each(|&k| pressed.add(&self.objects[k].support));
+            let masses: Vec<f64> = objects.iter().map(|&k| masses[k]).collect();
+            let feet: usize = objects.iter().map(|&k| self.objects[k].feet.len()).sum();
+            let feet = feet as f64 / masses.iter().sum::<f64>();
+            Body { objects, masses, feet, pressed }
+        };
+        self.bodies = groups.iter().map(body).collect();
+    }
+
+    /// Loads all feet as their bodies' motion asks for, in a step of `dt` seconds.
+    pub fn load(&mut self, state: &State, colliders: &mut ColliderSet, dt: f64) {
+        for Body { objects, masses, feet, pressed } in &mut self.bodies {
+            let weighed = objects.iter().zip(&*masses);
+            let momentum: Vector =
+                weighed.map(|(&k, mass)| *mass * state.velocities[k].linear).sum();
+            let pressing = pressed.look(momentum / masses.iter().sum::<f64>(), dt);
+            for (&k, mass) in objects.iter().zip(&*masses) {
+                let Standing { support, feet: handles, friction } = &self.objects[k];
+                let (velocity, heading) = (&state.velocities[k], state.poses[k].heading);
+                let (linear, angular) = (velocity.linear, velocity.angular);
+                let (force, _) = support.drag(heading, linear, angular, pressing, dt);
+                pressed.rub(force);
+                for (foot, load) in handles.iter().zip(support.loads(heading, pressing)) {
+                    colliders[*foot].set_friction(friction * load * mass * *feet);
+                }
+            }
+        }
+    }
+}
