@@ -11,7 +11,7 @@ use crate::{
         Aim, Constraints, Crowd, DatasetConfig, JointRule, Preset, Solids, aimed_stroke, anywhere,
         generator, log_uniform, random_direction, random_heading, random_scene, sample,
     },
-    scene::{Scene, ToolMotion},
+    scene::{Scene, Span, ToolMotion},
 };
 
 /// Travel of every push, metres.
@@ -19,6 +19,9 @@ const TRAVEL: f64 = 0.20;
 
 /// Speed of the pushes, m/s, where it is not drawn.
 const SPEED: f64 = 0.10;
+
+/// Speeds where they are drawn, m/s.
+const SPEEDS: Span = Span::new(0.03, 0.3);
 
 /// Gap between tool and object at the start, metres: where planners set the tool down.
 const STAND_OFF: f64 = 0.005;
@@ -134,7 +137,7 @@ fn draw_case(kind: SuiteKind, library: &ToolLibrary, seed: u64, index: usize) ->
         let state = scene.start();
         let direction = random_direction(&mut rng, &scene.objects, &state);
         let speed = match kind {
-            SuiteKind::SingleAnySpeed => log_uniform(&mut rng, ranges.speed),
+            SuiteKind::SingleAnySpeed => log_uniform(&mut rng, SPEEDS),
             SuiteKind::Single | SuiteKind::Touching => SPEED,
         };
         let heading = random_heading(&mut rng, direction);

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use crate::{
     geometry::{ContactPoint, Footprint, Pose, Rim},
-    scene::{Body, Feet, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool},
+    scene::{
+        Body, Feet, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool, face,
+    },
 };
 
 use super::{
@@ -38,6 +40,8 @@ pub struct Movable {
     pub height: f64,
     /// How far the load moves when it is pressed as hard as friction resists, metres.
     pub lean: f64,
+    /// Mean height of where the tool can press on it, metres; zero where it passes over.
+    pub face: f64,
 }
 
 impl Movable {
@@ -122,6 +126,8 @@ pub struct Bodies {
     pub joints: Vec<Jointed>,
     /// What every object of the scene stands on.
     pub feet: Arc<[Arc<Feet>]>,
+    /// Whether it is known how high the tool presses.
+    pub push_height_known: bool,
     /// Objects that fixed joints make one rigid body, single ones included.
     pub groups: Groups,
     /// For every object the lowest one that joints of any kind connect it with.
@@ -178,7 +184,8 @@ impl Bodies {
                     mass: physics.masses[k],
                     friction: physics.frictions[k],
                     height: object.shape.height(),
-                    lean: physics.lean(&scene.objects[k], friction, (tool, lift)),
+                    lean: physics.lean(object, friction, (tool, lift)),
+                    face: face(object, (tool, lift)),
                 }
             })
             .collect();
@@ -222,7 +229,19 @@ impl Bodies {
         let mechanisms = physics.groups(|_| true);
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline.len());
         let feet = physics.feet.iter().cloned().collect();
-        Self { objects, parts, rims, obstacles, joints, feet, groups, mechanisms, pairs }
+        let push_height_known = physics.push_height.is_some();
+        Self {
+            objects,
+            parts,
+            rims,
+            obstacles,
+            joints,
+            feet,
+            push_height_known,
+            groups,
+            mechanisms,
+            pairs,
+        }
     }
 
     /// The lasting id of an object and another body.

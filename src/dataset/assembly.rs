@@ -24,8 +24,8 @@ const DIAGONAL: f64 = 0.2;
 /// At least this share of the narrower of two glued faces lies against the other.
 const LEAST_OVERLAP: f64 = 0.4;
 
-/// Vertical extent of the parts, metres; the planar truth does not see it.
-const THICKNESS: (f64, f64) = (0.02, 0.06);
+/// Vertical extent of the parts, metres.
+const THICKNESS: (f64, f64) = (0.01, 0.06);
 
 /// Tries to add a part before the tool is left as it is.
 const TRIES: usize = 20;

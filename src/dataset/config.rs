@@ -13,11 +13,11 @@ use super::{constraints::Constraints, error::DatasetError, preset::Preset};
 /// The suite of a folder of episodes.
 const SUITE: &str = "episodes";
 
-/// What the episodes show.
-const TRUTH: &str = "planar";
+/// What the episodes show: the 3-D engine in most of those with tools.
+const TRUTH: &str = "planar and 3d";
 
 /// Version of the sampler: another one draws other episodes for the same settings.
-const SAMPLER: u32 = 3;
+const SAMPLER: u32 = 4;
 
 /// The settings in a manifest.
 #[derive(Serialize, Deserialize)]

@@ -12,6 +12,7 @@ use super::{
     chance::{log_uniform, uniform},
     curriculum::Block,
     tabletop::{Solids, mass_span, random_shape},
+    underside::{draw_supports, push_height},
 };
 
 /// How many objects there are.
@@ -44,5 +45,7 @@ pub(super) fn crowd(
             pose,
         });
     }
+    draw_supports(rng, &mut scene);
+    scene.push_height = Some(push_height(rng));
     scene
 }

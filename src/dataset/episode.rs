@@ -12,7 +12,8 @@ use super::{
     tools::pushed_by_tool,
 };
 
-/// A scene, a tool motion, and the planar truth of what it does.
+/// A scene, a tool motion, and the truth of what it does: where the scene states how high the tool
+/// presses, that of the planar engine, else that of the 3-D engine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Episode {
     /// Which draw of its data set this is.
@@ -21,7 +22,7 @@ pub struct Episode {
     pub scene: Scene,
     /// What the tool does.
     pub motion: ToolMotion,
-    /// The planar engine's frames, the start first.
+    /// The engine's frames, the start first.
     pub frames: Vec<Frame>,
 }
 

@@ -20,7 +20,7 @@ use super::{
 /// Radius of the hand, metres.
 pub const HAND_RADIUS: f64 = 0.05;
 
-/// Height of the hand, metres; the planar truth does not see it.
+/// Height of the hand, metres.
 const HAND_HEIGHT: f64 = 0.10;
 
 /// Height of the hand's underside above the table, metres.

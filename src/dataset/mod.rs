@@ -27,6 +27,7 @@ mod set;
 mod sparse;
 mod tabletop;
 mod tools;
+mod underside;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;

@@ -13,7 +13,7 @@ use crate::{
 
 use super::chance::{heading, log_uniform, uniform};
 
-/// Vertical extents of objects, metres; the planar truth does not see them.
+/// Vertical extents of objects, metres.
 const HEIGHT: Span = Span::new(0.05, 0.15);
 
 /// Gaps of neighbours that do not touch, metres.

@@ -7,7 +7,9 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Pose, Shape, Vector},
-    scene::{Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion, Trajectory},
+    scene::{
+        Frame, Job, Part, Ranges, Record, Scene, Span, State, Stroke, Tool, ToolMotion, Trajectory,
+    },
     sim::Simulator,
 };
 
@@ -19,6 +21,7 @@ use super::{
     novelty::is_shipped,
     obstacle::place_obstacle,
     tabletop::{Crowd, Solids, anywhere, random_scene},
+    underside::{draw_heights, draw_supports, push_height},
 };
 
 /// How often there are one, two or three objects.
@@ -31,10 +34,21 @@ const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
 const OBSTACLES: f64 = 0.2;
 
 /// Share of tools that are a single round part, as a finger or a hand is.
-const ROUND: f64 = 0.07;
+const ROUND: f64 = 0.12;
 
 /// Height of the tool's underside above the table, metres.
 const LIFT: f64 = 0.002;
+
+/// Share of episodes in which the 3-D engine says what is true; it leaves open how high faces press
+/// on each other.
+const SPATIAL: f64 = 0.7;
+
+/// Share of pushes at a tenth to a third of the usual speeds: they take as long to simulate as all
+/// others together.
+const SLOW: f64 = 0.1;
+
+/// Share of strokes in which the tool turns on its way.
+const TURNING: f64 = 0.15;
 
 /// Tries to aim a push before it is given up.
 const TRIES: usize = 30;
@@ -52,6 +66,10 @@ pub(super) fn pushed_by_tool(
         Crowd { count: 1 + weighted(rng, &OBJECT_COUNTS), solids: Solids::Any, touching: 0.45 };
     let scene = random_scene(rng, ranges, crowd);
     let mut scene = anywhere(rng, scene);
+    draw_supports(rng, &mut scene);
+    draw_heights(rng, &mut scene);
+    // Pushes are aimed in the plane, which is faster.
+    scene.push_height = Some(push_height(rng));
     let tool = Arc::new(new_tool(rng, ranges));
     let count = 1 + weighted(rng, &PUSH_COUNTS);
     let placed = rng.random::<bool>();
@@ -82,6 +100,11 @@ pub(super) fn pushed_by_tool(
         longer.strokes.push(next);
         let Some(trajectory) = cut_short(&scene, &mut longer) else { break };
         (motion, play) = (longer, trajectory);
+    }
+    if rng.random_bool(SPATIAL) {
+        scene.push_height = None;
+        let job = Job::stated(&scene, motion.clone());
+        play = Simulator::spatial().run(&scene, &job, Record::Frames);
     }
     play.warnings.is_empty().then_some((scene, motion, play.frames))
 }
@@ -122,7 +145,10 @@ fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
 }
 
 fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
-    let shape = Shape::Cylinder { radius: log_uniform(rng, ranges.part_radius), height: 0.05 };
+    let shape = Shape::Cylinder {
+        radius: log_uniform(rng, ranges.part_radius),
+        height: uniform(rng, 0.01, 0.06),
+    };
     let pose = Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0);
     let parts = vec![Part { name: "part-1".to_owned(), shape, pose }];
     Tool {
@@ -137,7 +163,10 @@ fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
 }
 
 fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {
-    (log_uniform(rng, ranges.speed), uniform(rng, ranges.travel.low, ranges.travel.high))
+    let Span { low, high } = ranges.speed;
+    let span =
+        if rng.random_bool(SLOW) { Span::new(low, 3.0 * low) } else { Span::new(3.0 * low, high) };
+    (log_uniform(rng, span), uniform(rng, ranges.travel.low, ranges.travel.high))
 }
 
 /// Gap between tool and object at the start of a placed push, metres: planners stand off by
@@ -161,8 +190,18 @@ fn aimed_first(
         let gap =
             if rng.random_bool(0.85) { stand_off(rng) } else { uniform(rng, 0.02, 0.6 * travel) };
         let aim = Aim { direction, heading, gap, travel, speed };
-        aimed_stroke(rng, &motion.tool, scene, &state, &aim)
+        let stroke = aimed_stroke(rng, &motion.tool, scene, &state, &aim)?;
+        Some(turning(rng, ranges, stroke))
     })
+}
+
+/// The stroke, in some cases with a tool that turns on its way.
+fn turning(rng: &mut Pcg64, ranges: &Ranges, mut stroke: Stroke) -> Stroke {
+    let rate = uniform(rng, -ranges.turn, ranges.turn);
+    if rng.random_bool(TURNING) {
+        stroke.to.heading += rate * stroke.travel();
+    }
+    stroke
 }
 
 /// A further placed push, aimed at where the objects came to rest.
@@ -183,6 +222,7 @@ fn aimed_next(
         let (speed, travel) = speed_travel(rng, ranges);
         let aim = Aim { direction, heading, gap: stand_off(rng), travel, speed };
         aimed_stroke(rng, &motion.tool, scene, state, &aim)
+            .map(|stroke| turning(rng, ranges, stroke))
             .filter(|stroke| !crosses_obstacle(scene, &motion.tool, stroke))
     })
 }

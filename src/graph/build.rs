@@ -1,10 +1,11 @@
 //! From a solved frame to the nodes and relations of its graph.
 
 use crate::contact::{AwakeIndex, FrameForces, FrameSolution, Partner};
+use crate::geometry::{Vector, cross};
 
 use super::{
     batch::{Batch, KINEMATIC},
-    features::{node_features, relation_features},
+    features::{Underside, node_features, relation_features},
     node::{Node, UNIT},
     relation::{Relation, RelationKind, add_contact, add_joint},
 };
@@ -34,7 +35,15 @@ impl Batch {
             node.prior = node.encode(&frame.motions[object]);
             let pressed: f64 =
                 relations.iter().filter(|r| r.receiver == object).map(overlap).sum::<f64>() / UNIT;
-            let (even, odd) = node_features(&node, body, &frame.coasts[object], pressed);
+            let (sin, cos) = frame.state.poses[object].heading.sin_cos();
+            let along = Vector::new(cos, sin);
+            let underside = Underside {
+                feet: frame.bodies.feet(object),
+                turn: Vector::new(along.dot(&node.axis), cross(node.axis, along)),
+                push_height_known: frame.bodies.push_height_known,
+            };
+            let coast = &frame.coasts[object];
+            let (even, odd) = node_features(&node, body, &underside, coast, pressed);
             self.push_node(node, even, odd);
         }
         for relation in &relations {

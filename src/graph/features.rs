@@ -6,7 +6,7 @@
 use crate::{
     contact::{Motion, Movable, Partner},
     geometry::{Vector, cross},
-    scene::JointKind,
+    scene::{Feet, GRAVITY, JointKind},
 };
 
 use super::{
@@ -24,9 +24,9 @@ const TIME: f64 = 0.1;
 const NEAR: f64 = 0.05;
 
 /// Even features of a node.
-pub const NODE_EVEN: usize = 8;
+pub const NODE_EVEN: usize = 19;
 /// Odd features of a node.
-pub const NODE_ODD: usize = 8;
+pub const NODE_ODD: usize = 11;
 /// Even features of a relation.
 pub const RELATION_EVEN: usize = 27;
 /// Odd features of a relation.
@@ -36,17 +36,31 @@ pub const OUTPUT_EVEN: usize = 2;
 /// Odd outputs of a node: shift y, turn, velocity y, spin.
 pub const OUTPUT_ODD: usize = 4;
 
+/// Unit of heights, metres.
+const HEIGHT: f64 = 0.1;
+
+/// What an object stands on, and how far it is known how that is loaded.
+pub(super) struct Underside<'a> {
+    pub feet: &'a Feet,
+    /// Cosine and sine of the turn from the node's x axis to the object's own.
+    pub turn: Vector,
+    pub push_height_known: bool,
+}
+
 /// Features of an object that would coast by `coast` and in the prior moves by
 /// `node.prior`; `pressed` is the sum of its contacts' overlaps in [`UNIT`]s.
 pub(super) fn node_features(
     node: &Node,
     body: &Movable,
+    underside: &Underside<'_>,
     coast: &Motion,
     pressed: f64,
 ) -> ([f64; NODE_EVEN], [f64; NODE_ODD]) {
     let [coast_x, coast_vx, coast_y, coast_turn, coast_vy, coast_spin] = node.encode(coast);
     let [x, vx, y, turn, vy, spin] = node.prior;
     let braking = body.deceleration * node.duration * node.duration / UNIT;
+    let Underside { feet, turn: turned, push_height_known } = *underside;
+    let [second, third, fourth] = feet.harmonics_turned(turned);
     (
         [
             coast_x,
@@ -57,8 +71,19 @@ pub(super) fn node_features(
             braking.ln_1p(),
             body.support / BODY - 1.0,
             pressed,
+            (body.height / HEIGHT).ln(),
+            body.face / BODY,
+            body.lean / UNIT,
+            f64::from(u8::from(push_height_known)),
+            body.deceleration / GRAVITY,
+            f64::from(u8::from(feet.round)),
+            body.spin.sqrt() - 1.0,
+            feet.mean_square.sqrt() / feet.mean_radius - 1.0,
+            second.x,
+            third.x,
+            fourth.x,
         ],
-        [coast_y, coast_turn, coast_vy, coast_spin, y, turn, vy, spin],
+        [coast_y, coast_turn, coast_vy, coast_spin, y, turn, vy, spin, second.y, third.y, fourth.y],
     )
 }
 

@@ -42,7 +42,7 @@ pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use outline::Piece;
-pub use physics::Physics;
+pub use physics::{Physics, face};
 pub use plan::{Engine, Outcome, Plan};
 pub use quantity::Quantity;
 pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};

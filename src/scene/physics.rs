@@ -50,10 +50,7 @@ impl Physics {
     /// the table, pushes it as hard as `friction` resists, metres. A push R at height z must not
     /// tip the object of mass m, so its load moves by z R / (m g).
     pub fn lean(&self, object: &Object, friction: f64, (tool, lift): (&Tool, f64)) -> f64 {
-        let tallest = tool.outline.iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
-        let top = object.shape.height().min(lift + tallest);
-        let share = self.push_height.unwrap_or(PUSH_HEIGHT);
-        if top > lift { share * 0.5 * (lift + top) * friction } else { 0.0 }
+        self.push_height.unwrap_or(PUSH_HEIGHT) * face(object, (tool, lift)) * friction
     }
 
     /// Lets all objects rest on the table in another plausible way, in turn for each `draw`.
@@ -76,4 +73,12 @@ impl Physics {
     pub fn support_friction(&self, index: usize) -> f64 {
         Scene::pair_friction(self.frictions[index], self.table_friction)
     }
+}
+
+/// Mean height of where the faces of an object and a tool `lift` metres above the table meet,
+/// metres; zero where the tool passes over it.
+pub fn face(object: &Object, (tool, lift): (&Tool, f64)) -> f64 {
+    let tallest = tool.outline.iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
+    let top = object.shape.height().min(lift + tallest);
+    if top > lift { 0.5 * (lift + top) } else { 0.0 }
 }

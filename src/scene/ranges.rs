@@ -16,10 +16,8 @@ const SLACK: f64 = 1e-2;
 /// three times those of ordinary pushes (`models/extremes.md`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
-/// Turn of the tool for each metre of travel that a model trained on straight pushes bears,
-/// rad/m: 6 degrees in 20 cm. At 20 degrees a fifth of the pushes go wrong
-/// (`models/extremes.md`).
-pub const TRAINED_TURN: f64 = 0.5;
+/// Most that the tool turns in training for each metre of travel, rad/m: 34 degrees in 20 cm.
+pub const TRAINED_TURN: f64 = 3.0;
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -43,6 +43,9 @@ pub struct Feet {
     pub mean_radius: f64,
     /// Mean square distance from the centre, square metres.
     pub mean_square: f64,
+    /// Sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k = 2, 3, 4, c being the
+    /// mean radius: how the support differs from a round one, real and imaginary parts.
+    pub harmonics: [Vector; 3],
     /// The inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
     stiffness: [f64; 3],
 }
@@ -76,6 +79,9 @@ impl Feet {
         };
         let stated = matches!(support, Support::Points(_));
         feet.round = !stated && matches!(footprint, Footprint::Disc { .. });
+        if feet.round {
+            feet.harmonics = [Vector::zeros(); 3];
+        }
         feet
     }
 
@@ -134,6 +140,7 @@ impl Feet {
             round: false,
             mean_radius: 0.0,
             mean_square: 0.0,
+            harmonics: [Vector::zeros(); 3],
             stiffness: [0.0; 3],
         };
         let [mut xx, mut xy, mut yy] = [0.0; 3];
@@ -147,12 +154,30 @@ impl Feet {
             xy += load * point.x * point.y;
             yy += load * point.y * point.y;
         }
+        for k in 0..feet.count {
+            let point = Vector::new(feet.x[k], feet.y[k]) / feet.mean_radius;
+            let mut power = point;
+            for harmonic in &mut feet.harmonics {
+                power = multiplied(power, point);
+                *harmonic += feet.load[k] * power;
+            }
+        }
         // Nothing leans on points in a line, which could not carry it.
         let whole = xx * yy - xy * xy;
         if whole > 1e-9 * (xx + yy) * (xx + yy) {
             feet.stiffness = [yy / whole, -xy / whole, xx / whole];
         }
         feet
+    }
+
+    /// The [`Self::harmonics`] as seen along a unit vector to which the object's own x axis is
+    /// turned by an angle of these cosine and sine.
+    pub fn harmonics_turned(&self, turn: Vector) -> [Vector; 3] {
+        let mut power = turn;
+        self.harmonics.map(|harmonic| {
+            power = multiplied(power, turn);
+            multiplied(harmonic, power)
+        })
     }
 
     /// Every point with its share of the weight.
@@ -249,6 +274,11 @@ pub struct Drag {
     pub first: Vector,
     /// Sum of weight times squared distance from the centre.
     pub second: f64,
+}
+
+/// The product of two complex numbers.
+fn multiplied(a: Vector, b: Vector) -> Vector {
+    Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 
 /// Eight points on a circle, the first one turned by `turn` of the angle between two.
@@ -348,6 +378,23 @@ mod tests {
                 assert!((a - b).abs() < 1e-9 * feet.stiffness[0], "{shape:?}");
             }
         }
+    }
+
+    #[test]
+    fn harmonics_turn_with_the_object() {
+        let points = [(0.03, 0.0), (-0.02, 0.02), (-0.02, -0.04)].map(|(x, y)| Vector::new(x, y));
+        let (sin, cos) = 0.7f64.sin_cos();
+        let turned = points.map(|p| Vector::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y));
+        let [feet, other] =
+            [points, turned].map(|points| Feet::new(&Support::Points(points.to_vec()), &SHAPES[0]));
+        let found = feet.harmonics_turned(Vector::new(cos, sin));
+        for (a, b) in found.iter().zip(other.harmonics) {
+            assert!((a - b).norm() < 1e-12 && b.norm() > 0.01, "{a} {b}");
+        }
+        // A square's corners differ from a circle in the fourth harmonic alone.
+        let square = Feet::new(&Support::Corners, &SHAPES[1]).harmonics;
+        assert!(square[0].norm() < 1e-12 && square[1].norm() < 1e-12);
+        assert!((square[2] + Vector::x()).norm() < 1e-12);
     }
 
     /// Turning little while it slides, a disc under even pressure resists with a quarter of R^2.
