@@ -47,6 +47,7 @@ impl Spread {
             let mut change = |friction: &mut f64| *friction *= 1.0 + within(FRICTION);
             drawn.frictions.iter_mut().for_each(&mut change);
             change(&mut drawn.table_friction);
+            drawn.pairs.iter_mut().for_each(|pair| change(&mut pair.coefficient));
             tools.push(1.0 + within(FRICTION));
             let mut start = situation.start.clone();
             for first in 0..groups.len() {

@@ -1,7 +1,8 @@
 //! What no real table does between two frames: then a tracker lost something, frames are missing,
 //! or a size is wrong.
 
-use crate::geometry::{Pose, clearance};
+use crate::geometry::{Footprint, Pose, clearance};
+use crate::scene::DisjointSets;
 
 use super::observed::{RecordedFrame, Recording};
 
@@ -15,6 +16,13 @@ const TURN: f64 = 0.45 * std::f64::consts::PI;
 /// farther than [`MOVED`] metres meanwhile.
 const GAP: f64 = 2.5;
 const MOVED: f64 = 0.002;
+
+/// What slides at the start of a recording shows it within this time, seconds; later motions of
+/// what nothing touches are a tracker's.
+const SOON: f64 = 0.3;
+
+/// Turns of less than this at the start are a tracker's, radians.
+const TURNED: f64 = 0.05;
 
 /// A body of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +105,76 @@ pub fn gaps(frames: &[RecordedFrame]) -> Vec<Gap> {
         .collect()
 }
 
+/// An object that moves at the start although nothing touches it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moving {
+    /// Index of the object.
+    pub object: usize,
+    /// Index of the frame that shows it.
+    pub frame: usize,
+    /// How far it has come by then, metres.
+    pub travel: f64,
+    /// How far it has turned by then, radians.
+    pub turn: f64,
+}
+
 impl Recording {
+    /// Objects that are in motion in the first frame: they move although neither the pusher nor
+    /// anything that it may push comes near them.
+    pub fn moving_at_the_start(&self) -> Vec<Moving> {
+        let Some(first) = self.frames.first() else { return Vec::new() };
+        let shown: Vec<Footprint> =
+            self.scene.objects.iter().map(|object| object.shape.footprint()).collect();
+        let mut found: Vec<Moving> = Vec::new();
+        for (index, frame) in self.frames.iter().enumerate().skip(1) {
+            if frame.lifted || (index > 1 && frame.time > SOON) {
+                break;
+            }
+            let moved = |k: usize| {
+                let (from, to) = (&first.poses[k], &frame.poses[k]);
+                let travel = (to.position - from.position).norm();
+                (travel, if self.headings[k] { (to.heading - from.heading).abs() } else { 0.0 })
+            };
+            let near = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {
+                clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
+            };
+            // Whatever is near each other, or joined, moves together.
+            let mut pairs: Vec<[usize; 2]> =
+                self.scene.joints.iter().map(|joint| joint.between).collect();
+            for a in 0..shown.len() {
+                for b in a + 1..shown.len() {
+                    if [first, frame]
+                        .iter()
+                        .any(|at| near((&shown[a], &at.poses[a]), (&shown[b], &at.poses[b])))
+                    {
+                        pairs.push([a, b]);
+                    }
+                }
+            }
+            let groups = DisjointSets::of(shown.len(), pairs).names().to_vec();
+            let pushed: Vec<usize> = (0..shown.len())
+                .filter(|&k| {
+                    self.frames[..=index].iter().any(|at| {
+                        (0..self.tool.parts.len()).any(|part| {
+                            let solid = self.tool.parts[part].footprint();
+                            let pose = self.tool.part_pose(part, &at.tool);
+                            near((&solid, &pose), (&shown[k], &at.poses[k]))
+                        })
+                    })
+                })
+                .map(|k| groups[k])
+                .collect();
+            for object in 0..shown.len() {
+                let (travel, turn) = moved(object);
+                let new = found.iter().all(|moving| moving.object != object);
+                if new && !pushed.contains(&groups[object]) && (travel > MOVED || turn > TURNED) {
+                    found.push(Moving { object, frame: index, travel, turn });
+                }
+            }
+        }
+        found
+    }
+
     /// Measured bodies may be this deep in each other in a frame, metres: what trackers and the
     /// rounding of radii leave.
     pub const NOISE: f64 = 0.005;

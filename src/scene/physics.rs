@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Feet, Joint, Scene, Support};
+use super::{Feet, Joint, PairFriction, Scene, Support, Surface};
 
 /// Physical parameters under which a motion is played. What computes effects reads these and not
 /// what the scene states, so that several beliefs about one scene can be rolled out side by side.
@@ -17,6 +17,8 @@ pub struct Physics {
     pub frictions: Vec<f64>,
     /// Friction value of the table.
     pub table_friction: f64,
+    /// Frictions of pairs that are not the mean of the two values.
+    pub pairs: Vec<PairFriction>,
     /// What every object stands on.
     pub feet: Vec<Arc<Feet>>,
     /// Joints between objects; their anchors, axes and limits are given where the objects stand
@@ -31,6 +33,7 @@ impl Physics {
             masses: scene.objects.iter().map(|object| object.mass).collect(),
             frictions: scene.objects.iter().map(|object| object.friction).collect(),
             table_friction: scene.table_friction,
+            pairs: scene.frictions.clone(),
             feet: scene.objects.iter().map(|object| Arc::new(object.feet())).collect(),
             joints: scene.joints.clone(),
         }
@@ -54,6 +57,6 @@ impl Physics {
 
     /// Coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
-        Scene::pair_friction(self.frictions[index], self.table_friction)
+        self.friction(index, Surface::Table, self.table_friction)
     }
 }

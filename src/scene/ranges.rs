@@ -187,6 +187,10 @@ impl Ranges {
                 }
             }
         }
+        for pair in physics.pairs.iter().filter(|pair| objects.contains(&pair.object)) {
+            let of = || format!("a pair of {}", scene.objects[pair.object].name);
+            check(&of, Quantity::Friction, pair.coefficient, self.friction);
+        }
         let masses = objects.iter().map(|&index| physics.masses[index]);
         let heaviest = masses.clone().fold(0.0, f64::max);
         let lightest = masses.fold(f64::INFINITY, f64::min);

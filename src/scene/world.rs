@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Shape, Vector};
 
-use super::{Feet, Joint, JointKind, REST_SPEED, State, Support};
+use super::{
+    Feet, Joint, JointKind, PairFriction, REST_SPEED, State, Support, Surface, pair_friction,
+};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -141,6 +143,9 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Fixed cuboids.
     pub obstacles: Vec<Obstacle>,
+    /// Frictions of pairs that are not the mean of the two values.
+    #[serde(default)]
+    pub frictions: Vec<PairFriction>,
 }
 
 impl Scene {
@@ -156,6 +161,7 @@ impl Scene {
             objects,
             joints: Vec::new(),
             obstacles: Vec::new(),
+            frictions: Vec::new(),
         }
     }
 
@@ -173,6 +179,12 @@ impl Scene {
     /// The scene with one more obstacle.
     pub fn with_obstacle(mut self, obstacle: Obstacle) -> Self {
         self.obstacles.push(obstacle);
+        self
+    }
+
+    /// The scene with this coefficient of friction between an object and another body.
+    pub fn with_friction(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
+        self.frictions.push(PairFriction { object, with, coefficient });
         self
     }
 
@@ -196,9 +208,17 @@ impl Scene {
             let [a, b] = joint.between;
             Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
         });
+        let frictions = self.frictions.iter().filter_map(|pair| {
+            let with = match pair.with {
+                Surface::Object(other) => Surface::Object(place(other)?),
+                other => other,
+            };
+            Some(PairFriction { object: place(pair.object)?, with, ..*pair })
+        });
         Self {
             objects: objects.iter().map(|&k| self.objects[k].clone()).collect(),
             joints: joints.collect(),
+            frictions: frictions.collect(),
             ..self.clone()
         }
     }
@@ -221,7 +241,8 @@ impl Scene {
 
     /// Coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
-        Self::pair_friction(self.objects[index].friction, self.table_friction)
+        let values = [self.objects[index].friction, self.table_friction];
+        pair_friction(&self.frictions, index, Surface::Table, values)
     }
 }
 

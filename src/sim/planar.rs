@@ -6,7 +6,7 @@
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactData,
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderBuilder, ColliderHandle, ContactData,
     ContactManifold, GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode,
     JointAxesMask, JointAxis, PhysicsWorld, Pose2 as RapierPose, Real, RigidBodyBuilder,
     RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
@@ -80,6 +80,9 @@ impl World for PlanarWorld {
             this.add_object(scene, physics, motion.lift, index, member);
         }
         this.add_obstacles(scene);
+        for label in this.seams.rub(&this.labels, physics) {
+            this.ask_for_contacts(label);
+        }
         this.add_joints(scene, physics);
         this
     }
@@ -251,7 +254,7 @@ impl PlanarWorld {
             .position(to_rapier(&member.local, Vector::zeros()))
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
-        let table = Scene::pair_friction(friction, physics.table_friction);
+        let table = physics.support_friction(index);
         let (feet, mass) = (&physics.feet[index], physics.masses[index]);
         self.objects.push((member, Support::new(feet, &footprint, table, mass)));
     }
@@ -289,6 +292,15 @@ impl PlanarWorld {
             }
             let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
             self.world.insert_impulse_joint(first, second, built);
+        }
+    }
+
+    /// Lets contacts of the collider with this label be changed before they are solved.
+    fn ask_for_contacts(&mut self, label: usize) {
+        let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
+        let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
+        if let Some(collider) = colliders.find(labelled) {
+            collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
         }
     }
 

@@ -9,9 +9,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderBuilder, ColliderHandle, ContactData, ContactManifold, FrictionModel,
-    GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder,
-    RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact, Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
+    FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3,
+    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact,
+    Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
@@ -90,6 +91,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             this.add_object(scene, physics, index, member, mass / feet as f64);
         }
         this.add_obstacles(scene);
+        for label in this.seams.rub(&this.labels, physics) {
+            this.ask_for_contacts(label);
+        }
         this.add_joints(scene, physics);
         this
     }
@@ -312,6 +316,15 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let [first, second] =
                 [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
             self.world.insert_impulse_joint(first, second, built);
+        }
+    }
+
+    /// Lets contacts of the collider with this label be changed before they are solved.
+    fn ask_for_contacts(&mut self, label: usize) {
+        let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
+        let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
+        if let Some(collider) = colliders.find(labelled) {
+            collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
         }
     }
 

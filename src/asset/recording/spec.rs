@@ -3,7 +3,7 @@
 use crate::asset::saved::VERSION;
 use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
 use crate::asset::task::{
-    self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE,
+    self, FRICTIONS, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, TABLE,
 };
 use crate::asset::tool::TOOL_KEYS;
 
@@ -56,6 +56,7 @@ const SCENE: Value = Value::Map(&[
         "Joints between objects, as they are in the first frame; by default none.",
     ),
     OBSTACLES,
+    FRICTIONS,
 ]);
 
 const OBJECT: Value = Value::Map(&[

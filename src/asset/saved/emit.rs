@@ -2,10 +2,11 @@
 
 use serde_json::{Value as Json, json};
 
+use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
-    Span, Support, TableTop, Task, Tool, ToolChoice,
+    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PairFriction, PushForm,
+    PushRules, Scene, Span, Support, TableTop, Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
@@ -123,12 +124,23 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         table["size"] = json!(size);
         table["position"] = json!(vector(middle));
     }
-    json!({
+    let mut json = json!({
         "table": table,
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
         "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
-    })
+    });
+    if !scene.frictions.is_empty() {
+        let friction = |pair: &PairFriction| {
+            let with = name_of_surface(pair.with, &scene.objects, &scene.obstacles);
+            json!({
+                "between": [&scene.objects[pair.object].name, &with],
+                "coefficient": pair.coefficient,
+            })
+        };
+        json["frictions"] = scene.frictions.iter().map(friction).collect();
+    }
+    json
 }
 
 fn pushes(rules: &PushRules) -> Json {

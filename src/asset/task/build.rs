@@ -11,8 +11,8 @@ use crate::scene::{
     TableTop, Task, ToolChoice,
 };
 
-use super::joints;
 use super::spec::default;
+use super::{frictions, joints};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -38,6 +38,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
 pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
+    let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle).collect::<Option<_>>()?;
     Some(Scene {
         table_friction: match node.get("table") {
             Some(table) => number_or(table, "friction", Scene::FRICTION)?,
@@ -48,7 +49,10 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             None => None,
         },
         joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
-        obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
+        frictions: items("frictions")
+            .map(|node| frictions::friction(node, &objects, &obstacles))
+            .collect::<Option<_>>()?,
+        obstacles,
         objects,
     })
 }

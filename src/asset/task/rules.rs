@@ -7,7 +7,7 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, joints};
+use super::{build, frictions, joints};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -70,6 +70,7 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     masses(objects, ledger);
     objects.iter().for_each(|object| stands(object, ledger));
     joints::check(items("joints"), objects, obstacles, ledger);
+    frictions::check(items("frictions"), objects, obstacles, ledger);
 }
 
 fn overlaps(objects: &[Node], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {

@@ -4,6 +4,7 @@ use crate::asset::spec::{
     ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
 };
 
+use super::frictions::FRICTIONS;
 use super::joints::JOINT;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -53,6 +54,7 @@ const SCENE: Value = Value::Map(&[
     ),
     Key::optional("joints", JOINTS, "Joints between objects; by default none."),
     OBSTACLES,
+    FRICTIONS,
 ]);
 
 /// What the objects stand on.
