@@ -87,6 +87,8 @@ pub mod effect;
 #[doc(hidden)]
 pub mod export;
 #[doc(hidden)]
+pub mod fit;
+#[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;

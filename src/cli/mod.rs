@@ -11,6 +11,7 @@ mod error;
 mod evaluate;
 pub mod exit_code;
 mod export;
+mod fit;
 mod follow;
 mod form;
 mod generate;

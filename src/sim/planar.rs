@@ -56,6 +56,21 @@ struct Tracked {
 }
 
 impl World for PlanarWorld {
+    /// Below mu g dt, 16 mm/s at mu 0.4, friction falls with the speed.
+    const SLOWEST: f64 = 0.05;
+
+    fn hurry(&mut self, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
+        for tracked in &self.bodies {
+            let body = &mut self.world.bodies[tracked.handle];
+            let (linear, angular) = (body.linvel(), body.angvel());
+            body.set_linvel(linear * factor as Real, true);
+            body.set_angvel(angular * factor as Real, true);
+        }
+    }
+
     fn build(
         scene: &Scene,
         state: &State,

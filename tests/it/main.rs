@@ -13,6 +13,7 @@ mod evaluation;
 mod export;
 mod extremes;
 mod facade;
+mod fitting;
 mod fixtures;
 mod jointed;
 mod models;
