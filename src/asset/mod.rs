@@ -12,6 +12,7 @@ mod kind;
 mod library;
 mod node;
 mod printable;
+mod prism;
 mod reader;
 mod recording;
 mod saved;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
 use super::{
     Feet, Joint, JointKind, PairFriction, REST_SPEED, State, Support, Surface, pair_friction,
@@ -68,6 +68,20 @@ impl Object {
     /// [`Object::new`] for a cuboid of these full extents along its x, y and z, metres.
     pub fn cuboid(name: impl Into<String>, size: [f64; 3]) -> Self {
         Self::new(name, Shape::Cuboid { size })
+    }
+
+    /// [`Object::new`] for an upright prism of this height, metres.
+    ///
+    /// ```
+    /// use pushplan::{ConvexPolygon, Object, Vector};
+    ///
+    /// let corners = [[-0.04, -0.03], [0.05, -0.03], [0.0, 0.05]].map(|[x, y]| Vector::new(x, y));
+    /// let wedge = Object::prism("wedge", ConvexPolygon::new(&corners)?, 0.06).at(0.5, 0.1, 0.3);
+    /// assert_eq!(wedge.shape.height(), 0.06);
+    /// # Ok::<(), pushplan::Error>(())
+    /// ```
+    pub fn prism(name: impl Into<String>, base: ConvexPolygon, height: f64) -> Self {
+        Self::new(name, Shape::Prism { base, height })
     }
 
     /// The object with another mass, kg.

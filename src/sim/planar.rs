@@ -1,6 +1,6 @@
 //! The planar engine: rapier2d seen from above, with support friction of our own.
 //!
-//! No gravity; every object is a disc or a rectangle that [`Support`] slows down during each
+//! No gravity; every object is a disc or a convex polygon that [`Support`] slows down during each
 //! step. The world is centred on the objects, because rapier2d computes in `f32`; what it
 //! reports is taken as a change against its own start, so a body at rest stays where it is to
 //! the last bit of `f64`.
@@ -8,8 +8,8 @@
 use rapier2d::prelude::{
     ActiveHooks, CoefficientCombineRule, Collider, ColliderBuilder, ColliderHandle, ContactData,
     ContactManifold, GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode,
-    JointAxesMask, JointAxis, PhysicsWorld, Pose2 as RapierPose, Real, RigidBodyBuilder,
-    RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
+    JointAxesMask, JointAxis, MassProperties, PhysicsWorld, Pose2 as RapierPose, Real,
+    RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
@@ -264,8 +264,7 @@ impl PlanarWorld {
         let footprint = shape.footprint();
         // All parts have their underside at the same height, so the object alone decides.
         let own = if shape.height() > lift { TALL } else { LOW };
-        let collider = collider(&footprint, friction)
-            .mass(physics.masses[index] as Real)
+        let collider = weighing(collider(&footprint, friction), &footprint, physics.masses[index])
             .position(to_rapier(&member.local, Vector::zeros()))
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
@@ -352,8 +351,26 @@ fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {
     let shape = match *footprint {
         Footprint::Disc { radius } => ColliderBuilder::ball(radius as Real),
         Footprint::Rectangle { half } => ColliderBuilder::cuboid(half.x as Real, half.y as Real),
+        Footprint::Polygon(polygon) => {
+            let corners = polygon.corners().iter().copied().map(vector).collect();
+            // Of three corners and more there always is one.
+            ColliderBuilder::convex_polyline(corners)
+                .unwrap_or_else(|| ColliderBuilder::ball(polygon.inner_radius() as Real))
+        }
     };
     shape.friction(friction as Real).friction_combine_rule(CoefficientCombineRule::Average)
+}
+
+/// The collider with its mass (kg) about the footprint's origin.
+fn weighing(collider: ColliderBuilder, footprint: &Footprint, mass: f64) -> ColliderBuilder {
+    match footprint {
+        Footprint::Polygon(_) => {
+            let inertia = mass * footprint.gyration_radius().powi(2);
+            let (mass, inertia) = (mass as Real, inertia as Real);
+            collider.mass_properties(MassProperties::new(RapierVector::ZERO, mass, inertia))
+        }
+        _ => collider.mass(mass as Real),
+    }
 }
 
 fn groups(own: Layer, meets: Layer) -> InteractionGroups {

@@ -27,7 +27,7 @@ use super::parameters::{
     needs_stiff_contacts,
 };
 use super::seams::Seams;
-use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table};
+use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
 use super::strain::{Overlap, force, overlap};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
@@ -270,8 +270,12 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let foot = foot(placed, share * coefficient);
             self.insert(foot, Body::Object(index), handle);
         }
-        let collider = solid(&raised(shape), placed, friction).mass(physics.masses[index]);
+        let raised = raised(shape);
+        let collider = weighing(solid(&raised, placed, friction), &raised, physics.masses[index]);
         self.insert(collider, Body::Object(index), handle);
+        for underside in undersides(&raised, placed, friction) {
+            self.insert(underside, Body::Object(index), handle);
+        }
         self.objects.push((member, rise));
     }
 

@@ -23,6 +23,7 @@ mod pairs;
 mod pictures;
 mod planning;
 mod prior;
+mod prisms;
 mod pruning;
 mod random_tasks;
 mod readme;

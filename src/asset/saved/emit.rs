@@ -41,7 +41,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
         .map(|part| {
             let fields = match part.shape {
                 Shape::Cuboid { size } => json!({"name": part.name, "size": size}),
-                round => json!({"name": part.name, "shape": shape(&round)}),
+                other => json!({"name": part.name, "shape": shape(&other)}),
             };
             posed(fields, &part.pose)
         })
@@ -65,6 +65,10 @@ fn shape(shape: &Shape) -> Json {
             json!({"cylinder": {"radius": radius, "height": height}})
         }
         Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
+        Shape::Prism { base, height } => {
+            let corners: Vec<_> = base.corners().iter().map(|corner| vector(*corner)).collect();
+            json!({"prism": {"corners": corners, "height": height, "centre_of_mass": [0.0, 0.0]}})
+        }
     }
 }
 

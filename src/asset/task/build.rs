@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::asset::node::{Content, Node};
+use crate::asset::prism::origin;
 use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
 use crate::asset::text::named_after;
 use crate::geometry::Vector;
@@ -87,7 +88,8 @@ pub(super) fn support(object: &Node) -> Option<Support> {
     if let Some(spread) = node.get("spread") {
         return spread.number().map(Support::Spread);
     }
-    let points = node.get("points")?.items().iter().map(vector);
+    let origin = origin(object.get("shape")?)?;
+    let points = node.get("points")?.items().iter().map(|point| Some(vector(point)? - origin));
     points.collect::<Option<_>>().map(Support::Points)
 }
 

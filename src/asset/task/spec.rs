@@ -119,7 +119,8 @@ const SUPPORT: Value = Value::Either(&[
         Key::optional(
             "points",
             Value::List { of: &POSITION, items: "points", min: 3, max: 8 },
-            "Points that it stands on, [x, y] in metres in the object's frame; no default.",
+            "Points that it stands on, [x, y] in metres in the object's frame, or in that of a \
+             prism's corners; no default.",
         ),
     ]),
 ]);
