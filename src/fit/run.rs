@@ -97,6 +97,9 @@ pub struct Fit {
 /// is told the recordings done, first roughly, then finely. Masses and the table's friction are
 /// taken as they are stated: slow pushes do not feel them. `None` if nothing moves.
 ///
+/// The posterior is as wide as the noise leaves it; what the model gets wrong comes on top. The
+/// prior finds the spread of pushes that an engine has made to about 0.02.
+///
 /// Only the last instant of a recording is compared, so a recording of several pushes says as much
 /// as one.
 pub fn fit(

@@ -123,56 +123,58 @@ impl Recording {
     /// anything that it may push comes near them.
     pub fn moving_at_the_start(&self) -> Vec<Moving> {
         let Some(first) = self.frames.first() else { return Vec::new() };
-        let shown: Vec<Footprint> =
-            self.scene.objects.iter().map(|object| object.shape.footprint()).collect();
         let mut found: Vec<Moving> = Vec::new();
         for (index, frame) in self.frames.iter().enumerate().skip(1) {
             if frame.lifted || (index > 1 && frame.time > SOON) {
                 break;
             }
-            let moved = |k: usize| {
-                let (from, to) = (&first.poses[k], &frame.poses[k]);
+            let pushed = self.pushed_until(index);
+            for (object, pushed) in pushed.into_iter().enumerate() {
+                let (from, to) = (&first.poses[object], &frame.poses[object]);
                 let travel = (to.position - from.position).norm();
-                (travel, if self.headings[k] { (to.heading - from.heading).abs() } else { 0.0 })
-            };
-            let near = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {
-                clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
-            };
-            // Whatever is near each other, or joined, moves together.
-            let mut pairs: Vec<[usize; 2]> =
-                self.scene.joints.iter().map(|joint| joint.between).collect();
-            for a in 0..shown.len() {
-                for b in a + 1..shown.len() {
-                    if [first, frame]
-                        .iter()
-                        .any(|at| near((&shown[a], &at.poses[a]), (&shown[b], &at.poses[b])))
-                    {
-                        pairs.push([a, b]);
-                    }
-                }
-            }
-            let groups = DisjointSets::of(shown.len(), pairs).names().to_vec();
-            let pushed: Vec<usize> = (0..shown.len())
-                .filter(|&k| {
-                    self.frames[..=index].iter().any(|at| {
-                        (0..self.tool.parts.len()).any(|part| {
-                            let solid = self.tool.parts[part].footprint();
-                            let pose = self.tool.part_pose(part, &at.tool);
-                            near((&solid, &pose), (&shown[k], &at.poses[k]))
-                        })
-                    })
-                })
-                .map(|k| groups[k])
-                .collect();
-            for object in 0..shown.len() {
-                let (travel, turn) = moved(object);
+                let turned = (to.heading - from.heading).abs();
+                let turn = if self.headings[object] { turned } else { 0.0 };
                 let new = found.iter().all(|moving| moving.object != object);
-                if new && !pushed.contains(&groups[object]) && (travel > MOVED || turn > TURNED) {
+                if new && !pushed && (travel > MOVED || turn > TURNED) {
                     found.push(Moving { object, frame: index, travel, turn });
                 }
             }
         }
         found
+    }
+
+    /// For every object whether, up to frame `index`, the pusher is seen near it or near anything
+    /// that moves it along.
+    fn pushed_until(&self, index: usize) -> Vec<bool> {
+        let seen = &self.frames[..=index];
+        let footprint = |object: usize| self.scene.objects[object].shape.footprint();
+        let near = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {
+            clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
+        };
+        let objects = 0..self.scene.objects.len();
+        // Whatever is near each other, or joined, moves together.
+        let mut pairs: Vec<[usize; 2]> =
+            self.scene.joints.iter().map(|joint| joint.between).collect();
+        for a in objects.clone() {
+            let (own, others) = (footprint(a), a + 1..objects.end);
+            pairs.extend(others.map(|b| [a, b]).filter(|[_, b]| {
+                let other = footprint(*b);
+                seen.iter().any(|at| near((&own, &at.poses[a]), (&other, &at.poses[*b])))
+            }));
+        }
+        let groups = DisjointSets::of(objects.end, pairs).names().to_vec();
+        let met = |object: usize| {
+            let own = footprint(object);
+            seen.iter().any(|at| {
+                self.tool.parts.iter().enumerate().any(|(part, solid)| {
+                    let pose = self.tool.part_pose(part, &at.tool);
+                    near((&solid.footprint(), &pose), (&own, &at.poses[object]))
+                })
+            })
+        };
+        let pushed: Vec<usize> =
+            objects.clone().filter(|object| met(*object)).map(|object| groups[object]).collect();
+        objects.map(|object| pushed.contains(&groups[object])).collect()
     }
 
     /// Measured bodies may be this deep in each other in a frame, metres: what trackers and the

@@ -29,27 +29,23 @@ impl Seams {
         self.rims[label] = Some(rim.clone());
     }
 
-    /// Lets the colliders with these `labels` rub as `physics` says of the pair, where it says
-    /// something; the numbers of those that must ask here for their contacts.
+    /// Lets the colliders with these `labels` rub as `physics` says of pairs, where it says
+    /// something; the numbers of those whose contacts must be asked about here.
     pub fn rub(&mut self, labels: &[Body], physics: &Physics) -> Vec<usize> {
         let mut asking = Vec::new();
         for pair in &physics.pairs {
-            let own = Body::Object(pair.object);
-            let is_other = |body: &Body| match (pair.with, body) {
-                (Surface::Object(other), Body::Object(k)) => other == *k,
-                (Surface::Obstacle(other), Body::Obstacle(k)) => other == *k,
+            let rubs = |body: &Body| match (pair.with, *body) {
+                (Surface::Object(other), Body::Object(index)) => other == index,
+                (Surface::Obstacle(other), Body::Obstacle(index)) => other == index,
                 (Surface::Tool, Body::Part(_)) => true,
                 _ => false,
             };
-            let numbers = |is: &dyn Fn(&Body) -> bool| -> Vec<usize> {
-                (0..labels.len()).filter(|&k| is(&labels[k])).collect()
-            };
-            let others = numbers(&is_other);
-            for own in numbers(&|body| *body == own) {
-                asking.push(own);
-                let pairs =
-                    others.iter().map(|&other| ([own as u128, other as u128], pair.coefficient));
-                self.frictions.extend(pairs);
+            let own = |body: &Body| *body == Body::Object(pair.object);
+            for first in (0..labels.len()).filter(|&k| own(&labels[k])) {
+                asking.push(first);
+                for second in (0..labels.len()).filter(|&k| rubs(&labels[k])) {
+                    self.frictions.push(([first as u128, second as u128], pair.coefficient));
+                }
             }
         }
         asking

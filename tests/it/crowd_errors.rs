@@ -208,8 +208,8 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     let own = json["crowds"][2]["own_spread"].as_f64().expect("a length");
     assert!((0.0..1e-3).contains(&own), "{own}: starts are off by 0.1 mm");
     let csv = String::from_utf8(read(&poses)).expect("UTF-8");
-    assert!(csv.starts_with("name,by,object,time,x,y,heading\npush,recorded,can,"), "{csv}");
-    assert!(csv.contains("\npush,prior,can,") && csv.contains("\npush,planar,can,"));
+    assert!(csv.starts_with("name,by,object,time,x,y,heading\na,recorded,can,"));
+    assert!(csv.contains("\nb,prior,can,") && csv.contains("\nc,planar,can,"));
     std::fs::write(set.join("c.yaml"), "kind: recording\n").expect("a file");
     let refused = run(&["prior", "--on", set_name]);
     assert_eq!(refused.status.code(), Some(3));

@@ -8,15 +8,14 @@ use pushplan::fit::{Fit, FitSettings, fit};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::judge::Trial;
 use pushplan::recording::Recording;
-use pushplan::scene::{
-    Object, Part, Push, Record, Scene, Support, Surface, Tool, ToolMotion,
-};
+use pushplan::scene::{Object, Part, Push, Record, Scene, Support, Surface, Tool, ToolMotion};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
 
 /// A finger of 4 mm radius pushes from `start` at `speed`, m/s, by `length` metres.
 fn finger_push(start: Vector, direction: f64, length: f64, speed: f64) -> ToolMotion {
-    let finger = Part::new("finger", Shape::Cylinder { radius: 0.004, height: 0.05 }, Pose::default());
+    let finger =
+        Part::new("finger", Shape::Cylinder { radius: 0.004, height: 0.05 }, Pose::default());
     let tool = Tool::new("finger", [finger]).expect("one piece").friction(0.9);
     let push = Push { start, direction, length, speed };
     ToolMotion::pushes(std::sync::Arc::new(tool), 0.0, 0.0, &[push], false)
@@ -57,13 +56,16 @@ fn fitted(model: &dyn EffectModel, trials: &[Trial]) -> Fit {
     fit(model, trials, &settings, &Unwatched).expect("something moves")
 }
 
+/// The truth lies within the posterior's width, or as near as the prior is to the engines.
 fn holds(fit: &Fit, spread: f64, friction: f64) {
     for (found, truth) in [(&fit.spread, spread), (&fit.friction, friction)] {
         let off = (found.mean - truth).abs();
-        assert!(off < 2.5 * found.deviation, "{truth}: {found:?}, noise {}", fit.noise);
-        assert!(found.told, "{found:?}");
+        assert!(off < (2.5 * found.deviation).max(0.03), "{truth}: {found:?}, noise {}", fit.noise);
+        assert!(found.told && found.deviation < 0.05, "{found:?}");
     }
-    assert!(fit.best.mean <= fit.even.mean.min(fit.corners.mean) * 1.02, "{:?}", fit.best);
+    // Medians: a push that forks may end far off with the true numbers, too.
+    let others = fit.even.median.min(fit.corners.median);
+    assert!(fit.best.median < 0.7 * others, "{:?} {:?} {:?}", fit.best, fit.even, fit.corners);
 }
 
 #[test]
@@ -118,7 +120,7 @@ fn slow_pushes_end_where_they_end_however_slow() {
         for speed in [0.01, 0.0025] {
             let end = slow_end(&planar, speed, support.clone());
             let apart = |other: &Pose| (end.position - other.position).norm();
-            assert!(apart(&first) < 2e-4, "{support:?} {speed} {end:?} {first:?}");
+            assert!(apart(&first) < 5e-4, "{support:?} {speed} {end:?} {first:?}");
             assert!((end.heading - first.heading).abs() < 5e-3, "{support:?} {end:?} {first:?}");
             assert!(apart(&prior) < 1.5e-3, "{support:?} {speed} {end:?} {prior:?}");
             assert!((end.heading - prior.heading).abs() < 0.04, "{support:?} {end:?} {prior:?}");

@@ -27,6 +27,7 @@ mod prisms;
 mod pruning;
 mod random_tasks;
 mod readme;
+mod real_pushes;
 mod seams;
 mod simulation;
 mod solving;

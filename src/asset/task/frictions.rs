@@ -100,7 +100,7 @@ pub(super) fn check(frictions: &[Node], objects: &[Node], obstacles: &[Node], le
         known.push([first, second]);
         if let Some(value) = node.get("coefficient")
             && let Some(coefficient) = value.number()
-            && names.contains(&TABLE)
+            && ((is_object(first) && second == TABLE) || (is_object(second) && first == TABLE))
             && coefficient < LEAST_ON_TABLE
         {
             let message = format!("a coefficient of {coefficient} between an object and the table");

@@ -8,9 +8,7 @@ use pushplan::asset::{Kind, RECORDING_FORMAT, check};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{
-    JointKind, Object, Push, Record, Scene, Surface, ToolMotion, Trajectory,
-};
+use pushplan::scene::{JointKind, Object, Push, Record, Scene, Surface, ToolMotion, Trajectory};
 use pushplan::sim::Simulator;
 
 use crate::fixtures::hand;
@@ -201,17 +199,17 @@ fn everything_wrong_is_said_with_its_place() {
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [can, bax], coefficient: 0.02}",
-            "r.yaml:8:22: error: nothing is called `bax`",
+            "r.yaml:8:23: error: nothing is called `bax`",
         ),
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [tool, table], coefficient: 0.02}",
-            "r.yaml:8:16: error: neither of the two is an object",
+            "r.yaml:8:17: error: neither of the two is an object",
         ),
         (
             "yaw_deg: 10}",
             "yaw_deg: 10}\n  frictions:\n    - {between: [table, can], coefficient: 0.02}",
-            "r.yaml:8:43: error: a coefficient of 0.02 between an object and the table",
+            "r.yaml:8:44: error: a coefficient of 0.02 between an object and the table",
         ),
         (
             "yaw_deg: 10}",
