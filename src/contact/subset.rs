@@ -90,6 +90,7 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         bodies.parts.extend(parts.iter().map(|&k| whole.parts[k]));
         bodies.rims = Arc::clone(&whole.rims);
         bodies.feet = Arc::clone(&whole.feet);
+        bodies.frictions = Arc::clone(&whole.frictions);
         bodies.obstacles.clear();
         bodies.obstacles.extend(obstacles.iter().map(|&k| whole.obstacles[k]));
         bodies.mechanisms.clear();

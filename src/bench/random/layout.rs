@@ -103,11 +103,7 @@ pub(super) fn wall(
 
 /// The largest disc in the goal object: where it does not pass, no turn of the object does.
 fn inscribed(shape: &Shape) -> Footprint {
-    let radius = match shape.footprint() {
-        Footprint::Disc { radius } => radius,
-        Footprint::Rectangle { half } => half.x.min(half.y),
-    };
-    Footprint::Disc { radius }
+    Footprint::Disc { radius: shape.footprint().inner_radius() }
 }
 
 fn one(rng: &mut Pcg64, solids: Solids) -> Scene {
@@ -159,6 +155,7 @@ fn moved(mut scene: Scene, place: Vector, index: usize) -> Scene {
                 Shape::Cylinder { radius: round(radius, 1e4), height: round(height, 1e4) }
             }
             Shape::Cuboid { size } => Shape::Cuboid { size: size.map(|side| round(side, 1e4)) },
+            prism => prism,
         };
         let heading = if k == index { turn } else { object.pose.heading };
         object.pose = round_pose(&Pose { heading, ..motion * object.pose });
