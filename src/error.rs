@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use crate::asset::Faults;
 use crate::effect::ModelError;
+use crate::geometry::PolygonError;
 use crate::scene::{SpecError, ToolError};
 use crate::solve::SolveError;
 
@@ -22,6 +23,9 @@ pub enum Error {
     /// Parts that do not make a tool.
     #[error(transparent)]
     Tool(#[from] ToolError),
+    /// Corners that make no convex polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
     /// An effect model that cannot be made, for its weights.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -3,11 +3,11 @@
 //! Each imports only from rooms before it, in this order:
 //!
 //! geometry, scene, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
-//! plan, verify, solve, dataset, train, bench, report, export, cli
+//! fit, plan, verify, solve, dataset, train, bench, report, export, cli
 
 #[doc(inline)]
 pub use crate::{
-    asset, bench, contact, dataset, effect, export, geometry, graph, judge, network, plan,
+    asset, bench, contact, dataset, effect, export, fit, geometry, graph, judge, network, plan,
     recording, report, rollout, scene, sim, solve, store, verify, watch,
 };
 

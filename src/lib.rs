@@ -87,6 +87,8 @@ pub mod effect;
 #[doc(hidden)]
 pub mod export;
 #[doc(hidden)]
+pub mod fit;
+#[doc(hidden)]
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;
@@ -121,7 +123,7 @@ pub mod watch;
 pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
-pub use geometry::{Pose, Shape, Vector};
+pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use scene::{
     Goal, Job, Joint, JointKind, ModelSpec, Object, Obstacle, Outcome, Part, Physics, Plan, Push,
     PushRules, Record, Robot, Scene, Situation, State, Task, Tool, ToolMotion, Trajectory, Verdict,

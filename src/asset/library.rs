@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::scene::Tool;
 
 use super::fault::{Fault, Faults};
+use super::folder::files_in;
 
 /// The tools shipped with the program, as file name and text.
 const SHIPPED: &[(&str, &str)] = &[
@@ -82,15 +83,7 @@ impl ToolLibrary {
     /// As [`ToolLibrary::load`]; a file whose tool has the name of one that is here already.
     pub fn with_folder(self, path: impl AsRef<Path>) -> Result<Self, Faults> {
         let path = path.as_ref();
-        let listing = |error: std::io::Error| Fault::io(path, "read the folder", &error);
-        let mut files = Vec::new();
-        for entry in std::fs::read_dir(path).map_err(listing)? {
-            let file = entry.map_err(listing)?.path();
-            if file.extension().is_some_and(|end| end == "yaml" || end == "yml") {
-                files.push(file);
-            }
-        }
-        files.sort();
+        let files = files_in(path, &["yaml", "yml"])?;
         if files.is_empty() {
             let message = "the folder holds no tool files (*.yaml)";
             let advice = "name the folder with the tools, such as `tools`";

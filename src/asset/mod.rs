@@ -7,10 +7,12 @@
 //! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
 
 mod fault;
+mod folder;
 mod kind;
 mod library;
 mod node;
 mod printable;
+mod prism;
 mod reader;
 mod recording;
 mod saved;
@@ -24,6 +26,7 @@ mod tool;
 mod write;
 
 pub use fault::{Fault, Faults, Place};
+pub use folder::recordings_in;
 pub use kind::{Kind, check};
 pub use library::ToolLibrary;
 pub use printable::printable;

@@ -3,6 +3,8 @@
 //! One description serves three readers: the strict check (`strict.rs`), the JSON schema for
 //! editors (`schema.rs`) and people, who meet its words in both.
 
+use super::prism::PRISM;
+
 /// A key of a map.
 pub(super) struct Key {
     pub name: &'static str,
@@ -87,6 +89,7 @@ pub(super) const EXTENTS: Value = numbers(&SIZE, 3);
 pub(super) const SHAPE: Value = Value::Variant(&[
     Key::optional("cylinder", CYLINDER, "An upright cylinder; no default."),
     Key::optional("cuboid", CUBOID, "A cuboid with its faces along its own axes; no default."),
+    Key::optional("prism", PRISM, "An upright prism on a convex polygon; no default."),
 ]);
 
 /// The extents of a cylinder.

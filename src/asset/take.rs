@@ -56,6 +56,9 @@ pub(super) fn shape(node: &Node) -> Option<Shape> {
         let radius = cylinder.get("radius")?.number()?;
         return Some(Shape::Cylinder { radius, height: cylinder.get("height")?.number()? });
     }
+    if let Some(prism) = node.get("prism") {
+        return super::prism::prism(prism);
+    }
     Some(Shape::Cuboid { size: triple(node.get("cuboid")?, "size")? })
 }
 

@@ -7,6 +7,7 @@ use crate::scene::{Part, Tool, ToolError};
 
 use super::fault::{Faults, did_you_mean};
 use super::node::Node;
+use super::prism;
 use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};
 use super::strict::{Ledger, check};
 use super::take::{angle, name_of, pose, position, shape, triple, unique_names};
@@ -109,6 +110,7 @@ pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
     unique_names(list.items(), "parts", ledger);
     for part in list.items() {
         one_solid(part, ledger);
+        prism::check(part.get("shape"), ledger);
         let height = part.get("position").and_then(|position| position.items().get(2));
         if let Some(node) = height.filter(|node| node.number().is_some_and(|z| z != 0.0)) {
             ledger.fault(

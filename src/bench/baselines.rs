@@ -10,8 +10,9 @@ const RIVALS: [ModelKind; 4] =
 /// Percentages of the true friction that the planar engine is told.
 const FRICTION: [u16; 2] = [70, 130];
 
-/// Micrometres by which the start that the planar engine is told is off: the truth's own spread.
-const START: u16 = 100;
+/// The start that the planar engine is told is off by 0.1 mm: the engine's own spread.
+pub(super) const SHIFTED_START: Assumptions =
+    Assumptions { joints: None, friction: None, start: Some(100) };
 
 /// What stands beside `spec` on held-out pushes: the other engine, and what it must beat.
 pub fn push_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
@@ -27,7 +28,7 @@ pub fn assumed(spec: &ModelSpec) -> Vec<ModelSpec> {
 }
 
 /// What stands beside `spec` on crowds, or on recordings: of those the planar engine is no truth,
-/// so it is there as itself too.
+/// so it is there as itself, and its own spread is no error that could stand in a row.
 pub fn crowd_baselines(spec: &ModelSpec, recorded: bool) -> Vec<ModelSpec> {
     let planar = ModelSpec::of(ModelKind::PLANAR);
     let mut others: Vec<ModelSpec> = RIVALS.map(ModelSpec::of).to_vec();
@@ -36,8 +37,11 @@ pub fn crowd_baselines(spec: &ModelSpec, recorded: bool) -> Vec<ModelSpec> {
     }
     others.retain(|other| other != spec);
     let told = Assumptions::default();
-    let friction = FRICTION.map(|percent| Assumptions { friction: Some(percent), ..told });
-    let start = Assumptions { start: Some(START), ..told };
-    others.extend(friction.into_iter().chain([start]).map(|told| planar.clone().assuming(told)));
+    let mut mistakes =
+        FRICTION.map(|percent| Assumptions { friction: Some(percent), ..told }).to_vec();
+    if !recorded {
+        mistakes.push(SHIFTED_START);
+    }
+    others.extend(mistakes.into_iter().map(|told| planar.clone().assuming(told)));
     others
 }

@@ -20,7 +20,7 @@ mod tradeoff;
 
 pub use baselines::{assumed, crowd_baselines, push_baselines};
 pub use crowd::{
-    CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, Phases, evaluate_crowd,
+    CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
 };
 pub use effects::{TimedEffect, timed_effect};
 pub use far::{FAR_COUNTS, FarCost, far_costs};

@@ -124,11 +124,14 @@ fn draw_case(kind: SuiteKind, library: &ToolLibrary, seed: u64, index: usize) ->
     let crowd = match kind {
         SuiteKind::Single | SuiteKind::SingleAnySpeed => {
             let solids = if even { Solids::Cylinders } else { Solids::Cuboids };
-            Crowd { count: 1, solids, touching: 0.0 }
+            Crowd { count: 1, solids, touching: 0.0, polygons: 0.0 }
         }
-        SuiteKind::Touching => {
-            Crowd { count: if even { 2 } else { 3 }, solids: Solids::Any, touching: 1.0 }
-        }
+        SuiteKind::Touching => Crowd {
+            count: if even { 2 } else { 3 },
+            solids: Solids::Any,
+            touching: 1.0,
+            polygons: 0.0,
+        },
     };
     // Scenes in which the drawn push cannot start are drawn again; most can.
     loop {

@@ -11,7 +11,7 @@ use super::train;
 use super::{
     bench, check, completions,
     error::CliError,
-    evaluate, exit_code, export, generate, interrupt, predict, schema,
+    evaluate, exit_code, export, fit, generate, interrupt, predict, schema,
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
@@ -39,6 +39,7 @@ enum Command {
     #[cfg(feature = "train")]
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
+    Fit(fit::FitArgs),
     Bench(bench::BenchArgs),
     Tradeoff(tradeoff::TradeOffArgs),
     Schema(schema::SchemaArgs),
@@ -79,6 +80,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         #[cfg(feature = "train")]
         Command::Train(args) => train::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
+        Command::Fit(args) => fit::run(args, &session),
         Command::Bench(args) => bench::run(args, &session),
         Command::Tradeoff(args) => tradeoff::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::bench::timed_effect;
-use crate::report::prediction_document;
-use crate::scene::{Job, ModelKind, ModelSpec, Task, Warning};
+use crate::effect::EffectModel;
+use crate::geometry::Pose;
+use crate::report::{PoseRow, prediction_document};
+use crate::scene::{Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning};
 
 use super::{
     action::{ActionArgs, LibraryArgs},
@@ -14,6 +16,7 @@ use super::{
     exit_code,
     form::Form,
     model::{self, OutsideArgs},
+    poses::PosesArgs,
     push_argument::FORMS,
     session::Session,
 };
@@ -33,6 +36,8 @@ pub struct PredictArgs {
     #[command(flatten)]
     outside: OutsideArgs,
     #[command(flatten)]
+    poses: PosesArgs,
+    #[command(flatten)]
     form: Form,
 }
 
@@ -44,10 +49,15 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut specs = vec![args.model.clone()];
     let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
     specs.extend(simulated.into_iter().filter(|spec| *spec != args.model));
-    let mut effects = Vec::new();
+    let (mut effects, mut rows) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
         effects.extend(session.compute(|| timed_effect(&*model, &task.scene, &job)));
+        if args.poses.wanted() {
+            let jobs = std::slice::from_ref(&job);
+            let rolled = session.compute(|| model.rollout(&task.scene, jobs, Record::Frames));
+            rows.extend(rolled.iter().flat_map(|trajectory| poses(&task, trajectory)));
+        }
     }
     for effect in &effects {
         let by = &effect.trajectory.by;
@@ -58,6 +68,24 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
             return Err(CliError::Refused(format!("{by} gives no prediction for this action")));
         }
     }
+    args.poses.write(&rows)?;
     args.form.show(session, &prediction_document(&task, &plan, &effects))?;
     Ok(exit_code::DONE)
+}
+
+/// Every object in every frame.
+fn poses(task: &Task, trajectory: &Trajectory) -> Vec<PoseRow> {
+    let by = trajectory.by.to_string();
+    let of_frame = |frame: &Frame| -> Vec<PoseRow> {
+        let pairs = task.scene.objects.iter().zip(&frame.state.poses);
+        let row = |(object, pose): (&Object, &Pose)| PoseRow {
+            name: task.name.clone(),
+            by: by.clone(),
+            object: object.name.clone(),
+            time: frame.time,
+            pose: *pose,
+        };
+        pairs.map(row).collect()
+    };
+    trajectory.frames.iter().flat_map(of_frame).collect()
 }

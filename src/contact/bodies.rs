@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::{
     geometry::{ContactPoint, Footprint, Pose, Rim},
     scene::{
-        Body, Feet, GRAVITY, JointKind, Physics, RigidGroups, Scene, Separation, Span, Tool, face,
+        Body, Feet, GRAVITY, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
+        Span, Surface, Tool, face, pair_friction,
     },
 };
 
@@ -134,6 +135,8 @@ pub struct Bodies {
     pub mechanisms: Vec<usize>,
     /// All pairs of the scene and the tool, here or not.
     pub pairs: Pairs,
+    /// Those whose friction is not the mean of the two values, by the scene's numbers.
+    pub frictions: Arc<[PairFriction]>,
 }
 
 /// The other body of a contact, by its number in the bodies at hand.
@@ -154,6 +157,23 @@ impl Bodies {
         self.rims[self.parts[part].index].as_ref().is_none_or(|rim| {
             rim.shows(pose.local_point(point.on_second), pose.local_vector(point.normal))
         })
+    }
+
+    /// Coefficient of friction of an object and another body.
+    pub fn friction(&self, object: usize, with: Partner) -> f64 {
+        let body = &self.objects[object];
+        let (surface, value) = match with {
+            Partner::Part(index) => (Surface::Tool, self.parts[index].friction),
+            Partner::Obstacle(index) => {
+                let obstacle = &self.obstacles[index];
+                (Surface::Obstacle(obstacle.index), obstacle.friction)
+            }
+            Partner::Object(other) => {
+                let other = &self.objects[other];
+                (Surface::Object(other.index.0), other.friction)
+            }
+        };
+        pair_friction(&self.frictions, body.index.0, surface, [body.friction, value])
     }
 
     /// What the object with that number here stands on.
@@ -230,6 +250,7 @@ impl Bodies {
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline.len());
         let feet = physics.feet.iter().cloned().collect();
         let push_height_known = physics.push_height.is_some();
+        let frictions = physics.pairs.iter().copied().collect();
         Self {
             objects,
             parts,
@@ -241,6 +262,7 @@ impl Bodies {
             groups,
             mechanisms,
             pairs,
+            frictions,
         }
     }
 

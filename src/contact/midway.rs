@@ -42,7 +42,7 @@ pub(super) fn midway(
     let side = |object: usize, arm: Vector| {
         let position = state.poses[object].position;
         let moves = Moves::With(&unknowns[bodies.groups.of[object].0]);
-        Side::new(bodies.objects[object].footprint, moves, position + arm, position)
+        Side::new(&bodies.objects[object].footprint, moves, position + arm, position)
     };
     let first = side(contact.object, contact.arm);
     let second = match contact.with {
@@ -51,11 +51,11 @@ pub(super) fn midway(
             let normal = contact.normal;
             let point = state.poses[contact.object].position + contact.arm - contact.gap * normal;
             let footprint = match with {
-                Partner::Part(index) => bodies.parts[index].footprint,
+                Partner::Part(index) => &bodies.parts[index].footprint,
                 // Obstacles stay where they are, so only faces and corners matter.
-                _ => Footprint::Rectangle { half: Vector::zeros() },
+                _ => &Footprint::Rectangle { half: Vector::new(0.0, 0.0) },
             };
-            let radius = if let Footprint::Disc { radius } = footprint { radius } else { 0.0 };
+            let radius = if let Footprint::Disc { radius } = footprint { *radius } else { 0.0 };
             let turn = Turn::by(share * contact.given_turn);
             let moves = Moves::Given { about: point, by: share * contact.given, turn };
             Side::new(footprint, moves, point, point - radius * normal)
@@ -133,10 +133,10 @@ struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
-    fn new(footprint: Footprint, moves: Moves<'a>, point: Vector, centre: Vector) -> Self {
-        let round = match footprint {
+    fn new(footprint: &Footprint, moves: Moves<'a>, point: Vector, centre: Vector) -> Self {
+        let round = match *footprint {
             Footprint::Disc { radius } => Some((centre, radius)),
-            Footprint::Rectangle { .. } => None,
+            Footprint::Rectangle { .. } | Footprint::Polygon(_) => None,
         };
         Self { moves, point, round }
     }

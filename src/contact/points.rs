@@ -2,7 +2,7 @@
 
 use crate::{
     geometry::{ContactPoint, Follows, Vector, contact_points, wrap_angle},
-    scene::{FrameStep, Scene, State},
+    scene::{FrameStep, State},
 };
 
 use super::{
@@ -98,20 +98,20 @@ impl Scenery<'_> {
         let body = &bodies.objects[object];
         let pose = &state.poses[object];
         let part_pose;
-        let (other, reach, friction) = match with {
+        let (other, reach) = match with {
             Partner::Part(index) => {
                 let part = &bodies.parts[index];
                 part_pose = step.from * part.pose;
-                ((&part.footprint, &part_pose), reach, part.friction)
+                ((&part.footprint, &part_pose), reach)
             }
             Partner::Obstacle(index) => {
                 let obstacle = &bodies.obstacles[index];
-                ((&obstacle.footprint, &obstacle.pose), reach, obstacle.friction)
+                ((&obstacle.footprint, &obstacle.pose), reach)
             }
             Partner::Object(other) => {
                 let second = &bodies.objects[other];
                 let at = &state.poses[other];
-                ((&second.footprint, at), reach + own(other), second.friction)
+                ((&second.footprint, at), reach + own(other))
             }
         };
         let pair = bodies.pair(object, with);
@@ -139,7 +139,7 @@ impl Scenery<'_> {
                 },
                 normal: point.normal,
                 gap: point.gap,
-                friction: Scene::pair_friction(body.friction, friction),
+                friction: bodies.friction(object, with),
                 given,
                 given_turn,
                 follows: point.follows,

@@ -91,6 +91,7 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
         bodies.rims = Arc::clone(&whole.rims);
         bodies.feet = Arc::clone(&whole.feet);
         bodies.push_height_known = whole.push_height_known;
+        bodies.frictions = Arc::clone(&whole.frictions);
         bodies.obstacles.clear();
         bodies.obstacles.extend(obstacles.iter().map(|&k| whole.obstacles[k]));
         bodies.mechanisms.clear();

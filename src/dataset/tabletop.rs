@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    geometry::{Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
+    geometry::{ConvexPolygon, Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
     scene::{Object, Ranges, Scene, Span, Support},
 };
 
@@ -40,6 +40,8 @@ pub struct Crowd {
     pub solids: Solids,
     /// Probability that a further object touches (0 to 1 mm) the ones before it.
     pub touching: f64,
+    /// Share of objects that are convex polygons instead.
+    pub polygons: f64,
 }
 
 /// A table with `crowd` around the origin and no obstacles.
@@ -48,7 +50,11 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
     let (middle, masses) = mass_span(rng, ranges);
     let mut scene = Scene::new([]).on_table(friction(rng));
     for index in 0..crowd.count {
-        let shape = random_shape(rng, ranges, crowd.solids);
+        let shape = if crowd.polygons > 0.0 && rng.random_bool(crowd.polygons) {
+            random_prism(rng, ranges)
+        } else {
+            random_shape(rng, ranges, crowd.solids)
+        };
         let pose = if index == 0 {
             Pose::new(0.0, 0.0, heading(rng))
         } else {
@@ -104,6 +110,25 @@ pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> 
         (x * ranges.aspect).min(ranges.side.high),
     );
     Shape::Cuboid { size: [x, log_uniform(rng, others), height] }
+}
+
+/// An upright prism on a convex polygon of three to six corners, all of them on an ellipse.
+fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
+    let height = uniform(rng, HEIGHT.low, HEIGHT.high);
+    loop {
+        let size = log_uniform(rng, ranges.side);
+        let width = (uniform(rng, 0.4, 1.0) * size).max(ranges.side.low);
+        let mut angles: Vec<f64> = (0..rng.random_range(3..=6)).map(|_| heading(rng)).collect();
+        angles.sort_by(f64::total_cmp);
+        let corner = |angle: &f64| Vector::new(size * angle.cos(), width * angle.sin()) / 2.0;
+        let corners: Vec<Vector> = angles.iter().map(corner).collect();
+        // Slivers are as rare on tables as they are hard for engines.
+        if let Ok(base) = ConvexPolygon::new(&corners)
+            && base.inner_radius() > ranges.side.low / 4.0
+        {
+            return Shape::Prism { base, height };
+        }
+    }
 }
 
 /// A pose beside one of `objects`, found by bringing the new one in along a straight line.

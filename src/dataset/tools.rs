@@ -30,6 +30,9 @@ const OBJECT_COUNTS: [f64; 3] = [0.45, 0.35, 0.20];
 /// How often there are one, two or three pushes.
 const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
 
+/// Share of objects that are convex polygons.
+const POLYGONS: f64 = 0.2;
+
 /// Share of scenes with obstacles.
 const OBSTACLES: f64 = 0.2;
 
@@ -62,8 +65,12 @@ pub(super) fn pushed_by_tool(
     rng: &mut Pcg64,
     ranges: &Ranges,
 ) -> Option<(Scene, ToolMotion, Vec<Frame>)> {
-    let crowd =
-        Crowd { count: 1 + weighted(rng, &OBJECT_COUNTS), solids: Solids::Any, touching: 0.45 };
+    let crowd = Crowd {
+        count: 1 + weighted(rng, &OBJECT_COUNTS),
+        solids: Solids::Any,
+        touching: 0.45,
+        polygons: POLYGONS,
+    };
     let scene = random_scene(rng, ranges, crowd);
     let mut scene = anywhere(rng, scene);
     draw_supports(rng, &mut scene);

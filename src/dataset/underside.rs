@@ -42,7 +42,7 @@ pub(super) fn draw_heights(rng: &mut Pcg64, scene: &mut Scene) {
         let drawn = log_uniform(rng, HEIGHT);
         if rng.random::<bool>() {
             match &mut object.shape {
-                Shape::Cylinder { height, .. } => *height = drawn,
+                Shape::Cylinder { height, .. } | Shape::Prism { height, .. } => *height = drawn,
                 Shape::Cuboid { size } => size[2] = drawn,
             }
         }
@@ -65,6 +65,12 @@ fn three_points(rng: &mut Pcg64, footprint: &Footprint) -> Support {
                 Footprint::Rectangle { half } => {
                     // On a smaller rectangle of the same shape.
                     far * Vector::new(cos * half.x, sin * half.y) / cos.abs().max(sin.abs())
+                }
+                Footprint::Polygon(polygon) => {
+                    let corners = polygon.corners();
+                    let k = rng.random_range(0..corners.len());
+                    let (from, to) = (corners[k], corners[(k + 1) % corners.len()]);
+                    far * (from + uniform(rng, 0.0, 1.0) * (to - from))
                 }
             }
         });

@@ -70,6 +70,7 @@ fn told(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
         let physics = Arc::make_mut(&mut job.physics);
         physics.frictions.iter_mut().for_each(|friction| *friction *= factor);
         physics.table_friction *= factor;
+        physics.pairs.iter_mut().for_each(|pair| pair.coefficient *= factor);
         Arc::make_mut(&mut job.motion.tool).friction *= factor;
     }
     if let Some(micrometres) = start {

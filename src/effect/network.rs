@@ -1,5 +1,7 @@
 //! The network as an effect model: the BRDPN physics predictor corrects the prior.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::{
@@ -74,6 +76,14 @@ impl EffectModel for Network {
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
+        let known: Vec<Job>;
+        let jobs = match jobs.iter().any(has_guesses) {
+            true => {
+                known = jobs.iter().map(without_guesses).collect();
+                &known
+            }
+            false => jobs,
+        };
         jobs.par_chunks(CHUNK)
             .map_init(
                 || (Roller::new(self.spec.clone(), self.settings), Buffers::default()),
@@ -91,4 +101,22 @@ impl EffectModel for Network {
             .flatten_iter()
             .collect()
     }
+}
+
+fn has_guesses(job: &Job) -> bool {
+    job.physics.joints.iter().any(|joint| joint.guessed)
+}
+
+/// The job with guessed anchors and axes taken for known ones.
+///
+/// Told that a joint is a guess, neither prior nor projection pulls its objects together again, and
+/// the network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and
+/// 60.4 mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
+fn without_guesses(job: &Job) -> Job {
+    let mut job = job.clone();
+    if has_guesses(&job) {
+        let physics = Arc::make_mut(&mut job.physics);
+        physics.joints.iter_mut().for_each(|joint| joint.guessed = false);
+    }
+    job
 }

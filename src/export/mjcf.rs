@@ -23,6 +23,7 @@ use crate::scene::{
 
 use super::ExportError;
 use super::forest::{Node, forest};
+use super::mesh;
 use super::pairs;
 use super::seamless::seamless;
 use super::xml::{Xml, numbers};
@@ -53,7 +54,7 @@ const TOOL_MASS: f64 = 1e5;
 /// would rest on corners.
 const FOOT: f64 = 1e-3;
 
-/// How far a cuboid hangs above the table, metres; it meets it when it tips beyond its feet. A
+/// How far a cuboid or prism hangs above the table, metres; it meets it when it tips beyond its feet. A
 /// cylinder never does: MuJoCo's contact of a cylinder and a plane throws standing ones over.
 const CLEAR: f64 = 5e-4;
 
@@ -75,6 +76,7 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     );
     settings(&mut xml);
     custom(&mut xml, file, &motion);
+    mesh::meshes(&mut xml, &solids(scene, &motion));
     xml.open("worldbody", &[]);
     let table = [("name", "table".into()), ("type", "plane".into()), ("size", "0 0 1".into())];
     xml.leaf("geom", &table);
@@ -96,6 +98,10 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
         xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);
     }
     Ok(xml.finish())
+}
+
+fn object_name(object: &Object) -> String {
+    format!("object/{}", object.name)
 }
 
 /// Name of foot `index` of an object.
@@ -171,7 +177,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
             (parent.pose.inverse() * object.pose, half - parent.shape.height() / 2.0)
         }
     };
-    let name = format!("object/{}", object.name);
+    let name = object_name(object);
     let mut attributes = vec![("name", name.clone())];
     attributes.extend(placed(&pose, height));
     xml.open("body", &attributes);
@@ -179,12 +185,10 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         None => xml.leaf("freejoint", &[]),
         Some((_, link)) => joint(xml, scene, node.object, link),
     }
-    let (shape, rise) = match object.shape {
-        Shape::Cuboid { size: [x, y, z] } => {
-            (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
-        }
-        round => (round, 0.0),
-    };
+    let (shape, rise) = raised(&object.shape);
+    if let Shape::Prism { base, height } = &shape {
+        mesh::inertial(xml, base, *height, rise, object.mass);
+    }
     solid(xml, name, &shape, &Pose::default(), rise, object.mass);
     for (index, (at, _)) in object.feet().each().enumerate() {
         let at = numbers(&[at.x, at.y, FOOT - half]);
@@ -195,6 +199,28 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         body(xml, scene, child);
     }
     xml.close();
+}
+
+/// What of an object is clear of the table, and how far that moves its middle up, metres.
+fn raised(shape: &Shape) -> (Shape, f64) {
+    match *shape {
+        Shape::Cuboid { size: [x, y, z] } => {
+            (Shape::Cuboid { size: [x, y, z - CLEAR] }, CLEAR / 2.0)
+        }
+        Shape::Prism { base, height } => {
+            (Shape::Prism { base, height: height - CLEAR }, CLEAR / 2.0)
+        }
+        round => (round, 0.0),
+    }
+}
+
+/// The solids that objects and tool are made of, by their names.
+fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
+    let objects = scene.objects.iter();
+    let objects = objects.map(|object| (object_name(object), raised(&object.shape).0));
+    let tool = seamless(&motion.tool.outline).into_iter();
+    let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
+    objects.chain(tool).collect()
 }
 
 /// The joint on which object `child` hangs; MJCF says fixed by saying nothing.
@@ -245,11 +271,14 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
 }
 
 fn solid(xml: &mut Xml, name: String, shape: &Shape, pose: &Pose, height: f64, mass: f64) {
-    let (kind, size) = match *shape {
-        Shape::Cylinder { radius, height } => ("cylinder", numbers(&[radius, height / 2.0])),
-        Shape::Cuboid { size } => ("box", numbers(&size.map(|extent| extent / 2.0))),
+    let (kind, (key, value)) = match *shape {
+        Shape::Cylinder { radius, height } => {
+            ("cylinder", ("size", numbers(&[radius, height / 2.0])))
+        }
+        Shape::Cuboid { size } => ("box", ("size", numbers(&size.map(|extent| extent / 2.0)))),
+        Shape::Prism { .. } => ("mesh", ("mesh", name.clone())),
     };
-    let mut attributes = vec![("name", name), ("type", kind.into()), ("size", size)];
+    let mut attributes = vec![("name", name), ("type", kind.into()), (key, value)];
     attributes.extend(placed(pose, height));
     attributes.push(("mass", numbers(&[mass])));
     xml.leaf("geom", &attributes);

@@ -8,6 +8,7 @@
 
 mod error;
 mod forest;
+mod mesh;
 mod mjcf;
 mod pairs;
 mod seamless;

@@ -1,6 +1,6 @@
 //! What may touch what, and how it rubs.
 
-use crate::scene::{Physics, Scene, Tool};
+use crate::scene::{Physics, Scene, Surface, Tool};
 
 use super::mjcf::foot_name;
 
@@ -14,29 +14,31 @@ pub(super) struct Pair {
 
 /// Every pair of which at least one can move by itself.
 pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
-    let rigid = Physics::stated(scene).rigid_groups().of;
+    let physics = Physics::stated(scene);
+    let rigid = physics.rigid_groups().of;
     let mut pairs = Vec::new();
     for (index, object) in scene.objects.iter().enumerate() {
-        let mut add = |geom: String, with: String, friction: f64| {
-            let friction = Scene::pair_friction(object.friction, friction);
+        let mut add = |geom: String, with: String, surface: Surface, friction: f64| {
+            let friction = physics.friction(index, surface, friction);
             pairs.push(Pair { geoms: [geom, with], friction });
         };
         let own = || format!("object/{}", object.name);
         if !object.shape.is_cylinder() {
-            add(own(), "table".into(), scene.table_friction);
+            add(own(), "table".into(), Surface::Table, scene.table_friction);
         }
         for foot in 0..object.feet().count {
-            add(foot_name(object, foot), "table".into(), scene.table_friction);
+            add(foot_name(object, foot), "table".into(), Surface::Table, scene.table_friction);
         }
-        for obstacle in &scene.obstacles {
-            add(own(), format!("obstacle/{}", obstacle.name), obstacle.friction);
+        for (k, obstacle) in scene.obstacles.iter().enumerate() {
+            let name = format!("obstacle/{}", obstacle.name);
+            add(own(), name, Surface::Obstacle(k), obstacle.friction);
         }
         for piece in &tool.outline {
-            add(own(), format!("tool/{}", piece.name), tool.friction);
+            add(own(), format!("tool/{}", piece.name), Surface::Tool, tool.friction);
         }
         for (other, body) in scene.objects.iter().enumerate().skip(index + 1) {
             if rigid[index] != rigid[other] {
-                add(own(), format!("object/{}", body.name), body.friction);
+                add(own(), format!("object/{}", body.name), Surface::Object(other), body.friction);
             }
         }
     }

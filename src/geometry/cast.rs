@@ -1,10 +1,11 @@
 //! How far a footprint can move straight before it touches another: translational time of
 //! impact, in closed form.
 //!
-//! Two rectangles: separating axes with moving intervals (the four side normals suffice for
-//! convex polygons). A disc and a rectangle: a ray against the rectangle rounded by the radius,
-//! which is the union of two boxes and four discs. Two discs: a ray against a circle.
+//! Two shapes with corners: separating axes with moving intervals (the side normals suffice for
+//! convex polygons). A disc and one with corners: a ray against that, rounded by the radius. Two
+//! discs: a ray against a circle.
 
+use super::flat::CORNERS;
 use super::{Footprint, Pose, Vector};
 
 /// Travel, metres, along the unit vector `direction` after which `moving` first touches `still`.
@@ -17,20 +18,18 @@ pub fn travel_to_contact(
     still: (&Footprint, &Pose),
 ) -> Option<f64> {
     let (from, at) = (moving.1.position, still.1.position);
-    let span = match (*moving.0, *still.0) {
-        (Footprint::Disc { radius: a }, Footprint::Disc { radius: b }) => {
+    let span = match (moving.0, still.0) {
+        (&Footprint::Disc { radius: a }, &Footprint::Disc { radius: b }) => {
             in_disc(from - at, direction, a + b)
         }
-        (Footprint::Disc { radius }, Footprint::Rectangle { half }) => {
-            in_rounded(still.1.local_point(from), still.1.local_vector(direction), half, radius)
+        (&Footprint::Disc { radius }, shape) => {
+            in_rounded(still.1.local_point(from), still.1.local_vector(direction), shape, radius)
         }
-        // Seen from the moving rectangle, the disc comes the other way.
-        (Footprint::Rectangle { half }, Footprint::Disc { radius }) => {
-            in_rounded(moving.1.local_point(at), -moving.1.local_vector(direction), half, radius)
+        // Seen from what moves, the disc comes the other way.
+        (shape, &Footprint::Disc { radius }) => {
+            in_rounded(moving.1.local_point(at), -moving.1.local_vector(direction), shape, radius)
         }
-        (Footprint::Rectangle { half: a }, Footprint::Rectangle { half: b }) => {
-            rectangles(moving.1, a, direction, still.1, b)
-        }
+        _ => flats(moving, direction, still),
     }?;
     (span.1 >= 0.0).then_some(span.0.max(0.0))
 }
@@ -44,47 +43,92 @@ fn in_disc(point: Vector, direction: Vector, radius: f64) -> Option<(f64, f64)> 
 
 /// Stretch of the ray inside the box about the origin.
 fn in_box(point: Vector, direction: Vector, half: Vector) -> Option<(f64, f64)> {
-    let x = in_interval(point.x, direction.x, half.x)?;
-    let y = in_interval(point.y, direction.y, half.y)?;
+    let x = in_interval(point.x, direction.x, (-half.x, half.x))?;
+    let y = in_interval(point.y, direction.y, (-half.y, half.y))?;
     let (enter, leave) = (x.0.max(y.0), x.1.min(y.1));
     (enter < leave).then_some((enter, leave))
 }
 
-/// Stretch of time in which `position + t speed` is inside (-half, half).
-fn in_interval(position: f64, speed: f64, half: f64) -> Option<(f64, f64)> {
+/// Stretch of time in which `position + t speed` is between both ends.
+fn in_interval(position: f64, speed: f64, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     if speed.abs() < 1e-12 {
-        return (position.abs() < half).then_some((f64::NEG_INFINITY, f64::INFINITY));
+        return (low < position && position < high).then_some((f64::NEG_INFINITY, f64::INFINITY));
     }
-    let (a, b) = ((-half - position) / speed, (half - position) / speed);
+    let (a, b) = ((low - position) / speed, (high - position) / speed);
     Some((a.min(b), a.max(b)))
 }
 
-/// Stretch of the ray inside the rectangle rounded outwards by `radius`.
-fn in_rounded(point: Vector, direction: Vector, half: Vector, radius: f64) -> Option<(f64, f64)> {
-    let boxes = [
-        in_box(point, direction, half + Vector::new(radius, 0.0)),
-        in_box(point, direction, half + Vector::new(0.0, radius)),
-    ];
-    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-        .map(|(x, y)| in_disc(point - Vector::new(x * half.x, y * half.y), direction, radius));
-    boxes.into_iter().chain(corners).flatten().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+/// Stretch of the ray inside a shape with corners rounded outwards by `radius`: the union of the
+/// shape, of a strip along each side and of a disc at each corner.
+fn in_rounded(
+    point: Vector,
+    direction: Vector,
+    shape: &Footprint,
+    radius: f64,
+) -> Option<(f64, f64)> {
+    let join = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
+    match shape {
+        Footprint::Disc { radius: own } => in_disc(point, direction, own + radius),
+        Footprint::Rectangle { half } => {
+            let boxes = [
+                in_box(point, direction, half + Vector::new(radius, 0.0)),
+                in_box(point, direction, half + Vector::new(0.0, radius)),
+            ];
+            let corners = CORNERS.map(|(x, y)| Vector::new(x * half.x, y * half.y));
+            let discs = corners.map(|corner| in_disc(point - corner, direction, radius));
+            boxes.into_iter().chain(discs).flatten().reduce(join)
+        }
+        Footprint::Polygon(polygon) => {
+            let inside = (polygon.faces())
+                .map(|(corner, normal)| (normal, (f64::NEG_INFINITY, corner.dot(&normal))))
+                .try_fold((f64::NEG_INFINITY, f64::INFINITY), |span, (normal, ends)| {
+                    let next = in_interval(point.dot(&normal), direction.dot(&normal), ends)?;
+                    let (enter, leave) = (span.0.max(next.0), span.1.min(next.1));
+                    (enter < leave).then_some((enter, leave))
+                });
+            let along_sides = polygon.sides().zip(polygon.faces()).map(|((a, b), (_, normal))| {
+                // The strip's own axes: along the side, outwards.
+                let (middle, length) = ((a + b + radius * normal) / 2.0, (b - a).norm());
+                let axis = (b - a) / length;
+                let own = |v: Vector| Vector::new(v.dot(&axis), v.dot(&normal));
+                in_box(own(point - middle), own(direction), Vector::new(length, radius) / 2.0)
+            });
+            let discs =
+                polygon.corners().iter().map(|corner| in_disc(point - corner, direction, radius));
+            std::iter::once(inside).chain(along_sides).chain(discs).flatten().reduce(join)
+        }
+    }
 }
 
-fn rectangles(
-    moving: &Pose,
-    half_a: Vector,
+/// Separating axes of two shapes with corners: while both overlap along all of them they meet.
+fn flats(
+    (moving, from): (&Footprint, &Pose),
     direction: Vector,
-    still: &Pose,
-    half_b: Vector,
+    (still, at): (&Footprint, &Pose),
 ) -> Option<(f64, f64)> {
-    let (a, b) = (Footprint::Rectangle { half: half_a }, Footprint::Rectangle { half: half_b });
-    let between = moving.position - still.position;
+    let between = from.position - at.position;
     let mut span = (f64::NEG_INFINITY, f64::INFINITY);
-    for frame in [moving, still] {
-        for axis in [frame.vector(Vector::x()), frame.vector(Vector::y())] {
-            let reach = a.extent(moving.local_vector(axis)) + b.extent(still.local_vector(axis));
-            let along = in_interval(between.dot(&axis), direction.dot(&axis), reach)?;
-            span = (span.0.max(along.0), span.1.min(along.1));
+    let mut narrow = |axis: Vector| {
+        let (own, other) = (from.local_vector(axis), at.local_vector(axis));
+        let ends = (
+            -(moving.extent(own) + still.extent(-other)),
+            moving.extent(-own) + still.extent(other),
+        );
+        let next = in_interval(between.dot(&axis), direction.dot(&axis), ends)?;
+        span = (span.0.max(next.0), span.1.min(next.1));
+        Some(())
+    };
+    for (shape, pose) in [(moving, from), (still, at)] {
+        match shape {
+            Footprint::Polygon(polygon) => {
+                for (_, normal) in polygon.faces() {
+                    narrow(pose.vector(normal))?;
+                }
+            }
+            _ => {
+                narrow(pose.vector(Vector::x()))?;
+                narrow(pose.vector(Vector::y()))?;
+            }
         }
     }
     (span.0 < span.1).then_some(span)
@@ -93,7 +137,12 @@ fn rectangles(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::clearance;
+    use crate::geometry::{ConvexPolygon, clearance};
+
+    fn polygon(corners: &[[f64; 2]]) -> Footprint {
+        let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
+        Footprint::Polygon(ConvexPolygon::new(&corners).expect("convex"))
+    }
 
     #[test]
     fn closed_forms() {
@@ -126,6 +175,8 @@ mod tests {
             Footprint::Disc { radius: 0.04 },
             Footprint::Rectangle { half: Vector::new(0.06, 0.02) },
             Footprint::Rectangle { half: Vector::new(0.01, 0.05) },
+            polygon(&[[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]]),
+            polygon(&[[0.0, 0.0], [0.04, 0.0], [0.06, 0.03], [0.03, 0.06], [0.0, 0.04]]),
         ];
         let direction = Vector::new(0.3f64.cos(), 0.3f64.sin());
         for a in &shapes {

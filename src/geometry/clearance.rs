@@ -3,9 +3,10 @@
 use parry2d_f64::{
     math::{Pose as Isometry, Vector as ParryVector},
     query::{ClosestPoints, closest_points},
-    shape::{Ball, ConvexPolygon, Cuboid, Shape as ParryShape},
+    shape::{Ball, ConvexPolygon as Hull, Cuboid, Shape as ParryShape},
 };
 
+use super::flat::CORNERS;
 use super::{Footprint, Pose, Vector};
 
 /// Distance between two posed footprints, metres; zero where they touch or overlap, and
@@ -42,23 +43,27 @@ pub fn swept_clearance(
             (gap - radius).clamp(0.0, reach)
         }
         Footprint::Rectangle { half } => {
-            let corners: Vec<ParryVector> = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-                .into_iter()
-                .flat_map(|(x, y)| {
-                    let corner = Vector::new(x * half.x, y * half.y);
-                    [vector(corner), vector(corner + travel)]
-                })
-                .collect();
-            match ConvexPolygon::from_convex_hull(&corners) {
-                Some(hull) => between(&hull, from, &*shape(still.0), still.1, reach),
-                // A hull can only fail on a sliver; its ends then tell the same.
-                None => clearance((moving, from), still, reach).min(clearance(
-                    (moving, to),
-                    still,
-                    reach,
-                )),
-            }
+            let corners = CORNERS.map(|(x, y)| Vector::new(x * half.x, y * half.y));
+            swept_corners((moving, &corners), (from, to, travel), still, reach)
         }
+        Footprint::Polygon(polygon) => {
+            swept_corners((moving, polygon.corners()), (from, to, travel), still, reach)
+        }
+    }
+}
+
+fn swept_corners(
+    (moving, corners): (&Footprint, &[Vector]),
+    (from, to, travel): (&Pose, &Pose, Vector),
+    still: (&Footprint, &Pose),
+    reach: f64,
+) -> f64 {
+    let ends: Vec<ParryVector> =
+        corners.iter().flat_map(|corner| [vector(*corner), vector(corner + travel)]).collect();
+    match Hull::from_convex_hull(&ends) {
+        Some(hull) => between(&hull, from, &*shape(still.0), still.1, reach),
+        // A hull can only fail on a sliver; its ends then tell the same.
+        None => clearance((moving, from), still, reach).min(clearance((moving, to), still, reach)),
     }
 }
 
@@ -83,6 +88,14 @@ fn shape(footprint: &Footprint) -> Box<dyn ParryShape> {
     match *footprint {
         Footprint::Disc { radius } => Box::new(Ball::new(radius)),
         Footprint::Rectangle { half } => Box::new(Cuboid::new(vector(half))),
+        Footprint::Polygon(polygon) => {
+            let corners = polygon.corners().iter().copied().map(vector).collect();
+            match Hull::from_convex_polyline_unmodified(corners) {
+                Some(hull) => Box::new(hull),
+                // Of three corners and more there always is one.
+                None => Box::new(Ball::new(polygon.bounding_radius())),
+            }
+        }
     }
 }
 

@@ -5,7 +5,8 @@
 //! because the graph needs both points also at a distance, with the same numbers in either
 //! argument order, and a batch of them for every step of every rollout.
 
-use super::{Footprint, Pose, Turn, Vector};
+use super::flat::{Faced, Flat, Rectangle};
+use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
 
 /// Points of one pair that lie closer together than this are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
@@ -62,8 +63,8 @@ impl ContactPoint {
 /// The one or two contact points of two posed footprints whose gap is at most `reach` metres,
 /// closest first; none if the bodies are farther apart.
 ///
-/// Two points are only ever returned for two rectangles: the closest pair of a corner of one
-/// and the boundary of the other, and the next such pair at another place.
+/// Two points are only ever returned for two shapes with corners: the closest pair of a corner of
+/// one and the boundary of the other, and the next such pair at another place.
 pub fn contact_points(
     first: (&Footprint, &Pose),
     second: (&Footprint, &Pose),
@@ -73,18 +74,34 @@ pub fn contact_points(
     if apart > first.0.bounding_radius() + second.0.bounding_radius() + reach {
         return ([None, None], 0);
     }
-    match (*first.0, *second.0) {
-        (Footprint::Disc { radius: a }, Footprint::Disc { radius: b }) => {
-            single(disc_disc(first.1.position, a, second.1.position, b), reach)
+    let (at, bt) = (first.1, second.1);
+    match (first.0, second.0) {
+        (&Footprint::Disc { radius: a }, &Footprint::Disc { radius: b }) => {
+            single(disc_disc(at.position, a, bt.position, b), reach)
         }
-        (Footprint::Disc { radius }, Footprint::Rectangle { half }) => {
-            single(disc_rectangle(first.1.position, radius, second.1, half), reach)
+        (&Footprint::Disc { radius }, &Footprint::Rectangle { half }) => {
+            single(disc_flat(at.position, radius, bt, &Rectangle(half)), reach)
         }
-        (Footprint::Rectangle { half }, Footprint::Disc { radius }) => {
-            single(disc_rectangle(second.1.position, radius, first.1, half).flipped(), reach)
+        (&Footprint::Disc { radius }, Footprint::Polygon(polygon)) => {
+            single(disc_flat(at.position, radius, bt, &Faced::new(polygon)), reach)
         }
-        (Footprint::Rectangle { half: a }, Footprint::Rectangle { half: b }) => {
-            rectangle_rectangle(first.1, a, second.1, b, reach)
+        (&Footprint::Rectangle { half }, &Footprint::Disc { radius }) => {
+            single(disc_flat(bt.position, radius, at, &Rectangle(half)).flipped(), reach)
+        }
+        (Footprint::Polygon(polygon), &Footprint::Disc { radius }) => {
+            single(disc_flat(bt.position, radius, at, &Faced::new(polygon)).flipped(), reach)
+        }
+        (&Footprint::Rectangle { half: a }, &Footprint::Rectangle { half: b }) => {
+            flats((at, &Rectangle(a)), (bt, &Rectangle(b)), reach, &mut [Candidate::NONE; 8])
+        }
+        (&Footprint::Rectangle { half }, Footprint::Polygon(b)) => {
+            flats((at, &Rectangle(half)), (bt, &Faced::new(b)), reach, &mut [Candidate::NONE; MANY])
+        }
+        (Footprint::Polygon(a), &Footprint::Rectangle { half }) => {
+            flats((at, &Faced::new(a)), (bt, &Rectangle(half)), reach, &mut [Candidate::NONE; MANY])
+        }
+        (Footprint::Polygon(a), Footprint::Polygon(b)) => {
+            flats((at, &Faced::new(a)), (bt, &Faced::new(b)), reach, &mut [Candidate::NONE; MANY])
         }
     }
 }
@@ -107,109 +124,116 @@ fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint
     }
 }
 
-fn disc_rectangle(centre: Vector, radius: f64, pose: &Pose, half: Vector) -> ContactPoint {
+fn disc_flat(centre: Vector, radius: f64, pose: &Pose, shape: &impl Flat) -> ContactPoint {
     let turn = pose.turn();
-    let local = turn.back(centre - pose.position);
-    let (boundary, normal, distance) = nearest_on_rectangle(local, half);
-    let on_second = pose.position + turn.of(boundary);
+    let nearest = shape.nearest(turn.back(centre - pose.position));
+    let on_second = pose.position + turn.of(nearest.point);
     let follows =
-        if is_corner(normal) { Follows::Between(centre, on_second) } else { Follows::Second };
-    let normal = turn.of(normal);
+        if nearest.on_face { Follows::Second } else { Follows::Between(centre, on_second) };
+    let normal = turn.of(nearest.normal);
     ContactPoint {
         on_first: centre - normal * radius,
         on_second,
         normal,
-        gap: distance - radius,
+        gap: nearest.distance - radius,
         follows,
     }
 }
 
-/// The boundary point of a rectangle nearest to `point`, the outward normal there towards the
-/// point, and the signed distance (negative inside). All in the rectangle's frame.
-fn nearest_on_rectangle(point: Vector, half: Vector) -> (Vector, Vector, f64) {
-    let clamped = Vector::new(point.x.clamp(-half.x, half.x), point.y.clamp(-half.y, half.y));
-    let outside = point - clamped;
-    let distance = outside.norm();
-    if distance > 1e-12 {
-        return (clamped, outside / distance, distance);
-    }
-    let depth_x = half.x - point.x.abs();
-    let depth_y = half.y - point.y.abs();
-    if depth_x <= depth_y {
-        let side = if point.x < 0.0 { -1.0 } else { 1.0 };
-        (Vector::new(side * half.x, point.y), Vector::new(side, 0.0), -depth_x)
-    } else {
-        let side = if point.y < 0.0 { -1.0 } else { 1.0 };
-        (Vector::new(point.x, side * half.y), Vector::new(0.0, side), -depth_y)
+/// Most corners of two polygons.
+const MANY: usize = 2 * MAX_CORNERS;
+
+/// A corner of one shape and the boundary of the other, in the frame of the first.
+#[derive(Clone, Copy)]
+struct Candidate {
+    on_first: Vector,
+    on_second: Vector,
+    /// From the second into the first.
+    normal: Vector,
+    gap: f64,
+    follows: Follows,
+}
+
+impl Candidate {
+    const NONE: Self = {
+        let zero = Vector::new(0.0, 0.0);
+        let (on_first, on_second, normal) = (zero, zero, zero);
+        Self { on_first, on_second, normal, gap: f64::INFINITY, follows: Follows::Nothing }
+    };
+
+    fn is_at(&self, other: &Self) -> bool {
+        (self.on_first - other.on_first).norm() < SAME_POINT
+            && (self.on_second - other.on_second).norm() < SAME_POINT
     }
 }
 
-/// Whether a unit normal, in a rectangle's frame, is that of a corner and of none of its faces.
-/// One that is within 3 degrees of a face's counts as that, so that rounding cannot decide it
-/// where faces end at the same place.
-fn is_corner(normal: Vector) -> bool {
-    normal.x.abs().min(normal.y.abs()) > 0.05
-}
-
-fn rectangle_rectangle(
-    a: &Pose,
-    half_a: Vector,
-    b: &Pose,
-    half_b: Vector,
+/// `room` for the candidates, one for each corner of both.
+fn flats<A: Flat, B: Flat>(
+    (a, first): (&Pose, &A),
+    (b, second): (&Pose, &B),
     reach: f64,
+    room: &mut [Candidate],
 ) -> ([Option<ContactPoint>; 2], usize) {
-    // The relative pose once, so that eight corners cost no further sine.
+    // The relative pose once, so that the corners cost no further sine.
     let turn = a.turn();
     let (b_from_a, b_turn) = (turn.back(b.position - a.position), Turn::by(b.heading - a.heading));
     let to_a = |p: Vector| b_from_a + b_turn.of(p);
     let to_b = |p: Vector| b_turn.back(p - b_from_a);
 
-    const CORNERS: [(f64, f64); 4] = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-    // Candidates in the frame of `a`: (on a, on b, normal from b into a, gap, what it follows).
-    let nothing = Follows::Nothing;
-    let zero = Vector::zeros();
-    let mut found = [(zero, zero, zero, f64::INFINITY, nothing); 8];
-    for (k, (x, y)) in CORNERS.into_iter().enumerate() {
-        let corner = Vector::new(x * half_a.x, y * half_a.y);
-        let (boundary, normal, distance) = nearest_on_rectangle(to_b(corner), half_b);
-        let follows = if is_corner(normal) { nothing } else { Follows::Second };
-        found[k] = (corner, to_a(boundary), b_turn.of(normal), distance, follows);
-        let corner = to_a(Vector::new(x * half_b.x, y * half_b.y));
-        let (boundary, normal, distance) = nearest_on_rectangle(corner, half_a);
-        let follows = if is_corner(normal) { nothing } else { Follows::First };
-        found[4 + k] = (boundary, corner, -normal, distance, follows);
+    let of_first = first.corners().map(|corner| {
+        let nearest = second.nearest(to_b(corner));
+        Candidate {
+            on_first: corner,
+            on_second: to_a(nearest.point),
+            normal: b_turn.of(nearest.normal),
+            gap: nearest.distance,
+            follows: if nearest.on_face { Follows::Second } else { Follows::Nothing },
+        }
+    });
+    let of_second = second.corners().map(|corner| {
+        let corner = to_a(corner);
+        let nearest = first.nearest(corner);
+        Candidate {
+            on_first: nearest.point,
+            on_second: corner,
+            normal: -nearest.normal,
+            gap: nearest.distance,
+            follows: if nearest.on_face { Follows::First } else { Follows::Nothing },
+        }
+    });
+    let mut count = 0;
+    for (place, candidate) in room.iter_mut().zip(of_first.chain(of_second)) {
+        *place = candidate;
+        count += 1;
     }
-    let Some(best) = found.iter().min_by(|p, q| p.3.total_cmp(&q.3)).copied() else {
+    let found = &room[..count];
+    let nearer = |p: &&Candidate, q: &&Candidate| p.gap.total_cmp(&q.gap);
+    let Some(best) = found.iter().min_by(nearer).filter(|best| best.gap <= reach) else {
         return ([None, None], 0);
     };
-    if best.3 > reach {
-        return ([None, None], 0);
-    }
     let next = found
         .iter()
-        .filter(|p| (p.0 - best.0).norm() > SAME_POINT && (p.1 - best.1).norm() > SAME_POINT)
-        .min_by(|p, q| p.3.total_cmp(&q.3))
-        .filter(|p| p.3 <= reach)
-        .copied();
+        .filter(|p| {
+            (p.on_first - best.on_first).norm() > SAME_POINT
+                && (p.on_second - best.on_second).norm() > SAME_POINT
+        })
+        .min_by(nearer)
+        .filter(|p| p.gap <= reach);
     // Corners of both on one place: neither face alone leads.
-    let led = |p: (Vector, Vector, Vector, f64, Follows)| {
-        let meets = |q: &&(Vector, Vector, Vector, f64, Follows)| {
-            (p.0 - q.0).norm() < SAME_POINT && (p.1 - q.1).norm() < SAME_POINT
-        };
-        match p.4 {
-            Follows::First | Follows::Second
-                if found.iter().filter(meets).any(|q| q.4 != p.4 && q.4 != nothing) =>
-            {
+    let led = |p: &Candidate| {
+        let other = |q: &Candidate| q.follows != p.follows && q.follows != Follows::Nothing;
+        match p.follows {
+            Follows::First | Follows::Second if found.iter().any(|q| p.is_at(q) && other(q)) => {
                 Follows::Both
             }
             alone => alone,
         }
     };
-    let world = |p: (Vector, Vector, Vector, f64, Follows)| ContactPoint {
-        on_first: a.position + turn.of(p.0),
-        on_second: a.position + turn.of(p.1),
-        normal: turn.of(p.2),
-        gap: p.3,
+    let world = |p: &Candidate| ContactPoint {
+        on_first: a.position + turn.of(p.on_first),
+        on_second: a.position + turn.of(p.on_second),
+        normal: turn.of(p.normal),
+        gap: p.gap,
         follows: led(p),
     };
     ([Some(world(best)), next.map(world)], 1 + usize::from(next.is_some()))
@@ -218,6 +242,7 @@ fn rectangle_rectangle(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::ConvexPolygon;
 
     #[test]
     fn flush_faces_touch_at_both_ends_of_the_shared_edge() {
@@ -241,6 +266,8 @@ mod tests {
             Footprint::Disc { radius: 0.04 },
             Footprint::Rectangle { half: Vector::new(0.05, 0.02) },
             Footprint::Rectangle { half: Vector::new(0.01, 0.07) },
+            prism(&[[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]]),
+            prism(&[[0.0, 0.0], [0.04, 0.0], [0.06, 0.03], [0.03, 0.06], [0.0, 0.04]]),
         ];
         let (p, q) = (Pose::new(0.1, 0.02, 0.4), Pose::new(-0.01, 0.0, 2.2));
         for a in &shapes {
@@ -255,5 +282,60 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn prism(corners: &[[f64; 2]]) -> Footprint {
+        let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
+        Footprint::Polygon(ConvexPolygon::new(&corners).expect("convex"))
+    }
+
+    #[test]
+    fn a_rectangle_written_as_a_polygon_has_the_same_contacts() {
+        let half = Vector::new(0.05, 0.02);
+        let polygon = prism(&[[0.0, 0.0], [0.1, 0.0], [0.1, 0.04], [0.0, 0.04]]);
+        let rectangle = Footprint::Rectangle { half };
+        let others = [
+            Footprint::Disc { radius: 0.03 },
+            Footprint::Rectangle { half: Vector::new(0.01, 0.07) },
+            prism(&[[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]]),
+        ];
+        let mut seen = 0;
+        for other in &others {
+            for k in 0..200 {
+                let angle = 0.37 * f64::from(k);
+                let at = Pose::new(0.07 * angle.cos(), 0.07 * angle.sin(), 0.61 * f64::from(k));
+                let here = Pose::new(0.003, -0.001, 0.2);
+                let [p, q] = [&rectangle, &polygon]
+                    .map(|own| contact_points((own, &here), (other, &at), 0.02));
+                assert_eq!(p.1, q.1, "{other:?} {k}");
+                for (p, q) in p.0.iter().flatten().zip(q.0.iter().flatten()) {
+                    assert!((p.on_first - q.on_first).norm() < 1e-12, "{other:?} {k} {p:?} {q:?}");
+                    assert!((p.normal - q.normal).norm() < 1e-12 && (p.gap - q.gap).abs() < 1e-12);
+                    let kind = |p: &ContactPoint| std::mem::discriminant(&p.follows);
+                    assert_eq!(kind(p), kind(q), "{other:?} {k} {p:?} {q:?}");
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 300, "{seen}");
+    }
+
+    #[test]
+    fn a_triangle_meets_a_wall_with_its_side_and_a_disc_with_its_tip() {
+        let triangle = prism(&[[0.0, 0.0], [0.06, 0.03], [0.0, 0.06]]);
+        let wall = Footprint::Rectangle { half: Vector::new(0.01, 0.2) };
+        let behind = Pose::new(-0.02 - 0.01 - 0.002, 0.0, 0.0);
+        let (points, count) = contact_points((&triangle, &Pose::default()), (&wall, &behind), 0.01);
+        assert_eq!(count, 2);
+        for (point, y) in points.iter().flatten().zip([-0.03, 0.03]) {
+            assert!((point.gap - 0.002).abs() < 1e-15 && point.follows == Follows::Second);
+            assert!((point.on_first - Vector::new(-0.02, y)).norm() < 1e-15, "{point:?}");
+        }
+        let disc = Footprint::Disc { radius: 0.01 };
+        let before = Pose::new(0.04 + 0.01 + 0.001, 0.0, 0.0);
+        let (points, _) = contact_points((&disc, &before), (&triangle, &Pose::default()), 0.01);
+        let point = points[0].expect("near");
+        assert!((point.gap - 0.001).abs() < 1e-15 && (point.normal - Vector::x()).norm() < 1e-12);
+        assert!(matches!(point.follows, Follows::Between(..)));
     }
 }

@@ -6,7 +6,9 @@
 mod cast;
 mod clearance;
 mod contact;
+mod flat;
 mod outline;
+mod polygon;
 mod pose;
 mod rim;
 mod shape;
@@ -16,6 +18,7 @@ pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, Follows, contact_points};
 pub use outline::{Extent, OutlinePiece, outline};
+pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Vector;
+use super::{ConvexPolygon, Vector};
 
 /// A solid standing on the table, its axis vertical. Full extents in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,13 @@ pub enum Shape {
         /// Full extents along x, y and z, metres.
         size: [f64; 3],
     },
+    /// An upright prism on a convex polygon.
+    Prism {
+        /// What it covers on the table, metres.
+        base: ConvexPolygon,
+        /// Height, metres.
+        height: f64,
+    },
 }
 
 impl Shape {
@@ -30,13 +37,14 @@ impl Shape {
             Shape::Cuboid { size } => {
                 Footprint::Rectangle { half: Vector::new(size[0] / 2.0, size[1] / 2.0) }
             }
+            Shape::Prism { base, .. } => Footprint::Polygon(base),
         }
     }
 
     /// Vertical extent, metres.
     pub fn height(&self) -> f64 {
         match *self {
-            Shape::Cylinder { height, .. } => height,
+            Shape::Cylinder { height, .. } | Shape::Prism { height, .. } => height,
             Shape::Cuboid { size } => size[2],
         }
     }
@@ -47,7 +55,7 @@ impl Shape {
     }
 }
 
-/// A convex planar shape centred at its own origin.
+/// A convex planar shape about its own origin, the centre of mass of what stands on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint {
     /// A disc.
@@ -60,6 +68,8 @@ pub enum Footprint {
         /// Half extents, metres.
         half: Vector,
     },
+    /// Any other convex polygon.
+    Polygon(ConvexPolygon),
 }
 
 impl Footprint {
@@ -68,6 +78,7 @@ impl Footprint {
         match *self {
             Footprint::Disc { radius } => std::f64::consts::PI * radius * radius,
             Footprint::Rectangle { half } => 4.0 * half.x * half.y,
+            Footprint::Polygon(polygon) => polygon.area(),
         }
     }
 
@@ -76,6 +87,7 @@ impl Footprint {
         match *self {
             Footprint::Disc { radius } => radius,
             Footprint::Rectangle { half } => half.norm(),
+            Footprint::Polygon(polygon) => polygon.bounding_radius(),
         }
     }
 
@@ -84,14 +96,22 @@ impl Footprint {
         match *self {
             Footprint::Disc { radius } => radius,
             Footprint::Rectangle { half } => half.x.min(half.y),
+            Footprint::Polygon(polygon) => polygon.inner_radius(),
         }
     }
 
     /// Radius of gyration about the vertical through the centre, metres: I = m rho^2.
+    ///
+    /// That of an even plate; where a polygon's centre of mass is not its centroid, of an even
+    /// plate that turns about it.
     pub fn gyration_radius(&self) -> f64 {
         match *self {
             Footprint::Disc { radius } => radius / std::f64::consts::SQRT_2,
             Footprint::Rectangle { half } => (half.norm_squared() / 3.0).sqrt(),
+            Footprint::Polygon(polygon) => {
+                let [xx, _, yy] = polygon.second_moments();
+                (xx + yy).sqrt()
+            }
         }
     }
 
@@ -108,16 +128,18 @@ impl Footprint {
                 let d = a.hypot(b);
                 (2.0 * d + a * a / b * ((b + d) / a).ln() + b * b / a * ((a + d) / b).ln()) / 12.0
             }
+            Footprint::Polygon(polygon) => polygon.mean_radius(),
         }
     }
 
-    /// The same shape grown by `margin` metres on every side (a rectangle keeps its corners).
+    /// The same shape grown by `margin` metres on every side (corners stay corners).
     pub fn grown(&self, margin: f64) -> Footprint {
         match *self {
             Footprint::Disc { radius } => Footprint::Disc { radius: radius + margin },
             Footprint::Rectangle { half } => {
                 Footprint::Rectangle { half: half + Vector::new(margin, margin) }
             }
+            Footprint::Polygon(polygon) => Footprint::Polygon(polygon.grown(margin)),
         }
     }
 
@@ -127,7 +149,7 @@ impl Footprint {
         self.grown(-margin.min(0.5 * self.inner_radius()))
     }
 
-    /// Distance from the centre to the boundary along the unit vector `direction`, given in the
+    /// How far the shape reaches from its centre along the unit vector `direction`, given in the
     /// shape's own frame: the support function, metres.
     pub fn extent(&self, direction: Vector) -> f64 {
         match *self {
@@ -135,6 +157,22 @@ impl Footprint {
             Footprint::Rectangle { half } => {
                 half.x * direction.x.abs() + half.y * direction.y.abs()
             }
+            Footprint::Polygon(polygon) => polygon.extent(direction),
+        }
+    }
+
+    /// Into how many equal turns a full turn falls after each of which the shape looks the same;
+    /// `None` for a disc, which always does.
+    pub fn symmetry(&self) -> Option<usize> {
+        match *self {
+            Footprint::Disc { .. } => None,
+            Footprint::Rectangle { half } => {
+                let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+                let corners = corners.map(|(x, y)| Vector::new(x * half.x, y * half.y));
+                // Too thin for a polygon, it is no square.
+                Some(ConvexPolygon::new(&corners).map_or(2, |polygon| polygon.symmetry()))
+            }
+            Footprint::Polygon(polygon) => Some(polygon.symmetry()),
         }
     }
 }

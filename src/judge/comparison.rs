@@ -81,8 +81,18 @@ impl<'a> Comparison<'a> {
         Joints::new(&self.trial.scene).drift(&self.states())
     }
 
+    /// The trial as if what was predicted had really happened.
+    pub fn as_truth(&self) -> Trial {
+        let poses = self.states().into_iter().map(|state| state.poses.clone());
+        let mut trial = self.trial.clone();
+        for (moment, poses) in trial.truth.iter_mut().zip(poses) {
+            moment.poses = poses;
+        }
+        trial
+    }
+
     /// Predicted states at every moment at which the truth is known.
-    fn states(&self) -> Vec<&State> {
+    pub fn states(&self) -> Vec<&State> {
         match self.predicted.frames.is_empty() {
             true => vec![&self.start; self.trial.truth.len()],
             false => self.trial.aligned(&self.predicted),

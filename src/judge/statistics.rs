@@ -75,6 +75,8 @@ pub struct RelativeErrors {
     pub median: f64,
     /// 90th percentile over objects, metres.
     pub p90: f64,
+    /// 95th percentile over objects, metres.
+    pub p95: f64,
     /// Mean error as a share of the mean motion.
     pub relative: f64,
     /// 95 % interval of that share, by bootstrap over trials, whose objects are not independent
@@ -101,6 +103,7 @@ impl RelativeErrors {
             mean: error,
             median: percentile(&sorted, 50.0),
             p90: percentile(&sorted, 90.0),
+            p95: percentile(&sorted, 95.0),
             relative: ratio([error, motion]),
             relative_interval: interval(sums.len(), |draw| {
                 ratio(draw.fold([0.0; 2], |sum, k| add(sum, &sums[k])))

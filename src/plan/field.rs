@@ -72,10 +72,7 @@ struct Grid {
 impl Grid {
     fn new(task: &Task) -> Self {
         let object = &task.scene.objects[task.goal.object];
-        let radius = match object.shape.footprint() {
-            Footprint::Disc { radius } => radius,
-            Footprint::Rectangle { half } => half.x.min(half.y),
-        };
+        let radius = object.shape.footprint().inner_radius();
         let disc = Footprint::Disc { radius };
         let (mut low, mut high) = (task.goal.position, task.goal.position);
         let mut include = |position: Vector, reach: f64| {

@@ -48,6 +48,7 @@ impl Spread {
             let mut change = |friction: &mut f64| *friction *= 1.0 + within(FRICTION);
             drawn.frictions.iter_mut().for_each(&mut change);
             change(&mut drawn.table_friction);
+            drawn.pairs.iter_mut().for_each(|pair| change(&mut pair.coefficient));
             tools.push(1.0 + within(FRICTION));
             drawn.push_height = Some(0.5 + within(0.5));
             let mut start = situation.start.clone();

@@ -10,4 +10,4 @@ mod rules;
 
 pub use observed::{RecordedFrame, Recording};
 pub use replay::{Instant, Replay};
-pub use rules::{Body, Gap, Jump, Strange, gaps, jumps};
+pub use rules::{Body, Gap, Jump, Moving, Strange, gaps, jumps};

@@ -1,7 +1,8 @@
 //! What no real table does between two frames: then a tracker lost something, frames are missing,
 //! or a size is wrong.
 
-use crate::geometry::{Pose, clearance};
+use crate::geometry::{Footprint, Pose, clearance};
+use crate::scene::DisjointSets;
 
 use super::observed::{RecordedFrame, Recording};
 
@@ -15,6 +16,13 @@ const TURN: f64 = 0.45 * std::f64::consts::PI;
 /// farther than [`MOVED`] metres meanwhile.
 const GAP: f64 = 2.5;
 const MOVED: f64 = 0.002;
+
+/// What slides at the start of a recording shows it within this time, seconds; later motions of
+/// what nothing touches are a tracker's.
+const SOON: f64 = 0.3;
+
+/// Turns of less than this at the start are a tracker's, radians.
+const TURNED: f64 = 0.05;
 
 /// A body of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +105,78 @@ pub fn gaps(frames: &[RecordedFrame]) -> Vec<Gap> {
         .collect()
 }
 
+/// An object that moves at the start although nothing touches it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moving {
+    /// Index of the object.
+    pub object: usize,
+    /// Index of the frame that shows it.
+    pub frame: usize,
+    /// How far it has come by then, metres.
+    pub travel: f64,
+    /// How far it has turned by then, radians.
+    pub turn: f64,
+}
+
 impl Recording {
+    /// Objects that are in motion in the first frame: they move although neither the pusher nor
+    /// anything that it may push comes near them.
+    pub fn moving_at_the_start(&self) -> Vec<Moving> {
+        let Some(first) = self.frames.first() else { return Vec::new() };
+        let mut found: Vec<Moving> = Vec::new();
+        for (index, frame) in self.frames.iter().enumerate().skip(1) {
+            if frame.lifted || (index > 1 && frame.time > SOON) {
+                break;
+            }
+            let pushed = self.pushed_until(index);
+            for (object, pushed) in pushed.into_iter().enumerate() {
+                let (from, to) = (&first.poses[object], &frame.poses[object]);
+                let travel = (to.position - from.position).norm();
+                let turned = (to.heading - from.heading).abs();
+                let turn = if self.headings[object] { turned } else { 0.0 };
+                let new = found.iter().all(|moving| moving.object != object);
+                if new && !pushed && (travel > MOVED || turn > TURNED) {
+                    found.push(Moving { object, frame: index, travel, turn });
+                }
+            }
+        }
+        found
+    }
+
+    /// For every object whether, up to frame `index`, the pusher is seen near it or near anything
+    /// that moves it along.
+    fn pushed_until(&self, index: usize) -> Vec<bool> {
+        let seen = &self.frames[..=index];
+        let footprint = |object: usize| self.scene.objects[object].shape.footprint();
+        let near = |a: (&Footprint, &Pose), b: (&Footprint, &Pose)| {
+            clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
+        };
+        let objects = 0..self.scene.objects.len();
+        // Whatever is near each other, or joined, moves together.
+        let mut pairs: Vec<[usize; 2]> =
+            self.scene.joints.iter().map(|joint| joint.between).collect();
+        for a in objects.clone() {
+            let (own, others) = (footprint(a), a + 1..objects.end);
+            pairs.extend(others.map(|b| [a, b]).filter(|[_, b]| {
+                let other = footprint(*b);
+                seen.iter().any(|at| near((&own, &at.poses[a]), (&other, &at.poses[*b])))
+            }));
+        }
+        let groups = DisjointSets::of(objects.end, pairs).names().to_vec();
+        let met = |object: usize| {
+            let own = footprint(object);
+            seen.iter().any(|at| {
+                self.tool.parts.iter().enumerate().any(|(part, solid)| {
+                    let pose = self.tool.part_pose(part, &at.tool);
+                    near((&solid.footprint(), &pose), (&own, &at.poses[object]))
+                })
+            })
+        };
+        let pushed: Vec<usize> =
+            objects.clone().filter(|object| met(*object)).map(|object| groups[object]).collect();
+        objects.map(|object| pushed.contains(&groups[object])).collect()
+    }
+
     /// Measured bodies may be this deep in each other in a frame, metres: what trackers and the
     /// rounding of radii leave.
     pub const NOISE: f64 = 0.005;

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::bench::{CrowdFamily, CrowdModel, CrowdReport, HeldOutReport};
+use crate::bench::{CrowdFamily, CrowdModel, CrowdReport, HeldOutReport, OneError};
 use crate::judge::{Drift, RelativeErrors};
 
 use super::{
@@ -18,14 +18,29 @@ use super::{
 /// The newest of the reports on crowds and recordings, as soon as it is there; with the first one
 /// comes what its columns mean.
 pub fn crowd_document(reports: &[CrowdReport]) -> Document {
-    let Some(newest) = reports.last() else { return Document::default() };
-    let legend = (reports.len() == 1).then(|| LEGEND.to_owned());
-    Document {
-        title: headline(newest),
-        notes: legend.into_iter().collect(),
-        sections: vec![Section { table: crowd_table(newest), ..Section::default() }],
-        ..Document::default()
+    let Some((newest, before)) = reports.split_last() else { return Document::default() };
+    let recorded = |report: &CrowdReport| report.family == CrowdFamily::Recordings;
+    let is_new =
+        |kind: bool| recorded(newest) == kind && before.iter().all(|r| recorded(r) != kind);
+    let mut legend = Vec::new();
+    if is_new(false) {
+        legend.push(LEGEND.to_owned());
     }
+    if is_new(true) {
+        legend.push(RECORDED_LEGEND.to_owned());
+    }
+    let table = if recorded(newest) { recorded_table(newest) } else { crowd_table(newest) };
+    let mut sections = vec![Section { table, ..Section::default() }];
+    // Of all recordings together each was told before.
+    let told = |name| before.iter().any(|report| report.names.contains(name));
+    if newest.names.len() > 1 && !newest.names.iter().any(told) {
+        sections.extend(newest.models.first().map(|model| Section {
+            title: format!("{} by recording", model.model),
+            table: each_table(&newest.names, &model.each),
+            ..Section::default()
+        }));
+    }
+    Document { title: headline(newest), notes: legend, sections, ..Document::default() }
 }
 
 /// Everything that was evaluated: the sets of crowds side by side, errors by horizon, and all
@@ -68,16 +83,28 @@ median and 90th percentile, as shares of the mean true motion; moved: over objec
 than 1 cm; over frames: averaged over all frames instead of the last; overlap: deepest of any two
 predicted objects; fixed, revolute, prismatic: mean / largest drift of predicted joints";
 
+/// What the columns of [`recorded_table`] mean.
+const RECORDED_LEGEND: &str = "\
+mean, median, p95: final distance from the recorded position over all objects; heading: mean final
+heading error of objects of known heading; of motion: the mean as a share of the mean recorded
+motion; over frames: the same averaged over all recorded frames instead of the last; overlap:
+deepest of any two predicted objects; own spread: how far the planar engine ends from itself when
+everything starts 0.1 mm beside";
+
 /// What was measured: trajectories, seed, how far the objects really moved.
 fn headline(report: &CrowdReport) -> String {
     let seed = report.seed.map_or(String::new(), |seed| format!(" of seed {seed}"));
+    let spread = report
+        .own_spread
+        .map_or(String::new(), |metres| format!("; own spread {}", fine_millimetres(metres)));
     let first = report.models.first();
     let motion = |errors: Option<&RelativeErrors>| match errors {
         Some(errors) => format!("{} by {}", errors.objects, millimetres(errors.motion)),
         None => "none".to_owned(),
     };
     format!(
-        "{}: {} trajectories{seed}, {:.0} frames each; objects move: {} on average, more than 1 cm: {}",
+        "{}: {} trajectories{seed}, {:.0} frames each; objects move: {} on average, more than 1 cm: \
+         {}{spread}",
         report.title,
         report.trajectories,
         report.frames,
@@ -119,6 +146,46 @@ fn crowd_table(report: &CrowdReport) -> Table {
     )
 }
 
+/// Errors of all models on recordings, one row each.
+fn recorded_table(report: &CrowdReport) -> Table {
+    let end = |model: &CrowdModel, value: fn(&RelativeErrors) -> f64| {
+        model.all.end.as_ref().map_or(NONE.to_owned(), |e| fine_millimetres(value(e)))
+    };
+    Table::of(
+        &report.models,
+        &[
+            ("model", Left, &|model| name(model, report.trajectories)),
+            ("mean", Right, &|model| end(model, |errors| errors.mean)),
+            ("median", Right, &|model| end(model, |errors| errors.median)),
+            ("p95", Right, &|model| end(model, |errors| errors.p95)),
+            ("heading", Right, &|model| angle(model.any_heading_deg)),
+            ("of motion", Right, &|model| share(model.all.end.as_ref(), |errors| errors.mean)),
+            ("95 % interval", Right, &|model| {
+                model.all.end.as_ref().map_or(NONE.to_owned(), interval)
+            }),
+            ("over frames", Right, &|model| share(model.all.averaged.as_ref(), |e| e.mean)),
+            ("overlap", Right, &|model| fine_millimetres(model.overlap)),
+        ],
+    )
+}
+
+/// Errors of one model recording by recording.
+fn each_table(names: &[String], each: &[OneError]) -> Table {
+    Table::of(
+        names.iter().zip(each),
+        &[
+            ("recording", Left, &|(name, _)| (*name).clone()),
+            ("motion", Right, &|(_, one)| millimetres(one.motion)),
+            ("error", Right, &|(_, one)| fine_millimetres(one.error)),
+            ("heading", Right, &|(_, one)| angle(one.heading_deg)),
+            ("of motion", Right, &|(_, one)| match one.motion > 0.0 {
+                true => percent(one.error / one.motion),
+                false => NONE.to_owned(),
+            }),
+        ],
+    )
+}
+
 /// One row a set: the first model beside the projection and the simulator's own spread.
 fn summary_table(reports: &[CrowdReport]) -> Table {
     let sets: Vec<(&CrowdReport, &CrowdModel)> =
@@ -126,10 +193,6 @@ fn summary_table(reports: &[CrowdReport]) -> Table {
     let beside = |report: &CrowdReport, wanted: &dyn Fn(&str) -> bool| {
         let found = report.models.iter().find(|model| wanted(&model.model));
         share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
-    };
-    let interval = |errors: &RelativeErrors| {
-        let span = errors.relative_interval;
-        format!("{} to {}", percent(span.low), percent(span.high))
     };
     let end = |model: &CrowdModel, text: &dyn Fn(&RelativeErrors) -> String| {
         model.all.end.as_ref().map_or(NONE.to_owned(), text)
@@ -142,11 +205,18 @@ fn summary_table(reports: &[CrowdReport]) -> Table {
             ("mean", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.mean)),
             ("95 % interval", Right, &|(_, model)| end(model, &interval)),
             ("median", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.median)),
+            ("p95", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.p95)),
+            ("heading", Right, &|(_, model)| angle(model.any_heading_deg)),
             ("moved", Right, &|(_, model)| share(model.moved.end.as_ref(), |e| e.mean)),
             ("over frames", Right, &|(_, model)| share(model.all.averaged.as_ref(), |e| e.mean)),
             ("projection", Right, &|(report, _)| beside(report, &|name| name == "projection")),
-            ("own spread", Right, &|(report, _)| {
-                beside(report, &|name| name.starts_with("planar,start="))
+            ("own spread", Right, &|(report, model)| match report.family {
+                CrowdFamily::Recordings => {
+                    let apart = report.own_spread.zip(model.all.end.as_ref());
+                    apart.map_or(NONE.to_owned(), |(apart, end)| percent(end.share(apart)))
+                }
+                // Drawn sets are the planar engine's own.
+                _ => beside(report, &|name| name.starts_with("planar,start=")),
             }),
         ],
     )
@@ -199,6 +269,15 @@ fn name(model: &CrowdModel, trajectories: usize) -> String {
 
 fn share(errors: Option<&RelativeErrors>, value: impl Fn(&RelativeErrors) -> f64) -> String {
     errors.map_or(NONE.to_owned(), |errors| percent(errors.share(value(errors))))
+}
+
+fn interval(errors: &RelativeErrors) -> String {
+    let span = errors.relative_interval;
+    format!("{} to {}", percent(span.low), percent(span.high))
+}
+
+fn angle(degrees: Option<f64>) -> String {
+    degrees.map_or(NONE.to_owned(), |degrees| format!("{degrees:.2}\u{00b0}"))
 }
 
 fn percent(share: f64) -> String {

@@ -208,19 +208,19 @@ impl Reach {
         self.sweeps.clear();
         self.sweeps.extend(whole.parts.iter().map(|part| {
             // A tool that turns stays in a circle about its frame.
-            let (centre, half) = if turns {
+            let (centre, along, across) = if turns {
                 let reach = part.pose.position.norm() + part.footprint.bounding_radius();
-                (stroke.from.position, [reach; 2])
+                (stroke.from.position, [reach; 2], [reach; 2])
             } else {
                 let pose = stroke.from * part.pose;
                 let extent = |v| part.footprint.extent(pose.local_vector(v)) + ROUNDING;
-                (pose.position, [axis, side].map(extent))
+                (pose.position, [-axis, axis].map(extent), [-side, side].map(extent))
             };
             let (x, y) = (centre.dot(&axis), centre.dot(&side));
             Sweep {
                 axis,
-                along: (x - half[0], x + half[0]),
-                across: (y - half[1], y + half[1]),
+                along: (x - along[0], x + along[1]),
+                across: (y - across[0], y + across[1]),
                 travel: (done, length),
                 underside: part.span.0,
             }
@@ -274,6 +274,10 @@ fn gap(footprint: &Footprint, pose: &Pose, point: Vector) -> f64 {
         Footprint::Rectangle { half } => {
             let local = pose.local_point(point);
             (local.abs() - half).sup(&Vector::zeros()).norm()
+        }
+        // Never more than the distance; obstacles are cuboids.
+        Footprint::Polygon(polygon) => {
+            ((point - pose.position).norm() - polygon.bounding_radius()).max(0.0)
         }
     }
 }

@@ -50,6 +50,7 @@ mod tests {
             masses: vec![0.4; 6],
             frictions: vec![0.4; 6],
             table_friction: 0.4,
+            pairs: Vec::new(),
             feet: Vec::new(),
             push_height: None,
             joints: [[4, 5], [3, 4], [0, 3]].map(joint).to_vec(),

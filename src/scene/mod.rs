@@ -8,6 +8,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
+mod friction;
 mod groups;
 mod guess;
 mod job;
@@ -31,6 +32,7 @@ mod verdict;
 mod warning;
 mod world;
 
+pub use friction::{PairFriction, Surface, pair_friction};
 pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use job::Job;

@@ -105,7 +105,7 @@ fn extent(part: &Part, axes: &Pose) -> Extent {
     let half = match part.footprint() {
         Footprint::Rectangle { half } if turned => Vector::new(half.y, half.x),
         Footprint::Rectangle { half } => half,
-        Footprint::Disc { radius } => Vector::new(radius, radius),
+        other => Vector::repeat(other.bounding_radius()),
     };
     let (low, high) = (centre - half, centre + half);
     [[low.x, low.y], [high.x, high.y]]

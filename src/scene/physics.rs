@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Feet, Joint, Object, Scene, Support, Tool};
+use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool};
 
 /// How high a tool presses where nobody says it, see [`Physics::push_height`]: where the planar
 /// engine is nearest to the 3-D one (mean 5.6 mm apart at 0, 3.8 at 0.5, 4.2 at 1; shipped tools,
@@ -22,6 +22,8 @@ pub struct Physics {
     pub frictions: Vec<f64>,
     /// Friction value of the table.
     pub table_friction: f64,
+    /// Frictions of pairs that are not the mean of the two values.
+    pub pairs: Vec<PairFriction>,
     /// What every object stands on.
     pub feet: Vec<Arc<Feet>>,
     /// How high the tool presses on objects, as a share of the mean height of where their faces
@@ -40,6 +42,7 @@ impl Physics {
             masses: scene.objects.iter().map(|object| object.mass).collect(),
             frictions: scene.objects.iter().map(|object| object.friction).collect(),
             table_friction: scene.table_friction,
+            pairs: scene.frictions.clone(),
             feet: scene.objects.iter().map(|object| Arc::new(object.feet())).collect(),
             push_height: scene.push_height,
             joints: scene.joints.clone(),
@@ -71,7 +74,7 @@ impl Physics {
 
     /// Coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
-        Scene::pair_friction(self.frictions[index], self.table_friction)
+        self.friction(index, Surface::Table, self.table_friction)
     }
 }
 

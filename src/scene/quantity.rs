@@ -24,6 +24,10 @@ pub enum Quantity {
     SizeY,
     /// Ratio of a cuboid object's horizontal sides.
     SideRatio,
+    /// How far a corner of a prism is from a right angle, radians.
+    Slant,
+    /// Distance of a prism's centre of mass from the centroid, metres.
+    Imbalance,
     /// Number of parts of the tool.
     Parts,
     /// Longer horizontal side of a tool part, metres.
@@ -49,6 +53,8 @@ impl fmt::Display for Quantity {
             Quantity::SizeX => "size along x (m)",
             Quantity::SizeY => "size along y (m)",
             Quantity::SideRatio => "ratio of sides",
+            Quantity::Slant => "corner off a right angle (rad)",
+            Quantity::Imbalance => "centre of mass off the centroid (m)",
             Quantity::Parts => "number of parts",
             Quantity::Length => "length (m)",
             Quantity::Width => "width (m)",

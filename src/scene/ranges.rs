@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Shape;
+use crate::geometry::{ConvexPolygon, Shape, Vector, centroid};
 
 use super::{GRAVITY, Job, Quantity, Scene, Stroke, Warning};
 
@@ -18,6 +18,12 @@ pub const TRAINED_SLIDE: f64 = 0.020;
 
 /// Most that the tool turns in training for each metre of travel, rad/m: 34 degrees in 20 cm.
 pub const TRAINED_TURN: f64 = 3.0;
+
+/// How far a corner may be from a right angle, radians: data sets hold cylinders and cuboids alone.
+pub const TRAINED_SLANT: f64 = 0.02;
+
+/// How far a centre of mass may be from the centroid, metres: in data sets they are one.
+pub const TRAINED_IMBALANCE: f64 = 1e-3;
 
 /// A closed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -183,7 +189,22 @@ impl Ranges {
                     let aspect = x.max(y) / x.min(y);
                     check(&name, Quantity::SideRatio, aspect, Span::new(1.0, self.aspect));
                 }
+                Shape::Prism { base, .. } => {
+                    check(&name, Quantity::Slant, slant(&base), Span::new(0.0, TRAINED_SLANT));
+                    let off = centroid(base.corners()).norm();
+                    check(&name, Quantity::Imbalance, off, Span::new(0.0, TRAINED_IMBALANCE));
+                    let across = |axis: Vector| base.extent(axis) + base.extent(-axis);
+                    let [x, y] = [Vector::x(), Vector::y()].map(across);
+                    check(&name, Quantity::SizeX, x, self.side);
+                    check(&name, Quantity::SizeY, y, self.side);
+                    let aspect = x.max(y) / x.min(y);
+                    check(&name, Quantity::SideRatio, aspect, Span::new(1.0, self.aspect));
+                }
             }
+        }
+        for pair in physics.pairs.iter().filter(|pair| objects.contains(&pair.object)) {
+            let of = || format!("a pair of {}", scene.objects[pair.object].name);
+            check(&of, Quantity::Friction, pair.coefficient, self.friction);
         }
         let masses = objects.iter().map(|&index| physics.masses[index]);
         let heaviest = masses.clone().fold(0.0, f64::max);
@@ -206,6 +227,13 @@ impl Ranges {
                 Shape::Cylinder { radius, .. } => {
                     check(&of, Quantity::Radius, radius, self.part_radius);
                 }
+                Shape::Prism { base, .. } => {
+                    check(&of, Quantity::Slant, slant(&base), Span::new(0.0, TRAINED_SLANT));
+                    let across = |axis: Vector| base.extent(axis) + base.extent(-axis);
+                    let [x, y] = [Vector::x(), Vector::y()].map(across);
+                    check(&of, Quantity::Length, x.max(y), self.part_length);
+                    check(&of, Quantity::Width, x.min(y), self.part_width);
+                }
             }
         }
         let moving = || motion.strokes.iter().filter(|stroke| stroke.duration > 0.0);
@@ -224,6 +252,13 @@ impl Ranges {
         check(&push, Quantity::Turn, turn, Span::new(0.0, self.turn));
         found
     }
+}
+
+/// How far the corner farthest from it is from a right angle, radians.
+fn slant(base: &ConvexPolygon) -> f64 {
+    let normals: Vec<Vector> = base.faces().map(|(_, normal)| normal).collect();
+    let next = normals.iter().cycle().skip(1);
+    normals.iter().zip(next).map(|(a, b)| a.dot(b).abs().asin()).fold(0.0, f64::max)
 }
 
 /// Radians per metre; infinite for a turn on the spot.

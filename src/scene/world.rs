@@ -2,9 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Shape, Vector};
+use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
-use super::{Feet, Joint, JointKind, REST_SPEED, State, Support};
+use super::{
+    Feet, Joint, JointKind, PairFriction, REST_SPEED, State, Support, Surface, pair_friction,
+};
 
 /// A movable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +68,20 @@ impl Object {
     /// [`Object::new`] for a cuboid of these full extents along its x, y and z, metres.
     pub fn cuboid(name: impl Into<String>, size: [f64; 3]) -> Self {
         Self::new(name, Shape::Cuboid { size })
+    }
+
+    /// [`Object::new`] for an upright prism of this height, metres.
+    ///
+    /// ```
+    /// use pushplan::{ConvexPolygon, Object, Vector};
+    ///
+    /// let corners = [[-0.04, -0.03], [0.05, -0.03], [0.0, 0.05]].map(|[x, y]| Vector::new(x, y));
+    /// let wedge = Object::prism("wedge", ConvexPolygon::new(&corners)?, 0.06).at(0.5, 0.1, 0.3);
+    /// assert_eq!(wedge.shape.height(), 0.06);
+    /// # Ok::<(), pushplan::Error>(())
+    /// ```
+    pub fn prism(name: impl Into<String>, base: ConvexPolygon, height: f64) -> Self {
+        Self::new(name, Shape::Prism { base, height })
     }
 
     /// The object with another mass, kg.
@@ -145,6 +161,9 @@ pub struct Scene {
     pub joints: Vec<Joint>,
     /// Fixed cuboids.
     pub obstacles: Vec<Obstacle>,
+    /// Frictions of pairs that are not the mean of the two values.
+    #[serde(default)]
+    pub frictions: Vec<PairFriction>,
 }
 
 impl Scene {
@@ -161,6 +180,7 @@ impl Scene {
             objects,
             joints: Vec::new(),
             obstacles: Vec::new(),
+            frictions: Vec::new(),
         }
     }
 
@@ -178,6 +198,12 @@ impl Scene {
     /// The scene with one more obstacle.
     pub fn with_obstacle(mut self, obstacle: Obstacle) -> Self {
         self.obstacles.push(obstacle);
+        self
+    }
+
+    /// The scene with this coefficient of friction between an object and another body.
+    pub fn with_friction(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
+        self.frictions.push(PairFriction { object, with, coefficient });
         self
     }
 
@@ -201,9 +227,17 @@ impl Scene {
             let [a, b] = joint.between;
             Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
         });
+        let frictions = self.frictions.iter().filter_map(|pair| {
+            let with = match pair.with {
+                Surface::Object(other) => Surface::Object(place(other)?),
+                other => other,
+            };
+            Some(PairFriction { object: place(pair.object)?, with, ..*pair })
+        });
         Self {
             objects: objects.iter().map(|&k| self.objects[k].clone()).collect(),
             joints: joints.collect(),
+            frictions: frictions.collect(),
             ..self.clone()
         }
     }
@@ -226,7 +260,8 @@ impl Scene {
 
     /// Coefficient of friction between object `index` and the table.
     pub fn support_friction(&self, index: usize) -> f64 {
-        Self::pair_friction(self.objects[index].friction, self.table_friction)
+        let values = [self.objects[index].friction, self.table_friction];
+        pair_friction(&self.frictions, index, Surface::Table, values)
     }
 }
 

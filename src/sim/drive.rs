@@ -15,8 +15,25 @@ use crate::watch::Watch;
 use super::Simulator;
 use super::strain::{Overlap, Strain};
 
+/// Steps of what is played faster than it happens are so many times finer.
+const FINER: f64 = 4.0;
+
+/// Nothing is played more than so many times faster than it happens.
+const MOST_HURRIED: f64 = 100.0;
+
+/// An object this many times faster than the tool is not carried by it.
+const CARRIED: f64 = 3.0;
+
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
+    /// Slower motions of the tool are played at this speed, m/s, in finer steps: an engine whose
+    /// friction is only exact above a speed makes honey of the table below it. So slow, nothing
+    /// feels its inertia, and what happens does not depend on the speed.
+    const SLOWEST: f64 = 0.0;
+
+    /// Multiplies the velocities of all objects by `factor`.
+    fn hurry(&mut self, _factor: f64) {}
+
     /// Builds the scene in `state`, the tool at `tool`, not moving.
     fn build(
         scene: &Scene,
@@ -139,6 +156,9 @@ fn play<W: World>(
     longest: f64,
     recorder: &mut Recorder,
 ) -> Played {
+    let hurry = hurry(world, frame);
+    let longest = if hurry > 1.0 { longest / FINER } else { longest };
+    let frame = &FrameStep { duration: frame.duration / hurry, ..*frame };
     // The small part keeps 0.1 / (1 / 240) at twenty-four steps however it is rounded.
     let steps = (frame.duration / longest - 1e-9).ceil().max(1.0);
     let step = frame.duration / steps;
@@ -146,17 +166,35 @@ fn play<W: World>(
     if !(step > 0.0 && step.is_finite()) {
         return Played { share: 1.0, jam: None };
     }
+    world.hurry(hurry);
     world.begin_frame(frame, step);
+    let mut played = Played { share: 1.0, jam: None };
     for k in 1..=steps as usize {
         world.step();
         if recorder.record == Record::Frames {
             recorder.note_contacts(world);
         }
         if let Some(jam) = recorder.strain.look(world) {
-            return Played { share: k as f64 / steps, jam: Some(jam) };
+            played = Played { share: k as f64 / steps, jam: Some(jam) };
+            break;
         }
     }
-    Played { share: 1.0, jam: None }
+    world.hurry(1.0 / hurry);
+    played
+}
+
+/// How many times faster than it happens a frame may be played, see [`World::SLOWEST`]: not while
+/// something still moves by itself.
+fn hurry<W: World>(world: &W, frame: &FrameStep) -> f64 {
+    let travel = (frame.to.position - frame.from.position).norm();
+    let speed = travel / frame.duration;
+    if !(speed > 0.0 && speed < W::SLOWEST) {
+        return 1.0;
+    }
+    let state = world.state();
+    let fastest =
+        state.velocities.iter().map(|velocity| velocity.linear.norm()).fold(0.0, f64::max);
+    if fastest > CARRIED * speed { 1.0 } else { (W::SLOWEST / speed).min(MOST_HURRIED) }
 }
 
 /// What is said about an object that jammed.

@@ -1,15 +1,15 @@
 //! The planar engine: rapier2d seen from above, with support friction of our own.
 //!
-//! No gravity; every object is a disc or a rectangle that [`Support`] slows down during each
+//! No gravity; every object is a disc or a convex polygon that [`Support`] slows down during each
 //! step. The world is centred on the objects, because rapier2d computes in `f32`; what it
 //! reports is taken as a change against its own start, so a body at rest stays where it is to
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    ActiveHooks, CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactData,
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderBuilder, ColliderHandle, ContactData,
     ContactManifold, GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode,
-    JointAxesMask, JointAxis, PhysicsWorld, Pose2 as RapierPose, Real, RigidBodyBuilder,
-    RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
+    JointAxesMask, JointAxis, MassProperties, PhysicsWorld, Pose2 as RapierPose, Real,
+    RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
 };
 
 use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
@@ -59,6 +59,21 @@ struct Tracked {
 }
 
 impl World for PlanarWorld {
+    /// Below mu g dt, 16 mm/s at mu 0.4, friction falls with the speed.
+    const SLOWEST: f64 = 0.05;
+
+    fn hurry(&mut self, factor: f64) {
+        if factor == 1.0 {
+            return;
+        }
+        for tracked in &self.bodies {
+            let body = &mut self.world.bodies[tracked.handle];
+            let (linear, angular) = (body.linvel(), body.angvel());
+            body.set_linvel(linear * factor as Real, true);
+            body.set_angvel(angular * factor as Real, true);
+        }
+    }
+
     fn build(
         scene: &Scene,
         state: &State,
@@ -83,6 +98,9 @@ impl World for PlanarWorld {
             this.add_object(scene, physics, motion, index, member);
         }
         this.add_obstacles(scene);
+        for label in this.seams.rub(&this.labels, physics) {
+            this.ask_for_contacts(label);
+        }
         this.add_joints(scene, physics);
         this
     }
@@ -256,12 +274,11 @@ impl PlanarWorld {
         let footprint = shape.footprint();
         // All parts have their underside at the same height, so the object alone decides.
         let own = if shape.height() > motion.lift { TALL } else { LOW };
-        let collider = collider(&footprint, friction)
-            .mass(physics.masses[index] as Real)
+        let collider = weighing(collider(&footprint, friction), &footprint, physics.masses[index])
             .position(to_rapier(&member.local, Vector::zeros()))
             .collision_groups(groups(own, Layer::ALL));
         self.insert(collider, Body::Object(index), self.bodies[member.body].handle);
-        let table = Scene::pair_friction(friction, physics.table_friction);
+        let table = physics.support_friction(index);
         let (feet, mass) = (&physics.feet[index], physics.masses[index]);
         let (object, lift) = (&scene.objects[index], motion.lift);
         let lean = physics.lean(object, table, (&motion.tool, lift));
@@ -306,6 +323,15 @@ impl PlanarWorld {
         }
     }
 
+    /// Lets contacts of the collider with this label be changed before they are solved.
+    fn ask_for_contacts(&mut self, label: usize) {
+        let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
+        let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
+        if let Some(collider) = colliders.find(labelled) {
+            collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
+        }
+    }
+
     fn insert(&mut self, collider: ColliderBuilder, label: Body, body: RigidBodyHandle) {
         let collider = collider.user_data(self.labels.len() as u128);
         self.labels.push(label);
@@ -339,8 +365,26 @@ fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {
     let shape = match *footprint {
         Footprint::Disc { radius } => ColliderBuilder::ball(radius as Real),
         Footprint::Rectangle { half } => ColliderBuilder::cuboid(half.x as Real, half.y as Real),
+        Footprint::Polygon(polygon) => {
+            let corners = polygon.corners().iter().copied().map(vector).collect();
+            // Of three corners and more there always is one.
+            ColliderBuilder::convex_polyline(corners)
+                .unwrap_or_else(|| ColliderBuilder::ball(polygon.inner_radius() as Real))
+        }
     };
     shape.friction(friction as Real).friction_combine_rule(CoefficientCombineRule::Average)
+}
+
+/// The collider with its mass (kg) about the footprint's origin.
+fn weighing(collider: ColliderBuilder, footprint: &Footprint, mass: f64) -> ColliderBuilder {
+    match footprint {
+        Footprint::Polygon(_) => {
+            let inertia = mass * footprint.gyration_radius().powi(2);
+            let (mass, inertia) = (mass as Real, inertia as Real);
+            collider.mass_properties(MassProperties::new(RapierVector::ZERO, mass, inertia))
+        }
+        _ => collider.mass(mass as Real),
+    }
 }
 
 fn groups(own: Layer, meets: Layer) -> InteractionGroups {

@@ -1,4 +1,4 @@
-//! No contacts at the seams of a tool.
+//! No contacts at the seams of a tool, and the friction of pairs that have one of their own.
 //!
 //! The engines look at each piece of a tool alone, so a body that slides along the tool would be
 //! caught by the corner of the next piece. Contacts where a piece cannot be touched, because
@@ -8,38 +8,75 @@ use rapier2d::prelude as planar;
 use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
+use crate::scene::{Body, Physics, Surface};
 
 /// Normals that rise more steeply than this (sine) are those of top or underside.
 const STEEP: f64 = 0.5;
 
-/// Where the colliders can be touched, by their labels; nowhere said means everywhere.
+/// What is to be changed of contacts before they are solved, by the colliders' labels.
 #[derive(Debug, Default)]
-pub(super) struct Seams(Vec<Option<Rim>>);
+pub(super) struct Seams {
+    /// Where they can be touched; nowhere said means everywhere.
+    rims: Vec<Option<Rim>>,
+    /// Coefficients of friction of pairs.
+    frictions: Vec<([u128; 2], f64)>,
+}
 
 impl Seams {
     /// Lets the collider with this label be touched at its `rim` only.
     pub fn set(&mut self, label: usize, rim: &Rim) {
-        self.0.resize(self.0.len().max(label + 1), None);
-        self.0[label] = Some(rim.clone());
+        self.rims.resize(self.rims.len().max(label + 1), None);
+        self.rims[label] = Some(rim.clone());
+    }
+
+    /// Lets the colliders with these `labels` rub as `physics` says of pairs, where it says
+    /// something; the numbers of those whose contacts must be asked about here.
+    pub fn rub(&mut self, labels: &[Body], physics: &Physics) -> Vec<usize> {
+        let mut asking = Vec::new();
+        for pair in &physics.pairs {
+            let rubs = |body: &Body| match (pair.with, *body) {
+                (Surface::Object(other), Body::Object(index)) => other == index,
+                (Surface::Obstacle(other), Body::Obstacle(index)) => other == index,
+                (Surface::Tool, Body::Part(_)) => true,
+                _ => false,
+            };
+            let own = |body: &Body| *body == Body::Object(pair.object);
+            for first in (0..labels.len()).filter(|&k| own(&labels[k])) {
+                asking.push(first);
+                for second in (0..labels.len()).filter(|&k| rubs(&labels[k])) {
+                    self.frictions.push(([first as u128, second as u128], pair.coefficient));
+                }
+            }
+        }
+        asking
+    }
+
+    fn friction(&self, first: u128, second: u128) -> Option<f64> {
+        let is_it = |pair: &[u128; 2]| *pair == [first, second] || *pair == [second, first];
+        self.frictions.iter().find(|(pair, _)| is_it(pair)).map(|(_, friction)| *friction)
     }
 
     fn rim(&self, label: u128) -> Option<&Rim> {
-        self.0.get(usize::try_from(label).ok()?)?.as_ref()
+        self.rims.get(usize::try_from(label).ok()?)?.as_ref()
     }
 }
 
 impl planar::PhysicsHooks for Seams {
     fn modify_solver_contacts(&self, context: &mut planar::ContactModificationContext<'_>) {
         let label = |collider: planar::ColliderHandle| context.colliders[collider].user_data;
+        let [first, second] = [context.collider1, context.collider2].map(label);
         let (manifold, contacts) = (context.manifold, &mut *context.solver_contacts);
+        if let Some(friction) = self.friction(first, second) {
+            contacts.iter_mut().for_each(|contact| contact.friction = friction as planar::Real);
+        }
         let vector = |v: planar::Vector| Vector::new(v.x.into(), v.y.into());
-        if let Some(rim) = self.rim(label(context.collider1)) {
+        if let Some(rim) = self.rim(first) {
             contacts.retain(|contact| {
                 let point = manifold.points[contact.contact_id[0] as usize].local_p1;
                 rim.shows(vector(point), vector(manifold.local_n1))
             });
         }
-        if let Some(rim) = self.rim(label(context.collider2)) {
+        if let Some(rim) = self.rim(second) {
             contacts.retain(|contact| {
                 let point = manifold.points[contact.contact_id[0] as usize].local_p2;
                 rim.shows(vector(point), vector(manifold.local_n2))
@@ -51,18 +88,22 @@ impl planar::PhysicsHooks for Seams {
 impl spatial::PhysicsHooks for Seams {
     fn modify_solver_contacts(&self, context: &mut spatial::ContactModificationContext<'_>) {
         let label = |collider: spatial::ColliderHandle| context.colliders[collider].user_data;
+        let [first, second] = [context.collider1, context.collider2].map(label);
         let (manifold, contacts) = (context.manifold, &mut *context.solver_contacts);
+        if let Some(friction) = self.friction(first, second) {
+            contacts.iter_mut().for_each(|contact| contact.friction = friction);
+        }
         let shows = |rim: &Rim, point: spatial::Vector, normal: spatial::Vector| {
             normal.z.abs() > STEEP
                 || rim.shows(Vector::new(point.x, point.y), Vector::new(normal.x, normal.y))
         };
-        if let Some(rim) = self.rim(label(context.collider1)) {
+        if let Some(rim) = self.rim(first) {
             contacts.retain(|contact| {
                 let point = manifold.points[contact.contact_id[0] as usize].local_p1;
                 shows(rim, point, manifold.local_n1)
             });
         }
-        if let Some(rim) = self.rim(label(context.collider2)) {
+        if let Some(rim) = self.rim(second) {
             contacts.retain(|contact| {
                 let point = manifold.points[contact.contact_id[0] as usize].local_p2;
                 shows(rim, point, manifold.local_n2)

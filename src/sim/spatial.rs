@@ -9,9 +9,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    ActiveHooks, ColliderBuilder, ColliderHandle, ContactData, ContactManifold, FrictionModel,
-    GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3, RigidBodyBuilder,
-    RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact, Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
+    FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3,
+    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact,
+    Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
@@ -26,7 +27,7 @@ use super::parameters::{
     needs_stiff_contacts,
 };
 use super::seams::Seams;
-use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table};
+use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 use super::upright::{Standing, Upright};
@@ -95,6 +96,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             this.upright.join(&groups, &physics.masses);
         }
         this.add_obstacles(scene);
+        for label in this.seams.rub(&this.labels, physics) {
+            this.ask_for_contacts(label);
+        }
         this.add_joints(scene, physics);
         this
     }
@@ -282,9 +286,13 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         }
         let rise = height / 2.0 - first_position.z;
         let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
-        let own = physics.frictions[index];
-        let solid = solid(&raised(&object.shape), placed, own).mass(physics.masses[index]);
+        let (own, mass) = (physics.frictions[index], physics.masses[index]);
+        let raised = raised(&object.shape);
+        let solid = weighing(solid(&raised, placed, own), &raised, mass);
         self.insert(solid, Body::Object(index), handle);
+        for underside in undersides(&raised, placed, own) {
+            self.insert(underside, Body::Object(index), handle);
+        }
         self.objects.push((member, rise));
     }
 
@@ -329,6 +337,15 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let [first, second] =
                 [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
             self.world.insert_impulse_joint(first, second, built);
+        }
+    }
+
+    /// Lets contacts of the collider with this label be changed before they are solved.
+    fn ask_for_contacts(&mut self, label: usize) {
+        let labelled = |collider: &&mut Collider| collider.user_data == label as u128;
+        let mut colliders = self.world.colliders.iter_mut().map(|(_, collider)| collider);
+        if let Some(collider) = colliders.find(labelled) {
+            collider.set_active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{JointKind, Offsets, Situation, Task, Tool};
+use crate::scene::{JointKind, Offsets, Situation, Surface, Task, Tool};
 
 use super::SolveError;
 
@@ -104,6 +104,20 @@ pub(super) fn check(
             return fault(format!(
                 "the joint between objects {a} and {b} needs two different objects of the scene, \
                  a finite axis (of length one) and limits that hold the start"
+            ));
+        }
+    }
+    for pair in &physics.pairs {
+        let there = match pair.with {
+            Surface::Object(other) => other < scene.objects.len() && other != pair.object,
+            Surface::Obstacle(other) => other < scene.obstacles.len(),
+            Surface::Table | Surface::Tool => true,
+        };
+        if !there || pair.object >= scene.objects.len() || !is_friction(pair.coefficient) {
+            return fault(format!(
+                "the friction of object {} and {:?} needs two different bodies of the scene and a \
+                 finite coefficient",
+                pair.object, pair.with
             ));
         }
     }

@@ -41,8 +41,9 @@ impl Disturbed {
             disturb(&mut situation.start.poses, &group, first, shift, turn);
         }
         let physics = Arc::make_mut(&mut situation.physics);
-        let values =
-            physics.frictions.iter_mut().chain([&mut physics.table_friction, &mut tool.friction]);
+        let own = physics.frictions.iter_mut();
+        let pairs = physics.pairs.iter_mut().map(|pair| &mut pair.coefficient);
+        let values = own.chain([&mut physics.table_friction, &mut tool.friction]).chain(pairs);
         for friction in values {
             *friction *= 1.0 + random.random_range(-FRICTION..=FRICTION);
         }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The rooms in order, each with those that it imports from: all of them stand before it. What
 /// is not listed is not allowed, and what nobody needs any more is struck from the list.
-const ROOMS: [(&str, &[&str]); 21] = [
+const ROOMS: [(&str, &[&str]); 22] = [
     ("geometry", &[]),
     ("scene", &["geometry"]),
     ("recording", &["geometry", "scene"]),
@@ -19,6 +19,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
     ("rollout", &["geometry", "scene", "contact", "graph"]),
     ("effect", &["geometry", "scene", "sim", "network", "rollout"]),
     ("judge", &["geometry", "scene", "recording", "effect"]),
+    ("fit", &["scene", "effect", "judge"]),
     ("plan", &["geometry", "scene", "effect"]),
     // Not `plan`: the check shares no code with what it checks.
     ("verify", &["geometry", "scene", "sim"]),
@@ -38,7 +39,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
             "judge", "plan", "verify", "solve", "dataset",
         ],
     ),
-    ("report", &["geometry", "scene", "asset", "store", "judge", "solve", "train", "bench"]),
+    ("report", &["geometry", "scene", "asset", "store", "judge", "fit", "solve", "train", "bench"]),
     ("export", &["geometry", "scene", "asset"]),
     (
         "cli",
@@ -52,6 +53,7 @@ const ROOMS: [(&str, &[&str]); 21] = [
             "network",
             "effect",
             "judge",
+            "fit",
             "verify",
             "solve",
             "dataset",

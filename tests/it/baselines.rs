@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::{
-    effect::{Assuming, EffectModel, Job, Projection, Simulated, Still},
+    effect::{Assuming, EffectModel, EffectModels, Job, Projection, Simulated, Still},
     geometry::{Pose, Vector, wrap_angle},
     scene::{Assumptions, JointBelief, JointKind, Object, Record, Scene, Span, State, Trajectory},
     sim::Simulator,
@@ -82,6 +82,24 @@ fn assumptions_replace_the_joints_and_nothing_else() {
     assert_eq!(fixed.frames, roll(&Projection, &scene).frames);
     let guessed = roll(&told(JointBelief::Guessed), &scene);
     assert_eq!(guessed.frames, roll(&Projection, &scene).frames);
+}
+
+/// Told that joints are guesses it used to end twice and more as far off as with the same geometry
+/// taken for known.
+#[test]
+fn the_network_plays_a_guessed_joint_like_a_known_one() {
+    let network = EffectModels::build(&"network".parse().expect("a model")).expect("its weights");
+    for kind in [
+        JointKind::Revolute { at: Vector::new(0.12, 0.0505), limits: None },
+        JointKind::Prismatic { axis: Vector::y(), limits: None },
+    ] {
+        let known = pair(kind);
+        let mut guessed = known.clone();
+        guessed.joints[0].guessed = true;
+        assert_eq!(roll(&network, &guessed).frames, roll(&network, &known).frames);
+        let free = Scene { joints: Vec::new(), ..known.clone() };
+        assert_ne!(roll(&network, &free).frames, roll(&network, &known).frames);
+    }
 }
 
 #[test]

@@ -190,6 +190,31 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     assert!(text.contains("push: 1 trajectories") && text.contains("2 recordings: 2 trajectories"));
     assert!(text.lines().any(|line| line.starts_with("planar  ")), "{text}");
 
+    let set = folder.path().join("set");
+    std::fs::create_dir_all(set.join("more")).expect("folders");
+    for file in ["b.recording.json", "a.recording.json", "more/c.recording.json"] {
+        std::fs::copy(push, set.join(file)).expect("a file");
+    }
+    std::fs::write(set.join("README.md"), "Not a recording.").expect("a file");
+    let poses = folder.path().join("poses.csv");
+    let [set_name, poses_name] = [&set, &poses].map(|path| path.to_str().expect("UTF-8"));
+    let measured = run(&["prior", "--on", set_name, "--export", poses_name, "--json"]);
+    assert_eq!(measured.status.code(), Some(0), "{}", stderr(&measured));
+    let json: Json = serde_json::from_slice(&measured.stdout).expect("JSON alone");
+    let counts: Vec<u64> =
+        (0..3).filter_map(|k| json["crowds"][k]["trajectories"].as_u64()).collect();
+    assert_eq!(counts, [2, 1, 3], "each folder, then all");
+    assert_eq!(json["crowds"][0]["models"][0]["each"].as_array().map(Vec::len), Some(2));
+    let own = json["crowds"][2]["own_spread"].as_f64().expect("a length");
+    assert!((0.0..1e-3).contains(&own), "{own}: starts are off by 0.1 mm");
+    let csv = String::from_utf8(read(&poses)).expect("UTF-8");
+    assert!(csv.starts_with("name,by,object,time,x,y,heading\na,recorded,can,"));
+    assert!(csv.contains("\nb,prior,can,") && csv.contains("\nc,planar,can,"));
+    std::fs::write(set.join("c.yaml"), "kind: recording\n").expect("a file");
+    let refused = run(&["prior", "--on", set_name]);
+    assert_eq!(refused.status.code(), Some(3));
+    assert!(stderr(&refused).contains("c.yaml:1:1: error:"), "{}", stderr(&refused));
+
     let bad = folder.path().join("bad.recording.json");
     let spoiled = String::from_utf8(read(Path::new(push))).expect("UTF-8").replace("0.05", "5.0");
     std::fs::write(&bad, spoiled).expect("a file");

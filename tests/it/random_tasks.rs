@@ -54,10 +54,7 @@ fn is_of_its_kind(made: &SuiteTask) {
         TaskKind::Sweep => outwards.abs() < 0.51 && way.norm() > 0.119,
         TaskKind::Obstacle => {
             let wall = &task.scene.obstacles[0];
-            let radius = match object.shape.footprint() {
-                Footprint::Disc { radius } => radius,
-                Footprint::Rectangle { half } => half.x.min(half.y),
-            };
+            let radius = object.shape.footprint().inner_radius();
             let mut end = object.pose;
             end.position = goal.position;
             let still = (&wall.shape().footprint(), &wall.pose);

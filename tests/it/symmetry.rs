@@ -90,6 +90,7 @@ fn another_description_of_the_same_solid_changes_nothing_for_the_prior() {
                     object.pose.heading += std::f64::consts::FRAC_PI_2;
                 }
                 Shape::Cylinder { .. } => object.pose.heading += 1.0,
+                Shape::Prism { .. } => {}
             }
         }
         assert_same(&predict(&case), &predict(&other));

@@ -4,7 +4,7 @@ use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, vector};
 use crate::geometry::Pose;
-use crate::recording::{Body, Gap, Jump, RecordedFrame, Recording, Strange, gaps, jumps};
+use crate::recording::{Body, Gap, Jump, Moving, RecordedFrame, Recording, Strange, gaps, jumps};
 
 /// The time of every frame, the first at 0 s; `None` if they are not known.
 pub(super) fn times(root: &Node, ledger: &mut Ledger) -> Option<Vec<f64>> {
@@ -190,5 +190,24 @@ pub(super) fn set_down(root: &Node, recording: &Recording, ledger: &mut Ledger) 
             format!("in frame {frame} the pusher stands inside `{name}`"),
             "check its size and the origin of its positions: they are those of centres",
         );
+    }
+}
+
+/// Notes objects that move in the first frame already.
+pub(super) fn starts(root: &Node, recording: &Recording, ledger: &mut Ledger) {
+    let Some(nodes) = root.get("frames").map(Node::items) else { return };
+    for Moving { object, frame, travel, turn } in recording.moving_at_the_start() {
+        let name = &recording.scene.objects[object].name;
+        let poses = nodes[frame].get("objects");
+        let message = format!(
+            "the recording starts in motion: `{name}` moves {:.1} mm and turns by {:.1} degrees in \
+             the first {:.2} s although nothing touches it",
+            1e3 * travel,
+            turn.to_degrees(),
+            recording.frames[frame].time
+        );
+        let advice = "begin with a frame in which everything rests: velocities are not recorded";
+        let place = poses.and_then(|list| list.items().get(object)).unwrap_or(&nodes[frame]);
+        ledger.fault(place, message, advice);
     }
 }

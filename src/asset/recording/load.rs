@@ -61,6 +61,7 @@ fn read(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Recording> {
         frames,
     };
     frames::set_down(root, &recording, ledger);
+    frames::starts(root, &recording, ledger);
     Some(recording)
 }
 

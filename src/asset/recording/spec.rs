@@ -3,7 +3,8 @@
 use crate::asset::saved::VERSION;
 use crate::asset::spec::{ANGLE, CUBOID, CYLINDER, FRICTION, Key, MASS, POSITION, Range, Value};
 use crate::asset::task::{
-    self, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, TABLE,
+    self, FRICTIONS, JOINTS, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
+    TABLE,
 };
 use crate::asset::tool::TOOL_KEYS;
 
@@ -57,6 +58,7 @@ const SCENE: Value = Value::Map(&[
         "Joints between objects, as they are in the first frame; by default none.",
     ),
     OBSTACLES,
+    FRICTIONS,
 ]);
 
 const OBJECT: Value = Value::Map(&[

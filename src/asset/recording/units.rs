@@ -51,6 +51,11 @@ fn width(object: &Node) -> Option<(f64, &Node)> {
     if let Some(radius) = shape.get("cylinder").and_then(|cylinder| cylinder.get("radius")) {
         return Some((2.0 * radius.number()?, radius)).filter(|(width, _)| width.is_finite());
     }
+    if let Some(corners) = shape.get("prism").and_then(|prism| prism.get("corners")) {
+        let of = |k: usize| corners.items().iter().filter_map(move |c| c.items().get(k)?.number());
+        let width = |k| of(k).fold(0.0, f64::max) - of(k).fold(0.0, f64::min);
+        return Some((width(0).max(width(1)), corners)).filter(|(width, _)| width.is_finite());
+    }
     let sides = shape.get("cuboid")?.get("size")?.items().iter().take(2);
     sides
         .filter_map(|side| Some((side.number()?, side)))

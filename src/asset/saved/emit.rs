@@ -2,10 +2,11 @@
 
 use serde_json::{Value as Json, json};
 
+use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PushForm, PushRules, Scene,
-    Span, Support, TableTop, Task, Tool, ToolChoice,
+    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PairFriction, PushForm,
+    PushRules, Scene, Span, Support, TableTop, Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
@@ -40,7 +41,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
         .map(|part| {
             let fields = match part.shape {
                 Shape::Cuboid { size } => json!({"name": part.name, "size": size}),
-                round => json!({"name": part.name, "shape": shape(&round)}),
+                other => json!({"name": part.name, "shape": shape(&other)}),
             };
             posed(fields, &part.pose)
         })
@@ -64,6 +65,10 @@ fn shape(shape: &Shape) -> Json {
             json!({"cylinder": {"radius": radius, "height": height}})
         }
         Shape::Cuboid { size } => json!({"cuboid": {"size": size}}),
+        Shape::Prism { base, height } => {
+            let corners: Vec<_> = base.corners().iter().map(|corner| vector(*corner)).collect();
+            json!({"prism": {"corners": corners, "height": height, "centre_of_mass": [0.0, 0.0]}})
+        }
     }
 }
 
@@ -129,6 +134,16 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
     });
+    if !scene.frictions.is_empty() {
+        let friction = |pair: &PairFriction| {
+            let with = name_of_surface(pair.with, &scene.objects, &scene.obstacles);
+            json!({
+                "between": [&scene.objects[pair.object].name, &with],
+                "coefficient": pair.coefficient,
+            })
+        };
+        fields["frictions"] = scene.frictions.iter().map(friction).collect();
+    }
     if let Some(share) = scene.push_height {
         fields["push_height"] = json!(share);
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::asset::node::{Content, Node};
+use crate::asset::prism::origin;
 use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
 use crate::asset::text::named_after;
 use crate::geometry::Vector;
@@ -11,8 +12,8 @@ use crate::scene::{
     TableTop, Task, ToolChoice,
 };
 
-use super::joints;
 use super::spec::default;
+use super::{frictions, joints};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -38,6 +39,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
 pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
+    let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle).collect::<Option<_>>()?;
     Some(Scene {
         table_friction: match node.get("table") {
             Some(table) => number_or(table, "friction", Scene::FRICTION)?,
@@ -52,7 +54,10 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             None => None,
         },
         joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
-        obstacles: items("obstacles").map(obstacle).collect::<Option<_>>()?,
+        frictions: items("frictions")
+            .map(|node| frictions::friction(node, &objects, &obstacles))
+            .collect::<Option<_>>()?,
+        obstacles,
         objects,
     })
 }
@@ -87,7 +92,8 @@ pub(super) fn support(object: &Node) -> Option<Support> {
     if let Some(spread) = node.get("spread") {
         return spread.number().map(Support::Spread);
     }
-    let points = node.get("points")?.items().iter().map(vector);
+    let origin = origin(object.get("shape")?)?;
+    let points = node.get("points")?.items().iter().map(|point| Some(vector(point)? - origin));
     points.collect::<Option<_>>().map(Support::Points)
 }
 

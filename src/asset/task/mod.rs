@@ -2,11 +2,13 @@
 
 mod build;
 mod emit;
+mod frictions;
 mod joints;
 mod load;
 mod rules;
 mod spec;
 
+pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use spec::{

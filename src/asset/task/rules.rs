@@ -2,12 +2,13 @@
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
+use crate::asset::prism;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, vector};
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, joints};
+use super::{build, frictions, joints};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -68,8 +69,10 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     unique_names(objects.iter().chain(obstacles), "bodies", ledger);
     overlaps(objects, obstacles, slack, ledger);
     masses(objects, ledger);
+    objects.iter().for_each(|object| prism::check(object.get("shape"), ledger));
     objects.iter().for_each(|object| stands(object, ledger));
     joints::check(items("joints"), objects, obstacles, ledger);
+    frictions::check(items("frictions"), objects, obstacles, ledger);
 }
 
 fn overlaps(objects: &[Node], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {
@@ -108,7 +111,8 @@ fn stands(object: &Node, ledger: &mut Ledger) {
         ledger.fault(
             node,
             "the object would fall: its centre does not lie between these points",
-            "the points are in the object's own frame, [0, 0] being its centre",
+            "the points are in the object's own frame, [0, 0] being its centre; those of a prism \
+             are in the frame of its corners",
         );
     }
 }

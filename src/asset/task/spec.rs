@@ -4,6 +4,7 @@ use crate::asset::spec::{
     ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
 };
 
+use super::frictions::FRICTIONS;
 use super::joints::JOINT;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -54,6 +55,7 @@ const SCENE: Value = Value::Map(&[
     ),
     Key::optional("joints", JOINTS, "Joints between objects; by default none."),
     OBSTACLES,
+    FRICTIONS,
 ]);
 
 /// How high tools press.
@@ -132,7 +134,8 @@ const SUPPORT: Value = Value::Either(&[
         Key::optional(
             "points",
             Value::List { of: &POSITION, items: "points", min: 3, max: 8 },
-            "Points that it stands on, [x, y] in metres in the object's frame; no default.",
+            "Points that it stands on, [x, y] in metres in the object's frame, or in that of a \
+             prism's corners; no default.",
         ),
     ]),
 ]);

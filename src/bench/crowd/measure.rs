@@ -4,11 +4,13 @@ use rayon::prelude::*;
 
 use crate::watch::{Count, Watch};
 use crate::{
-    effect::EffectModel,
+    effect::{Assuming, EffectModel, Simulated},
     judge::{Comparison, DriftSums, ObjectError, RelativeErrors, Trial, mean},
+    sim::Simulator,
 };
 
-use super::report::{CrowdModel, CurvePoint, Phases};
+use super::super::baselines::SHIFTED_START;
+use super::report::{CrowdModel, CurvePoint, OneError, Phases};
 
 /// Steps of the curve of error by horizon: about every ten frames of a sparse trajectory.
 const CURVE_STEPS: usize = 20;
@@ -29,19 +31,44 @@ pub fn evaluate_crowd(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Wat
     let overlaps: Vec<f64> = judged.iter().map(|one| one.overlap).collect();
     let mut drift = DriftSums::default();
     judged.iter().for_each(|one| drift.add(&one.drift));
-    let moved = judged.iter().flat_map(Judged::end).filter(|object| object.moved());
-    let headings: Vec<f64> = moved.filter_map(ObjectError::heading_deg).collect();
+    let mut moved = judged.iter().flat_map(Judged::end).filter(|object| object.moved());
+    let mean_heading = |objects: &mut dyn Iterator<Item = &ObjectError>| {
+        let headings: Vec<f64> = objects.filter_map(ObjectError::heading_deg).collect();
+        (!headings.is_empty()).then(|| mean(&headings))
+    };
     CrowdModel {
         model: model.spec().to_string(),
         all: phases(&judged, |_| true),
         moved: phases(&judged, ObjectError::moved),
-        heading_deg: (!headings.is_empty()).then(|| mean(&headings)),
+        heading_deg: mean_heading(&mut moved),
+        any_heading_deg: mean_heading(&mut judged.iter().flat_map(Judged::end)),
+        each: judged.iter().map(Judged::one).collect(),
         curve: curve(&judged),
         overlap: overlaps.iter().copied().fold(0.0, f64::max),
         overlap_mean: mean(&overlaps),
         drift: drift.by_kind(),
         failed: judged.iter().filter(|one| one.failed).count(),
     }
+}
+
+/// How far the planar engine ends from itself when every object starts a little beside, metres:
+/// errors that no model can be expected to undercut. `None` without objects.
+pub(super) fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
+    let planar = Simulated::new(Simulator::planar());
+    let shifted = Assuming::new(planar.clone(), SHIFTED_START);
+    watch.stage("own spread");
+    let count = Count::new(watch, 0, trials.len());
+    let apart: Vec<Vec<f64>> = trials
+        .par_iter()
+        .map(|trial| {
+            let itself = Comparison::of(&planar, trial).as_truth();
+            let errors = Comparison::of(&shifted, &itself).end();
+            count.one();
+            errors.iter().map(|error| error.position).collect()
+        })
+        .collect();
+    let apart = apart.concat();
+    (!apart.is_empty()).then(|| mean(&apart))
 }
 
 /// One trajectory, judged.
@@ -66,6 +93,19 @@ impl Judged {
     /// Errors of all objects at the last moment.
     fn end(&self) -> &[ObjectError] {
         self.moments.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// Means over the objects at the last moment.
+    fn one(&self) -> OneError {
+        let of = |value: &dyn Fn(&ObjectError) -> f64| {
+            mean(&self.end().iter().map(value).collect::<Vec<_>>())
+        };
+        let headings: Vec<f64> = self.end().iter().filter_map(ObjectError::heading_deg).collect();
+        OneError {
+            error: of(&|error| error.position),
+            motion: of(&|error| error.motion),
+            heading_deg: (!headings.is_empty()).then(|| mean(&headings)),
+        }
     }
 
     /// Error and motion of an object, averaged over moments, metres.

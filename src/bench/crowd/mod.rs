@@ -10,4 +10,4 @@ mod report;
 
 pub use family::{CrowdFamily, CrowdSet};
 pub use measure::evaluate_crowd;
-pub use report::{CrowdModel, CrowdReport, CurvePoint, Phases};
+pub use report::{CrowdModel, CrowdReport, CurvePoint, OneError, Phases};

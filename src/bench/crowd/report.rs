@@ -10,7 +10,7 @@ use crate::{
 
 use super::{
     family::{CrowdFamily, CrowdSet},
-    measure::evaluate_crowd,
+    measure::{evaluate_crowd, own_spread},
 };
 
 /// Errors of several models on one test set.
@@ -28,6 +28,13 @@ pub struct CrowdReport {
     pub trajectories: usize,
     /// Mean number of compared frames in one of them.
     pub frames: f64,
+    /// Names of the recordings; empty for drawn sets.
+    #[serde(default)]
+    pub names: Vec<String>,
+    /// Of recordings: how far the planar engine ends from itself when it starts 0.1 mm beside,
+    /// mean over all objects, metres; `None` if it was not asked for.
+    #[serde(default)]
+    pub own_spread: Option<f64>,
     /// One entry a model, in the order in which they were given.
     pub models: Vec<CrowdModel>,
 }
@@ -42,13 +49,29 @@ impl CrowdReport {
         models: &[Box<dyn EffectModel>],
         watch: &dyn Watch,
     ) -> Self {
-        let report = Self::of_recordings(set.title(), trials, models, watch);
-        Self { family: set.family, set: Some(*set), seed: Some(seed), ..report }
+        let (family, title) = (set.family, set.title());
+        Self { set: Some(*set), seed: Some(seed), ..Self::of(family, title, trials, models, watch) }
     }
 
-    /// Errors of `models` on recorded trajectories; `watch` is told the rollouts of each
-    /// that are done.
+    /// Errors of `models` on recorded trajectories with these names; `watch` is told the rollouts
+    /// of each that are done.
     pub fn of_recordings(
+        title: String,
+        names: Vec<String>,
+        trials: &[Trial],
+        models: &[Box<dyn EffectModel>],
+        watch: &dyn Watch,
+    ) -> Self {
+        Self { names, ..Self::of(CrowdFamily::Recordings, title, trials, models, watch) }
+    }
+
+    /// The same beside how far the planar engine ends from itself.
+    pub fn with_own_spread(self, trials: &[Trial], watch: &dyn Watch) -> Self {
+        Self { own_spread: own_spread(trials, watch), ..self }
+    }
+
+    fn of(
+        family: CrowdFamily,
         title: String,
         trials: &[Trial],
         models: &[Box<dyn EffectModel>],
@@ -57,11 +80,13 @@ impl CrowdReport {
         let frames: usize = trials.iter().map(|trial| trial.truth.len()).sum();
         Self {
             title,
-            family: CrowdFamily::Recordings,
+            family,
             set: None,
             seed: None,
             trajectories: trials.len(),
             frames: frames as f64 / trials.len().max(1) as f64,
+            names: Vec::new(),
+            own_spread: None,
             models: models.iter().map(|model| evaluate_crowd(&**model, trials, watch)).collect(),
         }
     }
@@ -78,6 +103,12 @@ pub struct CrowdModel {
     pub moved: Phases,
     /// Mean heading error at the final frame, moved cuboids of known heading, degrees.
     pub heading_deg: Option<f64>,
+    /// The same of all cuboids of known heading, degrees.
+    #[serde(default)]
+    pub any_heading_deg: Option<f64>,
+    /// Trajectory by trajectory.
+    #[serde(default)]
+    pub each: Vec<OneError>,
     /// Mean error of all objects by horizon.
     pub curve: Vec<CurvePoint>,
     /// Deepest overlap of two objects, or of one with an obstacle, at any compared frame, metres.
@@ -88,6 +119,17 @@ pub struct CrowdModel {
     pub drift: [Drift; 3],
     /// Trajectories in which the prediction left the finite numbers; judged by where it stopped.
     pub failed: usize,
+}
+
+/// Errors at the final frame of one trajectory, means over its objects.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OneError {
+    /// Distance of the predicted from the true positions, metres.
+    pub error: f64,
+    /// Distance of the true positions from the start, metres.
+    pub motion: f64,
+    /// Heading error, degrees; `None` without a known heading.
+    pub heading_deg: Option<f64>,
 }
 
 /// Errors at the final frame and over all frames; `None` where there are no objects.

@@ -103,22 +103,18 @@ pub(super) fn wall(
 
 /// The largest disc in the goal object: where it does not pass, no turn of the object does.
 fn inscribed(shape: &Shape) -> Footprint {
-    let radius = match shape.footprint() {
-        Footprint::Disc { radius } => radius,
-        Footprint::Rectangle { half } => half.x.min(half.y),
-    };
-    Footprint::Disc { radius }
+    Footprint::Disc { radius: shape.footprint().inner_radius() }
 }
 
 fn one(rng: &mut Pcg64, solids: Solids) -> Scene {
-    random_scene(rng, &moderate(), Crowd { count: 1, solids, touching: 0.0 })
+    random_scene(rng, &moderate(), Crowd { count: 1, solids, touching: 0.0, polygons: 0.0 })
 }
 
 /// Two objects with a joint; its kinds take turns.
 fn pair(rng: &mut Pcg64, ordinal: usize) -> Scene {
     let ranges = Ranges { mass_ratio: JOINED_MASSES, ..moderate() };
     loop {
-        let crowd = Crowd { count: 2, solids: Solids::Any, touching: 0.0 };
+        let crowd = Crowd { count: 2, solids: Solids::Any, touching: 0.0, polygons: 0.0 };
         let mut scene = random_scene(rng, &ranges, crowd);
         let [first, second] = [&scene.objects[0], &scene.objects[1]];
         let (a, b) = (first.shape.footprint(), second.shape.footprint());
@@ -159,6 +155,7 @@ fn moved(mut scene: Scene, place: Vector, index: usize) -> Scene {
                 Shape::Cylinder { radius: round(radius, 1e4), height: round(height, 1e4) }
             }
             Shape::Cuboid { size } => Shape::Cuboid { size: size.map(|side| round(side, 1e4)) },
+            prism => prism,
         };
         let heading = if k == index { turn } else { object.pose.heading };
         object.pose = round_pose(&Pose { heading, ..motion * object.pose });

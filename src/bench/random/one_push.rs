@@ -80,7 +80,8 @@ pub(super) fn moderate() -> Ranges {
 /// A task with its goal still at the object's start.
 fn open_task(rng: &mut Pcg64, ranges: &Ranges, index: usize) -> Task {
     let solids = if index.is_multiple_of(2) { Solids::Cylinders } else { Solids::Cuboids };
-    let mut scene: Scene = random_scene(rng, ranges, Crowd { count: 1, solids, touching: 0.0 });
+    let mut scene: Scene =
+        random_scene(rng, ranges, Crowd { count: 1, solids, touching: 0.0, polygons: 0.0 });
     let (distance, angle) =
         (rng.random_range(PLACES.low..PLACES.high), rng.random_range(-1.2..1.2f64));
     let position = distance * Vector::new(angle.cos(), angle.sin());

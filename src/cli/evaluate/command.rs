@@ -9,6 +9,7 @@ use crate::cli::{
     exit_code,
     form::Form,
     model::{self, OutsideArgs},
+    poses::PosesArgs,
     session::Session,
 };
 use crate::effect::EffectModel;
@@ -26,12 +27,14 @@ use super::sources::{CrowdArgs, Sources};
   sparse, dense  scenes of 6 to 12 objects, some joined, pushed by a round hand
   sparse-line    the same with one long stroke
   all            sparse and dense
-  FILE           your own recordings (`pushplan schema recording`), or trajectory files
+  FILE, FOLDER   your own recordings (`pushplan schema recording`), or trajectory files; those of
+                 a folder are measured together
 
 Examples:
   pushplan evaluate --on single --pushes 2000
   pushplan evaluate --on dense --objects 9 --count 50 --out plans
-  pushplan evaluate runs/full/best.safetensors --on push.recording.json")]
+  pushplan evaluate runs/full/best.safetensors --on push.recording.json
+  pushplan evaluate prior --on recordings/ --export poses.csv")]
 pub struct EvaluateArgs {
     /// The model, the same as --model
     #[arg(value_name = "MODEL", conflicts_with = "model")]
@@ -52,6 +55,8 @@ pub struct EvaluateArgs {
     seed: u64,
     #[command(flatten)]
     crowd: CrowdArgs,
+    #[command(flatten)]
+    poses: PosesArgs,
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
@@ -79,6 +84,7 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
         outside: args.outside,
         seed: args.seed,
         args: &args.crowd,
+        poses: &args.poses,
         form: args.form,
     }
     .run(session)?;

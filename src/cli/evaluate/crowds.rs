@@ -7,11 +7,15 @@ use crate::cli::{
     form::Form,
     model::{self, OutsideArgs},
     output,
+    poses::PosesArgs,
+    recordings::RecordingSet,
     session::Session,
 };
 use crate::effect::EffectModel;
-use crate::judge::Trial;
-use crate::report::{crowd_document, evaluation_document};
+use crate::geometry::Pose;
+use crate::judge::{Comparison, Trial};
+use crate::recording::Recording;
+use crate::report::{PoseRow, RECORDED, crowd_document, evaluation_document};
 use crate::scene::{Job, ModelSpec, Warning};
 
 use super::sources::{CrowdArgs, Sources};
@@ -23,6 +27,7 @@ pub struct Crowds<'a> {
     pub outside: OutsideArgs,
     pub seed: u64,
     pub args: &'a CrowdArgs,
+    pub poses: &'a PosesArgs,
     pub form: Form,
 }
 
@@ -56,7 +61,7 @@ impl Crowds<'_> {
         Ok(reports)
     }
 
-    /// Every recording by itself, and all together where there are several.
+    /// Every set of recordings by itself, and all together where there are several.
     fn recordings(
         &self,
         reports: &mut Vec<CrowdReport>,
@@ -64,20 +69,36 @@ impl Crowds<'_> {
     ) -> Result<(), CliError> {
         let models = self.models(true)?;
         self.warn(&*models[0], session);
-        let recordings = &self.sources.recordings;
-        let trials: Vec<Trial> = recordings.iter().map(Trial::of_recording).collect();
-        let names = recordings.iter().map(|recording| recording.name.clone());
-        let mut groups: Vec<(String, &[Trial])> = names.zip(trials.chunks(1)).collect();
-        if trials.len() > 1 {
-            groups.push((format!("{} recordings", trials.len()), &trials));
+        let sets = &self.sources.recordings;
+        let all: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
+        let trials: Vec<Trial> =
+            all.iter().map(|recording| Trial::of_recording(recording)).collect();
+        let names: Vec<String> = all.iter().map(|recording| recording.name.clone()).collect();
+        let mut groups = Vec::new();
+        let mut first = 0;
+        for RecordingSet { title, recordings } in sets {
+            groups.push((title.clone(), first..first + recordings.len()));
+            first += recordings.len();
         }
-        for (title, trials) in groups {
+        if groups.len() > 1 {
+            groups.push((format!("{} recordings", trials.len()), 0..trials.len()));
+        }
+        for (title, range) in groups {
             let following = Following::bar(session, &title);
-            reports.push(
-                session.compute(|| CrowdReport::of_recordings(title, trials, &models, &following)),
-            );
+            let (trials, names) = (&trials[range.clone()], names[range].to_vec());
+            reports.push(session.compute(|| {
+                let report = CrowdReport::of_recordings(title, names, trials, &models, &following);
+                match self.args.no_baselines {
+                    true => report,
+                    false => report.with_own_spread(trials, &following),
+                }
+            }));
             following.finish()?;
             self.show_newest(reports, session)?;
+        }
+        if self.poses.wanted() {
+            let rows = session.compute(|| poses(&all, &trials, &models));
+            self.poses.write(&rows)?;
         }
         Ok(())
     }
@@ -85,7 +106,8 @@ impl Crowds<'_> {
     /// Says which recordings the model was not made for, one line for each kind of doubt.
     fn warn(&self, model: &dyn EffectModel, session: &Session) {
         let mut kinds: Vec<(Warning, Vec<&str>)> = Vec::new();
-        for recording in &self.sources.recordings {
+        let sets = &self.sources.recordings;
+        for recording in sets.iter().flat_map(|set| &set.recordings) {
             let job = Job::stated(&recording.scene, recording.replay().motion);
             for warning in model.trust(&recording.scene, &job).warnings() {
                 match kinds.iter_mut().find(|(known, _)| known.is_like(&warning)) {
@@ -97,7 +119,7 @@ impl Crowds<'_> {
                 }
             }
         }
-        let all = self.sources.recordings.len();
+        let all: usize = sets.iter().map(|set| set.recordings.len()).sum();
         for (warning, names) in kinds {
             let more = match names.len() {
                 1 => String::new(),
@@ -133,4 +155,40 @@ impl Crowds<'_> {
         }
         Ok(models)
     }
+}
+
+/// Every object at every recorded instant that is compared: as recorded, and by every model.
+fn poses(
+    recordings: &[&Recording],
+    trials: &[Trial],
+    models: &[Box<dyn EffectModel>],
+) -> Vec<PoseRow> {
+    let mut rows = Vec::new();
+    for (recording, trial) in recordings.iter().zip(trials) {
+        let replay = recording.replay();
+        let times: Vec<f64> =
+            replay.instants.iter().map(|instant| recording.frames[instant.frame].time).collect();
+        let mut add = |by: &str, moments: &[&[Pose]]| {
+            for (time, poses) in times.iter().zip(moments) {
+                for (object, pose) in recording.scene.objects.iter().zip(*poses) {
+                    rows.push(PoseRow {
+                        name: recording.name.clone(),
+                        by: by.into(),
+                        object: object.name.clone(),
+                        time: *time,
+                        pose: *pose,
+                    });
+                }
+            }
+        };
+        let truth: Vec<&[Pose]> = trial.truth.iter().map(|moment| &*moment.poses).collect();
+        add(RECORDED, &truth);
+        for model in models {
+            let comparison = Comparison::of(&**model, trial);
+            let states: Vec<&[Pose]> =
+                comparison.states().into_iter().map(|state| &*state.poses).collect();
+            add(&model.spec().to_string(), &states);
+        }
+    }
+    rows
 }

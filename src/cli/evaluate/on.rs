@@ -1,6 +1,6 @@
 //! What to measure on, by a word or a file's name.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::bench::{CrowdFamily, SuiteKind};
@@ -12,7 +12,7 @@ pub enum On {
     Tools(Vec<SuiteKind>),
     /// Scenes of many objects.
     Crowds(Vec<CrowdFamily>),
-    /// A recording.
+    /// A recording, or a folder of them.
     File(PathBuf),
 }
 
@@ -33,10 +33,12 @@ impl FromStr for On {
             file if file.ends_with(".safetensors") => {
                 return Err("these are weights; name them before --on, or behind --model".into());
             }
-            file if file.contains(['.', '/']) => On::File(PathBuf::from(file)),
+            file if file.contains(['.', '/']) || Path::new(file).is_dir() => {
+                On::File(PathBuf::from(file))
+            }
             _ => {
                 return Err("use tools, single, single-any-speed, touching, sparse, sparse-line, \
-                            dense, all, or a recording's file"
+                            dense, all, or a file or folder of recordings"
                     .into());
             }
         })

@@ -1,15 +1,14 @@
 //! Crowds and recordings to measure on, picked by options or read from files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::asset::{self, Faults, Kind, TrajectoryFile};
 use crate::bench::{CrowdFamily, CrowdSet};
 use crate::cli::error::CliError;
+use crate::cli::recordings::{RecordingSet, load_recordings};
 use crate::cli::words::{JOINTS, SOLIDS, words};
 use crate::dataset::{JointRule, Solids};
-use crate::recording::Recording;
 
 /// Options of scenes of many objects.
 #[derive(Args, Debug)]
@@ -39,7 +38,7 @@ pub struct CrowdArgs {
 /// What to measure on, read or ready to be drawn.
 pub struct Sources {
     pub sets: Vec<CrowdSet>,
-    pub recordings: Vec<Recording>,
+    pub recordings: Vec<RecordingSet>,
 }
 
 impl Sources {
@@ -63,15 +62,7 @@ impl Sources {
                 "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
             ));
         }
-        let mut recordings = Vec::new();
-        let mut faults = Vec::new();
-        for file in files {
-            match recording(file) {
-                Ok(recording) => recordings.push(recording),
-                Err(found) => faults.extend(found.0),
-            }
-        }
-        if faults.is_empty() { Ok(Self { sets, recordings }) } else { Err(Faults(faults).into()) }
+        Ok(Self { sets, recordings: load_recordings(files)? })
     }
 }
 
@@ -81,18 +72,5 @@ impl CrowdArgs {
         let solids = self.solids.is_none_or(|solids| set.solids == solids);
         let objects = self.objects.is_empty() || self.objects.contains(&set.objects);
         joints && solids && objects
-    }
-}
-
-/// A recording, or a trajectory file taken for one.
-fn recording(file: &Path) -> Result<Recording, Faults> {
-    match asset::check(file, None)? {
-        Kind::Trajectory => {
-            let file = TrajectoryFile::load(file)?;
-            let motion = file.plan.motion(&file.tool);
-            let frames = &file.trajectory.frames;
-            Ok(Recording::of_frames(&file.task.name, &file.task.scene, &motion, frames))
-        }
-        _ => Recording::load(file),
     }
 }

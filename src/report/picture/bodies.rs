@@ -99,10 +99,16 @@ pub fn name(svg: &mut Svg, view: &View, name: &str, shape: &Shape, pose: &Pose) 
     svg.text(centre - Vector::new(0.0, rise), name, font);
 }
 
-/// A line from the centre of a cuboid to its front face; a cylinder has no front.
+/// A line from the centre of an object to its outline ahead; a cylinder has no front.
 fn heading_mark(svg: &mut Svg, view: &View, shape: &Shape, pose: &Pose, style: Style) {
-    if let Shape::Cuboid { size } = *shape {
-        let front = pose.point(Vector::new(size[0] / 2.0, 0.0));
-        svg.line(view.map(pose.position), view.map(front), style);
-    }
+    let ahead = match shape {
+        Shape::Cylinder { .. } => return,
+        Shape::Cuboid { size } => size[0] / 2.0,
+        Shape::Prism { base, .. } => {
+            let ways = base.faces().filter(|(_, normal)| normal.x > 0.0);
+            ways.map(|(corner, normal)| corner.dot(&normal) / normal.x).fold(f64::MAX, f64::min)
+        }
+    };
+    let front = pose.point(Vector::new(ahead, 0.0));
+    svg.line(view.map(pose.position), view.map(front), style);
 }

@@ -88,7 +88,7 @@ impl View {
             Footprint::Disc { radius } => {
                 svg.circle(self.map(pose.position), self.length(radius), style);
             }
-            Footprint::Rectangle { .. } => {
+            Footprint::Rectangle { .. } | Footprint::Polygon(_) => {
                 let corners: Vec<Vector> =
                     outline(footprint, pose).into_iter().map(|corner| self.map(corner)).collect();
                 svg.polygon(&corners, style);
@@ -174,14 +174,21 @@ impl View {
     }
 }
 
-/// The corners of a rectangle, or a disc's bounding square, in the world frame.
-pub fn outline(footprint: &Footprint, pose: &Pose) -> [Vector; 4] {
-    let (half, pose) = match *footprint {
-        Footprint::Disc { radius } => (Vector::new(radius, radius), Pose { heading: 0.0, ..*pose }),
-        Footprint::Rectangle { half } => (half, *pose),
+/// The corners of a footprint, or those of a disc's bounding square, in the world frame.
+pub fn outline(footprint: &Footprint, pose: &Pose) -> Vec<Vector> {
+    let around = |half: Vector, pose: &Pose| {
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        corners.map(|(x, y)| pose.point(Vector::new(x * half.x, y * half.y))).to_vec()
     };
-    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-        .map(|(x, y)| pose.point(Vector::new(x * half.x, y * half.y)))
+    match footprint {
+        Footprint::Disc { radius } => {
+            around(Vector::new(*radius, *radius), &Pose { heading: 0.0, ..*pose })
+        }
+        Footprint::Rectangle { half } => around(*half, pose),
+        Footprint::Polygon(polygon) => {
+            polygon.corners().iter().map(|corner| pose.point(*corner)).collect()
+        }
+    }
 }
 
 fn line_style(k: f64) -> Style {

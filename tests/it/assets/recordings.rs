@@ -8,7 +8,7 @@ use pushplan::asset::{Kind, RECORDING_FORMAT, check};
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
-use pushplan::scene::{JointKind, Object, Push, Record, Scene, ToolMotion, Trajectory};
+use pushplan::scene::{JointKind, Object, Push, Record, Scene, Surface, ToolMotion, Trajectory};
 use pushplan::sim::Simulator;
 
 use crate::fixtures::hand;
@@ -104,6 +104,23 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
 }
 
 #[test]
+fn frictions_of_pairs_are_read_and_written() {
+    let text = SOUND.replace(
+        "yaw_deg: 10}",
+        "yaw_deg: 10}\n  frictions:\n    - {between: [can, tool], coefficient: 0.02}\n    - \
+         {between: [table, box], coefficient: 0.1}\n    - {between: [can, box], coefficient: 0}",
+    );
+    let read = parse(&text).expect("sound");
+    let pairs: Vec<_> = read.scene.frictions.iter().map(|p| (p.object, p.with)).collect();
+    assert_eq!(pairs, [(0, Surface::Tool), (1, Surface::Table), (0, Surface::Object(1))]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r.json");
+    read.write(&path).expect("a writable folder");
+    let again = Recording::load(&path).expect("what is written can be read");
+    assert_eq!(again.scene.frictions, read.scene.frictions);
+}
+
+#[test]
 fn slow_frames_are_joined_and_fast_ones_cut() {
     let recording = |step: f64| {
         let frames: Vec<String> = (0..=20)
@@ -173,6 +190,26 @@ fn everything_wrong_is_said_with_its_place() {
             "[0.5, 0.1, 10]]}\n  - {pusher: [0.05",
             "[0.21, 0.05, 10]]}\n  - {pusher: [0.05",
             "r.yaml:10:46: error: `box` overlaps `can`",
+        ),
+        (
+            "[0.5, 0.1, 10]]}\n  - {pusher: [0.10",
+            "[0.52, 0.1, 10]]}\n  - {pusher: [0.10",
+            "r.yaml:11:46: error: the recording starts in motion: `box` moves 20.0 mm",
+        ),
+        (
+            "yaw_deg: 10}",
+            "yaw_deg: 10}\n  frictions:\n    - {between: [can, bax], coefficient: 0.02}",
+            "r.yaml:8:23: error: nothing is called `bax`",
+        ),
+        (
+            "yaw_deg: 10}",
+            "yaw_deg: 10}\n  frictions:\n    - {between: [tool, table], coefficient: 0.02}",
+            "r.yaml:8:17: error: neither of the two is an object",
+        ),
+        (
+            "yaw_deg: 10}",
+            "yaw_deg: 10}\n  frictions:\n    - {between: [table, can], coefficient: 0.02}",
+            "r.yaml:8:44: error: a coefficient of 0.02 between an object and the table",
         ),
         (
             "yaw_deg: 10}",

@@ -25,7 +25,7 @@ const CRUSHED: &str = "nothing gives way: the engine presses the object into too
 
 /// Objects that touch, as many as wanted, drawn from the trained ranges.
 pub fn touching(draw: &Draw, count: usize) -> Vec<Case> {
-    let crowd = Crowd { count, solids: Solids::Any, touching: 0.8 };
+    let crowd = Crowd { count, solids: Solids::Any, touching: 0.8, polygons: 0.0 };
     draw.pushes(&Way::default(), |rng| random_scene(rng, &Preset::Tools.ranges(), crowd))
 }
 

@@ -83,6 +83,12 @@ fn underside(object: &Object) -> Vec<Vector> {
         Shape::Cuboid { size: [x, y, _] } => {
             square.map(|place| Vector::new(place.x * x / 2.0, place.y * y / 2.0)).collect()
         }
+        Shape::Prism { base, .. } => {
+            let inside = |place: &Vector| {
+                base.faces().all(|(corner, normal)| normal.dot(&(place - corner)) < 0.0)
+            };
+            square.map(|place| base.bounding_radius() * place).filter(inside).collect()
+        }
     }
 }
 

@@ -1,0 +1,147 @@
+//! Turns the real pushes of MLab_EXP (Jiaji Zhou, Apache License 2.0), as JSON files of one plate
+//! each, into recordings: `cargo run --release --example convert_mlab -- FILE... --out FOLDER`, with
+//! `--first N` of only the first N pushes of each file. An example of how to bring data of your own
+//! into that form.
+//!
+//! The fingertip is a point, known to about 1 mm. Here it is a cylinder of 2 mm radius, thin enough
+//! that its place on an edge is the point's, and beside the given path by its radius, away from the
+//! edge that the point comes to, so that the surfaces meet where the point would. The object stands
+//! where its centre of mass is. Frictions are not given: 0.5 between tip and plate, which `pushplan
+//! fit` finds in every file (0.46 to 0.54), and 0.3 between plate and table, which slow pushes do not
+//! feel, as little as the plate's mass and height.
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use pushplan::geometry::{ConvexPolygon, Pose, Shape, Vector};
+use pushplan::recording::{RecordedFrame, Recording};
+use pushplan::scene::{Object, Part, Scene, Support, Surface, Tool};
+use serde::Deserialize;
+
+/// Radius of the cylinder that stands for the fingertip, metres.
+const TIP: f64 = 0.002;
+/// Height of plate and fingertip, metres.
+const HEIGHT: f64 = 0.02;
+/// Coefficients of friction with the fingertip and with the table.
+const ON_TIP: f64 = 0.5;
+const ON_TABLE: f64 = 0.3;
+
+/// A file of pushes. Metres, seconds, degrees.
+#[derive(Deserialize)]
+struct Pushes {
+    shape: Plate,
+    support: Stands,
+    pushes: Vec<Push>,
+}
+
+#[derive(Deserialize)]
+struct Plate {
+    corners: Vec<[f64; 2]>,
+    centre_of_mass: [f64; 2],
+}
+
+/// Three points, or a word for all of the plate.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Stands {
+    Points(Vec<[f64; 2]>),
+    #[allow(dead_code)]
+    Word(String),
+}
+
+/// Poses of the plate's frame and path of the fingertip.
+#[derive(Deserialize)]
+struct Push {
+    before: [f64; 3],
+    after: [f64; 3],
+    tip: Vec<[f64; 3]>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    let (mut out, mut first) = (PathBuf::from("recordings"), usize::MAX);
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        let value = |next: Option<String>| next.ok_or(format!("{argument} needs a value"));
+        match argument.as_str() {
+            "--out" => out = value(arguments.next())?.into(),
+            "--first" => first = value(arguments.next())?.parse()?,
+            _ => files.push(argument.into()),
+        }
+    }
+    for file in &files {
+        let folder = out.join(file.file_stem().unwrap_or_default());
+        std::fs::create_dir_all(&folder)?;
+        let given: Pushes = serde_json::from_str(&std::fs::read_to_string(file)?)?;
+        for (index, push) in given.pushes.iter().take(first).enumerate() {
+            let name = format!("{}-{index:02}", stem(file));
+            recording(&name, &given, push)?
+                .write(folder.join(format!("push-{index:02}.recording.json")))?;
+        }
+        println!("{}", folder.display());
+    }
+    Ok(())
+}
+
+fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<dyn Error>> {
+    let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
+    let corners: Vec<Vector> = given.shape.corners.iter().copied().map(vector).collect();
+    let centre = vector(given.shape.centre_of_mass);
+    let support = match &given.support {
+        Stands::Points(points) => {
+            Support::Points(points.iter().map(|point| vector(*point) - centre).collect())
+        }
+        Stands::Word(_) => Support::Even,
+    };
+    // The object's pose is that of its centre of mass.
+    let placed = |[x, y, degrees]: [f64; 3]| {
+        let frame = Pose::new(x, y, degrees.to_radians());
+        Pose { position: frame.point(centre), heading: frame.heading }
+    };
+    let (before, after) = (placed(push.before), placed(push.after));
+    let base = ConvexPolygon::balanced(&corners, centre)?;
+    let plate = Object::new("plate", Shape::Prism { base, height: HEIGHT })
+        .mass(1.0)
+        .friction(ON_TABLE)
+        .standing_on(support)
+        .at(before.position.x, before.position.y, before.heading);
+    let scene = Scene::new([plate]).on_table(ON_TABLE).with_friction(0, Surface::Tool, ON_TIP);
+    let tip = Part::new("tip", Shape::Cylinder { radius: TIP, height: HEIGHT }, Pose::default());
+
+    let (Some(from), Some(to)) = (push.tip.first(), push.tip.last()) else {
+        return Err("a push without a path".into());
+    };
+    // Away from the edge that the point is nearest to before the push.
+    let start = before.local_point(Vector::new(from[1], from[2]));
+    let away = base
+        .faces()
+        .max_by(|a, b| {
+            let beyond = |(corner, normal): &(Vector, Vector)| normal.dot(&(start - corner));
+            beyond(a).total_cmp(&beyond(b))
+        })
+        .map_or(Vector::zeros(), |(_, normal)| before.vector(normal) * TIP);
+    let frame = |[time, x, y]: [f64; 3], pose: Pose| RecordedFrame {
+        time,
+        tool: Pose { position: Vector::new(x, y) + away, heading: 0.0 },
+        lifted: false,
+        poses: vec![pose],
+    };
+    // The path is straight and even to 0.5 mm; only its ends were seen with the plate.
+    let mut last = frame(*to, after);
+    let first = frame(*from, before);
+    last.unwrap_after(&first);
+    Ok(Recording {
+        name: name.into(),
+        description: "MLab_EXP by Jiaji Zhou, Apache License 2.0, converted".into(),
+        scene,
+        tool: Arc::new(Tool::new("tip", [tip])?),
+        lift: 0.0,
+        headings: vec![true],
+        frames: vec![first, last],
+    })
+}

@@ -1,0 +1,85 @@
+//! Prisms in files: corners and centre of mass in a frame of the file's own.
+
+use crate::geometry::{ConvexPolygon, MAX_CORNERS, PolygonError, Shape, Vector, centroid};
+
+use super::node::Node;
+use super::spec::{Key, POSITION, SIZE, Value};
+use super::strict::Ledger;
+use super::take::vector;
+
+/// What a file may say of a prism.
+pub(super) const PRISM: Value = Value::Map(&[
+    Key::required(
+        "corners",
+        Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
+        "Corners of the convex base in order, [x, y] in metres, from any origin along the axes of \
+         the body's own frame.",
+    ),
+    Key::required("height", SIZE, "Height in metres."),
+    Key::optional(
+        "centre_of_mass",
+        POSITION,
+        "Centre of mass, [x, y] in metres from the same origin; by default the centroid of the \
+         base. The body's position is where this is.",
+    ),
+]);
+
+/// The prism, if nothing of it is missing or faulty.
+pub(super) fn prism(node: &Node) -> Option<Shape> {
+    let base = base(&corners(node)?, centre(node)?).ok()?;
+    Some(Shape::Prism { base, height: node.get("height")?.number()? })
+}
+
+/// Where the origin of a body of that `shape` lies in the frame in which the file describes it: a
+/// prism's centre of mass.
+pub(super) fn origin(shape: &Node) -> Option<Vector> {
+    match shape.get("prism") {
+        Some(node) => Some(centre(node)?.unwrap_or(centroid(&corners(node)?))),
+        None => Some(Vector::zeros()),
+    }
+}
+
+/// Notes what makes the `shape` of a body no convex prism.
+pub(super) fn check(shape: Option<&Node>, ledger: &mut Ledger) {
+    let Some(node) = shape.and_then(|shape| shape.get("prism")) else { return };
+    let (Some(corners), Some(centre)) = (corners(node), centre(node)) else { return };
+    let Err(error) = base(&corners, centre) else { return };
+    let list = node.get("corners");
+    let corner = |k: usize| list.and_then(|list| list.items().get(k));
+    let (place, advice) = match error {
+        PolygonError::Count(_) => (list, "leave out corners that matter least"),
+        PolygonError::Doubled(k) => (corner(k), "leave it out; corners are 1 mm apart or more"),
+        PolygonError::Straight(k) => (corner(k), "leave it out; the outline is the same"),
+        PolygonError::Inwards(k) => {
+            (corner(k), "make it convex, or join several convex objects by fixed joints")
+        }
+        PolygonError::Crossing => (list, "write the corners in the order around the outline"),
+        PolygonError::Size => (list, "lengths are in metres: 50 mm is 0.05"),
+        PolygonError::Unbalanced => {
+            (node.get("centre_of_mass"), "it is counted from the same origin as the corners")
+        }
+    };
+    ledger.fault(place.unwrap_or(node), error.to_string(), advice);
+}
+
+fn base(corners: &[Vector], centre: Option<Vector>) -> Result<ConvexPolygon, PolygonError> {
+    match centre {
+        Some(centre) => ConvexPolygon::balanced(corners, centre),
+        None => ConvexPolygon::new(corners),
+    }
+}
+
+/// The corners; none where their list was faulty.
+fn corners(node: &Node) -> Option<Vec<Vector>> {
+    let corners: Vec<Vector> =
+        node.get("corners")?.items().iter().map(vector).collect::<Option<_>>()?;
+    (!corners.is_empty()).then_some(corners)
+}
+
+/// The centre of mass where it is given; nothing where it was faulty.
+fn centre(node: &Node) -> Option<Option<Vector>> {
+    match node.get("centre_of_mass") {
+        Some(centre) => Some(Some(vector(centre)?)),
+        None => Some(None),
+    }
+}

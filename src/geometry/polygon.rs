@@ -1,0 +1,390 @@
+//! Convex polygons: what an upright prism covers on the table.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::{Vector, cross};
+
+/// Most corners of a polygon.
+pub const MAX_CORNERS: usize = 8;
+
+/// Corners nearer to each other than this are one, metres; so thin may a polygon be, too.
+const SMALLEST: f64 = 1e-3;
+
+/// Farthest that a corner may lie from the centre of mass, metres.
+const LARGEST: f64 = 10.0;
+
+/// Smallest distance of the centre of mass from a side, metres.
+const INSIDE: f64 = 1e-4;
+
+/// Sine of the smallest angle by which the outline turns at a corner: one degree.
+const STRAIGHT: f64 = 0.0175;
+
+/// How much of its size a polygon may change by in a turn after which it looks the same: corners
+/// written in whole millimetres are rounded.
+const ALIKE: f64 = 0.01;
+
+/// A convex polygon whose origin is the centre of mass of what stands on it.
+///
+/// ```
+/// use pushplan::{ConvexPolygon, Vector};
+///
+/// // Three corners anywhere; the polygon lies about its centroid.
+/// let corners = [[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]].map(|[x, y]| Vector::new(x, y));
+/// let plate = ConvexPolygon::new(&corners)?;
+/// assert!((plate.corners()[0] - Vector::new(-0.03, -0.02)).norm() < 1e-12);
+/// assert!((plate.area() - 0.0027).abs() < 1e-12);
+/// # Ok::<(), pushplan::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Vector>", into = "Vec<Vector>")]
+pub struct ConvexPolygon {
+    corners: [Vector; MAX_CORNERS],
+    count: usize,
+}
+
+/// Why corners make no convex polygon; corners are counted from zero.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum PolygonError {
+    /// Fewer than three or more than [`MAX_CORNERS`].
+    #[error("a polygon has 3 to {MAX_CORNERS} corners, not {0}")]
+    Count(usize),
+    /// Two corners at one place; the second one.
+    #[error("corner {} lies on another one", .0 + 1)]
+    Doubled(usize),
+    /// A corner at which the outline does not turn.
+    #[error("corner {} lies on the line between its neighbours", .0 + 1)]
+    Straight(usize),
+    /// A corner at which the outline turns the other way than elsewhere.
+    #[error("the outline turns inwards at corner {}", .0 + 1)]
+    Inwards(usize),
+    /// It goes around more than once.
+    #[error("the outline crosses itself")]
+    Crossing,
+    /// Thinner than a millimetre, larger than ten metres, or no number.
+    #[error("the polygon is thinner than 1 mm or larger than 10 m")]
+    Size,
+    /// The centre of mass is not inside.
+    #[error("the centre of mass does not lie within the outline")]
+    Unbalanced,
+}
+
+impl ConvexPolygon {
+    /// The polygon of these corners (metres, in order, either way round) about its centroid: the
+    /// centre of mass where the weight is spread evenly.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if they make no convex polygon.
+    pub fn new(corners: &[Vector]) -> Result<Self, PolygonError> {
+        Self::balanced(corners, centroid(corners))
+    }
+
+    /// The polygon of these corners about a centre of mass given in their frame, metres.
+    ///
+    /// # Errors
+    /// [`PolygonError`] if they make no convex polygon around it.
+    pub fn balanced(corners: &[Vector], centre_of_mass: Vector) -> Result<Self, PolygonError> {
+        let count = corners.len();
+        if !(3..=MAX_CORNERS).contains(&count) {
+            return Err(PolygonError::Count(count));
+        }
+        let mut polygon = Self { corners: [Vector::zeros(); MAX_CORNERS], count };
+        for (own, corner) in polygon.corners.iter_mut().zip(corners) {
+            *own = corner - centre_of_mass;
+        }
+        let far = |corner: &Vector| !(corner.norm() <= LARGEST);
+        if polygon.corners().iter().any(far) {
+            return Err(PolygonError::Size);
+        }
+        // Kept counter-clockwise, the first corner staying the first.
+        let clockwise = twice_area(polygon.corners()) < 0.0;
+        if clockwise {
+            polygon.corners[1..count].reverse();
+        }
+        polygon.check().map_err(|error| match error {
+            PolygonError::Straight(k) if clockwise && k > 0 => PolygonError::Straight(count - k),
+            PolygonError::Inwards(k) if clockwise && k > 0 => PolygonError::Inwards(count - k),
+            PolygonError::Doubled(k) if clockwise && k > 0 => PolygonError::Doubled(count - k),
+            error => error,
+        })?;
+        Ok(polygon)
+    }
+
+    fn check(&self) -> Result<(), PolygonError> {
+        let (corners, count) = (self.corners(), self.count);
+        for (k, corner) in corners.iter().enumerate() {
+            if corners[..k].iter().any(|other| (other - corner).norm() < SMALLEST) {
+                return Err(PolygonError::Doubled(k));
+            }
+        }
+        let mut turned = 0.0;
+        for k in 0..count {
+            let before = corners[k] - corners[(k + count - 1) % count];
+            let after = corners[(k + 1) % count] - corners[k];
+            let turn = cross(before, after).atan2(before.dot(&after));
+            turned += turn;
+            if turn.sin().abs() < STRAIGHT {
+                return Err(PolygonError::Straight(k));
+            }
+            if turn < 0.0 {
+                return Err(PolygonError::Inwards(k));
+            }
+        }
+        if turned > 1.5 * std::f64::consts::TAU {
+            return Err(PolygonError::Crossing);
+        }
+        if self.faces().any(|(_, normal)| self.extent(normal) + self.extent(-normal) < SMALLEST) {
+            return Err(PolygonError::Size);
+        }
+        if self.inner_radius() < INSIDE {
+            return Err(PolygonError::Unbalanced);
+        }
+        Ok(())
+    }
+
+    /// The corners, counter-clockwise, metres from the centre of mass.
+    pub fn corners(&self) -> &[Vector] {
+        &self.corners[..self.count]
+    }
+
+    /// Both ends of every side, counter-clockwise.
+    pub fn sides(&self) -> impl Iterator<Item = (Vector, Vector)> + '_ {
+        let corners = self.corners();
+        (0..self.count).map(move |k| (corners[k], corners[(k + 1) % corners.len()]))
+    }
+
+    /// The first end of every side and the unit normal that points out of it.
+    pub fn faces(&self) -> impl Iterator<Item = (Vector, Vector)> + '_ {
+        self.sides().map(|(a, b)| (a, Vector::new(b.y - a.y, a.x - b.x).normalize()))
+    }
+
+    /// Area, square metres.
+    pub fn area(&self) -> f64 {
+        twice_area(self.corners()) / 2.0
+    }
+
+    /// Means of x^2, x y and y^2 over the area, square metres.
+    pub fn second_moments(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for (a, b) in self.sides() {
+            let area = cross(a, b);
+            sums[0] += area * (a.x * a.x + a.x * b.x + b.x * b.x);
+            sums[1] += area * (a.x * a.y + 0.5 * (a.x * b.y + b.x * a.y) + b.x * b.y);
+            sums[2] += area * (a.y * a.y + a.y * b.y + b.y * b.y);
+        }
+        sums.map(|sum| sum / (12.0 * self.area()))
+    }
+
+    /// Mean distance of the area's points from the origin, metres.
+    pub fn mean_radius(&self) -> f64 {
+        // Over the triangle of a side and the origin the integral of r is h / 3 times that of
+        // sqrt(h^2 + t^2) along the side, h being the side's distance.
+        let whole: f64 = self
+            .sides()
+            .map(|(a, b)| {
+                let along = (b - a).normalize();
+                let (h, from, to) = (cross(a, along), a.dot(&along), b.dot(&along));
+                let below = |t: f64| t * h.hypot(t) + h * h * (t / h).asinh();
+                h / 3.0 * 0.5 * (below(to) - below(from))
+            })
+            .sum();
+        whole / self.area()
+    }
+
+    /// Radius of the smallest circle about the origin that holds the polygon, metres.
+    pub fn bounding_radius(&self) -> f64 {
+        self.corners().iter().map(Vector::norm_squared).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Radius of the largest circle about the origin inside the polygon, metres; negative where
+    /// the origin is outside.
+    pub fn inner_radius(&self) -> f64 {
+        self.faces().map(|(corner, normal)| corner.dot(&normal)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The support function: how far the polygon reaches along a unit vector, metres.
+    pub fn extent(&self, direction: Vector) -> f64 {
+        let reaches = self.corners().iter().map(|corner| corner.dot(&direction));
+        reaches.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Every side moved outwards by `margin` metres, or inwards, by less than the sides bear.
+    pub fn grown(&self, margin: f64) -> Self {
+        let normals: Vec<Vector> = self.faces().map(|(_, normal)| normal).collect();
+        let mut grown = *self;
+        for (k, corner) in grown.corners[..self.count].iter_mut().enumerate() {
+            let (before, after) = (normals[(k + self.count - 1) % self.count], normals[k]);
+            *corner += margin / (1.0 + before.dot(&after)) * (before + after);
+        }
+        grown
+    }
+
+    /// Into how many equal turns about the origin a full turn falls after each of which the
+    /// polygon looks the same: n for a regular polygon of n corners, 1 for most others.
+    pub fn symmetry(&self) -> usize {
+        let (corners, count) = (self.corners(), self.count);
+        let within = ALIKE * self.bounding_radius();
+        let looks_alike = |order: &usize| {
+            let turn = super::Turn::by(std::f64::consts::TAU / *order as f64);
+            (0..count).all(|k| {
+                (turn.of(corners[k]) - corners[(k + count / order) % count]).norm() <= within
+            })
+        };
+        (2..=count).rev().filter(|order| count % order == 0).find(looks_alike).unwrap_or(1)
+    }
+}
+
+impl fmt::Debug for ConvexPolygon {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.corners().iter().map(|corner| [corner.x, corner.y])).finish()
+    }
+}
+
+impl TryFrom<Vec<Vector>> for ConvexPolygon {
+    type Error = PolygonError;
+
+    fn try_from(corners: Vec<Vector>) -> Result<Self, PolygonError> {
+        Self::balanced(&corners, Vector::zeros())
+    }
+}
+
+impl From<ConvexPolygon> for Vec<Vector> {
+    fn from(polygon: ConvexPolygon) -> Self {
+        polygon.corners().to_vec()
+    }
+}
+
+/// The centroid of a polygon with these corners in order, metres.
+pub fn centroid(corners: &[Vector]) -> Vector {
+    let Some(&first) = corners.first() else { return Vector::zeros() };
+    // From the first corner, so that polygons far from the origin lose no digits.
+    let (mut whole, mut moment) = (0.0, Vector::zeros());
+    for pair in corners.windows(2) {
+        let (a, b) = (pair[0] - first, pair[1] - first);
+        whole += cross(a, b);
+        moment += cross(a, b) * (a + b);
+    }
+    if whole == 0.0 { first } else { first + moment / (3.0 * whole) }
+}
+
+/// Twice the area inside, positive where the corners go round counter-clockwise.
+fn twice_area(corners: &[Vector]) -> f64 {
+    (0..corners.len()).map(|k| cross(corners[k], corners[(k + 1) % corners.len()])).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use super::*;
+    use crate::geometry::Footprint;
+
+    fn polygon(corners: &[[f64; 2]]) -> Result<ConvexPolygon, PolygonError> {
+        let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
+        ConvexPolygon::new(&corners)
+    }
+
+    fn regular(count: usize, radius: f64) -> ConvexPolygon {
+        let angle = |k: usize| 0.3 + TAU * k as f64 / count as f64;
+        let corners: Vec<Vector> = (0..count)
+            .map(|k| Vector::new(0.2, -0.1) + radius * Vector::new(angle(k).cos(), angle(k).sin()))
+            .collect();
+        ConvexPolygon::new(&corners).unwrap()
+    }
+
+    #[test]
+    fn regular_polygons_have_the_moments_of_textbooks() {
+        for count in 3..=MAX_CORNERS {
+            let (shape, step) = (regular(count, 0.05), PI / count as f64);
+            let [xx, xy, yy] = shape.second_moments();
+            // I = m R^2 (2 + cos(2 pi / n)) / 6, alike about every axis.
+            let gyration = 0.05 * 0.05 * (2.0 + (2.0 * step).cos()) / 6.0;
+            assert!((xx + yy - gyration).abs() < 1e-15, "{count}");
+            assert!((xx - yy).abs() < 1e-15 && xy.abs() < 1e-15, "{count}");
+            let area = 0.5 * count as f64 * 0.05 * 0.05 * (2.0 * step).sin();
+            assert!((shape.area() - area).abs() < 1e-15);
+            assert!((shape.inner_radius() - 0.05 * step.cos()).abs() < 1e-15);
+            assert!((shape.bounding_radius() - 0.05).abs() < 1e-15);
+            assert_eq!(shape.symmetry(), count);
+        }
+    }
+
+    #[test]
+    fn a_right_triangle_has_the_moments_of_textbooks() {
+        let shape = polygon(&[[0.4, 0.2], [0.4, 0.26], [0.31, 0.2]]).unwrap();
+        let (b, h) = (0.09, 0.06);
+        let [xx, xy, yy] = shape.second_moments();
+        assert!((xx - b * b / 18.0).abs() < 1e-15 && (yy - h * h / 18.0).abs() < 1e-15);
+        // The right angle looks to the left here.
+        assert!((xy - b * h / 36.0).abs() < 1e-15, "{xy}");
+        assert_eq!(shape.symmetry(), 1);
+    }
+
+    #[test]
+    fn a_rectangle_is_the_rectangle() {
+        let shape = polygon(&[[0.0, 0.0], [0.1, 0.0], [0.1, 0.04], [0.0, 0.04]]).unwrap();
+        let own = Footprint::Polygon(shape);
+        let half = Vector::new(0.05, 0.02);
+        let other = Footprint::Rectangle { half };
+        assert!((own.mean_radius() - other.mean_radius()).abs() < 1e-15);
+        assert!((own.gyration_radius() - other.gyration_radius()).abs() < 1e-15);
+        let grown = Footprint::Polygon(shape.grown(0.003));
+        assert!((grown.area() - other.grown(0.003).area()).abs() < 1e-15);
+        for k in 0..16 {
+            let direction = Vector::new((0.4 * f64::from(k)).cos(), (0.4 * f64::from(k)).sin());
+            assert!((own.extent(direction) - other.extent(direction)).abs() < 1e-15);
+        }
+        assert_eq!(own.symmetry(), other.symmetry());
+        assert_eq!(own.symmetry(), Some(2));
+    }
+
+    #[test]
+    fn clockwise_corners_are_turned_around_and_reading_back_changes_nothing() {
+        let shape = polygon(&[[0.0, 0.0], [0.0, 0.06], [0.09, 0.0]]).unwrap();
+        assert!(shape.area() > 0.0);
+        assert!((shape.corners()[0] - Vector::new(-0.03, -0.02)).norm() < 1e-15);
+        assert_eq!(ConvexPolygon::try_from(Vec::from(shape)), Ok(shape));
+    }
+
+    #[test]
+    fn what_is_no_convex_polygon_says_why() {
+        let square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]];
+        let with = |at: usize, corner: [f64; 2]| {
+            let mut corners = square.to_vec();
+            corners.insert(at, corner);
+            let found = polygon(&corners);
+            corners.reverse();
+            assert!(polygon(&corners).is_err());
+            found
+        };
+        assert_eq!(with(1, [0.05, 0.0]), Err(PolygonError::Straight(1)));
+        assert_eq!(with(2, [0.05, 0.05]), Err(PolygonError::Inwards(2)));
+        assert_eq!(with(3, [0.1003, 0.1]), Err(PolygonError::Doubled(3)));
+        let clockwise = [[0.0, 0.0], [0.0, 0.1], [0.05, 0.05], [0.1, 0.1], [0.1, 0.0]];
+        assert_eq!(polygon(&clockwise), Err(PolygonError::Inwards(2)));
+        assert_eq!(polygon(&square[..2]), Err(PolygonError::Count(2)));
+        let star: Vec<[f64; 2]> = (0..5)
+            .map(|k| (2.0 * TAU / 5.0 * f64::from(k)).sin_cos())
+            .map(|(y, x)| [0.1 * x, 0.1 * y])
+            .collect();
+        assert_eq!(polygon(&star), Err(PolygonError::Crossing));
+        assert_eq!(polygon(&[[0.0, 0.0], [0.1, 0.0], [0.05, 0.0009]]), Err(PolygonError::Size));
+        assert_eq!(polygon(&[[0.0, 0.0], [1e3, 0.0], [0.0, f64::NAN]]), Err(PolygonError::Size));
+        let corners = square.map(|[x, y]| Vector::new(x, y));
+        let outside = ConvexPolygon::balanced(&corners, Vector::new(0.11, 0.05));
+        assert_eq!(outside, Err(PolygonError::Unbalanced));
+    }
+
+    #[test]
+    fn moments_are_about_the_centre_of_mass() {
+        let corners = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.04], [0.0, 0.04]];
+        let corners = corners.map(|[x, y]| Vector::new(x, y));
+        let shape = ConvexPolygon::balanced(&corners, Vector::new(0.03, 0.02)).unwrap();
+        let [xx, _, yy] = shape.second_moments();
+        assert!((xx - (0.1f64.powi(2) / 12.0 + 0.02f64.powi(2))).abs() < 1e-15);
+        assert!((yy - 0.04f64.powi(2) / 12.0).abs() < 1e-15);
+        assert_eq!(shape.symmetry(), 1);
+    }
+}

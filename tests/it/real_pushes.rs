@@ -1,0 +1,73 @@
+//! Real pushes of a triangle on known supports, see `assets/real-pushes/README.md`: told where the
+//! plate stands, models end near where it did, and the pushes tell where it stands.
+
+use std::path::Path;
+
+use pushplan::asset::recordings_in;
+use pushplan::effect::{EffectModel, Prior, Simulated};
+use pushplan::fit::{FitSettings, fit};
+use pushplan::judge::{Comparison, Trial, mean, percentile};
+use pushplan::recording::Recording;
+use pushplan::scene::Support;
+use pushplan::sim::Simulator;
+use pushplan::watch::Unwatched;
+
+const SUPPORTS: [&str; 5] = ["flat", "inner", "middle", "outer", "skew"];
+
+/// The ten pushes on a support, as recorded.
+fn pushes(support: &str) -> Vec<Recording> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/assets/real-pushes");
+    let found = recordings_in(&folder.join(support)).expect("a folder");
+    let files = found.into_iter().flat_map(|(_, files)| files);
+    files.map(|file| Recording::load(file).expect("a sound recording")).collect()
+}
+
+/// Mean and median of the final position errors when all plates are told to stand on `support`,
+/// metres.
+fn errors(model: &dyn EffectModel, pushes: &[Recording], support: &Support) -> (f64, f64) {
+    let mut errors: Vec<f64> = pushes
+        .iter()
+        .map(|push| {
+            let mut push = push.clone();
+            push.scene.objects[0].support = support.clone();
+            let trial = Trial::of_recording(&push);
+            Comparison::of(model, &trial).end()[0].position
+        })
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    (mean(&errors), percentile(&errors, 50.0))
+}
+
+#[test]
+fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {
+    let sets = SUPPORTS.map(pushes);
+    let supports: Vec<Support> =
+        sets.iter().map(|pushes| pushes[0].scene.objects[0].support.clone()).collect();
+    let models: [Box<dyn EffectModel>; 2] =
+        [Box::new(Prior::default()), Box::new(Simulated::new(Simulator::planar()))];
+    for model in models {
+        for (name, (pushes, truth)) in SUPPORTS.iter().zip(sets.iter().zip(&supports)) {
+            let (mean, median) = errors(&*model, pushes, truth);
+            assert!(mean < 2.0e-3 && median < 1.5e-3, "{} {name}: {mean} {median}", model.spec());
+            // What a flat plate really stands on nobody knows.
+            for other in supports.iter().filter(|other| *name != "flat" && *other != truth) {
+                let told = errors(&*model, pushes, other).0;
+                assert!(mean < 1.05 * told, "{} {name}: {mean}, {other:?}: {told}", model.spec());
+            }
+        }
+    }
+}
+
+/// The three inner points lie at 0.4 of the corners' distance from the centre of mass, the outer
+/// ones at 0.8.
+#[test]
+fn ten_pushes_tell_where_the_plate_stands() {
+    for (name, spread) in [("inner", 0.4), ("outer", 0.8)] {
+        let trials: Vec<Trial> = pushes(name).iter().map(Trial::of_recording).collect();
+        let found = fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched);
+        let found = found.expect("the plate moves");
+        let off = (found.spread.mean - spread).abs();
+        assert!(found.spread.told && off < 0.08, "{name}: {:?}", found.spread);
+        assert!(found.best.mean < found.even.mean, "{name}: {:?} {:?}", found.best, found.even);
+    }
+}
