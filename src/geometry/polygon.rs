@@ -94,8 +94,8 @@ impl ConvexPolygon {
         for (own, corner) in polygon.corners.iter_mut().zip(corners) {
             *own = corner - centre_of_mass;
         }
-        let far = |corner: &Vector| !(corner.norm() <= LARGEST);
-        if polygon.corners().iter().any(far) {
+        let near = |corner: &Vector| corner.norm() <= LARGEST;
+        if !polygon.corners().iter().all(near) {
             return Err(PolygonError::Size);
         }
         // Kept counter-clockwise, the first corner staying the first.

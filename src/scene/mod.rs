@@ -27,6 +27,7 @@ mod support;
 mod task;
 mod tool;
 mod trajectory;
+mod underside;
 mod verdict;
 mod warning;
 mod world;
