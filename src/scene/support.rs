@@ -53,8 +53,8 @@ impl Feet {
     /// Even pressure is that of sixteen points with equal loads: a grid of four by four under a
     /// cuboid, two rings of eight under a cylinder. They have the second moments of the underside,
     /// so friction is exact for slides that hardly turn; the torque of turns on the spot is exact
-    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms see
-    /// [`underside`].
+    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms
+    /// see `underside`.
     pub fn new(support: &Support, footprint: &Footprint) -> Self {
         let mut feet = match (support, *footprint) {
             (Support::Points(points), _) => Self::on(points),
