@@ -16,7 +16,10 @@ Lengths are in metres, masses in kilograms, angles in degrees. The table is the 
 points forward from the robot, whose base is the origin. The friction coefficient of any pair, \
 object and table included, is the mean of the two friction values. Up to 12 objects may be \
 connected by joints, without loops. The goal is reached when everything rests and the object's \
-centre is within the tolerance, and its heading too where one is asked for. Unknown keys are faults.";
+centre is within the tolerance, and its heading too where one is asked for; headings at which the \
+object looks the same count alike unless the goal says otherwise. The position of a body is that of \
+its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
+prism turns as heavily as an even plate on its base, about its centre of mass. Unknown keys are faults.";
 
 /// The schema of tool files.
 pub fn tool_schema() -> Json {

@@ -22,7 +22,8 @@ use super::{
 the radius) at which
 objects rest, and the coefficient of friction of pusher and objects, the same for all recordings.
 Give recordings of one object, or of alike ones, one push each; fifty pushes of a centimetre are
-enough. Of each the final poses are compared, errors follow Student's law.
+enough. Of each the final poses are compared, errors follow Student's law. The prior is for slow
+pushes, up to 0.02 m/s; for faster ones take --model planar.
 
 Examples:
   pushplan fit pushes/ --out plans

@@ -4,20 +4,19 @@ use crate::geometry::{ConvexPolygon, Shape};
 
 use super::xml::{Xml, numbers};
 
+/// Whether any of the named solids is a prism.
+pub(super) fn are_among(solids: &[(String, Shape)]) -> bool {
+    solids.iter().any(|(_, shape)| matches!(shape, Shape::Prism { .. }))
+}
+
 /// The meshes of those of the named solids that are prisms; a solid finds its own by its name.
 pub(super) fn meshes(xml: &mut Xml, solids: &[(String, Shape)]) {
-    let prisms: Vec<_> = solids
-        .iter()
-        .filter_map(|(name, shape)| match shape {
-            Shape::Prism { base, height } => Some((name, base, *height)),
-            _ => None,
-        })
-        .collect();
-    if prisms.is_empty() {
+    if !are_among(solids) {
         return;
     }
     xml.open("asset", &[]);
-    for (name, base, height) in prisms {
+    for (name, shape) in solids {
+        let Shape::Prism { base, height } = shape else { continue };
         let ring = |z: f64| base.corners().iter().flat_map(move |corner| [corner.x, corner.y, z]);
         let vertices: Vec<f64> = ring(-height / 2.0).chain(ring(height / 2.0)).collect();
         xml.leaf("mesh", &[("name", name.clone()), ("vertex", numbers(&vertices))]);

@@ -74,9 +74,10 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     xml.comment(
         "Written by pushplan. Metres, kilograms, seconds, radians. Play it with replay.py.",
     );
-    settings(&mut xml);
+    let solids = solids(scene, &motion);
+    settings(&mut xml, mesh::are_among(&solids));
     custom(&mut xml, file, &motion);
-    mesh::meshes(&mut xml, &solids(scene, &motion));
+    mesh::meshes(&mut xml, &solids);
     xml.open("worldbody", &[]);
     let table = [("name", "table".into()), ("type", "plane".into()), ("size", "0 0 1".into())];
     xml.leaf("geom", &table);
@@ -109,7 +110,7 @@ pub(super) fn foot_name(object: &Object, index: usize) -> String {
     format!("object/{}/foot-{}", object.name, index + 1)
 }
 
-fn settings(xml: &mut Xml) {
+fn settings(xml: &mut Xml, meshes: bool) {
     xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
     let option = [
         ("timestep", numbers(&[STEP])),
@@ -118,10 +119,15 @@ fn settings(xml: &mut Xml) {
         ("impratio", numbers(&[FRICTION_HARDNESS])),
     ];
     xml.open("option", &option);
-    xml.comment(
-        "Several points of a cylinder at a tool's corner would take the next face's normal.",
-    );
-    xml.leaf("flag", &[("multiccd", "disable".into())]);
+    if meshes {
+        xml.comment("On a single point a prism that is pushed flush would slip aside, by 3 %.");
+        xml.leaf("flag", &[("multiccd", "enable".into())]);
+    } else {
+        xml.comment(
+            "Several points of a cylinder at a tool's corner would take the next face's normal.",
+        );
+        xml.leaf("flag", &[("multiccd", "disable".into())]);
+    }
     xml.close();
     xml.open("default", &[]);
     xml.comment(
@@ -141,9 +147,13 @@ fn settings(xml: &mut Xml) {
 fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
     let (goal, scene) = (&file.task.goal, &file.task.scene);
     xml.open("custom", &[]);
-    xml.comment("x, y, tolerance; where it matters, heading and its tolerance.");
+    xml.comment(
+        "x, y, tolerance; where it matters, heading, its tolerance, and the number of headings in \
+         a turn that look alike.",
+    );
     let mut wanted = vec![goal.position.x, goal.position.y, goal.tolerance];
-    wanted.extend(goal.heading.into_iter().flat_map(|(heading, within)| [heading, within]));
+    let alike = goal.alike as f64;
+    wanted.extend(goal.heading.into_iter().flat_map(|(heading, within)| [heading, within, alike]));
     numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
     xml.comment(
         "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits.",

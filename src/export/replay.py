@@ -29,6 +29,11 @@ JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it canno
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 KINDS = ["object", "obstacle", "tool", "table"]
+SOLIDS = {
+    mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
+    mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
+    mujoco.mjtGeom.mjGEOM_MESH: "prism",
+}
 
 
 class Failed(Exception):
@@ -141,12 +146,12 @@ def replay(path):
     error, heading_error = math.dist(poses[name][:2], (x, y)), None
     within = error <= tolerance
     if heading:
-        heading_error = abs(math.remainder(poses[name][2] - heading[0], math.tau))
+        heading_error = abs(math.remainder(poses[name][2] - heading[0], math.tau / heading[2]))
         within = within and heading_error <= heading[1]
     if failure is None and not within:
         failure = "misses the goal"
     ours = scene.numbers.get(f"3-D replay of {name}")
-    box = scene.model.geom(name).type[0] == mujoco.mjtGeom.mjGEOM_BOX
+    solid = SOLIDS[mujoco.mjtGeom(scene.model.geom(name).type[0])]
     return {
         "scene": str(path),
         "plan": path.stem,
@@ -160,7 +165,7 @@ def replay(path):
         "poses": poses,
         "pushes": len(scene.pushes),
         "obstacles": int(np.sum(scene.kind == KINDS.index("obstacle"))),
-        "goal_object": "cuboid" if box else "cylinder",
+        "goal_object": solid,
     }
 
 

@@ -6,8 +6,13 @@ use serde::{Deserialize, Serialize};
 /// and Taylor 1989, doi:10.2307/2290063, take 4).
 const FREEDOM: f64 = 4.0;
 
-/// Widths that are tried where none is stated, metres, evenly spaced in their logarithm.
-const WIDTHS: (f64, f64, usize) = (1e-5, 0.1, 64);
+/// No noise is thought smaller than this share of the mean motion: so far even good models of the
+/// same physics end apart, and a posterior that trusts them more is narrower than it should be.
+const DISAGREEMENT: f64 = 0.02;
+
+/// Widths that are tried where none is stated: how many, and the largest in metres; they are
+/// evenly spaced in their logarithm.
+const WIDTHS: (usize, f64) = (64, 0.2);
 
 /// The law of what a model cannot know of a recorded end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -51,9 +56,10 @@ impl NoiseLaw {
 pub(super) struct Widths(Vec<f64>);
 
 impl Widths {
-    /// This one alone, metres, or whatever the residuals show.
-    pub fn of(stated: Option<f64>) -> Self {
-        let (low, high, count) = WIDTHS;
+    /// The stated one alone, metres, or whatever the residuals of objects show that move so far.
+    pub fn of(stated: Option<f64>, motion: f64) -> Self {
+        let (count, high) = WIDTHS;
+        let low = (DISAGREEMENT * motion).min(high);
         let width = |k| low * (high / low).powf(k as f64 / (count - 1) as f64);
         Self(stated.map_or_else(|| (0..count).map(width).collect(), |width| vec![width]))
     }
@@ -79,7 +85,7 @@ mod tests {
         // Squares of three normal numbers of width s have the mean 3 s^2.
         let far = 3f64.sqrt() * 2e-3;
         let residuals = vec![Residual { distance: far, numbers: 3.0 }; 400];
-        let (_, width) = Widths::of(None).log_density(NoiseLaw::Gaussian, &residuals);
+        let (_, width) = Widths::of(None, 0.01).log_density(NoiseLaw::Gaussian, &residuals);
         assert!((width / 2e-3 - 1.0).abs() < 0.05, "{width}");
     }
 
@@ -88,7 +94,8 @@ mod tests {
         let residual = |distance| Residual { distance, numbers: 2.0 };
         let near = vec![residual(1e-3); 20];
         let far = [&near[..], &[residual(0.05)]].concat();
-        let width = |law, residuals: &[Residual]| Widths::of(None).log_density(law, residuals).1;
+        let width =
+            |law, residuals: &[Residual]| Widths::of(None, 0.01).log_density(law, residuals).1;
         let grows = |law| width(law, &far) / width(law, &near);
         assert!(grows(NoiseLaw::Student) < 1.3 && grows(NoiseLaw::Gaussian) > 5.0);
     }

@@ -19,7 +19,7 @@ const LARGEST: f64 = 10.0;
 /// Smallest distance of the centre of mass from a side, metres.
 const INSIDE: f64 = 1e-4;
 
-/// Sine of the smallest angle by which the outline turns at a corner: one degree.
+/// Smallest angle by which the outline turns at a corner, radians: one degree.
 const STRAIGHT: f64 = 0.0175;
 
 /// How much of its size a polygon may change by in a turn after which it looks the same: corners
@@ -94,8 +94,8 @@ impl ConvexPolygon {
         for (own, corner) in polygon.corners.iter_mut().zip(corners) {
             *own = corner - centre_of_mass;
         }
-        let far = |corner: &Vector| !(corner.norm() <= LARGEST);
-        if polygon.corners().iter().any(far) {
+        let near = |corner: &Vector| corner.norm() <= LARGEST;
+        if !polygon.corners().iter().all(near) {
             return Err(PolygonError::Size);
         }
         // Kept counter-clockwise, the first corner staying the first.
@@ -125,7 +125,7 @@ impl ConvexPolygon {
             let after = corners[(k + 1) % count] - corners[k];
             let turn = cross(before, after).atan2(before.dot(&after));
             turned += turn;
-            if turn.sin().abs() < STRAIGHT {
+            if turn.abs() < STRAIGHT {
                 return Err(PolygonError::Straight(k));
             }
             if turn < 0.0 {

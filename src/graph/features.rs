@@ -28,7 +28,7 @@ pub const NODE_EVEN: usize = 19;
 /// Odd features of a node.
 pub const NODE_ODD: usize = 11;
 /// Even features of a relation.
-pub const RELATION_EVEN: usize = 27;
+pub const RELATION_EVEN: usize = 26;
 /// Odd features of a relation.
 pub const RELATION_ODD: usize = 12;
 /// Even outputs of a node: shift x, velocity x.
@@ -147,7 +147,7 @@ pub(super) fn relation_features(
                 slip / UNIT,
             ]);
         }
-        RelationKind::Joint { kind, guessed, axis: slide, room: (down, up) } => {
+        RelationKind::Joint { kind, axis: slide, room: (down, up) } => {
             let [fixed, revolute, prismatic] = match kind {
                 JointKind::Fixed => [1.0, 0.0, 0.0],
                 JointKind::Revolute { .. } => [0.0, 1.0, 0.0],
@@ -155,17 +155,15 @@ pub(super) fn relation_features(
             };
             // Twice the angle, because a slide has no sign.
             let (x, y) = (along(slide), across(slide));
-            let sliding = prismatic * f64::from(u8::from(!guessed));
             let near = |room: f64| 1.0 - (room / NEAR).clamp(0.0, 1.0);
-            even[21..27].copy_from_slice(&[
+            even[21..26].copy_from_slice(&[
                 fixed,
                 revolute,
                 prismatic,
-                f64::from(u8::from(guessed)),
-                sliding * (x * x - y * y),
+                prismatic * (x * x - y * y),
                 near(down.min(up)),
             ]);
-            odd[11] = sliding * 2.0 * x * y;
+            odd[11] = prismatic * 2.0 * x * y;
         }
     }
     (even, odd)

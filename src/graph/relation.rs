@@ -30,7 +30,6 @@ pub(super) enum RelationKind {
     /// A joint holds them together.
     Joint {
         kind: JointKind,
-        guessed: bool,
         /// Direction of sliding of a prismatic joint now; its sign has no meaning.
         axis: Vector,
         /// Turn (radians) or slide (metres) that the limits leave, down and up, from the first
@@ -119,7 +118,7 @@ pub(super) fn add_joint(
     let room = joint
         .limits
         .map_or((f64::INFINITY, f64::INFINITY), |limits| (now - limits.low, limits.high - now));
-    let kind = RelationKind::Joint { kind: joint.kind, guessed: joint.guessed, axis, room };
+    let kind = RelationKind::Joint { kind: joint.kind, axis, room };
     for [to, from] in [[0, 1], [1, 0]] {
         let (receiver, sender) = (joint.between[to], joint.between[from]);
         let arms = [at - poses[to].position, at - poses[from].position];

@@ -13,7 +13,6 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::geometry::wrap_angle;
 use crate::scene::{State, Task};
 use crate::watch::Watch;
 
@@ -290,7 +289,7 @@ fn programme(
             let errors = goal_errors(task, &sample.outcome);
             let mut y: Vec<f64> = errors.iter().zip(&centre).map(|(a, b)| a - b).collect();
             if let (Some(turn), Some((_, tolerance))) = (y.get_mut(2), task.goal.heading) {
-                *turn = wrap_angle(*turn * tolerance) / tolerance;
+                *turn = task.goal.least_turn(*turn * tolerance) / tolerance;
             }
             let margins = sample.margins.iter().flat_map(Margins::list);
             y.extend(margins.zip(&held).map(|(a, b)| a - b));
@@ -336,8 +335,8 @@ fn goal_errors(task: &Task, outcome: &State) -> Vec<f64> {
     let (goal, pose) = (&task.goal, outcome.poses[task.goal.object]);
     let apart = (pose.position - goal.position) / goal.tolerance;
     let mut errors = vec![apart.x, apart.y];
-    if let Some((wanted, tolerance)) = goal.heading {
-        errors.push(wrap_angle(pose.heading - wanted) / tolerance);
+    if let (Some((_, tolerance)), Some(turned)) = (goal.heading, goal.turned(outcome)) {
+        errors.push(turned / tolerance);
     }
     errors
 }

@@ -291,8 +291,10 @@ impl Workspace<'_> {
         let (_, left) = axes(direction);
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
         let face = tool.part_pose(part, &frame).local_vector(left);
-        tool.parts[part].footprint().extent(face)
-            + overhang * footprint.extent(at.local_vector(left))
+        // The wider side: offsets beyond the narrower one are seen to touch nothing.
+        let wide = |shape: &Footprint, axis: Vector| shape.extent(axis).max(shape.extent(-axis));
+        wide(&tool.parts[part].footprint(), face)
+            + overhang * wide(&footprint, at.local_vector(left))
     }
 
     fn goal_object(&self, state: &State) -> (Footprint, f64, Pose) {

@@ -81,7 +81,11 @@ pub(super) fn goal_line(task: &Task) -> String {
     let goal = &task.goal;
     let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
     let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
-        format!(", heading {} \u{00b1} {}", degrees(heading), degrees(tolerance))
+        let alike = match goal.alike {
+            1 => String::new(),
+            alike => format!(", or any of {alike} that look the same"),
+        };
+        format!(", heading {} \u{00b1} {}{alike}", degrees(heading), degrees(tolerance))
     });
     let (at, within) = (point(goal.position), millimetres(goal.tolerance));
     format!("{name} at {at} within {within}{heading}")

@@ -8,6 +8,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other room takes
 //! and gives these types. SI units and radians throughout.
 
+mod balance;
 mod friction;
 mod groups;
 mod guess;
@@ -28,10 +29,12 @@ mod support;
 mod task;
 mod tool;
 mod trajectory;
+mod underside;
 mod verdict;
 mod warning;
 mod world;
 
+pub use balance::carries;
 pub use friction::{PairFriction, Surface, pair_friction};
 pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
@@ -52,7 +55,7 @@ pub use separation::{JOINT_ARM, Misfit, Separation};
 pub use sets::DisjointSets;
 pub use situation::Situation;
 pub use state::{State, Velocity};
-pub use support::{Drag, Feet, MAX_FEET, Support, carries};
+pub use support::{Drag, Feet, MAX_FEET, Support};
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
 pub use trajectory::{Body, Contact, Force, Frame, Record, TOUCHING, Trajectory};

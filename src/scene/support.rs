@@ -3,7 +3,10 @@
 use nalgebra::Matrix2;
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ConvexPolygon, Footprint, Vector, cross};
+use crate::geometry::{Footprint, Vector};
+
+use super::balance::{balanced, carries};
+use super::underside::underside;
 
 /// How an object's weight is spread over its underside, as a task states it.
 ///
@@ -57,8 +60,8 @@ impl Feet {
     /// Even pressure is that of sixteen points with equal loads: a grid of four by four under a
     /// cuboid, two rings of eight under a cylinder. They have the second moments of the underside,
     /// so friction is exact for slides that hardly turn; the torque of turns on the spot is exact
-    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms see
-    /// [`Self::under`].
+    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms
+    /// see `underside`.
     pub fn new(support: &Support, footprint: &Footprint) -> Self {
         let mut feet = match (support, *footprint) {
             (Support::Points(points), _) => Self::on(points),
@@ -76,7 +79,12 @@ impl Feet {
                     places.into_iter().map(move |v| Vector::new(u * half.x, v * half.y))
                 }))
             }
-            (Support::Even, Footprint::Polygon(polygon)) => Self::under(&polygon),
+            (Support::Even, Footprint::Polygon(polygon)) => {
+                let (points, even) = underside(&polygon);
+                // Even pressure carries no centre of mass that is not the centroid.
+                let loads = balanced(&points, &even).unwrap_or(even);
+                Self::of(points.into_iter().zip(loads))
+            }
             (Support::Corners, footprint) => Self::corners(&footprint, 1.0),
             (Support::Spread(share), footprint) => Self::corners(&footprint, *share),
         };
@@ -117,48 +125,6 @@ impl Feet {
         let loads =
             carries(points).unwrap_or_else(|| vec![1.0 / points.len() as f64; points.len()]);
         Self::of(points.iter().copied().zip(loads))
-    }
-
-    /// Even pressure under a polygon: two or four points in each triangle of a side and the centre
-    /// of mass, with loads that have the second moments of the triangle.
-    ///
-    /// With three or four corners, at two places along a side and two depths, which make the torque
-    /// of turns on the spot exact, too. With more corners, at the middles of the triangle's sides
-    /// (the neighbour's being the same); that torque is then 1 to 4 % too large. Where the centre
-    /// of mass is not the centroid even pressure cannot carry it: the loads are then those nearest
-    /// to even ones that do, see [`carries`].
-    fn under(polygon: &ConvexPolygon) -> Self {
-        let whole = 2.0 * polygon.area();
-        let sides = || polygon.sides().map(|(a, b)| (a, b, cross(a, b) / whole));
-        let mut points = Vec::with_capacity(MAX_FEET);
-        let mut loads = Vec::with_capacity(MAX_FEET);
-        if polygon.corners().len() <= 4 {
-            // Gauss-Legendre along the side.
-            let places: Vec<(Vector, f64)> = sides()
-                .flat_map(|(a, b, share)| {
-                    let (middle, off) = ((a + b) / 2.0, (b - a) / 12f64.sqrt());
-                    [(middle - off, share / 2.0), (middle + off, share / 2.0)]
-                })
-                .collect();
-            // Depths with mean square 1/2 and the mean that gives the mean radius.
-            let outside: f64 = places.iter().map(|(place, load)| load * place.norm()).sum();
-            let mean = polygon.mean_radius() / outside;
-            let off = (0.5 - mean * mean).max(0.0).sqrt();
-            for depth in [mean - off, mean + off] {
-                points.extend(places.iter().map(|(place, _)| depth * place));
-                loads.extend(places.iter().map(|(_, load)| load / 2.0));
-            }
-        } else {
-            let before = sides().last().map_or(0.0, |(_, _, share)| share);
-            let mut before = before;
-            for (a, b, share) in sides() {
-                points.extend([a / 2.0, (a + b) / 2.0]);
-                loads.extend([(before + share) / 3.0, share / 3.0]);
-                before = share;
-            }
-        }
-        let loads = balanced(&points, &loads).unwrap_or(loads);
-        Self::of(points.into_iter().zip(loads))
     }
 
     fn corners(footprint: &Footprint, share: f64) -> Self {
@@ -340,49 +306,6 @@ fn ring(radius: f64, turn: f64) -> impl Iterator<Item = Vector> {
     })
 }
 
-/// Shares of the weight that points carry, so that together they carry it at the origin: those
-/// nearest to equal shares, as even springs would have them. `None` where they cannot, because the
-/// origin lies outside of them.
-pub fn carries(points: &[Vector]) -> Option<Vec<f64>> {
-    balanced(points, &vec![1.0; points.len()])
-}
-
-/// The same for points whose shares would be as these `weights` if the origin were in their middle.
-fn balanced(points: &[Vector], weights: &[f64]) -> Option<Vec<f64>> {
-    let mut used = vec![true; points.len()];
-    loop {
-        if !used.contains(&true) {
-            return None;
-        }
-        // Loads w (a + b . point) of sum one and without moment: three equations, by Cramer's rule.
-        let among = || (0..points.len()).filter(|&k| used[k]).map(|k| (points[k], weights[k]));
-        let n: f64 = among().map(|(_, weight)| weight).sum();
-        let sum: Vector = among().map(|(point, weight)| weight * point).sum();
-        let xx: f64 = among().map(|(point, weight)| weight * point.x * point.x).sum();
-        let xy: f64 = among().map(|(point, weight)| weight * point.x * point.y).sum();
-        let yy: f64 = among().map(|(point, weight)| weight * point.y * point.y).sum();
-        let a = xx * yy - xy * xy;
-        let b = Vector::new(sum.y * xy - sum.x * yy, sum.x * xy - sum.y * xx);
-        let whole = n * a + sum.dot(&b);
-        // On one line they carry nothing: it would tip.
-        if whole <= 1e-9 * n * (xx + yy) * (xx + yy) {
-            return None;
-        }
-        let load = |k: usize| weights[k] * (a + b.dot(&points[k])) / whole;
-        let lowest = (0..points.len()).filter(|&k| used[k]).map(|k| (k, load(k)));
-        let lowest = lowest.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        if lowest.1 < -1e-9 {
-            used[lowest.0] = false;
-            continue;
-        }
-        let loads: Vec<f64> =
-            (0..points.len()).map(|k| if used[k] { load(k).max(0.0) } else { 0.0 }).collect();
-        let moment: Vector = points.iter().zip(&loads).map(|(point, load)| *load * point).sum();
-        let sum: f64 = loads.iter().sum();
-        return (moment.norm() < 1e-6 && (sum - 1.0).abs() < 1e-6).then_some(loads);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -423,47 +346,6 @@ mod tests {
         }
     }
 
-    fn polygon(corners: &[[f64; 2]]) -> ConvexPolygon {
-        let corners: Vec<Vector> = corners.iter().map(|[x, y]| Vector::new(*x, *y)).collect();
-        ConvexPolygon::new(&corners).expect("convex")
-    }
-
-    #[test]
-    fn even_feet_under_polygons_have_the_moments_of_even_pressure() {
-        let house = [[0.0, 0.0], [0.08, 0.0], [0.08, 0.05], [0.04, 0.09], [0.0, 0.06]];
-        let ring = |n: u32| {
-            let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
-            (0..n).map(|k| [0.04 * angle(k).cos(), 0.04 * angle(k).sin()]).collect::<Vec<_>>()
-        };
-        let shapes = [
-            (polygon(&[[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]]), 1e-9),
-            (polygon(&[[0.0, 0.0], [0.10, 0.0], [0.07, 0.04], [0.02, 0.05]]), 1e-9),
-            (polygon(&house), 0.04),
-            (polygon(&ring(5)), 0.034),
-            (polygon(&ring(6)), 0.024),
-            (polygon(&ring(8)), 0.014),
-        ];
-        for (shape, off) in shapes {
-            let feet = Feet::new(&Support::Even, &Footprint::Polygon(shape));
-            let sum = |value: &dyn Fn(Vector) -> f64| -> f64 {
-                feet.each().map(|(at, load)| load * value(at)).sum()
-            };
-            assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-12, "{shape:?}");
-            assert!(sum(&|at| at.x).abs() < 1e-15 && sum(&|at| at.y).abs() < 1e-15);
-            let moments = [sum(&|at| at.x * at.x), sum(&|at| at.x * at.y), sum(&|at| at.y * at.y)];
-            for (found, expected) in moments.into_iter().zip(shape.second_moments()) {
-                assert!((found - expected).abs() < 1e-15, "{shape:?} {found} {expected}");
-            }
-            let ratio = feet.mean_radius / shape.mean_radius();
-            assert!((1.0 - 1e-9..1.0 + off).contains(&ratio), "{shape:?} {ratio}");
-            // They lie under the object.
-            for (at, _) in feet.each() {
-                let mut faces = shape.faces();
-                assert!(faces.all(|(corner, normal)| normal.dot(&(at - corner)) < 1e-12));
-            }
-        }
-    }
-
     #[test]
     fn fewer_feet_have_the_same_second_moments() {
         for shape in SHAPES {
@@ -493,35 +375,6 @@ mod tests {
         assert!((square[2] + Vector::x()).norm() < 1e-12);
     }
 
-    #[test]
-    fn a_square_stands_alike_however_it_is_written() {
-        let half = Vector::new(0.04, 0.04);
-        let square = polygon(&[[0.0, 0.0], [0.08, 0.0], [0.08, 0.08], [0.0, 0.08]]);
-        for (support, off) in [(Support::Even, 0.006), (Support::Spread(0.7), 1e-12)] {
-            let own = Feet::new(&support, &Footprint::Polygon(square));
-            let other = Feet::new(&support, &Footprint::Rectangle { half });
-            assert_eq!(own.count, other.count);
-            assert!((own.mean_square / other.mean_square - 1.0).abs() < 1e-12);
-            assert!((own.mean_radius / other.mean_radius - 1.0).abs() < off);
-        }
-    }
-
-    #[test]
-    fn a_centre_of_mass_aside_is_carried_where_it_is() {
-        let corners = [[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]].map(|[x, y]| Vector::new(x, y));
-        for centre in [[0.03, 0.02], [0.035, 0.02], [0.01, 0.045], [0.07, 0.005]] {
-            let shape = ConvexPolygon::balanced(&corners, Vector::new(centre[0], centre[1]));
-            let footprint = Footprint::Polygon(shape.expect("inside"));
-            for support in [Support::Even, Support::Corners, Support::Spread(0.6)] {
-                let feet = Feet::new(&support, &footprint);
-                let sum: f64 = feet.load.iter().sum();
-                let moment: Vector = feet.each().map(|(at, load)| load * at).sum();
-                assert!((sum - 1.0).abs() < 1e-9 && moment.norm() < 1e-9, "{centre:?} {support:?}");
-                assert!(feet.load.iter().all(|load| *load >= 0.0));
-            }
-        }
-    }
-
     /// Turning little while it slides, a disc under even pressure resists with a quarter of R^2.
     #[test]
     fn a_slide_that_hardly_turns_feels_the_second_moment_along_it() {
@@ -539,27 +392,5 @@ mod tests {
             let torque = -drag.first.y * speed + drag.second * turning;
             assert!((torque / (second * turning / speed) - 1.0).abs() < 1e-3, "{shape:?}");
         }
-    }
-
-    #[test]
-    fn three_points_carry_what_lies_between_them_and_nothing_else() {
-        let points = [(0.03, 0.0), (-0.02, 0.02), (-0.02, -0.04)].map(|(x, y)| Vector::new(x, y));
-        let loads = carries(&points).expect("the origin is inside");
-        let centre: Vector = points.iter().zip(&loads).map(|(at, load)| *load * at).sum();
-        assert!(centre.norm() < 1e-12 && loads.iter().all(|load| *load > 0.0), "{loads:?}");
-        let aside = points.map(|point| point + Vector::new(0.1, 0.0));
-        assert_eq!(carries(&aside), None);
-    }
-
-    #[test]
-    fn points_share_the_weight_as_equally_as_they_can() {
-        let square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
-        let square = square.map(|(x, y)| Vector::new(x, y));
-        let loads = carries(&square).expect("inside");
-        assert!(loads.iter().all(|load| (load - 0.25).abs() < 1e-12));
-        // Far out on one side, one point more carries less.
-        let lopsided = [&square[..], &[Vector::new(8.0, 0.0)]].concat();
-        let loads = carries(&lopsided).expect("inside");
-        assert!(loads[4] < loads[0] && loads[0] < loads[1], "{loads:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Vector, wrap_angle};
+use crate::geometry::{Shape, Vector, wrap_angle};
 
 use super::{Scene, State};
 
@@ -146,13 +146,21 @@ pub struct Goal {
     pub tolerance: f64,
     /// Wanted heading and its tolerance, radians, where one is asked for.
     pub heading: Option<(f64, f64)>,
+    /// Into how many equal turns a full turn falls after each of which the object looks the same,
+    /// where such headings count as the wanted one; else 1.
+    #[serde(default = "one")]
+    pub alike: usize,
+}
+
+fn one() -> usize {
+    1
 }
 
 impl Goal {
     /// The centre of object `object` (an index into [`Scene::objects`]) at (`x`, `y`), off by at
     /// most `tolerance`; all metres.
     pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
-        Self { object, position: Vector::new(x, y), tolerance, heading: None }
+        Self { object, position: Vector::new(x, y), tolerance, heading: None, alike: 1 }
     }
 
     /// The goal with a heading that may be off by at most `tolerance`, radians.
@@ -160,15 +168,42 @@ impl Goal {
         Self { heading: Some((heading, tolerance)), ..self }
     }
 
+    /// The goal at which every heading counts as the wanted one that looks the same on an object of
+    /// this `shape`, as in task files: any quarter turn of a square, any half turn of a rectangle.
+    ///
+    /// ```
+    /// use pushplan::{Goal, Pose, Shape, State};
+    ///
+    /// let square = Shape::Cuboid { size: [0.08, 0.08, 0.05] };
+    /// let goal = Goal::new(0, [0.5, 0.0], 0.02).facing(0.1, 0.05);
+    /// let turned = State::at_rest(vec![Pose::new(0.5, 0.0, 0.1 + std::f64::consts::FRAC_PI_2)]);
+    /// assert!(!goal.reached(&turned) && goal.looking_like(&square).reached(&turned));
+    /// ```
+    pub fn looking_like(self, shape: &Shape) -> Self {
+        Self { alike: shape.footprint().symmetry().unwrap_or(1), ..self }
+    }
+
+    /// `turn` without the turns after which the object looks the same, radians: the smallest left.
+    pub fn least_turn(&self, turn: f64) -> f64 {
+        let alike = self.alike as f64;
+        wrap_angle(turn * alike) / alike
+    }
+
     /// Distance of the object's centre from the goal, metres.
     pub fn error(&self, state: &State) -> f64 {
         (state.poses[self.object].position - self.position).norm()
     }
 
+    /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object,
+    /// radians to the left, where a heading is asked for.
+    pub fn turned(&self, state: &State) -> Option<f64> {
+        let (wanted, _) = self.heading?;
+        Some(self.least_turn(state.poses[self.object].heading - wanted))
+    }
+
     /// Absolute heading error, radians, where a heading is asked for.
     pub fn heading_error(&self, state: &State) -> Option<f64> {
-        let (wanted, _) = self.heading?;
-        Some(wrap_angle(state.poses[self.object].heading - wanted).abs())
+        self.turned(state).map(f64::abs)
     }
 
     /// Whether position (and heading, where asked for) are within tolerance.

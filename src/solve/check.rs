@@ -63,7 +63,8 @@ pub(super) fn check(
     if goal.object >= scene.objects.len() {
         return fault(format!("the goal names object {}, which does not exist", goal.object));
     }
-    let heading = goal.heading.is_none_or(|(h, t)| h.is_finite() && t.is_finite() && t > 0.0);
+    let heading = goal.alike > 0
+        && goal.heading.is_none_or(|(h, t)| h.is_finite() && t.is_finite() && t > 0.0);
     if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
         return fault("the goal must be finite, its heading tolerance positive".into());
     }

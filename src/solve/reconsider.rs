@@ -239,7 +239,8 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
         if !ends.is_empty() {
             let count = ends.len() as f64;
             shift += ends.iter().map(|end| end.position - goal.position).sum::<Vector>() / count;
-            turn += ends.iter().map(|end| wrap_angle(end.heading - wanted)).sum::<f64>() / count;
+            let turned = ends.iter().map(|end| goal.least_turn(end.heading - wanted));
+            turn += turned.sum::<f64>() / count;
             engines += 1.0;
         }
     }
@@ -289,6 +290,7 @@ mod tests {
             position: Vector::new(0.5, 0.1),
             tolerance: 0.02,
             heading: Some((3.0, 0.1)),
+            alike: 1,
         };
         let ended = |x: f64, y: f64, heading: f64| {
             let state = State::at_rest(vec![Pose::new(x, y, heading)]);

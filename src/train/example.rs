@@ -56,9 +56,6 @@ pub enum Exposure {
     MultiStep,
 }
 
-/// Share of the examples with joints whose geometry is only guessed from their types.
-const GUESSED: f64 = 0.2;
-
 impl Noise {
     const SMALLEST: f64 = 0.02;
 }
@@ -110,7 +107,7 @@ impl<'a> Examples<'a> {
             .par_iter()
             .enumerate()
             .flat_map_iter(|(e, episode)| {
-                let bodies = bodies(episode, false);
+                let bodies = bodies(episode);
                 let mut memory = Memory::default();
                 (0..episode.frames.len() - 1).filter_map(move |frame| {
                     let wanted = wanted(episode, &bodies, frame, &mut memory);
@@ -160,14 +157,12 @@ impl<'a> Examples<'a> {
                 };
                 let lead = wanted.min(frame);
                 let mut state = episode.frames[frame - lead].state.clone();
-                let guessed = !episode.scene.joints.is_empty() && random.random_bool(GUESSED);
-                let bodies = bodies(episode, guessed);
+                let bodies = bodies(episode);
                 if !random.random_bool(noise.clean) {
                     disturb(&mut state, noise, &mut random);
                     hold(&bodies, &mut state, |_| true);
                 }
-                // Guessed joints make another prior, which needs other corrections.
-                let wanted = (!guessed).then_some(&*place.wanted);
+                let wanted = &*place.wanted;
                 let at = frame - lead;
                 let transition = Transition::of(episode, at);
                 Start { episode, bodies, frame, wanted, at, transition, state }
@@ -202,8 +197,8 @@ struct Start<'a> {
     bodies: Bodies,
     /// The frame before the transition to learn.
     frame: usize,
-    /// The corrections wanted there, if they are known.
-    wanted: Option<&'a [Wanted]>,
+    /// The corrections wanted there.
+    wanted: &'a [Wanted],
     /// The frame that `state` belongs to, and what the tool does from there.
     at: usize,
     transition: Transition,
@@ -260,9 +255,9 @@ impl Supervised {
     fn add(&mut self, start: &Start<'_>, memory: &mut Memory) {
         let Start { episode, bodies, at, state, .. } = start;
         let fresh;
-        let wanted = match start.wanted {
-            Some(wanted) if start.at == start.frame => wanted,
-            _ => {
+        let wanted = match start.at == start.frame {
+            true => start.wanted,
+            false => {
                 fresh = wanted(episode, bodies, *at, memory);
                 &fresh
             }
@@ -281,12 +276,9 @@ impl Supervised {
     }
 }
 
-/// The bodies of an episode, its joints as they are or guessed from their types.
-fn bodies(episode: &Episode, guessed: bool) -> Bodies {
-    let mut physics = Physics::stated(&episode.scene);
-    if guessed {
-        physics = physics.guess_joints(&episode.scene);
-    }
+/// The bodies of an episode.
+fn bodies(episode: &Episode) -> Bodies {
+    let physics = Physics::stated(&episode.scene);
     Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 

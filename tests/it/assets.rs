@@ -2,6 +2,7 @@
 
 mod faults;
 mod joints;
+mod prisms;
 mod recordings;
 mod robustness;
 mod saved;
@@ -88,6 +89,8 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
                 assert_eq!(warnings.len(), 1);
                 warnings.retain(|warning| !warning.to_string().contains("sliding on"));
             }
+            // Data sets hold no prisms.
+            warnings.retain(|warning| !warning.to_string().contains("corner off a right angle"));
             assert_eq!(warnings, [], "{}", task.name);
         }
     }

@@ -183,6 +183,9 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     if let Some((heading, tolerance)) = goal.heading {
         json["heading_deg"] = json!(degrees(heading));
         json["heading_tolerance_deg"] = json!(degrees(tolerance));
+        if goal.alike != goal.looking_like(&scene.objects[goal.object].shape).alike {
+            json["symmetric"] = json!(false);
+        }
     }
     json
 }

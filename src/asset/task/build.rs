@@ -189,10 +189,18 @@ fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         )),
         None => None,
     };
-    Some(Goal {
-        object: scene.object(node.get("object")?.text()?)?,
+    let object = scene.object(node.get("object")?.text()?)?;
+    let goal = Goal {
+        object,
         position: position(node)?,
         tolerance: node.get("tolerance")?.number()?,
         heading,
-    })
+        alike: 1,
+    };
+    let symmetric = match node.get("symmetric") {
+        Some(symmetric) => symmetric.switch()?,
+        None => true,
+    };
+    let looks = symmetric && heading.is_some();
+    Some(if looks { goal.looking_like(&scene.objects[object].shape) } else { goal })
 }

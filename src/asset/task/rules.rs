@@ -111,8 +111,10 @@ fn stands(object: &Node, ledger: &mut Ledger) {
         ledger.fault(
             node,
             "the object would fall: its centre does not lie between these points",
-            "the points are in the object's own frame, [0, 0] being its centre; those of a prism \
-             are in the frame of its corners",
+            match object.get("shape").and_then(|shape| shape.get("prism")) {
+                Some(_) => "the points are in the frame of the prism's corners",
+                None => "the points are in the object's own frame, [0, 0] being its centre",
+            },
         );
     }
 }
@@ -232,6 +234,10 @@ fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) 
             "a heading tolerance without a heading",
             "add `heading_deg`, or remove the tolerance",
         );
+    }
+    if let (Some(node), None) = (goal.get("symmetric"), goal.get("heading_deg")) {
+        let message = "`symmetric` is about a heading, and none is asked for";
+        ledger.fault(node, message, "add `heading_deg`, or remove it");
     }
     let Some(name) = goal.get("object") else { return };
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };

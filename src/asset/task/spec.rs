@@ -298,4 +298,11 @@ const GOAL: Value = Value::Map(&[
         }),
         "Largest heading error that still counts as success, degrees; default 10.",
     ),
+    Key::optional(
+        "symmetric",
+        Value::Switch,
+        "Whether headings at which the object looks the same count alike: quarter turns of a \
+         square, half turns of a rectangle, n-th turns of a regular prism; default true. Write \
+         false where one side is marked.",
+    ),
 ]);

@@ -82,12 +82,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         },
         tools: ToolChoice::All,
         pushes: pushes(2),
-        goal: Goal {
-            object: 0,
-            position: place(behind, 0.0, 0.0).position,
-            tolerance: TOLERANCE,
-            heading: None,
-        },
+        goal: Goal::new(0, place(behind, 0.0, 0.0).position.into(), TOLERANCE),
         robustness: Task::ROBUSTNESS,
     }
 }

@@ -46,7 +46,9 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task
     let start = scene.objects[goal_object].pose;
     let mut goal = Goal::new(goal_object, start.position.into(), TOLERANCE);
     if kind == TaskKind::Heading {
-        goal = goal.facing(start.heading, HEADING_TOLERANCE_DEG.to_radians());
+        goal = goal
+            .facing(start.heading, HEADING_TOLERANCE_DEG.to_radians())
+            .looking_like(&scene.objects[goal_object].shape);
     }
     let name = format!("{kind}-{ordinal:04}");
     let task = Task::new(name, scene, Robot::reaching(0.1, rules.reach), goal);

@@ -147,8 +147,14 @@ impl Crowds<'_> {
         if self.args.no_baselines {
             return Ok(models);
         }
-        for spec in assumed(self.model) {
-            models.push(Box::new(self.outside.load(&spec)?));
+        let recorded_joints = || {
+            let sets = self.sources.recordings.iter();
+            sets.flat_map(|set| &set.recordings).any(|one| !one.scene.joints.is_empty())
+        };
+        if !recorded || recorded_joints() {
+            for spec in assumed(self.model) {
+                models.push(Box::new(self.outside.load(&spec)?));
+            }
         }
         for spec in crowd_baselines(self.model, recorded) {
             models.push(Box::new(model::load(&spec)?));

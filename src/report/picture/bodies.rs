@@ -1,5 +1,7 @@
 //! Objects, obstacles, the goal and the robot's reach.
 
+use std::f64::consts::TAU;
+
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::report::svg::{Anchor, Font, Style, Svg};
 use crate::scene::{Goal, Object, Obstacle, Robot};
@@ -29,7 +31,7 @@ pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
     svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
 }
 
-/// Rim of the tolerance, centre cross and, where a heading is asked for, its wedge.
+/// Rim of the tolerance, centre cross and, where a heading is asked for, its wedges.
 pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
     let centre = view.map(goal.position);
     let radius = view.length(goal.tolerance);
@@ -42,10 +44,13 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
         // Long enough to be seen beyond a small tolerance circle.
         let length = radius.max(34.0) + 10.0;
         let at = |angle: f64| centre + Vector::new(angle.cos(), -angle.sin()) * length;
-        let wedge: Vec<Vector> = std::iter::once(centre)
-            .chain((0..=12).map(|k| at(heading + tolerance * (k as f64 / 6.0 - 1.0))))
-            .collect();
-        svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
+        // A wedge for each heading that counts.
+        for turn in (0..goal.alike).map(|k| TAU * k as f64 / goal.alike as f64) {
+            let wedge: Vec<Vector> = std::iter::once(centre)
+                .chain((0..=12).map(|k| at(heading + turn + tolerance * (k as f64 / 6.0 - 1.0))))
+                .collect();
+            svg.polygon(&wedge, Style::fill(palette::GOAL).opacity(0.22));
+        }
         svg.arrow(centre, at(heading), 8.0, palette::GOAL, 1.6);
     }
 }
@@ -111,4 +116,42 @@ fn heading_mark(svg: &mut Svg, view: &View, shape: &Shape, pose: &Pose, style: S
     };
     let front = pose.point(Vector::new(ahead, 0.0));
     svg.line(view.map(pose.position), view.map(front), style);
+}
+
+#[cfg(test)]
+mod tests {
+    use insta::assert_snapshot;
+
+    use super::super::view::Bounds;
+    use super::*;
+    use crate::geometry::ConvexPolygon;
+
+    #[test]
+    fn a_prism_has_its_corners_and_a_mark_ahead_and_a_goal_a_wedge_for_each_heading() {
+        let corners = [[0.0, 0.0], [0.09, 0.0], [0.0, 0.06]].map(|[x, y]| Vector::new(x, y));
+        let base = ConvexPolygon::new(&corners).expect("convex");
+        let wedge = Object::prism("wedge", base, 0.05).at(0.03, 0.02, 0.0);
+        let view = View::fit(Bounds { low: corners[0], high: corners[1] }, Vector::zeros());
+        let mut svg = Svg::new(100.0, 100.0, "a prism");
+        object(&mut svg, &view, &wedge, true);
+        assert_snapshot!(svg.finish(), @r##"
+        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" width="100" height="100" font-family="Inter, 'Segoe UI', 'Helvetica Neue', Arial, 'DejaVu Sans', sans-serif" role="img">
+        <title>a prism</title>
+        <rect width="100" height="100" rx="8" fill="#ffffff"/>
+        <g><title>wedge: 0.400 kg</title>
+        <polygon points="215.79,215.79 604.21,215.79 215.79,-43.16" stroke-linejoin="round" stroke-linecap="round" fill="#74b3f0" stroke="#1c6fbf" stroke-width="1.6"/>
+        <line x1="345.26" y1="129.47" x2="474.74" y2="129.47" fill="none" stroke="#1c6fbf" stroke-width="1.6"/>
+        </g>
+        </svg>
+        "##);
+
+        let square = Shape::Cuboid { size: [0.08, 0.08, 0.05] };
+        let facing = Goal::new(0, [0.03, 0.02], 0.02).facing(0.2, 0.1);
+        let wedges = |wanted: &Goal| {
+            let mut svg = Svg::new(100.0, 100.0, "a goal");
+            goal(&mut svg, &view, wanted);
+            svg.finish().matches(r#"opacity="0.22""#).count()
+        };
+        assert_eq!((wedges(&facing), wedges(&facing.looking_like(&square))), (1, 4));
+    }
 }

@@ -280,8 +280,13 @@ mod tests {
             warnings,
             ..Trajectory::new(crate::scene::ModelKind::PLANAR.into())
         };
-        let goal =
-            Goal { object: 0, position: Vector::new(0.5, 0.0), tolerance: 0.02, heading: None };
+        let goal = Goal {
+            object: 0,
+            position: Vector::new(0.5, 0.0),
+            tolerance: 0.02,
+            heading: None,
+            alike: 1,
+        };
         MovingPicture {
             title: "a test".to_owned(),
             plan: "bar, 2 pushes".to_owned(),

@@ -48,14 +48,39 @@ fn a_box_pushed_aside_sticks_within_the_friction_cone_and_slips_outside() {
 }
 
 #[test]
-fn three_shipped_plans_work_in_mujoco() {
+fn prisms_pushed_flush_slide_on_by_v2_over_2_mu_g() {
+    let Some(python) = python() else { return };
+    let triangle = "corners: [[0, 0], [0.10, 0.06], [0, 0.12]]";
+    // The weight lies over the middle of the face, but not in the middle of the block.
+    let loaded =
+        "corners: [[0, 0], [0.1, 0], [0.1, 0.08], [0, 0.08]], centre_of_mass: [0.06, 0.04]";
+    for (prism, face) in [(triangle, 0.1 / 3.0), (loaded, 0.06)] {
+        let task = task("").replace(
+            "{cuboid: {size: [0.08, 0.08, 0.06]}}",
+            &format!("{{prism: {{{prism}, height: 0.06}}}}"),
+        );
+        let start = [START - face - 0.025, 0.0];
+        let file = plan(&task, BAR, PushForm::Placed, &[(start, 0.0, 0.20, 0.2)]);
+        let results = replay(&python, &[("flush", mjcf(&file).unwrap())]);
+        assert_eq!(results[0]["goal_object"], "prism");
+        let pose = &results[0]["poses"]["object/box"];
+        let [x, y, heading] = [0, 1, 2].map(|k| pose[k].as_f64().expect("a number"));
+        let slide = 0.2 * 0.2 / (2.0 * TABLE * GRAVITY);
+        assert!((x - (START + 0.195 + slide)).abs() < 5e-4, "{prism}: {x}");
+        assert!(y.abs() < 5e-4 && heading.abs() < 3e-3, "{prism}: {y} {heading}");
+    }
+}
+
+#[test]
+fn five_shipped_plans_work_in_mujoco() {
     let Some(python) = python() else { return };
     let library = ToolLibrary::embedded().unwrap();
     let planner = Planner::for_effort(Effort::Standard).unwrap().build();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
     let mut texts = Vec::new();
-    // A can behind a wall; a box that takes two pulls; a joint with limits.
-    for name in ["pull-back-behind-wall", "pull-back-twice", "drawer"] {
+    // A can behind a wall; a box that takes two pulls; a joint with limits; prisms.
+    let names = ["pull-back-behind-wall", "pull-back-twice", "drawer"];
+    for name in names.into_iter().chain(["triangle-turned", "hexagon-any-side"]) {
         let task = Task::load(root.join(format!("{name}.yaml"))).unwrap();
         let solution = planner.solve(&task, &library).unwrap();
         let best = &solution.plans[0];
