@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::{
     asset::ToolLibrary,
     judge::Summary,
-    solve::{PlanStatus, Planner, SolveError},
+    scene::{Situation, Task},
+    solve::{PlanStatus, Planner, Solution, SolveError},
 };
 
 use super::{
@@ -26,6 +27,8 @@ pub struct PlanErrors {
     pub spatial: Option<Summary>,
     /// Tasks solved.
     pub solved: usize,
+    /// Plans that work in both engines on even pressure, corners and in between.
+    pub on_all_supports: usize,
     /// Plans replayed a task, on average.
     pub attempts: f64,
     /// Rollouts of the effect model a task, on average.
@@ -57,10 +60,28 @@ pub struct RefinementReport {
 
 /// What refinement did in one task.
 struct Refined {
-    before: SolvedTask,
-    after: SolvedTask,
+    before: Tried,
+    after: Tried,
     worse: usize,
     programmes: [usize; 2],
+}
+
+/// A task solved, and whether its plan works on whatever the objects may rest.
+struct Tried {
+    solved: SolvedTask,
+    on_all_supports: bool,
+}
+
+impl Tried {
+    fn of(task: &Task, solution: &Solution) -> Self {
+        let situation = Situation::stated(&task.scene);
+        Self {
+            solved: SolvedTask::of(task, solution),
+            on_all_supports: solution
+                .best()
+                .is_some_and(|plan| plan.works_on_all_supports(task, &situation)),
+        }
+    }
 }
 
 /// Solves `tasks` random tasks with two planners, of which `without` differs from `with` by not
@@ -86,21 +107,21 @@ pub fn refinement_report(
             let ours = solution.plans.iter().filter(|plan| plan.refinement.aimed_at.is_none());
             let worse = ours.filter(|plan| plan.refinement.after > plan.refinement.before).count();
             Ok(Refined {
-                before: SolvedTask::of(&task, &without.solve(&task, library)?),
-                after: SolvedTask::of(&task, &solution),
+                before: Tried::of(&task, &without.solve(&task, library)?),
+                after: Tried::of(&task, &solution),
                 worse,
                 programmes: [statistics.solved, statistics.failures.len()],
             })
         })
         .collect::<Result<_, SolveError>>()?;
-    let (before, after): (Vec<&SolvedTask>, Vec<&SolvedTask>) =
+    let (before, after): (Vec<&Tried>, Vec<&Tried>) =
         done.iter().map(|one| (&one.before, &one.after)).unzip();
     let programmes = |which: usize| done.iter().map(|one| one.programmes[which]).sum();
     Ok(RefinementReport {
         model: with.model().spec().to_string(),
         seed,
         tasks,
-        tolerance: after.first().map_or(0.0, |task| task.tolerance),
+        tolerance: after.first().map_or(0.0, |task| task.solved.tolerance),
         before: plan_errors(&before),
         after: plan_errors(&after),
         worse: done.iter().map(|one| one.worse).sum(),
@@ -109,7 +130,9 @@ pub fn refinement_report(
     })
 }
 
-fn plan_errors(list: &[&SolvedTask]) -> PlanErrors {
+fn plan_errors(list: &[&Tried]) -> PlanErrors {
+    let on_all_supports = list.iter().filter(|task| task.on_all_supports).count();
+    let list: Vec<&SolvedTask> = list.iter().map(|task| &task.solved).collect();
     let over = |end: &dyn Fn(&SolvedTask) -> Option<End>| {
         let errors = list.iter().filter_map(|task| Some(end(task)?.error));
         Summary::of(&errors.collect::<Vec<f64>>())
@@ -122,6 +145,7 @@ fn plan_errors(list: &[&SolvedTask]) -> PlanErrors {
         planar: over(&|task| task.planar),
         spatial: over(&|task| task.spatial),
         solved: list.iter().filter(|task| task.status == PlanStatus::Solved).count(),
+        on_all_supports,
         attempts: mean(&|task| task.attempts),
         rollouts: mean(&|task| task.rollouts),
     }

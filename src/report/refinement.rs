@@ -18,6 +18,9 @@ pub fn refinement_document(report: &RefinementReport, effort: &str) -> Document 
         &[
             ("plans", Left, &|(name, _)| (*name).to_owned()),
             ("solved", Right, &|(_, plans)| format!("{} of {}", plans.solved, report.tasks)),
+            ("on all supports", Right, &|(_, plans)| {
+                format!("{} of {}", plans.on_all_supports, report.tasks)
+            }),
             ("predicted", Right, &|(_, plans)| length(&plans.predicted, |errors| errors.mean)),
             ("planar", Right, &|(_, plans)| length(&plans.planar, |errors| errors.mean)),
             ("3-D", Right, &|(_, plans)| length(&plans.spatial, |errors| errors.mean)),

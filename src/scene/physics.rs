@@ -5,11 +5,6 @@ use std::sync::Arc;
 
 use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool};
 
-/// How high a tool presses where nobody says it, see [`Physics::push_height`]: where the planar
-/// engine is nearest to the 3-D one (mean 5.6 mm apart at 0, 3.8 at 0.5, 4.2 at 1; shipped tools,
-/// even support).
-const PUSH_HEIGHT: f64 = 0.5;
-
 /// Physical parameters under which a motion is played. What computes effects reads these and not
 /// what the scene states, so that several beliefs about one scene can be rolled out side by side.
 ///
@@ -36,6 +31,11 @@ pub struct Physics {
 }
 
 impl Physics {
+    /// What [`Self::push_height`] is taken for where nobody says it: where the planar engine is
+    /// nearest to the 3-D one (mean 5.6 mm apart at 0, 3.8 at 0.5, 4.2 at 1; shipped tools, even
+    /// support).
+    pub const PUSH_HEIGHT: f64 = 0.5;
+
     /// Exactly what the scene states.
     pub fn stated(scene: &Scene) -> Self {
         Self {
@@ -53,22 +53,26 @@ impl Physics {
     /// the table, pushes it as hard as `friction` resists, metres. A push R at height z must not
     /// tip the object of mass m, so its load moves by z R / (m g).
     pub fn lean(&self, object: &Object, friction: f64, (tool, lift): (&Tool, f64)) -> f64 {
-        self.push_height.unwrap_or(PUSH_HEIGHT) * face(object, (tool, lift)) * friction
+        self.push_height.unwrap_or(Self::PUSH_HEIGHT) * face(object, (tool, lift)) * friction
     }
 
-    /// Lets all objects rest on the table in another plausible way, in turn for each `draw`.
-    ///
-    /// Nobody sees the underside of an object; most rest somewhere between even pressure and their
-    /// corners. Every fourth draw leaves them as they are believed to be.
+    /// What an object may rest on: nobody sees its underside, but most are somewhere in this range.
+    pub const PLAUSIBLE_SUPPORTS: [Support; 3] =
+        [Support::Spread(0.75), Support::Even, Support::Corners];
+
+    /// Lets all objects rest on the table in another plausible way, in turn for each `draw`; every
+    /// fourth one leaves them as they are believed to be.
     pub fn doubt_supports(&mut self, scene: &Scene, draw: usize) {
-        let support = match draw % 4 {
-            0 => return,
-            1 => Support::Spread(0.75),
-            2 => Support::Even,
-            _ => Support::Corners,
-        };
+        let count = Self::PLAUSIBLE_SUPPORTS.len();
+        if let Some(number) = (draw % (count + 1)).checked_sub(1) {
+            self.support_all(scene, &Self::PLAUSIBLE_SUPPORTS[number]);
+        }
+    }
+
+    /// Lets all objects rest on the table in this way.
+    pub fn support_all(&mut self, scene: &Scene, support: &Support) {
         for (feet, object) in self.feet.iter_mut().zip(&scene.objects) {
-            *feet = Arc::new(Feet::new(&support, &object.shape.footprint()));
+            *feet = Arc::new(Feet::new(support, &object.shape.footprint()));
         }
     }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 use crate::plan::{RefineStatistics, SearchStatistics};
-use crate::scene::{Outcome, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
+use crate::scene::{Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
 use crate::verify::{Verifier, VerifySettings};
 
 /// How solving ended.
@@ -72,6 +72,18 @@ impl RankedPlan {
                 Cow::Owned(verifier.nominal(task, situation, &self.tool, &self.plan))
             }
         }
+    }
+}
+
+impl RankedPlan {
+    /// Whether the plan, as written, works in both engines on whatever the objects may rest.
+    pub fn works_on_all_supports(&self, task: &Task, situation: &Situation) -> bool {
+        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        Physics::PLAUSIBLE_SUPPORTS.iter().all(|support| {
+            let mut situation = situation.clone();
+            Arc::make_mut(&mut situation.physics).support_all(&situation.scene, support);
+            verifier.nominal(task, &situation, &self.tool, &self.plan).passed
+        })
     }
 }
 
