@@ -1,6 +1,5 @@
 //! What an object stands on.
 
-use nalgebra::Matrix2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Vector};
@@ -106,12 +105,16 @@ impl Feet {
         let mut feet = match *footprint {
             Footprint::Disc { .. } => Self::equal(ring(self.mean_square.sqrt(), 0.0)),
             Footprint::Rectangle { .. } | Footprint::Polygon(_) => {
-                let second = self.each().map(|(at, load)| load * at * at.transpose());
-                let axes = second.sum::<Matrix2<f64>>().symmetric_eigen();
-                let along = |k: usize| {
-                    axes.eigenvalues[k].max(0.0).sqrt() * axes.eigenvectors.column(k).into_owned()
+                // On the principal axes of the second moments, which have these means and spread.
+                let sum = |value: &dyn Fn(Vector) -> f64| -> f64 {
+                    self.each().map(|(at, load)| load * value(at)).sum()
                 };
-                let (a, b) = (along(0), along(1));
+                let half = 0.5 * sum(&|at| at.x * at.x - at.y * at.y);
+                let across = sum(&|at| at.x * at.y);
+                let (mean, spread) = (0.5 * self.mean_square, half.hypot(across));
+                let (sin, cos) = (0.5 * across.atan2(half)).sin_cos();
+                let a = (mean + spread).sqrt() * Vector::new(cos, sin);
+                let b = (mean - spread).max(0.0).sqrt() * Vector::new(-sin, cos);
                 Self::equal([a + b, b - a, -a - b, a - b])
             }
         };
