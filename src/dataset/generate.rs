@@ -13,8 +13,8 @@ use super::error::DatasetError;
 use super::set::{Dataset, draw_range};
 
 /// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about a
-/// second of work (of tools; up to half a minute of sparse scenes).
-const AT_ONCE: u64 = 512;
+/// second of work (of tools; up to ten seconds of sparse scenes).
+const AT_ONCE: u64 = 64;
 
 /// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
 /// a number.

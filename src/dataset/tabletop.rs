@@ -123,9 +123,13 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
         let corner = |angle: &f64| Vector::new(size * angle.cos(), width * angle.sin()) / 2.0;
         let corners: Vec<Vector> = angles.iter().map(corner).collect();
         // Slivers are as rare on tables as they are hard for engines.
-        if let Ok(base) = ConvexPolygon::new(&corners)
-            && base.inner_radius() > ranges.side.low / 4.0
-        {
+        let Ok(base) = ConvexPolygon::new(&corners) else { continue };
+        let across = |axis: Vector| base.extent(axis) + base.extent(-axis);
+        let [x, y] = [Vector::x(), Vector::y()].map(across);
+        let within = |side: f64| (ranges.side.low..=ranges.side.high).contains(&side);
+        let stout = x.max(y) <= ranges.aspect * x.min(y);
+        let thick = base.inner_radius() > ranges.side.low / 4.0;
+        if within(x) && within(y) && stout && thick {
             return Shape::Prism { base, height };
         }
     }

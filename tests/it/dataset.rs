@@ -40,7 +40,7 @@ fn set_downs(episode: &Episode) -> Vec<(usize, Pose)> {
 
 #[test]
 fn the_tool_is_set_down_free_of_everything_and_nothing_overlaps_at_the_start() {
-    for episode in drawn(400).episodes() {
+    for episode in drawn(150).episodes() {
         let Episode { scene, motion, frames, .. } = episode;
         for (frame, tool) in set_downs(episode) {
             let objects = scene
@@ -94,7 +94,7 @@ fn most_strokes_move_something() {
 
 #[test]
 fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
-    let config = DatasetConfig { seed: 12, episodes: 2000, ..DatasetConfig::default() };
+    let config = DatasetConfig { seed: 12, episodes: 300, ..DatasetConfig::default() };
     let ranges = config.ranges();
     let data = Dataset::in_memory(&config, &Unwatched).unwrap();
     let mut far = 0;
@@ -174,7 +174,7 @@ fn files(dir: &Path) -> Vec<(String, Vec<u8>)> {
 
 /// Enough for two turns of keeping.
 fn large() -> DatasetConfig {
-    DatasetConfig { episodes: 700, ..small() }
+    DatasetConfig { episodes: 100, ..small() }
 }
 
 #[test]
@@ -185,12 +185,12 @@ fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memor
     assert_eq!(names, ["manifest.json", "records.bin"]);
     assert_eq!(fs::metadata(whole.path().join("records.bin")).unwrap().len(), bytes);
 
-    let script = Script { stop_after: Some(600), ..Script::default() };
+    let script = Script { stop_after: Some(80), ..Script::default() };
     let stopped = generate(&large(), broken.path(), &script);
     assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
     match Dataset::open(broken.path()) {
         Err(DatasetError::Store(StoreError::Unfinished { done, total, .. })) => {
-            assert!((512..700).contains(&done) && total == 700, "{done} of {total}");
+            assert!((64..100).contains(&done) && total == 100, "{done} of {total}");
         }
         opened => panic!("{opened:?}"),
     }
