@@ -59,9 +59,6 @@ impl Quantity {
     }
 }
 
-/// Updates of the weights in which the load follows what presses.
-const FOLLOWING: u32 = 3;
-
 /// A rigid group and its motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Unknown {
@@ -80,11 +77,9 @@ pub(super) struct Unknown {
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
     /// How hard contacts and joints press, as a share of the largest friction, at most one. It
-    /// follows `pressed` by halves in the first [`FOLLOWING`] updates of the weights in a frame, and
-    /// then stays: otherwise where the load goes and what then presses can take turns for ever.
+    /// follows `pressed` by halves from one update of the weights to the next: at once, where the
+    /// load goes and what then presses can take turns for ever. The network was trained on it so.
     pressing: Vector,
-    /// Updates of the weights in this frame.
-    updates: u32,
     /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
     pub share: f64,
     pub turn: Turn,
@@ -101,7 +96,6 @@ impl Unknown {
             Vector::new(cos, sin)
         }));
         (self.share, self.turn) = (0.0, Turn::NONE);
-        self.updates = 0;
     }
 
     /// Looks at the group when `share` of its present motion is done.
@@ -167,10 +161,7 @@ impl Unknown {
         let load: f64 = members.iter().map(|&k| bodies.objects[k].load()).sum();
         let pressed = self.pressed.xy();
         let pressed = pressed / pressed.norm().max(load).max(f64::MIN_POSITIVE);
-        if self.updates < FOLLOWING {
-            self.pressing += 0.5 * (pressed - self.pressing);
-            self.updates += 1;
-        }
+        self.pressing += 0.5 * (pressed - self.pressing);
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
             let arm = state.poses[k].position - self.centre;

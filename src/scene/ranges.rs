@@ -19,8 +19,9 @@ pub const TRAINED_SLIDE: f64 = 0.020;
 /// Most that the tool turns in training for each metre of travel, rad/m: 34 degrees in 20 cm.
 pub const TRAINED_TURN: f64 = 3.0;
 
-/// How far a corner may be from a right angle, radians: that of a polygon with a corner of 20 degrees.
-pub const TRAINED_SLANT: f64 = 1.22;
+/// How far a corner may be from a right angle, radians: training draws corners of any angle, down to
+/// about five degrees.
+pub const TRAINED_SLANT: f64 = 1.5;
 
 /// How far a centre of mass may be from the centroid, metres: in data sets they are one.
 pub const TRAINED_IMBALANCE: f64 = 1e-3;
