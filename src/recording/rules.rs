@@ -123,6 +123,11 @@ impl Recording {
     /// anything that it may push comes near them.
     pub fn moving_at_the_start(&self) -> Vec<Moving> {
         let Some(first) = self.frames.first() else { return Vec::new() };
+        // A frame with faults of its own may lack objects.
+        let count = self.scene.objects.len();
+        if self.frames.iter().any(|frame| frame.poses.len() != count) {
+            return Vec::new();
+        }
         let mut found: Vec<Moving> = Vec::new();
         for (index, frame) in self.frames.iter().enumerate().skip(1) {
             if frame.lifted || (index > 1 && frame.time > SOON) {
