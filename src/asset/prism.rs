@@ -76,7 +76,7 @@ fn corners(node: &Node) -> Option<Vec<Vector>> {
     (!corners.is_empty()).then_some(corners)
 }
 
-/// The centre of mass where it is given; nothing where it was faulty.
+/// The centre of mass, if one is stated; the outer `None` if it is faulty.
 fn centre(node: &Node) -> Option<Option<Vector>> {
     match node.get("centre_of_mass") {
         Some(centre) => Some(Some(vector(centre)?)),

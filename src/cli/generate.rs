@@ -17,7 +17,7 @@ use super::{
     words::{JOINTS, PRESETS, SOLIDS, words},
 };
 
-/// Make training data: random scenes, tools and pushes, simulated in the plane
+/// Make training data: random scenes, tools and pushes, simulated
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished

@@ -6,7 +6,7 @@ use crate::{
     geometry::{ContactPoint, Footprint, Pose, Rim},
     scene::{
         Body, Feet, GRAVITY, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
-        Span, Surface, Tool, face, pair_friction,
+        Span, Surface, Tool, face_height, pair_friction,
     },
 };
 
@@ -42,7 +42,7 @@ pub struct Movable {
     /// How far the load moves when it is pressed as hard as friction resists, metres.
     pub lean: f64,
     /// Mean height of where the tool can press on it, metres; zero where it passes over.
-    pub face: f64,
+    pub face_height: f64,
 }
 
 impl Movable {
@@ -205,7 +205,7 @@ impl Bodies {
                     friction: physics.frictions[k],
                     height: object.shape.height(),
                     lean: physics.lean(object, friction, (tool, lift)),
-                    face: face(object, (tool, lift)),
+                    face_height: face_height(object, (tool, lift)),
                 }
             })
             .collect();

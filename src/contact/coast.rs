@@ -112,7 +112,7 @@ mod tests {
             friction: 0.4,
             height: 0.1,
             lean: 0.0,
-            face: 0.0,
+            face_height: 0.0,
         }
     }
 

@@ -17,7 +17,7 @@ const SUITE: &str = "episodes";
 const TRUTH: &str = "planar and 3d";
 
 /// Version of the sampler: another one draws other episodes for the same settings.
-const SAMPLER: u32 = 5;
+const SAMPLER: u32 = 7;
 
 /// The settings in a manifest.
 #[derive(Serialize, Deserialize)]

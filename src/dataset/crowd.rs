@@ -12,7 +12,7 @@ use super::{
     chance::{log_uniform, uniform},
     curriculum::Block,
     tabletop::{Solids, mass_span, random_shape},
-    underside::{draw_supports, push_height},
+    unseen::{draw_supports, push_height},
 };
 
 /// How many objects there are.

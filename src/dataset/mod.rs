@@ -1,4 +1,5 @@
-//! Training data: random scenes and pushes with the planar truth of what they do.
+//! Training data: random scenes and pushes with what an engine says they do: the 3-D one for most
+//! of those with tools, the planar one for the others.
 //!
 //! Every episode is a pure function of the configuration's seed and its own index, so data are
 //! never committed but made again, in memory or in a folder, resumable, with the same
@@ -27,7 +28,7 @@ mod set;
 mod sparse;
 mod tabletop;
 mod tools;
-mod underside;
+mod unseen;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 
-use super::{chance::weighted, hand::HAND_RADIUS};
+use super::{chance::weighted, hand::HAND_RADIUS, tabletop::USUAL_HEIGHT};
 
 /// The family of scenes to sample.
 ///
@@ -51,10 +51,10 @@ pub enum Preset {
 /// the frames of one with a tool. Frames come out as 64, 14, 6 and 16 %, and objects in them
 /// about evenly with tools and in crowds.
 const MIXED: [(Preset, f64); 4] = [
-    (Preset::Tools, 0.86),
-    (Preset::Sparse, 0.02),
-    (Preset::SparseLine, 0.02),
-    (Preset::Dense, 0.10),
+    (Preset::Tools, 0.93),
+    (Preset::Sparse, 0.01),
+    (Preset::SparseLine, 0.01),
+    (Preset::Dense, 0.05),
 ];
 
 impl Preset {
@@ -97,6 +97,7 @@ fn tools() -> Ranges {
         radius: Span::new(0.02, 0.08),
         side: Span::new(0.03, 0.30),
         aspect: 6.0,
+        height: Span::new(0.01, 0.15),
         parts: Span::new(1.0, 5.0),
         part_length: Span::new(0.01, 0.50),
         part_width: Span::new(0.006, 0.15),
@@ -118,6 +119,7 @@ fn crowd(travel: Span, pushes: Span) -> Ranges {
         radius: Span::new(0.04, 0.08),
         side: Span::new(0.06, 0.16),
         aspect: 0.16 / 0.06,
+        height: USUAL_HEIGHT,
         parts: Span::new(1.0, 1.0),
         part_length: Span::NOTHING,
         part_width: Span::NOTHING,

@@ -8,13 +8,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{ConvexPolygon, Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
-    scene::{Object, Ranges, Scene, Span, Support},
+    scene::{Object, Ranges, Scene, Span, Support, TRAINED_SLANT, slant},
 };
 
 use super::chance::{heading, log_uniform, uniform};
 
-/// Vertical extents of objects, metres.
-const HEIGHT: Span = Span::new(0.05, 0.15);
+/// Vertical extents of usual objects, metres.
+pub(super) const USUAL_HEIGHT: Span = Span::new(0.05, 0.15);
 
 /// Gaps of neighbours that do not touch, metres.
 const GAP: Span = Span::new(1e-3, 0.06);
@@ -92,7 +92,7 @@ pub(super) fn mass_span(rng: &mut Pcg64, ranges: &Ranges) -> (f64, Span) {
 
 /// A solid within the ranges.
 pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> Shape {
-    let height = uniform(rng, HEIGHT.low, HEIGHT.high);
+    let height = uniform(rng, USUAL_HEIGHT.low, USUAL_HEIGHT.high);
     let cylinder = match solids {
         Solids::Any => rng.random::<bool>(),
         Solids::Cylinders => true,
@@ -114,7 +114,7 @@ pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> 
 
 /// An upright prism on a convex polygon of three to six corners, all of them on an ellipse.
 fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
-    let height = uniform(rng, HEIGHT.low, HEIGHT.high);
+    let height = uniform(rng, USUAL_HEIGHT.low, USUAL_HEIGHT.high);
     loop {
         let size = log_uniform(rng, ranges.side);
         let width = (uniform(rng, 0.4, 1.0) * size).max(ranges.side.low);
@@ -129,7 +129,7 @@ fn random_prism(rng: &mut Pcg64, ranges: &Ranges) -> Shape {
         let within = |side: f64| (ranges.side.low..=ranges.side.high).contains(&side);
         let stout = x.max(y) <= ranges.aspect * x.min(y);
         let thick = base.inner_radius() > ranges.side.low / 4.0;
-        if within(x) && within(y) && stout && thick {
+        if within(x) && within(y) && stout && thick && slant(&base) <= TRAINED_SLANT {
             return Shape::Prism { base, height };
         }
     }

@@ -21,11 +21,11 @@ use super::{
     novelty::is_shipped,
     obstacle::place_obstacle,
     tabletop::{Crowd, Solids, anywhere, random_scene},
-    underside::{draw_heights, draw_supports, push_height},
+    unseen::{draw_heights, draw_supports, push_height},
 };
 
 /// How often there are one, two or three objects.
-const OBJECT_COUNTS: [f64; 3] = [0.45, 0.35, 0.20];
+const OBJECT_COUNTS: [f64; 3] = [0.55, 0.30, 0.15];
 
 /// How often there are one, two or three pushes.
 const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
@@ -44,7 +44,7 @@ const LIFT: f64 = 0.002;
 
 /// Share of episodes in which the 3-D engine says what is true; it leaves open how high faces press
 /// on each other.
-const SPATIAL: f64 = 0.7;
+const SPATIAL: f64 = 0.8;
 
 /// Share of pushes at a tenth to a third of the usual speeds: they take as long to simulate as all
 /// others together.
@@ -74,7 +74,7 @@ pub(super) fn pushed_by_tool(
     let scene = random_scene(rng, ranges, crowd);
     let mut scene = anywhere(rng, scene);
     draw_supports(rng, &mut scene);
-    draw_heights(rng, &mut scene);
+    draw_heights(rng, ranges, &mut scene);
     // Pushes are aimed in the plane, which is faster.
     scene.push_height = Some(push_height(rng));
     let tool = Arc::new(new_tool(rng, ranges));

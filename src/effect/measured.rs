@@ -84,6 +84,7 @@ pub const PRIOR_RANGES: Ranges = Ranges {
     radius: Span::new(0.02, 0.08),
     side: Span::new(0.03, 0.3),
     aspect: 6.0,
+    height: Span::new(0.01, 0.15),
     parts: Span::new(1.0, 5.0),
     part_length: Span::new(0.01, 0.5),
     part_width: Span::new(0.006, 0.15),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
 use crate::judge::{Comparison, Trial, mean, percentile};
-use crate::scene::{Feet, Job, ModelSpec, Record, Span, Support, Surface};
+use crate::scene::{Job, ModelSpec, Record, Span, Support, Surface};
 use crate::watch::{Count, Watch};
 
 use super::grid::{Axis, Grid};
@@ -220,9 +220,8 @@ fn ends(
         .iter()
         .map(|(support, friction)| {
             let mut physics = (*stated.physics).clone();
-            for (index, object) in trial.scene.objects.iter().enumerate() {
-                let feet = Feet::new(support, &object.shape.footprint());
-                physics.feet[index] = Arc::new(feet);
+            physics.support_all(&trial.scene, support);
+            for index in 0..trial.scene.objects.len() {
                 physics = physics.with_pair(index, Surface::Tool, *friction);
             }
             Job { physics: Arc::new(physics), ..stated.clone() }

@@ -11,6 +11,9 @@ use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
 /// Points of one pair that lie closer together than this are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
 
+/// Two ways to the same point end no farther apart than this, metres.
+const ROUNDING: f64 = 1e-9;
+
 /// What the normal of a contact follows when its bodies move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Follows {
@@ -161,9 +164,9 @@ impl Candidate {
         Self { on_first, on_second, normal, gap: f64::INFINITY, follows: Follows::Nothing }
     };
 
-    fn is_at(&self, other: &Self) -> bool {
-        (self.on_first - other.on_first).norm() < SAME_POINT
-            && (self.on_second - other.on_second).norm() < SAME_POINT
+    fn is_at(&self, other: &Self, distance: f64) -> bool {
+        (self.on_first - other.on_first).norm() < distance
+            && (self.on_second - other.on_second).norm() < distance
     }
 }
 
@@ -219,14 +222,15 @@ fn flats<A: Flat, B: Flat>(
         })
         .min_by(nearer)
         .filter(|p| p.gap <= reach);
-    // Corners of both on one place: neither face alone leads.
+    // Corners of both on one place: neither face alone leads. Two corners are there twice, once as
+    // either body sees it, and rounding must not decide which of both leads.
     let led = |p: &Candidate| {
-        let other = |q: &Candidate| q.follows != p.follows && q.follows != Follows::Nothing;
-        match p.follows {
-            Follows::First | Follows::Second if found.iter().any(|q| p.is_at(q) && other(q)) => {
-                Follows::Both
-            }
-            alone => alone,
+        let other = |q: &&Candidate| q.follows != p.follows && q.follows != Follows::Nothing;
+        let near = if p.follows == Follows::Nothing { ROUNDING } else { SAME_POINT };
+        match (p.follows, found.iter().filter(other).find(|q| p.is_at(q, near))) {
+            (alone, None) => alone,
+            (Follows::Nothing, Some(faced)) => faced.follows,
+            _ => Follows::Both,
         }
     };
     let world = |p: &Candidate| ContactPoint {

@@ -72,7 +72,7 @@ pub(super) fn node_features(
             body.support / BODY - 1.0,
             pressed,
             (body.height / HEIGHT).ln(),
-            body.face / BODY,
+            body.face_height / BODY,
             body.lean / UNIT,
             f64::from(u8::from(push_height_known)),
             body.deceleration / GRAVITY,

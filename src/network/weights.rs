@@ -23,7 +23,7 @@ use super::{
 };
 
 /// Version of the feature layout and file format; a file of another version is refused.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 
 /// Largest magnitude of a parameter, a mean or a deviation. Those of trained networks stay below 4;
 /// far beyond, products of single precision overflow.

@@ -18,6 +18,7 @@ mod score;
 mod search;
 mod spread;
 mod statistics;
+mod supports;
 mod workspace;
 
 pub use candidate::{Candidate, CandidatePush, Start};

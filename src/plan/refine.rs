@@ -9,16 +9,22 @@
 //! reach and clearance; it is solved for several radii and every answer is rolled out. The best
 //! rollout that keeps all rules becomes the new centre if it is better; so a candidate never
 //! gets worse. All candidates share their batches.
+//!
+//! What is brought to the goal is the middle of where the object ends on plausible supports (see
+//! `supports`). It is taken to move along with the predicted end, and looked at again for the best
+//! rollout of every round.
 
+use nalgebra::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::scene::{State, Task};
+use crate::scene::{Goal, State, Task};
 use crate::watch::Watch;
 
 use super::linear::slopes;
 use super::parameters::Parameters;
-use super::score::bare;
+use super::score::{bare, behind, is_behind};
+use super::supports::{Ends, Supports, errors};
 use super::{
     Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
     Workspace, evaluate,
@@ -65,20 +71,25 @@ pub struct RefineSettings {
     pub rollouts: usize,
 }
 
-/// A candidate before and after.
+/// What became of a candidate.
 #[derive(Clone, Debug)]
 pub struct Refined {
-    /// As the search left it, rolled out exactly.
-    pub before: Evaluation,
-    /// The best that was found; never worse.
+    /// The best that was found.
     pub best: Evaluation,
-    /// Score after every round.
+    /// Distances of the middle of its ends on plausible supports from the goal, before and now,
+    /// metres.
+    pub off: [f64; 2],
+    /// Score on the support on which it ends farthest from the goal.
+    pub worst: f64,
+    /// Score of the middle of all its ends, before and after every round; it never rises.
     pub rounds: Vec<f64>,
 }
 
 struct Work {
     parameters: Parameters,
     refined: Refined,
+    /// The best one's ends on plausible supports.
+    ends: Ends,
     radius: f64,
     random: Pcg64,
 }
@@ -96,21 +107,29 @@ pub fn refine(
 ) -> Vec<Refined> {
     let before = rollouts.used();
     let mut solver = QpSolver::default();
-    let mut work: Vec<Work> = evaluate(workspace, rollouts, candidates)
+    let supports = Supports::around(rollouts.situation());
+    let sound: Vec<(usize, Evaluation)> = evaluate(workspace, rollouts, candidates)
         .into_iter()
         .enumerate()
-        .filter_map(|(index, result)| {
-            let best = result.ok().filter(Evaluation::is_feasible)?;
-            Some(Work {
-                parameters: Parameters::new(
-                    workspace,
-                    &rollouts.situation().start,
-                    &best.candidate,
-                ),
-                refined: Refined { before: best.clone(), rounds: vec![], best },
-                radius: FIRST_RADIUS,
-                random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
-            })
+        .filter_map(|(index, result)| Some((index, result.ok().filter(Evaluation::is_feasible)?)))
+        .collect();
+    let ends =
+        supports.ends(workspace, rollouts, &sound.iter().map(|(_, e)| e).collect::<Vec<_>>());
+    let goal = &workspace.task.goal;
+    let mut work: Vec<Work> = sound
+        .into_iter()
+        .zip(ends)
+        .map(|((index, best), ends)| Work {
+            parameters: Parameters::new(workspace, &rollouts.situation().start, &best.candidate),
+            refined: Refined {
+                off: [off(goal, &best, &ends); 2],
+                worst: ends.worst,
+                rounds: vec![score(goal, &best, &ends)],
+                best,
+            },
+            ends,
+            radius: FIRST_RADIUS,
+            random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
         })
         .collect();
     for round in 0..settings.rounds {
@@ -127,7 +146,7 @@ pub fn refine(
         if active.is_empty() {
             break;
         }
-        step(workspace, rollouts, &mut active, settings, &mut solver, statistics);
+        step((workspace, &supports), rollouts, &mut active, settings, &mut solver, statistics);
     }
     watch.progress(settings.rounds as u64, settings.rounds as u64);
     statistics.rollouts += rollouts.used() - before;
@@ -135,43 +154,52 @@ pub fn refine(
 }
 
 impl Work {
+    /// Score of the middle of all ends of the best.
+    fn score(&self) -> f64 {
+        self.refined.rounds.last().copied().unwrap_or(f64::INFINITY)
+    }
+
     fn is_good(&self) -> bool {
-        self.refined.best.score <= GOOD_ENOUGH
+        self.score() <= GOOD_ENOUGH
     }
 
     /// Whether more rounds, `left` of them, can be worth their rollouts.
     fn is_open(&self, left: usize) -> bool {
-        let score = bare(self.refined.best.score);
+        let score = bare(self.score());
         if self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
             return false;
         }
-        let before = match self.refined.rounds.len() {
-            0 => return true,
-            1 => self.refined.before.score,
-            n => self.refined.rounds[n - 2],
-        };
+        let [.., before, _] = self.refined.rounds[..] else { return true };
         score - HOPE * (bare(before) - score) * left as f64 <= 1.0
     }
+}
 
-    /// Takes over an evaluation that is better and keeps the rules.
-    fn accept(&mut self, tried: &Evaluation) -> bool {
-        let better = tried.is_feasible() && tried.score < self.refined.best.score;
-        if better {
-            self.refined.best = tried.clone();
-        }
-        better
+/// Score of the middle of all ends of a candidate.
+fn score(goal: &Goal, evaluation: &Evaluation, ends: &Ends) -> f64 {
+    let middle = errors(goal, &evaluation.outcome) + ends.middle;
+    let score = middle.xy().norm().max(middle.z.abs());
+    match evaluation.score {
+        blocked if is_behind(blocked) => behind(score),
+        counts if counts.is_finite() => score,
+        other => other,
     }
+}
+
+/// Distance of the middle of all ends from the goal, metres.
+fn off(goal: &Goal, evaluation: &Evaluation, ends: &Ends) -> f64 {
+    goal.tolerance * (errors(goal, &evaluation.outcome) + ends.middle).xy().norm()
 }
 
 /// One round for all candidates that are still open.
 fn step(
-    workspace: &Workspace,
+    (workspace, supports): (&Workspace, &Supports),
     rollouts: &mut Rollouts,
     active: &mut [&mut Work],
     settings: RefineSettings,
     solver: &mut QpSolver,
     statistics: &mut RefineStatistics,
 ) {
+    let goal = &workspace.task.goal;
     let designs: Vec<Vec<Vec<f64>>> =
         active.iter_mut().map(|work| design(work, settings.extra)).collect();
     let sampled = evaluate_groups(workspace, rollouts, active, &designs);
@@ -180,20 +208,37 @@ fn step(
         trials.push(proposals(workspace.task, work, samples, solver, statistics));
     }
     let tried = evaluate_groups(workspace, rollouts, active, &trials);
+    // The best of every candidate, as far as can be said before its ends are known, and the radius
+    // after it.
+    let mut leaders: Vec<(usize, f64, &Evaluation)> = Vec::new();
     for (k, work) in active.iter_mut().enumerate() {
-        let mut improved = false;
-        for (_, sample) in &sampled[k] {
-            improved |= work.accept(sample);
+        let tried = tried[k].iter().map(|(u, trial)| {
+            let reach = u.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+            (reach.max(RADII.0 * 2.0).min(RADII.1), trial)
+        });
+        let all = sampled[k].iter().map(|(_, sample)| (work.radius, sample)).chain(tried);
+        let leader = all
+            .filter(|(_, one)| one.is_feasible())
+            .map(|(radius, one)| (score(goal, one, &work.ends), radius, one))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .filter(|(score, ..)| *score < work.score());
+        work.radius = (work.radius * SHRINK).min(RADII.1);
+        leaders.extend(leader.map(|(_, radius, one)| (k, radius, one)));
+    }
+    let evaluations: Vec<&Evaluation> = leaders.iter().map(|(.., one)| *one).collect();
+    let ends = supports.ends(workspace, rollouts, &evaluations);
+    let before: Vec<f64> = active.iter().map(|work| work.score()).collect();
+    active.iter_mut().zip(&before).for_each(|(work, score)| work.refined.rounds.push(*score));
+    for ((k, radius, one), ends) in leaders.into_iter().zip(ends) {
+        let (work, score) = (&mut active[k], score(goal, one, &ends));
+        if score < before[k] {
+            let refined = &mut work.refined;
+            refined.rounds.pop();
+            refined.rounds.push(score);
+            refined.off[1] = off(goal, one, &ends);
+            (refined.worst, refined.best) = (ends.worst, one.clone());
+            (work.ends, work.radius) = (ends, radius);
         }
-        let mut radius = if improved { work.radius } else { work.radius * SHRINK };
-        for (u, trial) in &tried[k] {
-            if work.accept(trial) {
-                radius = u.iter().fold(0.0f64, |most, v| most.max(v.abs())).max(RADII.0 * 2.0);
-            }
-        }
-        work.radius = radius.min(RADII.1);
-        let score = work.refined.best.score;
-        work.refined.rounds.push(score);
     }
 }
 
@@ -279,14 +324,14 @@ fn programme(
     radius: f64,
 ) -> QpProblem {
     let (n, best) = (work.parameters.count(), &work.refined.best);
-    let centre = goal_errors(task, &best.outcome);
+    let centre = goal_errors(task, &best.outcome, &work.ends.middle);
     let (goals, rules) = (centre.len(), best.margins.len() * Margins::COUNT);
     let held: Vec<f64> = best.margins.iter().flat_map(Margins::list).collect();
     let changes: Vec<(Vec<f64>, Vec<f64>)> = samples
         .iter()
         .filter(|(_, sample)| sample.outcome.is_finite())
         .map(|(u, sample)| {
-            let errors = goal_errors(task, &sample.outcome);
+            let errors = goal_errors(task, &sample.outcome, &work.ends.middle);
             let mut y: Vec<f64> = errors.iter().zip(&centre).map(|(a, b)| a - b).collect();
             if let (Some(turn), Some((_, tolerance))) = (y.get_mut(2), task.goal.heading) {
                 *turn = task.goal.least_turn(*turn * tolerance) / tolerance;
@@ -329,14 +374,9 @@ fn programme(
     QpProblem { p, q, a, b }
 }
 
-/// Where the goal object is against the goal, in units of the tolerances: x, y and, where asked
-/// for, the heading.
-fn goal_errors(task: &Task, outcome: &State) -> Vec<f64> {
-    let (goal, pose) = (&task.goal, outcome.poses[task.goal.object]);
-    let apart = (pose.position - goal.position) / goal.tolerance;
-    let mut errors = vec![apart.x, apart.y];
-    if let (Some((_, tolerance)), Some(turned)) = (goal.heading, goal.turned(outcome)) {
-        errors.push(turned / tolerance);
-    }
-    errors
+/// The errors of the middle of all ends, `middle` beside this one: x, y and, where asked for, the
+/// heading.
+fn goal_errors(task: &Task, outcome: &State, middle: &Vector3<f64>) -> Vec<f64> {
+    let all = errors(&task.goal, outcome) + middle;
+    all.iter().take(if task.goal.heading.is_some() { 3 } else { 2 }).copied().collect()
 }

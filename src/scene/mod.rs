@@ -9,6 +9,7 @@
 //! and gives these types. SI units and radians throughout.
 
 mod balance;
+mod feet;
 mod friction;
 mod groups;
 mod guess;
@@ -35,6 +36,7 @@ mod warning;
 mod world;
 
 pub use balance::carries;
+pub use feet::{Drag, Feet, MAX_FEET};
 pub use friction::{PairFriction, Surface, pair_friction};
 pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
@@ -47,15 +49,16 @@ pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
 pub use outline::Piece;
-pub use physics::{Physics, face};
+pub use physics::{Physics, face_height};
 pub use plan::{Engine, Outcome, Plan};
 pub use quantity::Quantity;
-pub use ranges::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
+pub(crate) use ranges::slant;
+pub use ranges::{Ranges, Span, TRAINED_SLANT, TRAINED_SLIDE, TRAINED_TURN};
 pub use separation::{JOINT_ARM, Misfit, Separation};
 pub use sets::DisjointSets;
 pub use situation::Situation;
 pub use state::{State, Velocity};
-pub use support::{Drag, Feet, MAX_FEET, Support};
+pub use support::Support;
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
 pub use trajectory::{Body, Contact, Force, Frame, Record, TOUCHING, Trajectory};

@@ -24,6 +24,8 @@ pub enum Quantity {
     SizeY,
     /// Ratio of a cuboid object's horizontal sides.
     SideRatio,
+    /// Vertical extent of an object, metres.
+    Height,
     /// How far a corner of a prism is from a right angle, radians.
     Slant,
     /// Distance of a prism's centre of mass from the centroid, metres.
@@ -53,6 +55,7 @@ impl fmt::Display for Quantity {
             Quantity::SizeX => "size along x (m)",
             Quantity::SizeY => "size along y (m)",
             Quantity::SideRatio => "ratio of sides",
+            Quantity::Height => "height (m)",
             Quantity::Slant => "corner off a right angle (rad)",
             Quantity::Imbalance => "centre of mass off the centroid (m)",
             Quantity::Parts => "number of parts",

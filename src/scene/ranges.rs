@@ -72,6 +72,8 @@ pub struct Ranges {
     pub side: Span,
     /// Largest ratio of a cuboid object's horizontal sides.
     pub aspect: f64,
+    /// Vertical extent of an object, metres.
+    pub height: Span,
     /// Number of parts of a tool.
     pub parts: Span,
     /// Longer horizontal side of a tool part, metres.
@@ -104,6 +106,7 @@ impl Ranges {
             radius: self.radius.hull(other.radius),
             side: self.side.hull(other.side),
             aspect: self.aspect.max(other.aspect),
+            height: self.height.hull(other.height),
             parts: self.parts.hull(other.parts),
             part_length: self.part_length.hull(other.part_length),
             part_width: self.part_width.hull(other.part_width),
@@ -119,7 +122,7 @@ impl Ranges {
     /// The first bound, by the name of its range, that no data set can have: not finite, or on the
     /// wrong side of the other one.
     pub fn unsound(&self) -> Option<(&'static str, f64)> {
-        let Self { objects, mass, friction, radius, side, parts, .. } = self;
+        let Self { objects, mass, friction, radius, side, height, parts, .. } = self;
         let Self { part_length, part_width, part_radius, speed, travel, pushes, .. } = self;
         let most = |value: f64| Span::new(0.0, value);
         let spans = [
@@ -130,6 +133,7 @@ impl Ranges {
             ("radius", *radius),
             ("side", *side),
             ("aspect", most(self.aspect)),
+            ("height", *height),
             ("parts", *parts),
             ("part_length", *part_length),
             ("part_width", *part_width),
@@ -180,7 +184,9 @@ impl Ranges {
             let name = || scene.objects[index].name.clone();
             check(&name, Quantity::Mass, physics.masses[index], self.mass);
             check(&name, Quantity::Friction, physics.frictions[index], self.friction);
-            match scene.objects[index].shape {
+            let shape = &scene.objects[index].shape;
+            check(&name, Quantity::Height, shape.height(), self.height);
+            match *shape {
                 Shape::Cylinder { radius, .. } => {
                     check(&name, Quantity::Radius, radius, self.radius);
                 }
@@ -256,7 +262,7 @@ impl Ranges {
 }
 
 /// How far the corner farthest from it is from a right angle, radians.
-fn slant(base: &ConvexPolygon) -> f64 {
+pub(crate) fn slant(base: &ConvexPolygon) -> f64 {
     let normals: Vec<Vector> = base.faces().map(|(_, normal)| normal).collect();
     let next = normals.iter().cycle().skip(1);
     normals.iter().zip(next).map(|(a, b)| a.dot(b).abs().asin()).fold(0.0, f64::max)

@@ -6,22 +6,24 @@
 //! the last bit of `f64`.
 
 use rapier2d::prelude::{
-    ActiveHooks, CoefficientCombineRule, Collider, ColliderBuilder, ColliderHandle, ContactData,
-    ContactManifold, GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode,
-    JointAxesMask, JointAxis, MassProperties, PhysicsWorld, Pose2 as RapierPose, Real,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
+    GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode, JointAxesMask,
+    JointAxis, MassProperties, PhysicsWorld, Pose2 as RapierPose, Real, RigidBody,
     RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
 };
 
-use crate::geometry::{Footprint, Pose, Vector, wrap_angle};
+use crate::geometry::{Pose, Vector, perpendicular, wrap_angle};
 use crate::scene::{Body, FrameStep, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity};
 
 use super::drive::World;
+use super::footprints::{collider, vector, weighing};
 use super::groups::{Group, Member};
 use super::parameters::{
     ALLOWED_ERROR, ARTICULATED_ITERATIONS, PLANAR_CONTACT, STIFF_CONTACT, centre, is_articulated,
     needs_stiff_contacts,
 };
 use super::seams::Seams;
+use super::slowing::{Inertia, Resistance, Twist};
 use super::strain::{Overlap, force, overlap};
 use super::support::{Pressed, Support};
 
@@ -54,8 +56,8 @@ struct Tracked {
     last_angle: f64,
     turned: f64,
     pressed: Pressed,
-    /// How hard it is pressed in this step.
-    pressing: Vector,
+    /// Its objects, by number.
+    objects: Vec<usize>,
 }
 
 impl World for PlanarWorld {
@@ -66,7 +68,8 @@ impl World for PlanarWorld {
         if factor == 1.0 {
             return;
         }
-        for tracked in &self.bodies {
+        for tracked in &mut self.bodies {
+            tracked.pressed.hurry(factor);
             let body = &mut self.world.bodies[tracked.handle];
             let (linear, angular) = (body.linvel(), body.angvel());
             body.set_linvel(linear * factor as Real, true);
@@ -120,26 +123,30 @@ impl World for PlanarWorld {
         let dt = f64::from(self.world.integration_parameters.dt);
         for tracked in &mut self.bodies {
             let body = &mut self.world.bodies[tracked.handle];
+            let velocity = velocity(body);
+            let inertia = Inertia {
+                mass: body.mass().into(),
+                spin: body.mass_properties().local_mprops.principal_inertia().into(),
+            };
+            let pressed = tracked.pressed.look(&inertia, &velocity, dt);
+            let pressing = tracked.pressed.share(pressed.linear);
+            let friction = inertia.friction(&velocity, &pressed, dt, |twist| {
+                let mut against = Resistance::default();
+                for &object in &tracked.objects {
+                    let (member, support) = &self.objects[object];
+                    let arm = member.arm(tracked.turned);
+                    let heading = member.start.heading + tracked.turned;
+                    let linear = twist.linear + twist.angular * perpendicular(arm);
+                    let drag = support.drag(heading, (linear, twist.angular), pressing, dt);
+                    against.add(support.load(), &drag, arm);
+                }
+                against
+            });
+            tracked.pressed.rub(&friction);
             body.reset_forces(true);
             body.reset_torques(true);
-            let velocity = body.linvel();
-            let velocity = Vector::new(velocity.x.into(), velocity.y.into());
-            tracked.pressing = tracked.pressed.look(velocity, dt);
-        }
-        for (member, support) in &self.objects {
-            let tracked = &mut self.bodies[member.body];
-            let body = &mut self.world.bodies[tracked.handle];
-            let arm = vector(member.arm(tracked.turned));
-            let turning = body.angvel();
-            let velocity = body.linvel() + arm.perp() * turning;
-            let heading = member.start.heading + tracked.turned;
-            let velocity = Vector::new(velocity.x.into(), velocity.y.into());
-            let (force, torque) =
-                support.drag(heading, velocity, turning.into(), tracked.pressing, dt);
-            tracked.pressed.rub(force);
-            let force = vector(force);
-            body.add_force(force, true);
-            body.add_torque(torque as Real + arm.perp_dot(force), true);
+            body.add_force(vector(friction.linear), true);
+            body.add_torque(friction.angular as Real, true);
         }
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
@@ -157,9 +164,8 @@ impl World for PlanarWorld {
             let moved = body.translation() - tracked.first_position;
             let moved = Vector::new(moved.x.into(), moved.y.into());
             state.poses.push(member.pose(moved, tracked.turned));
-            let linear = body.linvel();
-            let linear = Vector::new(linear.x.into(), linear.y.into());
-            let velocity = Velocity { linear, angular: body.angvel().into() };
+            let Twist { linear, angular } = velocity(body);
+            let velocity = Velocity { linear, angular };
             state.velocities.push(member.velocity(velocity, tracked.turned));
         }
         state
@@ -224,12 +230,13 @@ impl PlanarWorld {
     }
 
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
+        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
         let body = RigidBodyBuilder::kinematic_velocity_based()
+            .additional_mass_properties(MassProperties::new(vector(Vector::zeros()), 1.0, 1.0))
             .pose(to_rapier(at, self.origin))
             .can_sleep(false);
         self.tool = self.world.insert_body(body);
         for (index, part) in motion.tool.outline.iter().enumerate() {
-            // Without mass the centre of mass, which rapier's velocity is of, is the tool frame.
             let collider = collider(&part.footprint(), motion.tool.friction)
                 .density(0.0)
                 .position(to_rapier(&part.pose, Vector::zeros()))
@@ -258,7 +265,7 @@ impl PlanarWorld {
             last_angle: self.world.bodies[handle].rotation().angle().into(),
             turned: 0.0,
             pressed: Pressed::default(),
-            pressing: Vector::zeros(),
+            objects: group.objects.clone(),
         });
     }
 
@@ -283,6 +290,7 @@ impl PlanarWorld {
         let (object, lift) = (&scene.objects[index], motion.lift);
         let lean = physics.lean(object, table, (&motion.tool, lift));
         let support = Support::new(feet, &footprint, table, mass, lean);
+        let support = if is_articulated(physics) { support.in_joints() } else { support };
         self.bodies[member.body].pressed.add(&support);
         self.objects.push((member, support));
     }
@@ -361,38 +369,14 @@ fn solved(
     contacts.map(move |contact| (manifold, &manifold.points[contact.contact_id[0] as usize]))
 }
 
-fn collider(footprint: &Footprint, friction: f64) -> ColliderBuilder {
-    let shape = match *footprint {
-        Footprint::Disc { radius } => ColliderBuilder::ball(radius as Real),
-        Footprint::Rectangle { half } => ColliderBuilder::cuboid(half.x as Real, half.y as Real),
-        Footprint::Polygon(polygon) => {
-            let corners = polygon.corners().iter().copied().map(vector).collect();
-            // Of three corners and more there always is one.
-            ColliderBuilder::convex_polyline(corners)
-                .unwrap_or_else(|| ColliderBuilder::ball(polygon.inner_radius() as Real))
-        }
-    };
-    shape.friction(friction as Real).friction_combine_rule(CoefficientCombineRule::Average)
-}
-
-/// The collider with its mass (kg) about the footprint's origin.
-fn weighing(collider: ColliderBuilder, footprint: &Footprint, mass: f64) -> ColliderBuilder {
-    match footprint {
-        Footprint::Polygon(_) => {
-            let inertia = mass * footprint.gyration_radius().powi(2);
-            let (mass, inertia) = (mass as Real, inertia as Real);
-            collider.mass_properties(MassProperties::new(RapierVector::ZERO, mass, inertia))
-        }
-        _ => collider.mass(mass as Real),
-    }
-}
-
 fn groups(own: Layer, meets: Layer) -> InteractionGroups {
     InteractionGroups::new(own, meets, InteractionTestMode::And)
 }
 
-fn vector(v: Vector) -> RapierVector {
-    RapierVector::new(v.x as Real, v.y as Real)
+fn velocity(body: &RigidBody) -> Twist {
+    let linear = body.linvel();
+    let linear = Vector::new(linear.x.into(), linear.y.into());
+    Twist { linear, angular: body.angvel().into() }
 }
 
 fn to_rapier(pose: &Pose, origin: Vector) -> RapierPose {

@@ -10,8 +10,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
     ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
-    FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, PhysicsWorld, Pose3,
-    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact,
+    FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, MassProperties, PhysicsWorld,
+    Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact,
     Vector as RapierVector,
 };
 
@@ -212,13 +212,13 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     }
 
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
-        let body = RigidBodyBuilder::kinematic_velocity_based()
-            .pose(to_rapier(at, self.origin, self.lift))
-            .can_sleep(false);
-        self.tool = self.world.insert_body(body);
+        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
+        let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
+        let pose = to_rapier(at, self.origin, self.lift);
+        let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
+        self.tool = self.world.insert_body(body.additional_mass_properties(mass));
         for (index, part) in motion.tool.outline.iter().enumerate() {
-            // The tool frame lies at the parts' underside. Without mass the centre of mass,
-            // which rapier's velocity is of, is the tool frame.
+            // The tool frame lies at the parts' underside.
             let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
             let collider = solid(&part.shape, placed, motion.tool.friction).density(0.0);
             let collider = match &part.rim {

@@ -9,6 +9,7 @@ use crate::geometry::Vector;
 use crate::scene::State;
 
 use super::groups::Group;
+use super::slowing::{Inertia, Resistance, Twist};
 use super::support::{Pressed, Support};
 
 /// What one object stands on.
@@ -61,13 +62,19 @@ impl Upright {
             let weighed = objects.iter().zip(&*masses);
             let momentum: Vector =
                 weighed.map(|(&k, mass)| *mass * state.velocities[k].linear).sum();
-            let pressing = pressed.look(momentum / masses.iter().sum::<f64>(), dt);
+            // Where the load goes depends on forces alone.
+            let inertia = Inertia { mass: masses.iter().sum(), spin: 0.0 };
+            let velocity = Twist { linear: momentum / inertia.mass, angular: 0.0 };
+            let force = pressed.look(&inertia, &velocity, dt).linear;
+            let pressing = pressed.share(force);
             for (&k, mass) in objects.iter().zip(&*masses) {
                 let Standing { support, feet: handles, friction } = &self.objects[k];
                 let (velocity, heading) = (&state.velocities[k], state.poses[k].heading);
-                let (linear, angular) = (velocity.linear, velocity.angular);
-                let (force, _) = support.drag(heading, linear, angular, pressing, dt);
-                pressed.rub(force);
+                let twist = Twist { linear: velocity.linear, angular: velocity.angular };
+                let mut against = Resistance::default();
+                let drag = support.drag(heading, (twist.linear, twist.angular), pressing, dt);
+                against.add(support.load(), &drag, Vector::zeros());
+                pressed.rub(&against.against(&twist));
                 for (foot, load) in handles.iter().zip(support.loads(heading, pressing)) {
                     colliders[*foot].set_friction(friction * load * mass * *feet);
                 }

@@ -23,9 +23,9 @@ pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec
         .collect()
 }
 
-/// Sorts by predicted score; equal scores keep their order.
+/// Sorts by predicted score on the worst support; equal scores keep their order.
 pub(super) fn sort(refined: &mut [Refined]) {
-    refined.sort_by(|a, b| a.best.score.total_cmp(&b.best.score));
+    refined.sort_by(|a, b| a.worst.total_cmp(&b.worst));
 }
 
 /// A prediction that is outside the tolerance by no more than this share of it is tried, however

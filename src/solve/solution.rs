@@ -31,15 +31,16 @@ pub enum PlanStatus {
 /// What refinement did to a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Refinement {
-    /// Predicted error as the search left it, metres.
+    /// How far from where it was aimed the middle of the predicted ends on plausible supports lay
+    /// as the search left it, metres.
     pub before: f64,
-    /// Predicted error now, metres.
+    /// The same now.
     pub after: f64,
     /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D had ended
-    /// beside it: the predicted error is then meant to be large.
+    /// beside it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aimed_at: Option<Vector>,
-    /// Predicted score (error in units of the tolerance) after each round.
+    /// Score of that middle (error in units of the tolerance) after each round.
     pub rounds: Vec<f64>,
 }
 

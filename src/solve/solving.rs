@@ -252,15 +252,14 @@ impl<'a> Solving<'a> {
     }
 
     fn tried(&self, refined: Refined, aim: Goal) -> Tried {
-        let error = |evaluation: &Evaluation| self.task.goal.error(&evaluation.outcome);
-        let Refined { before, best, rounds } = refined;
+        let Refined { best, off: [before, after], rounds, .. } = refined;
         let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
         Tried {
             refinement: Refinement {
-                before: error(&before),
-                after: error(&best),
+                before,
+                after,
                 aimed_at: (aim != self.task.goal).then_some(aim.position),
-                rounds: rounds.into_iter().map(bare).collect(),
+                rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
             aim,
             // Of our goal, whatever goal it was refined towards.

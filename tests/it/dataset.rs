@@ -94,7 +94,7 @@ fn most_strokes_move_something() {
 
 #[test]
 fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
-    let config = DatasetConfig { seed: 12, episodes: 300, ..DatasetConfig::default() };
+    let config = DatasetConfig { seed: 12, episodes: 600, ..DatasetConfig::default() };
     let ranges = config.ranges();
     let data = Dataset::in_memory(&config, &Unwatched).unwrap();
     let mut far = 0;
@@ -119,7 +119,7 @@ fn every_draw_is_finite_at_rest_and_within_the_stated_ranges() {
         let last = &frames[frames.len() - 1].state;
         assert!(last.is_finite() && scene.is_resting(last), "episode {}", episode.index);
     }
-    assert!(far * 60 < data.episodes().len(), "{far} draws slide farther than stated");
+    assert!(far * 100 < data.episodes().len(), "{far} draws slide farther than stated");
 }
 
 #[test]

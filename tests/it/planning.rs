@@ -295,7 +295,7 @@ fn refinement_never_makes_a_candidate_worse() {
             refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &Unwatched);
         assert!(!refined.is_empty(), "{goal:?}");
         for one in &refined {
-            assert!(one.best.score <= one.before.score);
+            assert!(one.off[1] <= one.off[0]);
             assert!(one.rounds.windows(2).all(|pair| pair[1] <= pair[0]));
             assert!(one.best.is_feasible());
         }

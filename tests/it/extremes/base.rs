@@ -9,7 +9,7 @@ use pushplan::{
     bench::Case,
     dataset::{Aim, aimed_stroke, generator, random_direction, random_heading},
     geometry::Vector,
-    scene::{Object, Scene, Tool, ToolMotion},
+    scene::{Object, Physics, Scene, Tool, ToolMotion},
 };
 
 /// Tries to aim a push before a scene is given up: nearly all succeed within ten.
@@ -54,7 +54,8 @@ impl Draw<'_> {
         let tools: Vec<_> = self.library.iter().collect();
         let case = |index: usize| {
             let mut rng = generator(self.seed ^ 0xE57E, index as u64);
-            let scene = scene(&mut rng);
+            // Models are told how high the planar engine presses, which judges them.
+            let scene = Scene { push_height: Some(Physics::PUSH_HEIGHT), ..scene(&mut rng) };
             let state = scene.start();
             let tool = match &way.tool {
                 Some(tool) => Arc::clone(tool),

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{Body, Job, Obstacle, Physics, Record, Scene, Warning};
+use pushplan::scene::{
+    Body, Job, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion, Warning,
+};
 use pushplan::sim::Simulator;
 
 use crate::fixtures::{brick, can, engines, hand_push, push};
@@ -145,6 +147,28 @@ fn a_round_tool_part_stands_upright() {
             let touching = start + along * (0.2 + 0.1);
             // Round against round does not hold: what the feet of the can are off by grows.
             assert!((end - touching).norm() < 8e-3, "{:?}: {end}", simulator.engine());
+        }
+    }
+}
+
+/// Both engines used to turn the tool about its middle within a frame, and then moved it back.
+#[test]
+fn a_tool_that_turns_pushes_with_the_end_of_a_long_bar_as_fast_as_that_moves() {
+    let length = 0.4;
+    let part = Part::cuboid("bar", [length, 0.02, 0.05], Pose::new(length / 2.0, 0.0, 0.0));
+    let tool = Arc::new(Tool::new("bar", [part]).expect("one piece"));
+    let object = Object::cylinder("can", 0.04, 0.08).at(length - 0.02, 0.051, 0.0);
+    let scene = Scene::new([object]);
+    let to = Pose::new(0.0, 0.1, 0.4);
+    let stroke = Stroke { from: Pose::default(), to, duration: 1.5, settle: false };
+    let job = Job::stated(&scene, ToolMotion { tool, lift: 0.002, strokes: vec![stroke] });
+    for simulator in [Simulator::planar(), Simulator::spatial(), Simulator::upright()] {
+        let played = simulator.run(&scene, &job, Record::Frames);
+        assert!(played.warnings.is_empty(), "{:?}", played.warnings);
+        for frame in &played.frames[1..] {
+            let tool = stroke.from.towards(&to, frame.time / stroke.duration);
+            let seen = tool.local_point(frame.state.poses[0].position);
+            assert!((seen.y - 0.05).abs() < 2e-4, "{}: {seen}", simulator.spec());
         }
     }
 }

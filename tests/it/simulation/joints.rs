@@ -50,7 +50,8 @@ fn a_revolute_joint_keeps_its_axis_and_turns() {
         let drift = carried(&scene, &end, 0, at) - carried(&scene, &end, 1, at);
         assert!(drift.norm() < 0.5e-3, "{drift}");
         let bend = wrap_angle(end.poses[0].heading - end.poses[1].heading).abs();
-        assert!(bend > 0.015, "{bend}");
+        // Five times what a fixed joint may bend by.
+        assert!(bend > 0.01, "{bend}");
     }
 }
 

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Footprint, Shape, Vector},
-    scene::{Scene, Span, Support, carries},
+    scene::{Ranges, Scene, Span, Support, carries},
 };
 
 use super::chance::{log_uniform, uniform, weighted};
@@ -22,9 +22,6 @@ const SPREAD: Span = Span::new(0.4, 1.0);
 /// Smallest share of the weight on one of three points: with less, objects tip at every touch.
 const LEAST_LOAD: f64 = 0.1;
 
-/// Vertical extents of objects, metres: plates as well as cans.
-const HEIGHT: Span = Span::new(0.01, 0.15);
-
 /// Stands every object of `scene` on something.
 pub(super) fn draw_supports(rng: &mut Pcg64, scene: &mut Scene) {
     for object in &mut scene.objects {
@@ -36,10 +33,10 @@ pub(super) fn draw_supports(rng: &mut Pcg64, scene: &mut Scene) {
     }
 }
 
-/// Gives half of the objects of `scene` another height.
-pub(super) fn draw_heights(rng: &mut Pcg64, scene: &mut Scene) {
+/// Gives half of the objects of `scene` any height within the ranges: plates as well as cans.
+pub(super) fn draw_heights(rng: &mut Pcg64, ranges: &Ranges, scene: &mut Scene) {
     for object in &mut scene.objects {
-        let drawn = log_uniform(rng, HEIGHT);
+        let drawn = log_uniform(rng, ranges.height);
         if rng.random::<bool>() {
             match &mut object.shape {
                 Shape::Cylinder { height, .. } | Shape::Prism { height, .. } => *height = drawn,

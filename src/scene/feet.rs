@@ -1,0 +1,389 @@
+//! The points that an object stands on, and how they drag.
+
+use crate::geometry::{Footprint, Vector};
+
+use super::balance::{balanced, carries};
+use super::support::Support;
+use super::underside::underside;
+
+/// Most points of a support.
+pub const MAX_FEET: usize = 16;
+
+/// Points under an object with their shares of its weight, which together stand for a [`Support`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feet {
+    /// Coordinates in the object's frame, metres; what is beyond `count` carries nothing.
+    pub x: [f64; MAX_FEET],
+    /// See `x`.
+    pub y: [f64; MAX_FEET],
+    /// Shares of the weight; they add up to one.
+    pub load: [f64; MAX_FEET],
+    /// How many there are.
+    pub count: usize,
+    /// Whether they stand for something that looks the same at every turn.
+    pub round: bool,
+    /// Whether they stand for even pressure, so that other points would do as well.
+    even: bool,
+    /// Mean distance from the centre, metres: the ratio of the largest friction torque to the
+    /// largest friction force.
+    pub mean_radius: f64,
+    /// Mean square distance from the centre, square metres.
+    pub mean_square: f64,
+    /// Sums of load (r / c)^k exp(i k phi) over the points at (r, phi), for k = 2, 3, 4, c being the
+    /// mean radius: how the support differs from a round one, real and imaginary parts.
+    pub harmonics: [Vector; 3],
+    /// The inverse of the second moments of the load, xx, xy and yy, 1 / m^2.
+    stiffness: [f64; 3],
+}
+
+impl Feet {
+    /// The points that stand for `support` under an object that covers `footprint`.
+    ///
+    /// Even pressure is that of sixteen points with equal loads: a grid of four by four under a
+    /// cuboid, two rings of eight under a cylinder. They have the second moments of the underside,
+    /// so friction is exact for slides that hardly turn; the torque of turns on the spot is exact
+    /// under cylinders and thin rods, and 0.5 % too small under squares. Under prisms
+    /// see `underside`.
+    pub fn new(support: &Support, footprint: &Footprint) -> Self {
+        let mut feet = match (support, *footprint) {
+            (Support::Points(points), _) => Self::on(points),
+            (Support::Even, Footprint::Disc { radius }) => {
+                // Radii r with mean 2 R / 3 and mean square R^2 / 2.
+                let off = (0.5f64 - 4.0 / 9.0).sqrt();
+                let rings = [(2.0 / 3.0 - off, 0.0), (2.0 / 3.0 + off, 0.5)];
+                Self::equal(rings.into_iter().flat_map(|(r, turn)| ring(r * radius, turn)))
+            }
+            (Support::Even, Footprint::Rectangle { half }) => {
+                // The Gauss-Legendre rule on either half of a side: mean h / 2, square h^2 / 3.
+                let off = (1.0f64 / 3.0 - 0.25).sqrt();
+                let places = [-0.5 - off, -0.5 + off, 0.5 - off, 0.5 + off];
+                Self::equal(places.into_iter().flat_map(|u| {
+                    places.into_iter().map(move |v| Vector::new(u * half.x, v * half.y))
+                }))
+            }
+            (Support::Even, Footprint::Polygon(polygon)) => {
+                let (points, even) = underside(&polygon);
+                // Even pressure carries no centre of mass that is not the centroid.
+                let loads = balanced(&points, &even).unwrap_or(even);
+                Self::of(points.into_iter().zip(loads))
+            }
+            (Support::Corners, footprint) => Self::corners(&footprint, 1.0),
+            (Support::Spread(share), footprint) => Self::corners(&footprint, *share),
+        };
+        let stated = matches!(support, Support::Points(_));
+        feet.round = !stated && matches!(footprint, Footprint::Disc { .. });
+        if feet.round {
+            feet.harmonics = [Vector::zeros(); 3];
+        }
+        feet.even = matches!(support, Support::Even);
+        feet
+    }
+
+    /// In place of even pressure fewer points with the same first and second moments, for engines
+    /// in which all of them are contacts of a body that tips: how it spreads its weight over many
+    /// is left to chance there, and each costs time. Eight under a cylinder, four under anything
+    /// else. Points that are stated stay.
+    pub fn few(&self, footprint: &Footprint) -> Self {
+        if !self.even {
+            return self.clone();
+        }
+        let mut feet = match *footprint {
+            Footprint::Disc { .. } => Self::equal(ring(self.mean_square.sqrt(), 0.0)),
+            Footprint::Rectangle { .. } | Footprint::Polygon(_) => {
+                // On the principal axes of the second moments, which have these means and spread.
+                let sum = |value: &dyn Fn(Vector) -> f64| -> f64 {
+                    self.each().map(|(at, load)| load * value(at)).sum()
+                };
+                let half = 0.5 * sum(&|at| at.x * at.x - at.y * at.y);
+                let across = sum(&|at| at.x * at.y);
+                let (mean, spread) = (0.5 * self.mean_square, half.hypot(across));
+                let (sin, cos) = (0.5 * across.atan2(half)).sin_cos();
+                let a = (mean + spread).sqrt() * Vector::new(cos, sin);
+                let b = (mean - spread).max(0.0).sqrt() * Vector::new(-sin, cos);
+                Self::equal([a + b, b - a, -a - b, a - b])
+            }
+        };
+        (feet.round, feet.even) = (self.round, true);
+        feet
+    }
+
+    /// These points with loads that leave the centre of mass where it is, as equal as can be; see
+    /// [`carries`].
+    fn on(points: &[Vector]) -> Self {
+        let loads =
+            carries(points).unwrap_or_else(|| vec![1.0 / points.len() as f64; points.len()]);
+        Self::of(points.iter().copied().zip(loads))
+    }
+
+    fn corners(footprint: &Footprint, share: f64) -> Self {
+        match *footprint {
+            Footprint::Disc { radius } => Self::equal(ring(share * radius, 0.0)),
+            Footprint::Rectangle { half } => {
+                let (x, y) = (share * half.x, share * half.y);
+                Self::equal([(x, y), (-x, y), (-x, -y), (x, -y)].map(|(x, y)| Vector::new(x, y)))
+            }
+            Footprint::Polygon(polygon) => {
+                let corners = polygon.corners().iter();
+                Self::on(&corners.map(|corner| share * corner).collect::<Vec<_>>())
+            }
+        }
+    }
+
+    fn equal(points: impl IntoIterator<Item = Vector>) -> Self {
+        let points: Vec<Vector> = points.into_iter().collect();
+        let load = 1.0 / points.len() as f64;
+        Self::of(points.into_iter().map(|point| (point, load)))
+    }
+
+    fn of(points: impl IntoIterator<Item = (Vector, f64)>) -> Self {
+        let none = [0.0; MAX_FEET];
+        let mut feet = Self {
+            x: none,
+            y: none,
+            load: none,
+            count: 0,
+            round: false,
+            even: false,
+            mean_radius: 0.0,
+            mean_square: 0.0,
+            harmonics: [Vector::zeros(); 3],
+            stiffness: [0.0; 3],
+        };
+        let [mut xx, mut xy, mut yy] = [0.0; 3];
+        for (point, load) in points.into_iter().take(MAX_FEET) {
+            let k = feet.count;
+            (feet.x[k], feet.y[k], feet.load[k]) = (point.x, point.y, load);
+            feet.count += 1;
+            feet.mean_radius += load * point.norm();
+            feet.mean_square += load * point.norm_squared();
+            xx += load * point.x * point.x;
+            xy += load * point.x * point.y;
+            yy += load * point.y * point.y;
+        }
+        for k in 0..feet.count {
+            let point = Vector::new(feet.x[k], feet.y[k]) / feet.mean_radius;
+            let mut power = point;
+            for harmonic in &mut feet.harmonics {
+                power = multiplied(power, point);
+                *harmonic += feet.load[k] * power;
+            }
+        }
+        // Nothing leans on points in a line, which could not carry it.
+        let whole = xx * yy - xy * xy;
+        if whole > 1e-9 * (xx + yy) * (xx + yy) {
+            feet.stiffness = [yy / whole, -xy / whole, xx / whole];
+        }
+        feet
+    }
+
+    /// The [`Self::harmonics`] as seen along a unit vector to which the object's own x axis is
+    /// turned by an angle of these cosine and sine.
+    pub fn harmonics_turned(&self, turn: Vector) -> [Vector; 3] {
+        let mut power = turn;
+        self.harmonics.map(|harmonic| {
+            power = multiplied(power, turn);
+            multiplied(harmonic, power)
+        })
+    }
+
+    /// Every point with its share of the weight.
+    pub fn each(&self) -> impl Iterator<Item = (Vector, f64)> + '_ {
+        (0..self.count).map(|k| (Vector::new(self.x[k], self.y[k]), self.load[k]))
+    }
+
+    /// What resists a planar motion of the object, whose own x axis points along the unit vector
+    /// `axis`, when every point drags with its load along its own motion, and those slower than
+    /// `least` as if they were so fast. With d the motion of a point, the weight of its place is
+    /// load / max(|d|, `least`). The object leans: the centre of its load lies `lean` metres aside.
+    pub fn drag(
+        &self,
+        axis: Vector,
+        (linear, angular): (Vector, f64),
+        least: f64,
+        lean: Vector,
+    ) -> Drag {
+        let speed = linear.norm();
+        // The points of what is round stand for all of its turns, so they turn with the motion.
+        let (cos, sin) = match self.round {
+            true if speed > 0.0 => (linear.x / speed, linear.y / speed),
+            true => (1.0, 0.0),
+            false => (axis.x, axis.y),
+        };
+        let local = |v: Vector| Vector::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
+        let mut drag = self.drag_along(local(linear), angular, least, self.slope(local(lean)));
+        let Drag { first, .. } = drag;
+        drag.first = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
+        drag
+    }
+
+    /// How much more of its load than at the centre a point carries per metre, so that the centre
+    /// of the load lies at `lean`: the least change that does it (even springs).
+    fn slope(&self, lean: Vector) -> Vector {
+        let [xx, xy, yy] = self.stiffness;
+        Vector::new(xx * lean.x + xy * lean.y, xy * lean.x + yy * lean.y)
+    }
+
+    /// Shares of the weight when the centre of the load lies at `lean`, in the object's frame.
+    /// Points do not pull: where some would have to, the rest carries all, a little less far aside.
+    pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
+        let slope = self.slope(lean);
+        let mut load = self.load;
+        for (k, load) in load.iter_mut().enumerate() {
+            *load *= (1.0 + slope.x * self.x[k] + slope.y * self.y[k]).max(0.0);
+        }
+        let whole: f64 = load.iter().sum();
+        load.map(|load| load / whole)
+    }
+
+    /// [`Self::drag`] in the points' own frame.
+    #[inline]
+    fn drag_along(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
+        // Whole blocks and a sum for each place in them, so that the compiler makes vectors of
+        // them; spare points carry nothing.
+        let mut sums = [[0.0; BLOCK]; 5];
+        for block in 0..self.count.div_ceil(BLOCK) {
+            let range = block * BLOCK..(block + 1) * BLOCK;
+            let (x, y) = (&self.x[range.clone()], &self.y[range.clone()]);
+            let load = &self.load[range];
+            for k in 0..BLOCK {
+                let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
+                let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
+                let weight = load / (u * u + v * v).sqrt().max(least);
+                sums[0][k] += weight;
+                sums[1][k] += weight * x[k];
+                sums[2][k] += weight * y[k];
+                sums[3][k] += weight * (x[k] * x[k] + y[k] * y[k]);
+                sums[4][k] += load;
+            }
+        }
+        let [sum, x, y, second, whole] = sums.map(|places| places.iter().sum::<f64>());
+        let scale = 1.0 / whole;
+        Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
+    }
+
+    /// The same where every point moves by `moved`.
+    pub fn even_drag(&self, moved: f64) -> Drag {
+        let first = Vector::zeros();
+        Drag { sum: 1.0 / moved, first, second: self.mean_square / moved }
+    }
+}
+
+/// Points that the compiler treats together.
+const BLOCK: usize = 4;
+
+/// Moments of the weights of points that drag, see [`Feet::drag`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Drag {
+    /// Sum of the weights.
+    pub sum: f64,
+    /// Sum of weight times place against the centre, in world axes.
+    pub first: Vector,
+    /// Sum of weight times squared distance from the centre.
+    pub second: f64,
+}
+
+/// The product of two complex numbers.
+fn multiplied(a: Vector, b: Vector) -> Vector {
+    Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
+}
+
+/// Eight points on a circle, the first one turned by `turn` of the angle between two.
+fn ring(radius: f64, turn: f64) -> impl Iterator<Item = Vector> {
+    (0..8).map(move |k| {
+        let (y, x) = (std::f64::consts::FRAC_PI_4 * (f64::from(k) + turn)).sin_cos();
+        radius * Vector::new(x, y)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPES: [Footprint; 3] = [
+        Footprint::Disc { radius: 0.05 },
+        Footprint::Rectangle { half: Vector::new(0.04, 0.04) },
+        Footprint::Rectangle { half: Vector::new(0.08, 0.02) },
+    ];
+
+    #[test]
+    fn even_feet_have_the_moments_of_even_pressure() {
+        for shape in SHAPES {
+            let feet = Feet::new(&Support::Even, &shape);
+            assert!((feet.load.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+            let centre: Vector = feet.each().map(|(at, load)| load * at).sum();
+            assert!(centre.norm() < 1e-15);
+            let (mean, square) = (feet.mean_radius, feet.mean_square);
+            assert!((square / shape.gyration_radius().powi(2) - 1.0).abs() < 1e-9, "{shape:?}");
+            assert!((mean / shape.mean_radius() - 1.0).abs() < 0.006, "{shape:?} {mean}");
+        }
+    }
+
+    #[test]
+    fn what_leans_has_the_centre_of_its_load_there() {
+        for shape in SHAPES {
+            for support in [Support::Even, Support::Corners] {
+                let feet = Feet::new(&support, &shape);
+                let lean = Vector::new(0.004, -0.002);
+                let loads = feet.leaning(lean);
+                let centre: Vector = feet.each().zip(loads).map(|((at, _), load)| load * at).sum();
+                assert!((centre - lean).norm() < 1e-12, "{shape:?} {support:?}: {centre}");
+                // So slow that all points weigh alike, what is left is the load's first moment.
+                let motion = (Vector::new(0.1, 0.03), 0.4);
+                let drag = feet.drag(Vector::x(), motion, 1.0, lean);
+                assert!((drag.first - lean).norm() < 1e-12, "{shape:?} {support:?}: {drag:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn fewer_feet_have_the_same_second_moments() {
+        for shape in SHAPES {
+            let feet = Feet::new(&Support::Even, &shape);
+            let few = feet.few(&shape);
+            assert!(few.count <= 8 && few.round == feet.round);
+            for (a, b) in few.stiffness.iter().zip(&feet.stiffness) {
+                assert!((a - b).abs() < 1e-9 * feet.stiffness[0], "{shape:?}");
+            }
+            // Points that are stated stay, however many they are.
+            let points: Vec<Vector> = feet.each().map(|(at, _)| at).collect();
+            let stated = Feet::new(&Support::Points(points), &shape);
+            assert_eq!(stated.few(&shape), stated);
+        }
+    }
+
+    #[test]
+    fn harmonics_turn_with_the_object() {
+        let points = [(0.03, 0.0), (-0.02, 0.02), (-0.02, -0.04)].map(|(x, y)| Vector::new(x, y));
+        let (sin, cos) = 0.7f64.sin_cos();
+        let turned = points.map(|p| Vector::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y));
+        let [feet, other] =
+            [points, turned].map(|points| Feet::new(&Support::Points(points.to_vec()), &SHAPES[0]));
+        let found = feet.harmonics_turned(Vector::new(cos, sin));
+        for (a, b) in found.iter().zip(other.harmonics) {
+            assert!((a - b).norm() < 1e-12 && b.norm() > 0.01, "{a} {b}");
+        }
+        // A square's corners differ from a circle in the fourth harmonic alone.
+        let square = Feet::new(&Support::Corners, &SHAPES[1]).harmonics;
+        assert!(square[0].norm() < 1e-12 && square[1].norm() < 1e-12);
+        assert!((square[2] + Vector::x()).norm() < 1e-12);
+    }
+
+    /// Turning little while it slides, a disc under even pressure resists with a quarter of R^2.
+    #[test]
+    fn a_slide_that_hardly_turns_feels_the_second_moment_along_it() {
+        for shape in SHAPES {
+            let feet = Feet::new(&Support::Even, &shape);
+            let second = match shape {
+                Footprint::Disc { radius } => radius * radius / 4.0,
+                Footprint::Rectangle { half } => half.x * half.x / 3.0,
+                Footprint::Polygon(polygon) => polygon.second_moments()[0],
+            };
+            let (speed, turning) = (0.1, 1e-4);
+            let drag =
+                feet.drag(Vector::x(), (Vector::new(speed, 0.0), turning), 1e-9, Vector::zeros());
+            // Torque: the slide pulls at the points' first moment, the turn at their second.
+            let torque = -drag.first.y * speed + drag.second * turning;
+            assert!((torque / (second * turning / speed) - 1.0).abs() < 1e-3, "{shape:?}");
+        }
+    }
+}
