@@ -227,19 +227,18 @@ fn step(
     }
     let evaluations: Vec<&Evaluation> = leaders.iter().map(|(.., one)| *one).collect();
     let ends = supports.ends(workspace, rollouts, &evaluations);
-    let before: Vec<f64> = active.iter().map(|work| work.score()).collect();
-    active.iter_mut().zip(&before).for_each(|(work, score)| work.refined.rounds.push(*score));
+    let mut scores: Vec<f64> = active.iter().map(|work| work.score()).collect();
     for ((k, radius, one), ends) in leaders.into_iter().zip(ends) {
         let (work, score) = (&mut active[k], score(goal, one, &ends));
-        if score < before[k] {
+        if score < scores[k] {
+            scores[k] = score;
             let refined = &mut work.refined;
-            refined.rounds.pop();
-            refined.rounds.push(score);
             refined.off[1] = off(goal, one, &ends);
             (refined.worst, refined.best) = (ends.worst, one.clone());
             (work.ends, work.radius) = (ends, radius);
         }
     }
+    active.iter_mut().zip(scores).for_each(|(work, score)| work.refined.rounds.push(score));
 }
 
 /// Points to sample around the present parameters, in steps.

@@ -19,8 +19,9 @@ use super::{Evaluation, Rollouts, Workspace};
 /// must reach the goal whatever the others do.
 const MOST: f64 = 0.35;
 
-/// Rounds in which the centre of the smallest ball is found; then it is off by less than a
-/// hundredth of the radius for the few points there are (Badoiu and Clarkson 2003, section 2).
+/// Rounds in which the centre of the smallest ball is found, each a step towards the farthest point
+/// (Badoiu and Clarkson 2003, "Smaller core-sets for balls"); then it is off by a few hundredths of
+/// the radius at most.
 const ROUNDS: usize = 64;
 
 /// All of a candidate's ends on plausible supports, the believed one among them.

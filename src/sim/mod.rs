@@ -5,8 +5,8 @@
 //! planned or judged here, and no type of rapier leaves this room.
 //!
 //! Both engines rest objects on the same points. Over 400 held-out pushes of one object, 20 cm at
-//! 0.1 m/s, they end 1.25 mm apart (mean; cuboids 1.5) if nothing may tip (`pushplan evaluate
-//! 3d-upright --on single --pushes 400`) and 3.8 mm (cuboids 5.3) if it may (`planar` for
+//! 0.1 m/s, they end 0.96 mm apart (mean; cuboids 1.01) if nothing may tip (`pushplan evaluate
+//! 3d-upright --on single --pushes 400`) and 3.9 mm (cuboids 5.6) if it may (`3d` for
 //! `3d-upright`): how high two flat faces press on each other is then up to the 3-D engine.
 //!
 //! Objects with fixed joints between them are one body and hold exactly; the axes of rows of

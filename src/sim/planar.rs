@@ -61,7 +61,8 @@ struct Tracked {
 }
 
 impl World for PlanarWorld {
-    /// Below mu g dt, 16 mm/s at mu 0.4, friction falls with the speed.
+    /// Friction falls with the speed below a share of mu g dt, which is 16 mm/s at mu 0.4: below
+    /// all of it in moving joints, and below a twentieth elsewhere.
     const SLOWEST: f64 = 0.05;
 
     fn hurry(&mut self, factor: f64) {

@@ -4,6 +4,9 @@
 //! stop it within a step could only be slowed in proportion to its speed; at 0.1 m/s, 1/240 s and a
 //! coefficient of 0.5 that is anything below a fifth of the tool's speed, such as the corner that a
 //! box turns about. What presses is known when the step has been made, and is taken from the last one.
+//!
+//! The prior has such equations, too ([`crate::contact`]). They are not shared: this engine judges
+//! it, and a mistake in common would be seen by neither.
 
 use crate::geometry::{Vector, cross, perpendicular};
 use crate::scene::Drag;

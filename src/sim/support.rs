@@ -12,8 +12,8 @@ use super::slowing::{Inertia, Twist};
 
 /// Points slower than this share of the speed that friction takes from a free body in a step drag
 /// in proportion to their speed, so that what rests can be told from what creeps. Of pushed single
-/// objects on their corners the ends at 1/240 s are off by 0.4 mm on average, with 0.2 by 1.5 mm,
-/// with 1 by 4 mm (against 1/3840 s).
+/// objects on their corners the ends at 1/240 s are off by 0.4 mm on average (against 1/3840 s),
+/// with 0.2 by 1.5 mm.
 const STUCK: f64 = 0.05;
 
 /// The same where objects hang together by joints that move: friction knows what presses from the

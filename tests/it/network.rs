@@ -175,7 +175,7 @@ fn turning_and_shifting_the_scene_turns_and_shifts_the_prediction() {
 fn mirroring_the_scene_mirrors_the_prediction() {
     let model = Network::new(weights(64));
     let mirror = |p: Pose| Pose::new(p.position.x, -p.position.y, -p.heading);
-    let (scene, stroke) = (scene(), half_stroke());
+    let (scene, stroke) = (scene(), stroke());
     let plain = rollout(&model, &scene, stroke);
     let mut other = scene.clone();
     other.objects.iter_mut().for_each(|o| o.pose = mirror(o.pose));

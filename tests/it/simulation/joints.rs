@@ -14,7 +14,7 @@ fn pushed(kind: JointKind) -> (Scene, Vec<State>) {
     first.pose.heading = std::f64::consts::FRAC_PI_2;
     let mut scene = Scene::new([first, second]);
     scene.joints.push(Joint::new([0, 1], kind));
-    let motion = push(Vector::new(-0.04, 0.17), 0.0, 0.12, 0.1);
+    let motion = push(Vector::new(-0.04, 0.20), 0.0, 0.12, 0.1);
     let ends = engines().map(|simulator| {
         let trajectory =
             simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Outcome);
@@ -50,8 +50,7 @@ fn a_revolute_joint_keeps_its_axis_and_turns() {
         let drift = carried(&scene, &end, 0, at) - carried(&scene, &end, 1, at);
         assert!(drift.norm() < 0.5e-3, "{drift}");
         let bend = wrap_angle(end.poses[0].heading - end.poses[1].heading).abs();
-        // Five times what a fixed joint may bend by.
-        assert!(bend > 0.01, "{bend}");
+        assert!(bend > 0.02, "{bend}");
     }
 }
 
