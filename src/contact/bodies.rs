@@ -210,7 +210,7 @@ impl Bodies {
             })
             .collect();
         let parts = tool
-            .outline
+            .outline()
             .iter()
             .enumerate()
             .map(|(index, piece)| Given {
@@ -221,7 +221,7 @@ impl Bodies {
                 span: (lift, lift + piece.shape.height()),
             })
             .collect();
-        let rims = tool.outline.iter().map(|piece| piece.rim.clone()).collect();
+        let rims = tool.outline().iter().map(|piece| piece.rim.clone()).collect();
         let obstacles = scene
             .obstacles
             .iter()
@@ -247,7 +247,7 @@ impl Bodies {
             .collect();
         let groups = Groups::new(scene, physics);
         let mechanisms = physics.groups(|_| true);
-        let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline.len());
+        let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline().len());
         let feet = physics.feet.iter().cloned().collect();
         let push_height_known = physics.push_height.is_some();
         let frictions = physics.pairs.iter().copied().collect();

@@ -59,16 +59,16 @@ pub fn aimed_stroke(
     let span = |index: usize, direction: Vector| {
         let part = tool.part_pose(index, &turned);
         let centre = part.position.dot(&direction);
-        let half = tool.parts[index].footprint().extent(part.local_vector(direction));
+        let half = tool.parts()[index].footprint().extent(part.local_vector(direction));
         (centre - half, centre + half)
     };
-    let part = rng.random_range(0..tool.parts.len());
+    let part = rng.random_range(0..tool.parts().len());
     let (low, high) = span(part, aside);
     let wide = reach(aside);
     let lateral = match weighted(rng, &LATERAL) {
         0 => uniform(rng, low - 0.9 * wide, high + 0.9 * wide),
         1 => {
-            let spans = (0..tool.parts.len()).map(|index| span(index, aside));
+            let spans = (0..tool.parts().len()).map(|index| span(index, aside));
             let (low, high) = spans.fold((low, high), |(a, b), (c, d)| (a.min(c), b.max(d)));
             uniform(rng, low - 1.02 * wide, high + 1.02 * wide)
         }
@@ -78,7 +78,7 @@ pub fn aimed_stroke(
         }
     };
     let front =
-        (0..tool.parts.len()).map(|index| span(index, along).1).fold(f64::NEG_INFINITY, f64::max);
+        (0..tool.parts().len()).map(|index| span(index, along).1).fold(f64::NEG_INFINITY, f64::max);
     let behind = pose.position.dot(&along) - reach(along) - front - SET_DOWN;
     let place = |shift: f64| Pose {
         position: along * (behind + shift) + aside * (pose.position.dot(&aside) - lateral),
@@ -136,9 +136,9 @@ pub(super) fn tool_travel(
     direction: Vector,
     other: (&Footprint, &Pose),
 ) -> Option<f64> {
-    let travels = (0..tool.parts.len()).filter_map(|index| {
+    let travels = (0..tool.parts().len()).filter_map(|index| {
         let part = tool.part_pose(index, pose);
-        travel_to_contact((&tool.parts[index].footprint(), &part), direction, other)
+        travel_to_contact((&tool.parts()[index].footprint(), &part), direction, other)
     });
     travels.reduce(f64::min)
 }
@@ -146,8 +146,8 @@ pub(super) fn tool_travel(
 /// Smallest distance between any part of the tool at `pose` and a footprint, metres, capped at
 /// a centimetre.
 pub(super) fn tool_clearance(tool: &Tool, pose: &Pose, other: (&Footprint, &Pose)) -> f64 {
-    let gaps = (0..tool.parts.len()).map(|index| {
-        clearance((&tool.parts[index].footprint(), &tool.part_pose(index, pose)), other, 0.01)
+    let gaps = (0..tool.parts().len()).map(|index| {
+        clearance((&tool.parts()[index].footprint(), &tool.part_pose(index, pose)), other, 0.01)
     });
     gaps.fold(0.01, f64::min)
 }

@@ -48,15 +48,9 @@ pub fn random_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
         }
     }
     let friction = uniform(rng, ranges.friction.low, ranges.friction.high);
-    Tool {
-        name: "assembly".to_owned(),
-        description: "Random cuboids glued face to face.".to_owned(),
-        grip: Pose::default(),
-        friction,
-        outline: Tool::outline_of(&parts),
-        parts,
-        joints,
-    }
+    Tool::assembled("assembly", parts, joints)
+        .described("Random cuboids glued face to face.")
+        .friction(friction)
 }
 
 fn random_size(rng: &mut Pcg64, ranges: &Ranges, thickness: f64) -> [f64; 3] {

@@ -38,16 +38,10 @@ impl<'a> HandPlay<'a> {
     /// Before the first stroke.
     pub(super) fn new(rng: &mut Pcg64, scene: &'a Scene, ranges: &Ranges) -> Self {
         let shape = Shape::Cylinder { radius: HAND_RADIUS, height: HAND_HEIGHT };
-        let parts = vec![Part { name: "hand".to_owned(), shape, pose: Pose::default() }];
-        let hand = Tool {
-            name: "hand".to_owned(),
-            description: "A round hand.".to_owned(),
-            grip: Pose::default(),
-            friction: uniform(rng, ranges.friction.low, ranges.friction.high),
-            outline: Tool::outline_of(&parts),
-            parts,
-            joints: Vec::new(),
-        };
+        let hand =
+            Tool::assembled("hand", vec![Part::new("hand", shape, Pose::default())], Vec::new())
+                .described("A round hand.")
+                .friction(uniform(rng, ranges.friction.low, ranges.friction.high));
         Self {
             scene,
             motion: ToolMotion { tool: Arc::new(hand), lift: LIFT, strokes: Vec::new() },

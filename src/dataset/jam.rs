@@ -35,7 +35,7 @@ pub(super) fn shortened_before_jam(
 pub(super) fn crosses_obstacle(scene: &Scene, tool: &Tool, stroke: &Stroke) -> bool {
     scene.obstacles.iter().any(|obstacle| {
         let still = (&obstacle.shape().footprint(), &obstacle.pose);
-        tool.parts.iter().any(|part| {
+        tool.parts().iter().any(|part| {
             let (from, to) = (stroke.from * part.pose, stroke.to * part.pose);
             swept_clearance(&part.footprint(), &from, &to, still, 1e-3) < 1e-3
         })
@@ -50,7 +50,7 @@ fn is_jammed(scene: &Scene, tool: &Tool, frame: &Frame) -> bool {
     scene.objects.iter().zip(&frame.state.poses).any(|(object, pose)| {
         let body = (&object.shape.footprint(), pose);
         let into_tool = tool
-            .parts
+            .parts()
             .iter()
             .any(|part| overlaps(body, (&part.footprint(), &(frame.tool * part.pose))));
         into_tool

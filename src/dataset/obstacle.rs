@@ -57,7 +57,7 @@ pub(super) fn place_obstacle(
         }) && scene.obstacles.iter().all(|other| {
             clearance((&footprint, &pose), (&other.shape().footprint(), &other.pose), 0.01) >= FREE
         }) && motion.strokes.iter().all(|stroke| {
-            motion.tool.parts.iter().all(|part| {
+            motion.tool.parts().iter().all(|part| {
                 let (from, to) = (stroke.from * part.pose, stroke.to * part.pose);
                 swept_clearance(&part.footprint(), &from, &to, (&footprint, &pose), 0.01) >= FREE
             })

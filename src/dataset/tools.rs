@@ -158,15 +158,9 @@ fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     };
     let pose = Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0);
     let parts = vec![Part { name: "part-1".to_owned(), shape, pose }];
-    Tool {
-        name: "finger".to_owned(),
-        description: "A single round part.".to_owned(),
-        grip: Pose::default(),
-        friction: uniform(rng, ranges.friction.low, ranges.friction.high),
-        outline: Tool::outline_of(&parts),
-        parts,
-        joints: Vec::new(),
-    }
+    Tool::assembled("finger", parts, Vec::new())
+        .described("A single round part.")
+        .friction(uniform(rng, ranges.friction.low, ranges.friction.high))
 }
 
 fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {

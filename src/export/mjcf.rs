@@ -228,7 +228,7 @@ fn raised(shape: &Shape) -> (Shape, f64) {
 fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
     let objects = scene.objects.iter();
     let objects = objects.map(|object| (object_name(object), raised(&object.shape).0));
-    let tool = seamless(&motion.tool.outline).into_iter();
+    let tool = seamless(motion.tool.outline()).into_iter();
     let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
     objects.chain(tool).collect()
 }
@@ -273,7 +273,7 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
         xml.leaf("joint", &attributes);
     }
     let turned = Pose { heading: start.heading, ..Pose::default() };
-    for (name, shape, pose) in seamless(&motion.tool.outline) {
+    for (name, shape, pose) in seamless(motion.tool.outline()) {
         let height = motion.lift + shape.height() / 2.0;
         solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, 0.0);
     }

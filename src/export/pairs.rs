@@ -33,7 +33,7 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             let name = format!("obstacle/{}", obstacle.name);
             add(own(), name, Surface::Obstacle(k), obstacle.friction);
         }
-        for piece in &tool.outline {
+        for piece in tool.outline() {
             add(own(), format!("tool/{}", piece.name), Surface::Tool, tool.friction);
         }
         for (other, body) in scene.objects.iter().enumerate().skip(index + 1) {

@@ -74,7 +74,7 @@ mod tests {
         let handle = Part::cuboid("handle", [0.4, 0.03, 0.05], Pose::new(0.2, 0.0, 0.0));
         let bar = Part::cuboid("bar", [0.03, 0.2, 0.05], Pose::new(0.415, 0.085, 0.0));
         let tool = Tool::new("hook", [handle, bar]).expect("one piece");
-        let found = seamless(&tool.outline);
+        let found = seamless(tool.outline());
         assert_eq!(found.len(), 2);
         let size = |name: &str| match found.iter().find(|solid| solid.0 == name) {
             Some((_, Shape::Cuboid { size }, pose)) => (*size, pose.position),

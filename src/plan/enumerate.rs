@@ -104,7 +104,7 @@ fn pushes(
             add(Start::Chained);
             continue;
         }
-        for part in 0..workspace.tools[pair.0].parts.len() {
+        for part in 0..workspace.tools[pair.0].parts().len() {
             match &rules.offsets {
                 Offsets::List(offsets) => {
                     offsets.iter().for_each(|&offset| add(Start::Placed { part, offset }));

@@ -80,7 +80,8 @@ impl Spread {
         draws
             .map(|(start, (physics, friction))| {
                 let tool = &*motion.tool;
-                let tool = Tool { friction: tool.friction * friction, ..tool.clone() };
+                let rubbing = tool.friction * friction;
+                let tool = Tool::clone(tool).friction(rubbing);
                 let motion = ToolMotion { tool: Arc::new(tool), ..motion.clone() };
                 Job { start: start.clone(), motion, physics: Arc::clone(physics) }
             })

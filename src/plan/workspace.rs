@@ -147,8 +147,8 @@ impl Workspace<'_> {
         }
         // The end effector at the world's origin; everything below is shifted from there.
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
-        let parts: Vec<(Footprint, Pose)> = (0..tool.parts.len())
-            .map(|k| (tool.parts[k].footprint(), tool.part_pose(k, &frame)))
+        let parts: Vec<(Footprint, Pose)> = (0..tool.parts().len())
+            .map(|k| (tool.parts()[k].footprint(), tool.part_pose(k, &frame)))
             .collect();
         let (face, pose) = parts[part];
         let stand_off = STAND_OFF + push.room;
@@ -200,7 +200,7 @@ impl Workspace<'_> {
         }
         let tool = &*self.tools[tool];
         let frame = tool.pose(Pose { position: start, heading: grip_yaw });
-        for (k, part) in tool.parts.iter().enumerate() {
+        for (k, part) in tool.parts().iter().enumerate() {
             let from = tool.part_pose(k, &frame);
             for obstacle in self.task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
                 let grown = obstacle.shape().footprint().grown(OBSTACLE_CLEARANCE);
@@ -229,7 +229,7 @@ impl Workspace<'_> {
         let frame = |position| tool.pose(Pose { position, heading: grip_yaw });
         let (from, to) = (frame(push.start), frame(push.end()));
         let (mut obstacle, mut object) = (FAR, FAR);
-        for (k, part) in tool.parts.iter().enumerate() {
+        for (k, part) in tool.parts().iter().enumerate() {
             let (shape, from, to) =
                 (part.footprint(), tool.part_pose(k, &from), tool.part_pose(k, &to));
             for other in task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
@@ -293,7 +293,7 @@ impl Workspace<'_> {
         let face = tool.part_pose(part, &frame).local_vector(left);
         // The wider side: offsets beyond the narrower one are seen to touch nothing.
         let wide = |shape: &Footprint, axis: Vector| shape.extent(axis).max(shape.extent(-axis));
-        wide(&tool.parts[part].footprint(), face)
+        wide(&tool.parts()[part].footprint(), face)
             + overhang * wide(&footprint, at.local_vector(left))
     }
 

@@ -171,7 +171,7 @@ impl Recording {
         let met = |object: usize| {
             let own = footprint(object);
             seen.iter().any(|at| {
-                self.tool.parts.iter().enumerate().any(|(part, solid)| {
+                self.tool.parts().iter().enumerate().any(|(part, solid)| {
                     let pose = self.tool.part_pose(part, &at.tool);
                     near((&solid.footprint(), &pose), (&own, &at.poses[object]))
                 })
@@ -193,7 +193,7 @@ impl Recording {
         for (k, frame) in set_down {
             for (index, (object, pose)) in self.scene.objects.iter().zip(&frame.poses).enumerate() {
                 let solid = object.shape.footprint().shrunk(Self::NOISE);
-                let mut parts = self.tool.parts.iter().enumerate();
+                let mut parts = self.tool.parts().iter().enumerate();
                 let on = self.lift < object.shape.height()
                     && parts.any(|(part, solids)| {
                         let at = self.tool.part_pose(part, &frame.tool);

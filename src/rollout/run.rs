@@ -197,7 +197,7 @@ impl<'a> Run<'a> {
             Body::Obstacle(k) => obstacles[k].name.clone(),
             Body::Part(k) => {
                 let tool = &self.job.motion.tool;
-                format!("{}/{}", tool.name, tool.outline[k].name)
+                format!("{}/{}", tool.name, tool.outline()[k].name)
             }
         };
         self.depths.note_all(self.whole, &self.state, &stroke.to, moved);

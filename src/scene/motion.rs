@@ -162,7 +162,7 @@ impl ToolMotion {
                 let part = (&part.footprint(), &(tool * part.pose));
                 contact_points(own, part, -TOUCHING).1 > 0
             };
-            self.lift < shape.height() && self.tool.parts.iter().any(overlaps)
+            self.lift < shape.height() && self.tool.parts().iter().any(overlaps)
         };
         (0..scene.objects.len()).filter(stands_on)
     }

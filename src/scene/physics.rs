@@ -84,7 +84,7 @@ impl Physics {
 /// Mean height of where the faces of an object and a tool `lift` metres above the table meet,
 /// metres; zero where the tool passes over it.
 pub fn face_height(object: &Object, (tool, lift): (&Tool, f64)) -> f64 {
-    let tallest = tool.outline.iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
+    let tallest = tool.outline().iter().map(|piece| piece.shape.height()).fold(0.0, f64::max);
     let top = object.shape.height().min(lift + tallest);
     if top > lift { 0.5 * (lift + top) } else { 0.0 }
 }

@@ -223,8 +223,8 @@ impl Ranges {
         let tool = &motion.tool;
         let name = || tool.name.clone();
         check(&name, Quantity::Friction, tool.friction, self.friction);
-        check(&name, Quantity::Parts, tool.parts.len() as f64, self.parts);
-        for part in &tool.parts {
+        check(&name, Quantity::Parts, tool.parts().len() as f64, self.parts);
+        for part in tool.parts() {
             let of = || format!("{}/{}", tool.name, part.name);
             match part.shape {
                 Shape::Cuboid { size: [x, y, _] } => {

@@ -55,14 +55,11 @@ pub struct Tool {
     pub grip: Pose,
     /// Friction value.
     pub friction: f64,
-    /// At least one, as written.
-    pub parts: Vec<Part>,
-    /// The same without the seams between flush parts: what bodies touch, see
-    /// [`Tool::outline_of`].
+    parts: Vec<Part>,
+    /// Follows from the parts, so neither can be changed alone.
     #[serde(skip_serializing)]
-    pub outline: Vec<Piece>,
-    /// Pairs of parts joined by a fixed joint; together they make one rigid piece.
-    pub joints: Vec<[usize; 2]>,
+    outline: Vec<Piece>,
+    joints: Vec<[usize; 2]>,
 }
 
 /// A tool as it is written down: its outline follows from its parts.
@@ -79,8 +76,7 @@ struct Stated {
 impl From<Stated> for Tool {
     fn from(stated: Stated) -> Self {
         let Stated { name, description, grip, friction, parts, joints } = stated;
-        let outline = Self::outline_of(&parts);
-        Self { name, description, grip, friction, parts, outline, joints }
+        Self { description, grip, friction, ..Self::assembled(name, parts, joints) }
     }
 }
 
@@ -124,7 +120,7 @@ impl Tool {
     /// let handle = Part::cuboid("handle", [0.30, 0.03, 0.05], Pose::new(0.15, 0.0, 0.0));
     /// let bar = Part::cuboid("bar", [0.04, 0.16, 0.05], Pose::new(0.32, 0.0, 0.0));
     /// let rake = Tool::new("rake", [handle, bar])?.held_at(Pose::new(-0.02, 0.0, 0.0));
-    /// assert_eq!(rake.joints, [[0, 1]]);
+    /// assert_eq!(rake.joints(), [[0, 1]]);
     /// # Ok::<(), pushplan::Error>(())
     /// ```
     ///
@@ -175,25 +171,58 @@ impl Tool {
             pieces.retain(|p| !p.is_empty());
             return Err(ToolError::Apart { pieces });
         }
-        Ok(Self {
+        Ok(Self::assembled(name, parts, joints))
+    }
+
+    /// [`Tool::new`] of parts that are known to make one piece by these joints.
+    pub(crate) fn assembled(
+        name: impl Into<String>,
+        parts: Vec<Part>,
+        joints: Vec<[usize; 2]>,
+    ) -> Self {
+        Self {
             name: name.into(),
             description: String::new(),
             grip: Pose::default(),
             friction: Self::FRICTION,
-            outline: Self::outline_of(&parts),
+            outline: pieces(&parts),
             parts,
             joints,
-        })
+        }
     }
 
-    /// The outline of parts that are joined into one piece.
-    pub fn outline_of(parts: &[Part]) -> Vec<Piece> {
-        pieces(parts)
+    /// The parts as written, at least one.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The same without the seams between flush parts: what bodies touch.
+    pub fn outline(&self) -> &[Piece] {
+        &self.outline
+    }
+
+    /// Pairs of parts joined by a fixed joint; together they make one rigid piece.
+    pub fn joints(&self) -> &[[usize; 2]] {
+        &self.joints
+    }
+
+    /// The tool made of other parts.
+    ///
+    /// # Errors
+    /// [`ToolError`] if there are none or they form several pieces.
+    pub fn with_parts(self, parts: impl IntoIterator<Item = Part>) -> Result<Self, ToolError> {
+        let Self { name, description, grip, friction, .. } = self;
+        Ok(Self { description, grip, friction, ..Self::new(name, parts)? })
     }
 
     /// The tool held with the end effector at `grip`, a pose in the tool frame.
     pub fn held_at(self, grip: Pose) -> Self {
         Self { grip, ..self }
+    }
+
+    /// The tool under another name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
     }
 
     /// The tool with another friction value.

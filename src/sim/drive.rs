@@ -202,7 +202,7 @@ fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
     let against = match jam.with {
         Body::Object(index) => scene.objects[index].name.clone(),
         Body::Obstacle(index) => scene.obstacles[index].name.clone(),
-        Body::Part(index) => format!("{}/{}", motion.tool.name, motion.tool.outline[index].name),
+        Body::Part(index) => format!("{}/{}", motion.tool.name, motion.tool.outline()[index].name),
     };
     Warning::Jammed { object: scene.objects[jam.object].name.clone(), against, depth: jam.depth }
 }

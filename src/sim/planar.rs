@@ -237,7 +237,7 @@ impl PlanarWorld {
             .pose(to_rapier(at, self.origin))
             .can_sleep(false);
         self.tool = self.world.insert_body(body);
-        for (index, part) in motion.tool.outline.iter().enumerate() {
+        for (index, part) in motion.tool.outline().iter().enumerate() {
             let collider = collider(&part.footprint(), motion.tool.friction)
                 .density(0.0)
                 .position(to_rapier(&part.pose, Vector::zeros()))

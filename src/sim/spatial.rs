@@ -217,7 +217,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         let pose = to_rapier(at, self.origin, self.lift);
         let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
         self.tool = self.world.insert_body(body.additional_mass_properties(mass));
-        for (index, part) in motion.tool.outline.iter().enumerate() {
+        for (index, part) in motion.tool.outline().iter().enumerate() {
             // The tool frame lies at the parts' underside.
             let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
             let collider = solid(&part.shape, placed, motion.tool.friction).density(0.0);

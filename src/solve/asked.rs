@@ -177,7 +177,7 @@ fn start(
     let workspace = Workspace { task: &of_object, tools };
     let length = asked.length.unwrap_or(task.pushes.length);
     let mut why = Infeasible::NoContact;
-    for part in 0..tool.parts.len() {
+    for part in 0..tool.parts().len() {
         let start = Start::Placed { part, offset };
         let push = CandidatePush { start, direction: asked.direction, length, room: 0.0 };
         match workspace.place((0, grip_yaw), state, &push, previous) {

@@ -136,8 +136,8 @@ pub(super) fn check(
     for tool in tools {
         let sound = tool.grip.is_finite()
             && is_friction(tool.friction)
-            && !tool.parts.is_empty()
-            && tool.parts.iter().all(|part| {
+            && !tool.parts().is_empty()
+            && tool.parts().iter().all(|part| {
                 let (radius, area) = (part.footprint().bounding_radius(), part.footprint().area());
                 part.pose.is_finite() && radius.is_finite() && area > 0.0
             });

@@ -12,16 +12,15 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 use super::{Effort, Settings};
 
 /// The planar engine that pushes into crowds are left to: among touching objects it is off by less
-/// than the prior, and costs half of what the engine does at its default step.
-const CROWD_ENGINE: ModelKind = ModelKind::Simulated {
-    engine: Engine::Planar,
-    rate: Rate(NonZeroU16::MIN.saturating_add(119)),
-};
+/// than network and prior, and costs a quarter of what the engine does at its default step.
+const CROWD_ENGINE: ModelKind =
+    ModelKind::Simulated { engine: Engine::Planar, rate: Rate(NonZeroU16::MIN.saturating_add(59)) };
 
-/// The most objects that a push can set in motion for which network and prior are clearly cheaper
+/// The most objects that a push can set in motion for which prior and network are clearly cheaper
 /// than [`CROWD_ENGINE`]: where their costs cross, by straight lines in logarithms between the
 /// numbers of objects that were measured.
-const FEW_OBJECTS: u16 = 2;
+const FEW_FOR_PRIOR: u16 = 2;
+const FEW_FOR_NETWORK: u16 = 1;
 
 /// Coarse search, usual refinement, up to 8 verified.
 const COARSE: Settings = Settings {
@@ -53,14 +52,17 @@ const MEDIUM: Settings = Settings {
 const FINE: Settings = Settings { offsets: 9, beam: 64, search_rollouts: 8000, ..MEDIUM };
 
 impl Effort {
-    /// The model for few objects, the budgets, and the disturbed replays of the winning plan in
-    /// each engine: what a look, a usual answer, a careful one and a thorough study are worth.
-    const fn level(self) -> (ModelKind, Settings, usize) {
+    /// The model for few objects and how many those are, the budgets, and the disturbed replays of
+    /// the winning plan in each engine: what a look, a usual answer, a careful one and a thorough
+    /// study are worth.
+    const fn level(self) -> ((ModelKind, u16), Settings, usize) {
+        let prior = (ModelKind::PRIOR, FEW_FOR_PRIOR);
+        let network = (ModelKind::NETWORK, FEW_FOR_NETWORK);
         match self {
-            Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
-            Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
-            Effort::Thorough => (ModelKind::NETWORK, MEDIUM, 16),
-            Effort::Exhaustive => (ModelKind::NETWORK, FINE, 64),
+            Effort::Draft => (prior, COARSE, 4),
+            Effort::Standard => (prior, MEDIUM, 8),
+            Effort::Thorough => (network, MEDIUM, 16),
+            Effort::Exhaustive => (network, FINE, 64),
         }
     }
 
@@ -74,7 +76,8 @@ impl Effort {
     /// The effect model of its level, and the planar engine for pushes that reach so many objects
     /// that the model is no longer clearly cheaper.
     pub fn spec(self) -> ModelSpec {
-        ModelSpec::of(self.level().0).up_to(FEW_OBJECTS).or(CROWD_ENGINE)
+        let ((model, few), ..) = self.level();
+        ModelSpec::of(model).up_to(few).or(CROWD_ENGINE)
     }
 
     /// [`Effort::spec`], ready to use.

@@ -31,11 +31,11 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
         scene.obstacles.iter().find(|obstacle| {
             let still = (&obstacle.shape().footprint(), &obstacle.pose);
             let meets = |k: usize| {
-                let (part, ends) = (tool.parts[k].footprint(), [from, to]);
+                let (part, ends) = (tool.parts()[k].footprint(), [from, to]);
                 let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
                 swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
             };
-            plan.lift < obstacle.size[2] && (0..tool.parts.len()).any(meets)
+            plan.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
         })
     };
     for (index, push) in plan.pushes.iter().enumerate() {

@@ -60,12 +60,12 @@ fn the_reference_tools_have_the_reference_geometry() {
         ("inverse-l", [0.43, -0.12], -90.0),
     ] {
         let tool = library.get(name).unwrap();
-        assert_eq!(tool.parts.len(), 4);
-        for (part, x) in tool.parts.iter().zip([0.12, 0.26, 0.40]) {
+        assert_eq!(tool.parts().len(), 4);
+        for (part, x) in tool.parts().iter().zip([0.12, 0.26, 0.40]) {
             assert_eq!(part.shape, Shape::Cuboid { size: [0.14, 0.08, 0.05] });
             assert_eq!([part.pose.position.x, part.pose.position.y], [x, 0.0]);
         }
-        let part = &tool.parts[3];
+        let part = &tool.parts()[3];
         assert_eq!([part.pose.position.x, part.pose.position.y], last);
         assert_eq!(part.pose.heading, f64::to_radians(turn));
     }

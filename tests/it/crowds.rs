@@ -44,8 +44,8 @@ fn every_draw_is_within_the_stated_ranges_finite_and_at_rest() {
             let last = &frames[frames.len() - 1].state;
             assert!(last.is_finite() && scene.is_resting(last), "{preset:?} {index}");
             if preset != Preset::Mixed {
-                assert_eq!(motion.tool.parts.len(), 1);
-                let Shape::Cylinder { radius, .. } = motion.tool.parts[0].shape else {
+                assert_eq!(motion.tool.parts().len(), 1);
+                let Shape::Cylinder { radius, .. } = motion.tool.parts()[0].shape else {
                     panic!("the hand is round")
                 };
                 assert_eq!(radius, HAND_RADIUS);

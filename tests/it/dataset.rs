@@ -50,7 +50,7 @@ fn the_tool_is_set_down_free_of_everything_and_nothing_overlaps_at_the_start() {
                 .map(|(object, pose)| (object.shape.footprint(), *pose));
             let obstacles = scene.obstacles.iter().map(|o| (o.shape().footprint(), o.pose));
             for (footprint, pose) in objects.chain(obstacles) {
-                for (index, part) in motion.tool.parts.iter().enumerate() {
+                for (index, part) in motion.tool.parts().iter().enumerate() {
                     let placed = motion.tool.part_pose(index, &tool);
                     let gap = clearance((&part.footprint(), &placed), (&footprint, &pose), 0.01);
                     assert!(gap > 0.0, "episode {}", episode.index);

@@ -180,9 +180,9 @@ fn mirroring_the_scene_mirrors_the_prediction() {
     let mut other = scene.clone();
     other.objects.iter_mut().for_each(|o| o.pose = mirror(o.pose));
     other.obstacles.iter_mut().for_each(|o| o.pose = mirror(o.pose));
-    let mut mirrored = (*tool()).clone();
-    mirrored.parts.iter_mut().for_each(|p| p.pose = mirror(p.pose));
-    mirrored.outline = Tool::outline_of(&mirrored.parts);
+    let tool = tool();
+    let parts = tool.parts().iter().map(|p| Part { pose: mirror(p.pose), ..p.clone() });
+    let mirrored = Tool::clone(&tool).with_parts(parts).expect("one piece");
     let stroke = Stroke { from: mirror(stroke.from), to: mirror(stroke.to), ..stroke };
     let motion = ToolMotion { tool: Arc::new(mirrored), lift: 0.002, strokes: vec![stroke] };
     let job = Job::stated(&other, motion);
@@ -197,10 +197,9 @@ fn the_order_of_objects_and_parts_does_not_matter() {
     let scene = scene();
     let mut other = scene.clone();
     other.objects.reverse();
-    let mut reversed = (*tool()).clone();
-    reversed.parts.reverse();
-    reversed.outline = Tool::outline_of(&reversed.parts);
-    let reversed = Arc::new(reversed);
+    let tool = tool();
+    let parts = tool.parts().iter().rev().cloned();
+    let reversed = Arc::new(Tool::clone(&tool).with_parts(parts).expect("one piece"));
     // Before the squeeze, in which a random network makes millimetres of the order of a sum. The
     // prior alone, which sums in doubles, is tried far more strictly in `symmetry`.
     let stroke = Stroke { to: Pose::new(0.04, 0.008, 0.0), duration: 0.4, ..half_stroke() };

@@ -81,7 +81,7 @@ fn a_placed_face_stands_five_millimetres_before_the_object() {
         for (index, tool) in tools.iter().enumerate() {
             for yaw in [0.0, FRAC_PI_2, -FRAC_PI_2, 0.3] {
                 for direction in [0.0, PI, FRAC_PI_2, -FRAC_PI_2, 0.7] {
-                    for part in 0..tool.parts.len() {
+                    for part in 0..tool.parts().len() {
                         for offset in [-0.03, 0.0, 0.02] {
                             let push = placed(part, offset, direction);
                             let place = space.place((index, yaw), &state, &push, None);
@@ -95,14 +95,17 @@ fn a_placed_face_stands_five_millimetres_before_the_object() {
                             let left = Vector::new(-ahead.y, ahead.x);
                             let travel = |part: usize| {
                                 travel_to_contact(
-                                    (&tool.parts[part].footprint(), &tool.part_pose(part, &frame)),
+                                    (
+                                        &tool.parts()[part].footprint(),
+                                        &tool.part_pose(part, &frame),
+                                    ),
                                     ahead,
                                     (&object.shape.footprint(), &object.pose),
                                 )
                             };
                             // The named face is first, after exactly the stand-off.
                             assert!((travel(part).unwrap() - STAND_OFF).abs() < 1e-9);
-                            for other in 0..tool.parts.len() {
+                            for other in 0..tool.parts().len() {
                                 assert!(travel(other).is_none_or(|t| t > STAND_OFF - 1e-8));
                             }
                             // The object's centre lies `offset` to the left of the face's centre.
@@ -129,7 +132,7 @@ fn a_hook_reaches_behind_an_object_and_pulls_it_back() {
     let frame = tools[0].pose(Pose { position: start, heading: 0.0 });
     let bar = tools[0].part_pose(1, &frame);
     assert!((bar.position.x - (0.60 + 0.04 + STAND_OFF + 0.02)).abs() < 1e-9);
-    for (k, part) in tools[0].parts.iter().enumerate() {
+    for (k, part) in tools[0].parts().iter().enumerate() {
         let object = (&task.scene.objects[0].shape.footprint(), &state.poses[0]);
         assert!(
             clearance((&part.footprint(), &tools[0].part_pose(k, &frame)), object, 1.0) > 0.001

@@ -219,8 +219,9 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
         let mut slippery = plain.clone();
         let frictions = &mut Arc::make_mut(&mut slippery.physics).frictions;
         frictions.iter_mut().for_each(|friction| *friction *= 0.3);
-        let mut tool = (*plain.motion.tool).clone();
-        tool.parts.truncate(1);
+        let tool = Tool::clone(&plain.motion.tool);
+        let handle = tool.parts()[0].clone();
+        let tool = tool.with_parts([handle]).expect("one piece");
         let mut short = plain.clone();
         short.motion.tool = Arc::new(tool);
         let jobs = [plain.clone(), short, slippery.clone(), plain, slippery];

@@ -8,7 +8,7 @@ use pushplan::{
     bench::{Case, Suite, SuiteKind, crowd_cases},
     effect::{EffectModel, Prior},
     geometry::{Pose, Shape},
-    scene::{Job, JointKind, Record, State},
+    scene::{Job, JointKind, Record, State, Tool},
 };
 
 /// Metres. Rounding makes a hundredth of this in pushes among cuboids that touch.
@@ -65,9 +65,9 @@ fn the_order_of_objects_and_parts_does_not_matter_to_the_prior() {
         other.scene.objects.reverse();
         other.scene.joints.reverse();
         other.scene.joints.iter_mut().for_each(|j| j.between = j.between.map(|k| last - k));
-        let mut tool = (*other.motion.tool).clone();
-        tool.parts.reverse();
-        other.motion.tool = Arc::new(tool);
+        let tool = Tool::clone(&other.motion.tool);
+        let parts: Vec<_> = tool.parts().iter().rev().cloned().collect();
+        other.motion.tool = Arc::new(tool.with_parts(parts).expect("one piece"));
         let mut there = predict(&other);
         there.poses.reverse();
         assert_same(&predict(&case), &there);

@@ -36,7 +36,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
 /// A tool as in a tool file.
 pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     let parts: Vec<Json> = tool
-        .parts
+        .parts()
         .iter()
         .map(|part| {
             let fields = match part.shape {
@@ -48,7 +48,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
         .collect();
     // Every joint is written, those of touching parts too: to name one by hand does no harm.
     let joints: Vec<Json> =
-        tool.joints.iter().map(|pair| json!(pair.map(|k| &tool.parts[k].name))).collect();
+        tool.joints().iter().map(|pair| json!(pair.map(|k| &tool.parts()[k].name))).collect();
     json!({
         "name": tool.name,
         "description": tool.description,

@@ -94,7 +94,7 @@ fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
         let known = match with {
             Body::Object(index) => index < scene.objects.len(),
             Body::Obstacle(index) => index < scene.obstacles.len(),
-            Body::Part(index) => index < tool.outline.len(),
+            Body::Part(index) => index < tool.outline().len(),
         };
         if !known || object >= scene.objects.len() || frame >= own.trajectory.frames.len() {
             let message = "a contact with a body or in a frame that does not exist";

@@ -107,7 +107,7 @@ fn draw(
     let mut before = 0.0;
     for index in 0..pushes {
         let direction = direct(rng, index, before);
-        let part = rng.random_range(0..tools[tool].parts.len());
+        let part = rng.random_range(0..tools[tool].parts().len());
         let span = workspace.offset_span((tool, grip_yaw), &start, part, direction);
         let offset = rng.random_range(-span..=span);
         let length = rng.random_range(travel.low..travel.high);

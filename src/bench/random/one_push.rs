@@ -98,7 +98,7 @@ fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candid
     let tool = rng.random_range(0..tools.len());
     let yaws = &task.pushes.grip_yaws;
     let grip_yaw = yaws[rng.random_range(0..yaws.len())];
-    let part = rng.random_range(0..tools[tool].parts.len());
+    let part = rng.random_range(0..tools[tool].parts().len());
     let way = TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32));
     let direction = way + rng.random_range(-FRAC_PI_8..FRAC_PI_8);
     let workspace = Workspace { task, tools };

@@ -105,7 +105,7 @@ impl ReferenceSetup {
             let name = format!("{} {}", tool.name, i32::from(quarters) * 90);
             // The end effector's pose in the tool frame: the tool is turned the other way.
             let grip = Pose::new(0.0, 0.0, -f64::from(quarters) * FRAC_PI_2);
-            Arc::new(Tool { name, grip, ..tool.clone() })
+            Arc::new(tool.clone().named(name).held_at(grip))
         };
         let poses = POSES.iter().map(posed).collect();
         let along = |k: usize, n: usize, size: f64| size * (k as f64 / (n - 1) as f64 - 0.5);
@@ -144,8 +144,8 @@ impl ReferenceSetup {
         let still = (&cylinder.shape.footprint(), &cylinder.pose);
         let overlaps = |tool: &Tool| {
             let frame = tool.pose(Pose { position: task.robot.home, heading: 0.0 });
-            (0..tool.parts.len()).any(|k| {
-                let grown = tool.parts[k].footprint().grown(GROWN);
+            (0..tool.parts().len()).any(|k| {
+                let grown = tool.parts()[k].footprint().grown(GROWN);
                 clearance((&grown, &tool.part_pose(k, &frame)), still, GROWN) <= 0.0
             })
         };
@@ -174,15 +174,8 @@ fn reference_tools() -> Vec<Tool> {
                 .map(|(name, x)| handle(name, x))
                 .collect();
             parts.push(fourth);
-            Tool {
-                name: name.into(),
-                description: String::new(),
-                grip: Pose::default(),
-                friction: 0.4,
-                joints: (1..parts.len()).map(|k| [k - 1, k]).collect(),
-                outline: Tool::outline_of(&parts),
-                parts,
-            }
+            let joints = (1..parts.len()).map(|k| [k - 1, k]).collect();
+            Tool::assembled(name, parts, joints)
         })
         .collect()
 }

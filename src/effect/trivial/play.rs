@@ -61,7 +61,7 @@ impl Table<'_> {
             Body::Object(other) => self.scene.objects[other].shape.footprint(),
             Body::Obstacle(other) => self.scene.obstacles[other].shape().footprint(),
             Body::Part(other) if self.motion.lift < object.shape.height() => {
-                self.tool().parts[other].footprint()
+                self.tool().parts()[other].footprint()
             }
             Body::Part(_) => return [None, None],
         };
@@ -72,7 +72,7 @@ impl Table<'_> {
     /// The tool's parts with their poses when the tool frame is at `tool`.
     pub(super) fn parts(&self, tool: &Pose) -> impl Iterator<Item = (Body, Pose)> + use<'_> {
         let tool = *tool;
-        (0..self.tool().parts.len())
+        (0..self.tool().parts().len())
             .map(move |part| (Body::Part(part), self.tool().part_pose(part, &tool)))
     }
 

@@ -117,16 +117,7 @@ mod tests {
         let objects = vec![can("near", 0.065), can("far", 0.185)];
         let scene = Scene::new(objects);
         let bar = Part::cuboid("bar", [0.02, 0.2, 0.05], Pose::default());
-        let parts = vec![bar];
-        let tool = Tool {
-            name: "bar".into(),
-            description: String::new(),
-            grip: Pose::default(),
-            friction: 0.4,
-            outline: Tool::outline_of(&parts),
-            parts,
-            joints: vec![],
-        };
+        let tool = Tool::new("bar", [bar]).expect("one piece");
         let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
         let motion = ToolMotion::pushes(Arc::new(tool), 0.002, 0.0, &[push], true);
         let job = Job::stated(&scene, motion);

@@ -50,7 +50,7 @@ impl Extent<'_> {
     fn add_motion(&self, bounds: &mut Bounds, motion: &ToolMotion) {
         for pose in motion.strokes.iter().flat_map(|stroke| [&stroke.from, &stroke.to]) {
             bounds.add((*pose * motion.tool.grip).position, 0.01);
-            for (k, part) in motion.tool.parts.iter().enumerate() {
+            for (k, part) in motion.tool.parts().iter().enumerate() {
                 bounds.add_body(&part.footprint(), &motion.tool.part_pose(k, pose));
             }
         }

@@ -69,7 +69,7 @@ pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity:
     // The fill's own thin rim closes the hairlines between parts.
     let fill = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL_FILL, 0.6);
     for style in [Style::stroke(palette::TOOL, 3.2), fill] {
-        for (k, part) in tool.parts.iter().enumerate() {
+        for (k, part) in tool.parts().iter().enumerate() {
             view.footprint(svg, &part.footprint(), &tool.part_pose(k, pose), style);
         }
     }
@@ -80,9 +80,9 @@ pub fn silhouette(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose, opacity:
 pub fn hold(svg: &mut Svg, view: &View, tool: &Tool, pose: &Pose) {
     let grip = *pose * tool.grip;
     let point = Footprint::Disc { radius: 0.0 };
-    let nearest = (0..tool.parts.len())
+    let nearest = (0..tool.parts().len())
         .filter_map(|k| {
-            let part = (&tool.parts[k].footprint(), &tool.part_pose(k, pose));
+            let part = (&tool.parts()[k].footprint(), &tool.part_pose(k, pose));
             contact_points((&point, &grip), part, f64::MAX).0[0]
         })
         .min_by(|a, b| a.gap.total_cmp(&b.gap));

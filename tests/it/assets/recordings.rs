@@ -89,7 +89,7 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
     recording.write(&path).expect("a writable folder");
     let read = Recording::load(&path).expect("what is written can be read");
     assert_eq!(read.scene, scene);
-    assert_eq!(read.tool.parts, recording.tool.parts);
+    assert_eq!(read.tool.parts(), recording.tool.parts());
     assert_eq!(read.frames.len(), recording.frames.len());
     for (ours, theirs) in recording.frames.iter().zip(&read.frames) {
         assert!((ours.time - theirs.time).abs() < 1e-9 && ours.lifted == theirs.lifted);

@@ -197,10 +197,10 @@ fn a_written_file_replaces_the_old_one_and_can_be_read_by_others() {
 #[test]
 fn a_tool_built_in_code_reads_back_with_the_same_joints() {
     let mut file = plan_file("pull-back.yaml");
-    let mut tool = Tool::clone(&file.tool);
-    tool.parts[0].pose.position.y += 1.0;
-    let parts = tool.parts.clone();
-    tool = Tool::joined(tool.name, parts, &[[0, 1]]).unwrap().held_at(tool.grip).friction(0.3);
+    let tool = Tool::clone(&file.tool);
+    let mut parts = tool.parts().to_vec();
+    parts[0].pose.position.y += 1.0;
+    let tool = Tool::joined(tool.name, parts, &[[0, 1]]).unwrap().held_at(tool.grip).friction(0.3);
     file.tool = tool.into();
     let text = serde_json::to_string(&file).unwrap();
     assert_eq!(PlanFile::parse(&text, "p.json").unwrap().tool, file.tool);

@@ -277,7 +277,7 @@ fn crushed(scene: &Scene, truth: &Trajectory) -> bool {
 /// Length of the way of the tool's farthest point, and of what slides on at its greatest speed
 /// until waiting is given up, metres.
 fn covered(motion: &ToolMotion) -> f64 {
-    let parts = motion.tool.parts.iter();
+    let parts = motion.tool.parts().iter();
     let reach = parts
         .map(|part| part.pose.position.norm() + part.footprint().bounding_radius())
         .fold(0.0, f64::max);

@@ -92,7 +92,7 @@ fn bodies(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
         let mut all: Vec<Case> = all;
         for case in &mut all {
             case.scene.table_friction = friction;
-            case.motion.tool = Arc::new(Tool { friction, ..(*case.motion.tool).clone() });
+            case.motion.tool = Arc::new(Tool::clone(&case.motion.tool).friction(friction));
         }
         let cell = Cell::new("friction of all", friction.to_string(), kind, all);
         cells.push(if friction == 0.0 { cell.doubted(NEVER_STOPS) } else { cell });
@@ -100,7 +100,7 @@ fn bodies(draw: &Draw, solid: Solid, cells: &mut Vec<Cell>) {
     for friction in [0.0, 1.5] {
         let mut cases = ordinary(draw, solid);
         for case in &mut cases {
-            case.motion.tool = Arc::new(Tool { friction, ..(*case.motion.tool).clone() });
+            case.motion.tool = Arc::new(Tool::clone(&case.motion.tool).friction(friction));
         }
         cells.push(Cell::new("friction of the tool", friction.to_string(), kind, cases));
     }
@@ -222,9 +222,6 @@ fn bar([x, y]: [f64; 2]) -> Arc<Tool> {
 
 fn tool(parts: Vec<Part>) -> Arc<Tool> {
     // Parts above lie side by side, so no joint has to be found.
-    let joints = (1..parts.len()).map(|k| [k - 1, k]).collect();
-    let grip = Pose::default();
-    let name = "extreme".to_owned();
-    let outline = Tool::outline_of(&parts);
-    Arc::new(Tool { name, description: String::new(), grip, friction: 0.4, parts, outline, joints })
+    let joints: Vec<[usize; 2]> = (1..parts.len()).map(|k| [k - 1, k]).collect();
+    Arc::new(Tool::joined("extreme", parts, &joints).expect("one piece"))
 }
