@@ -19,11 +19,11 @@ use super::{chance::weighted, hand::HAND_RADIUS, tabletop::USUAL_HEIGHT};
 ///
 /// | | episodes / s | frames an episode | objects | joints | objects moved over 1 cm |
 /// |---|---|---|---|---|---|
-/// | tools | 270 | 26 | 1.6 | 0 | 84 % |
-/// | sparse | 22 | 239 | 6.8 | 2 | 98 % |
-/// | sparse line | 70 | 92 | 6.8 | 2 | 54 % |
-/// | dense | 80 | 55 | 6.8 | 3 | 84 % |
-/// | mixed | 106 | 49 | 3.5 | 1 | 81 % |
+/// | tools | 30 | 24 | 1.5 | 0 | 79 % |
+/// | sparse | 13 | 232 | 6.8 | 2 | 99 % |
+/// | sparse line | 31 | 93 | 6.8 | 2 | 57 % |
+/// | dense | 42 | 52 | 6.8 | 3 | 84 % |
+/// | mixed | 18 | 30 | 1.9 | 0.2 | 79 % |
 ///
 /// Scenes that do not come to rest within three seconds are drawn again: 4 to 6 % of those with
 /// mixed joints, almost none of the others.
@@ -42,13 +42,13 @@ pub enum Preset {
     /// Objects almost touching, in a grid; the hand makes one straight 50 cm stroke into it from
     /// one of its four sides.
     Dense,
-    /// Episodes of all of the above, two thirds of the frames with tools: what the shipped
+    /// Episodes of all of the above, four fifths of the frames with tools: what the shipped
     /// weights are trained on.
     Mixed,
 }
 
 /// How often an episode of [`Preset::Mixed`] is of each family: a sparse one has ten times
-/// the frames of one with a tool. Frames come out as 64, 14, 6 and 16 %, and objects in them
+/// the frames of one with a tool. Frames come out as 81, 8, 3 and 8 %, and objects in them
 /// about evenly with tools and in crowds.
 const MIXED: [(Preset, f64); 4] = [
     (Preset::Tools, 0.93),

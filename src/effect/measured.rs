@@ -23,8 +23,8 @@ struct Errors {
 
 /// `pushplan evaluate --on single touching`: 2000 pushes of seed 7 each.
 const PRIOR: Errors = Errors {
-    one: Quantiles { median: 0.46e-3, p95: 4.04e-3 },
-    several: Quantiles { median: 0.58e-3, p95: 7.66e-3 },
+    one: Quantiles { median: 0.75e-3, p95: 6.43e-3 },
+    several: Quantiles { median: 1.13e-3, p95: 7.57e-3 },
 };
 
 /// `pushplan tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
@@ -32,22 +32,22 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
         120,
         Errors {
-            one: Quantiles { median: 0.04e-3, p95: 1.09e-3 },
-            several: Quantiles { median: 0.47e-3, p95: 5.48e-3 },
+            one: Quantiles { median: 0.05e-3, p95: 0.42e-3 },
+            several: Quantiles { median: 0.12e-3, p95: 1.19e-3 },
         },
     ),
     (
         60,
         Errors {
-            one: Quantiles { median: 0.14e-3, p95: 6.17e-3 },
-            several: Quantiles { median: 1.70e-3, p95: 13.16e-3 },
+            one: Quantiles { median: 0.34e-3, p95: 1.54e-3 },
+            several: Quantiles { median: 0.51e-3, p95: 3.05e-3 },
         },
     ),
     (
         30,
         Errors {
-            one: Quantiles { median: 0.91e-3, p95: 8.49e-3 },
-            several: Quantiles { median: 2.68e-3, p95: 18.14e-3 },
+            one: Quantiles { median: 0.85e-3, p95: 6.67e-3 },
+            several: Quantiles { median: 1.55e-3, p95: 8.48e-3 },
         },
     ),
 ];
