@@ -27,6 +27,18 @@ pub(super) enum Law {
     Contact { friction: f64 },
 }
 
+/// What a constraint does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Status {
+    /// Nothing presses.
+    Open,
+    /// Both of its equations hold.
+    Sticks,
+    /// The first does, and the second force is this share of the first: an edge of the friction
+    /// cone, or nothing where there is no second.
+    Slides(f64),
+}
+
 /// Two scalar equations between groups `a` and `b`: `to . twist(a) - from . twist(b)` against
 /// `target`, metres. Without `b` the other body's motion is given, and part of the target.
 #[derive(Clone, Copy, Debug)]
@@ -78,28 +90,61 @@ impl Constraint {
         self.target[0] > self.value.x + OPEN
     }
 
+    /// J A^-1 J^T of both bodies.
+    pub fn alone(&self) -> Matrix2<f64> {
+        self.own[0] + self.own[1]
+    }
+
+    /// The rows of its forces on its groups.
+    pub fn sides(&self) -> impl Iterator<Item = (GroupIndex, [Vector3<f64>; 2])> {
+        let from = self.b.map(|b| (b, self.from.map(|from| -from)));
+        std::iter::once((self.a, self.to)).chain(from)
+    }
+
+    /// Those on `group`.
+    pub fn side(&self, group: GroupIndex) -> Option<[Vector3<f64>; 2]> {
+        self.sides().find_map(|(of, side)| (of == group).then_some(side))
+    }
+
+    /// By how much more than it should a force along the normal gives way where the contact slides
+    /// and wedges.
+    pub fn wedge(&self, edge: f64) -> f64 {
+        let k = self.alone();
+        let knn = k.m11 + self.give;
+        (MIN_COMPLIANCE * knn - (knn + edge * k.m12)).max(0.0)
+    }
+
     /// The forces that would meet this constraint if nothing else changed, the compliance
     /// being `k` and the trial forces and its value what they are.
     pub fn answer(&self, k: &Matrix2<f64>) -> Vector2<f64> {
+        self.respond(k).1
+    }
+
+    /// What it would then do, and the forces.
+    pub fn respond(&self, k: &Matrix2<f64>) -> (Status, Vector2<f64>) {
+        let pressed = |force: Vector2<f64>, edge: f64| match force.x > 0.0 {
+            true => (Status::Slides(edge), force),
+            false => (Status::Open, force),
+        };
         let give = self.give;
         let left = Vector2::from(self.target) - self.value - self.trial * give;
         let (knn, ktt, knt) = (k.m11 + give, k.m22 + give, k.m12);
         match self.law {
-            Law::AtLeast => Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0),
+            Law::AtLeast => pressed(Vector2::new((self.trial.x + left.x / knn).max(0.0), 0.0), 0.0),
             Law::Contact { friction } => {
                 let det = knn * ktt - knt * knt;
                 let step =
                     Vector2::new(ktt * left.x - knt * left.y, knn * left.y - knt * left.x) / det;
                 let stick = self.trial + step;
                 if stick.x >= 0.0 && stick.y.abs() <= friction * stick.x {
-                    return stick;
+                    return (Status::Sticks, stick);
                 }
                 // Sliding: on the edge of the cone that the sticking force lies beyond.
                 let edge = friction * stick.y.signum();
                 let compliance = (knn + edge * knt).max(MIN_COMPLIANCE * knn);
                 let asked = left.x + knn * self.trial.x + knt * self.trial.y;
-                let pressed = (asked / compliance).max(0.0);
-                Vector2::new(pressed, edge * pressed)
+                let normal = (asked / compliance).max(0.0);
+                pressed(Vector2::new(normal, edge * normal), edge)
             }
         }
     }

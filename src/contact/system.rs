@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 use crate::scene::{DisjointSets, JOINT_ARM, State};
 
 use super::{
+    active::{ActiveSet, Equations},
     bodies::Bodies,
     constraint::{Constraint, GIVE, Tie},
     index::GroupIndex,
@@ -55,6 +56,7 @@ pub(super) struct System {
     last: Vec<Constraint>,
     follows: bool,
     before: Vec<Vector3<f64>>,
+    exact: ActiveSet,
 }
 
 impl System {
@@ -152,7 +154,7 @@ impl System {
         }
     }
 
-    /// Accelerated projected Jacobi steps at fixed weights.
+    /// The forces at fixed weights.
     fn iterate(&mut self) {
         self.tie();
         for k in 0..self.constraints.len() {
@@ -165,6 +167,59 @@ impl System {
             constraint.own = own;
             constraint.give = 0.5 * GIVE * alone;
         }
+        // The answer of a single one is exact as it is.
+        if self.constraints.len() < 2 || !self.settle_contacts() {
+            self.approach();
+        }
+        self.constraints.iter_mut().for_each(|c| c.trial = c.force);
+        self.spread();
+    }
+
+    /// Finds the forces exactly; whether that went well.
+    fn settle_contacts(&mut self) -> bool {
+        let mut active = std::mem::take(&mut self.exact);
+        let found = self.find_active(&mut active);
+        self.exact = active;
+        for c in &mut self.constraints {
+            if found {
+                c.force = c.trial;
+            } else {
+                c.trial = c.force;
+            }
+        }
+        found
+    }
+
+    fn find_active(&mut self, active: &mut ActiveSet) -> bool {
+        self.spread();
+        self.read();
+        active.begin(&self.constraints);
+        self.constraints.iter_mut().for_each(|c| c.trial = Vector2::zeros());
+        self.spread();
+        self.read();
+        active.set_free(&self.constraints);
+        for _ in ActiveSet::rounds() {
+            let Self { unknowns, constraints, ties, tied, .. } = self;
+            let equations = Equations { unknowns, ties, tied };
+            if active.solve(&equations, constraints).is_none() {
+                return false;
+            }
+            self.spread();
+            self.read();
+            if active.agrees(&self.constraints) {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn read(&mut self) {
+        let Self { unknowns, constraints, .. } = self;
+        constraints.iter_mut().for_each(|c| c.read(unknowns));
+    }
+
+    /// Accelerated projected Jacobi steps from the forces as they are.
+    fn approach(&mut self) {
         let mut momentum = 1.0f64;
         for _ in 0..ITERATIONS {
             self.spread();
@@ -209,8 +264,6 @@ impl System {
                 break;
             }
         }
-        self.constraints.iter_mut().for_each(|c| c.trial = c.force);
-        self.spread();
     }
 
     /// Numbers the mechanisms: groups that ties connect.
