@@ -31,8 +31,8 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// What [`Self::push_height`] is taken for where nobody says it. A
-    /// flat face can press anywhere on another; this is the middle of it.
+    /// What [`Self::push_height`] is taken for where nobody says it. A flat face can
+    /// press anywhere on another; this is the middle of it.
     pub const PUSH_HEIGHT: f64 = 0.5;
 
     /// Exactly what the scene states.

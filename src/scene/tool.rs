@@ -206,7 +206,7 @@ impl Tool {
         &self.joints
     }
 
-    /// The tool made of other parts.
+    /// The tool made of other parts, those that touch joined.
     ///
     /// # Errors
     /// [`ToolError`] if there are none or they form several pieces.

@@ -80,9 +80,8 @@ fn methods_are_ordered_as_they_must_be_and_no_thread_count_changes_them() {
     let nothing = of(Method::Nothing, None);
     let oracle = of(Method::Oracle, None);
     assert!(nothing.planar.error > 0.05 && nothing.pushes == 0 && nothing.travel == 0.0);
-    // The goal is where a sequence ends, so trying all of them finds it, up to its rounding and to
-    // what had pressed, which the engine does not know where it goes on from a recorded state.
-    assert!(oracle.planar.error < 1e-5, "{oracle:?}");
+    // The goal is where a sequence ends, so trying all of them finds it, to its rounding.
+    assert!(oracle.planar.error < 2e-6, "{oracle:?}");
     assert!(of(Method::First, None).planar.error < 0.02);
     let planned = of(Method::Planned, None);
     assert!(planned.spatial.sound && planned.spatial.error <= 0.05, "{planned:?}");

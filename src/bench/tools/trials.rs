@@ -177,7 +177,13 @@ impl<'a> Trials<'a> {
         let best = self.shared.played.best(&self.task.goal, ORACLE, &self.poses);
         let still = nothing(self.task).action;
         let best = best.into_iter().map(|(_, action)| action);
-        let mut actions: Vec<Action> = std::iter::once(still).chain(best).collect();
+        // Stops are ranked by an estimate, the ends of whole sequences are known.
+        let goal = self.task.goal.position;
+        let ends =
+            self.shared.played.ends().filter(|(action, _)| self.poses.contains(&action.pose));
+        let end = ends.min_by(|a, b| (a.1 - goal).norm().total_cmp(&(b.1 - goal).norm()));
+        let end = end.map(|(action, _)| action);
+        let mut actions: Vec<Action> = std::iter::once(still).chain(end).chain(best).collect();
         let landings = self.play(Engine::Planar, &actions.iter().collect::<Vec<_>>());
         let errors = landings.iter().map(|landing| {
             if landing.sound { self.executed(landing).error } else { f64::INFINITY }
