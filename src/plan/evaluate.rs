@@ -36,6 +36,17 @@ impl Evaluation {
     pub fn is_sound(&self) -> bool {
         self.score.is_finite() && !is_behind(self.score)
     }
+
+    /// What the end effector does, all pushes one after another.
+    pub(super) fn motion(&self, workspace: &Workspace) -> ToolMotion {
+        ToolMotion::pushes(
+            Arc::clone(&workspace.tools[self.candidate.tool]),
+            workspace.task.pushes.lift,
+            self.candidate.grip_yaw,
+            &self.pushes,
+            workspace.is_placed(),
+        )
+    }
 }
 
 /// Places and rolls out every candidate, in batches over all of them.
@@ -76,15 +87,7 @@ pub fn evaluate(
             }
         }
         run(workspace, rollouts, &mut results, |evaluation, workspace| {
-            let candidate = &evaluation.candidate;
-            let motion = ToolMotion::pushes(
-                Arc::clone(&workspace.tools[candidate.tool]),
-                workspace.task.pushes.lift,
-                candidate.grip_yaw,
-                &evaluation.pushes,
-                false,
-            );
-            (!evaluation.pushes.is_empty()).then_some(motion)
+            (!evaluation.pushes.is_empty()).then(|| evaluation.motion(workspace))
         });
     }
     results

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::effect::Job;
-use crate::scene::{Goal, Physics, Record, Situation, State, ToolMotion};
+use crate::scene::{Goal, Physics, Record, Situation, State};
 
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
@@ -57,14 +57,8 @@ impl Supports {
     ) -> Vec<Ends> {
         let start = rollouts.situation().start.clone();
         let mut jobs = Vec::with_capacity(evaluations.len() * self.0.len());
-        for Evaluation { candidate, pushes, .. } in evaluations {
-            let motion = ToolMotion::pushes(
-                Arc::clone(&workspace.tools[candidate.tool]),
-                workspace.task.pushes.lift,
-                candidate.grip_yaw,
-                pushes,
-                workspace.is_placed(),
-            );
+        for evaluation in evaluations {
+            let motion = evaluation.motion(workspace);
             jobs.extend(self.0.iter().map(|physics| Job {
                 start: start.clone(),
                 motion: motion.clone(),

@@ -11,9 +11,8 @@ use crate::scene::{Drag, Feet, GRAVITY, MAX_FEET};
 use super::slowing::{Inertia, Twist};
 
 /// Points slower than this share of the speed that friction takes from a free body in a step drag
-/// in proportion to their speed, so that what rests can be told from what creeps. Of pushed single
-/// objects on their corners the ends at 1/240 s are off by 0.4 mm on average (against 1/3840 s),
-/// with 0.2 by 1.5 mm.
+/// in proportion to their speed, so that what rests can be told from what creeps. The larger it is, the
+/// more a step matters: `tests/it/simulation/steps.rs` has the ends of pushes at 1/240 and 1/3840 s.
 const STUCK: f64 = 0.05;
 
 /// The same where objects hang together by joints that move: friction knows what presses from the
@@ -30,8 +29,10 @@ pub(super) struct Support {
     mass: f64,
     /// How far the load moves when the object is pressed as hard as friction resists, metres.
     lean: f64,
-    /// See [`STUCK`]; times how much more than a slide friction can slow a turn, which is the mean
-    /// square distance of the points over that of the mass, one if less.
+    /// How much more than a slide friction can slow a turn: the mean square distance of the points
+    /// over that of the mass, one if less.
+    stiffest: f64,
+    /// [`STUCK`] or [`STUCK_IN_JOINTS`].
     stuck: f64,
 }
 
@@ -47,12 +48,12 @@ impl Support {
     ) -> Self {
         let stiffest = (feet.mean_square / footprint.gyration_radius().powi(2)).max(1.0);
         let (feet, deceleration) = (Arc::clone(feet), friction * GRAVITY);
-        Self { feet, deceleration, mass, lean, stuck: STUCK * stiffest }
+        Self { feet, deceleration, mass, lean, stiffest, stuck: STUCK }
     }
 
     /// The same among objects that hang together by joints that move.
     pub(super) fn in_joints(self) -> Self {
-        Self { stuck: self.stuck / STUCK * STUCK_IN_JOINTS, ..self }
+        Self { stuck: STUCK_IN_JOINTS, ..self }
     }
 
     /// How the points under an object turned by `heading` drag when it slides at `linear` (m/s) and
@@ -65,7 +66,7 @@ impl Support {
         pressed: Vector,
         dt: f64,
     ) -> Drag {
-        let least = self.stuck * self.deceleration * dt;
+        let least = self.stuck * self.stiffest * self.deceleration * dt;
         if least == 0.0 {
             return Drag::default();
         }

@@ -29,6 +29,7 @@ mod random_tasks;
 mod readme;
 mod real_pushes;
 mod seams;
+mod shipped_network;
 mod simulation;
 mod solving;
 mod symmetry;

@@ -12,10 +12,10 @@ use pushplan::scene::Support;
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
 
-const SUPPORTS: [&str; 5] = ["flat", "inner", "middle", "outer", "skew"];
+pub(super) const SUPPORTS: [&str; 5] = ["flat", "inner", "middle", "outer", "skew"];
 
 /// The ten pushes on a support, as recorded.
-fn pushes(support: &str) -> Vec<Recording> {
+pub(super) fn pushes(support: &str) -> Vec<Recording> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/assets/real-pushes");
     let found = recordings_in(&folder.join(support)).expect("a folder");
     let files = found.into_iter().flat_map(|(_, files)| files);
@@ -24,7 +24,11 @@ fn pushes(support: &str) -> Vec<Recording> {
 
 /// Mean and median of the final position errors when all plates are told to stand on `support`,
 /// metres.
-fn errors(model: &dyn EffectModel, pushes: &[Recording], support: &Support) -> (f64, f64) {
+pub(super) fn errors(
+    model: &dyn EffectModel,
+    pushes: &[Recording],
+    support: &Support,
+) -> (f64, f64) {
     let mut errors: Vec<f64> = pushes
         .iter()
         .map(|push| {

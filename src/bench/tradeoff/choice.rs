@@ -7,7 +7,7 @@ use crate::solve::Effort;
 
 use super::{PlanLevel, measured::PlanRow};
 
-/// How much more often than the best level each effort may fail, as a share of the tasks.
+/// How much more often than the best level each effort may fail, as a share of disturbed replays.
 const LOSSES: [(Effort, f64); 4] = [
     (Effort::Draft, 0.10),
     (Effort::Standard, 0.02),
@@ -16,16 +16,16 @@ const LOSSES: [(Effort, f64); 4] = [
 ];
 
 /// The efforts among the levels on the front whose models are part of the library: each is the
-/// cheapest that fails no more often than it may. Where a cheap level is as successful as any,
-/// efforts are the same.
+/// cheapest that fails no more often than it may. Where a cheap level is as robust as any, efforts
+/// are the same.
 pub fn choose_efforts(plans: &[PlanRow]) -> BTreeMap<Effort, PlanLevel> {
     let front = || plans.iter().filter(|row| row.on_front && is_shipped(&row.level));
-    let best = front().map(|row| row.success).fold(0.0, f64::max);
+    let best = front().map(|row| row.robustness).fold(0.0, f64::max);
     LOSSES
         .into_iter()
         .filter_map(|(effort, loss)| {
-            // Shares are counts divided by one number; the small part is their rounding.
-            let good = front().filter(|row| row.success >= best - loss - 1e-9);
+            // The small part is rounding.
+            let good = front().filter(|row| row.robustness >= best - loss - 1e-9);
             let cheapest = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
             Some((effort, cheapest.level.clone()))
         })

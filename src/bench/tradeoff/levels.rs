@@ -108,8 +108,7 @@ pub struct PlanLevel {
     pub name: String,
     /// The effect model.
     pub model: ModelSpec,
-    /// The budgets. Disturbed replays are none: they tell how robust a plan is and change
-    /// nothing in its choice.
+    /// The budgets.
     pub settings: Settings,
 }
 
@@ -122,50 +121,39 @@ type Refinement = (&'static str, usize, usize, usize);
 const COARSE: Search = ("coarse", 3, 8, 500);
 const MEDIUM: Search = ("medium", 5, 24, 2000);
 const FINE: Search = ("fine", 9, 64, 8000);
-const FINEST: Search = ("finest", 15, 192, 40_000);
 
-const NONE: Refinement = ("none", 8, 0, 0);
 const LIGHT: Refinement = ("light", 3, 2, 0);
 const USUAL: Refinement = ("usual", 8, 4, 2);
 const STRONG: Refinement = ("strong", 24, 8, 4);
-const UTMOST: Refinement = ("utmost", 64, 16, 8);
 
-/// Plans verified at once and batches of them. One at least: without any nobody knows whether a
-/// plan works.
-type Verified = (usize, usize);
+/// Plans verified at once, batches of them, and disturbed replays of those that work, in each
+/// engine. One plan at least: without any nobody knows whether it works.
+type Verified = (usize, usize, usize);
 
-/// What the shipped network and its prior are planned with: all budgets one by one, then
-/// together.
-const EVERY: [(Search, Refinement, Verified); 15] = [
-    (COARSE, NONE, (1, 1)),
-    (MEDIUM, NONE, (1, 1)),
-    (FINE, NONE, (1, 1)),
-    (COARSE, NONE, (4, 1)),
-    (MEDIUM, NONE, (4, 2)),
-    (COARSE, LIGHT, (1, 1)),
-    (COARSE, LIGHT, (4, 1)),
-    (COARSE, USUAL, (4, 2)),
-    (MEDIUM, LIGHT, (4, 1)),
-    (MEDIUM, USUAL, (1, 1)),
-    (MEDIUM, USUAL, (4, 2)),
-    (MEDIUM, STRONG, (8, 3)),
-    (FINE, USUAL, (4, 2)),
-    (FINE, STRONG, (8, 3)),
-    (FINEST, UTMOST, (16, 4)),
+/// What the shipped network and its prior are planned with.
+const EVERY: [(Search, Refinement, Verified); 10] = [
+    (COARSE, LIGHT, (1, 1, 0)),
+    (COARSE, LIGHT, (4, 1, 0)),
+    (COARSE, LIGHT, (4, 1, 4)),
+    (COARSE, USUAL, (4, 2, 4)),
+    (COARSE, USUAL, (4, 2, 8)),
+    (MEDIUM, USUAL, (4, 2, 8)),
+    (MEDIUM, STRONG, (8, 3, 8)),
+    (MEDIUM, STRONG, (8, 3, 16)),
+    (FINE, STRONG, (8, 3, 16)),
+    (FINE, STRONG, (8, 3, 64)),
 ];
 
 /// What other networks and the planar engine at a coarse step are planned with.
-const SOME: [(Search, Refinement, Verified); 6] = [
-    (COARSE, NONE, (1, 1)),
-    (COARSE, LIGHT, (1, 1)),
-    (COARSE, LIGHT, (4, 1)),
-    (MEDIUM, USUAL, (4, 2)),
-    (MEDIUM, STRONG, (8, 3)),
-    (FINE, STRONG, (8, 3)),
+const SOME: [(Search, Refinement, Verified); 4] = [
+    (COARSE, LIGHT, (4, 1, 4)),
+    (COARSE, USUAL, (4, 2, 8)),
+    (MEDIUM, STRONG, (8, 3, 8)),
+    (FINE, STRONG, (8, 3, 16)),
 ];
 
-/// What the costly and the trivial are planned with.
-const FEW: [(Search, Refinement, Verified); 2] = [(COARSE, LIGHT, (1, 1)), (COARSE, LIGHT, (4, 1))];
+/// What the planar engine at its usual step is planned with.
+const FEW: [(Search, Refinement, Verified); 1] = [(COARSE, LIGHT, (4, 1, 4))];
 
 /// The levels of planning with those of `levels` that are worth it.
 pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
@@ -174,9 +162,8 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
         let budgets: &[_] = match spec.first().kind {
             ModelKind::NETWORK | ModelKind::PRIOR => &EVERY,
             ModelKind::Network { steps: None, stride: Stride::ONE, .. } => &SOME,
-            ModelKind::PLANAR | ModelKind::Projection => &FEW,
+            ModelKind::PLANAR => &FEW,
             ModelKind::Simulated { engine: Engine::Planar, rate } if rate.0.get() <= 60 => &SOME,
-            ModelKind::SPATIAL => &FEW[..1],
             _ => &[],
         };
         plans.extend(budgets.iter().map(|budget| plan_level(spec, *budget)));
@@ -185,12 +172,13 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
 }
 
 fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> PlanLevel {
-    let ((density, offsets, beam, search_rollouts), refinement, (at_once, batches)) = budget;
+    let (search, refinement, (verified_at_once, verify_batches, disturbed)) = budget;
+    let (density, offsets, beam, search_rollouts) = search;
     let (effort, refined, refine_rounds, refine_extra) = refinement;
     PlanLevel {
         name: format!(
-            "{model}: {density} search, {effort} refinement, up to {} verified",
-            at_once * batches
+            "{model}: {density} search, {effort} refinement, up to {} verified, {disturbed} disturbed",
+            verified_at_once * verify_batches
         ),
         model: model.clone(),
         settings: Settings {
@@ -200,9 +188,9 @@ fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> Plan
             refined,
             refine_rounds,
             refine_extra,
-            verified_at_once: at_once,
-            verify_batches: batches,
-            disturbed: 0,
+            verified_at_once,
+            verify_batches,
+            disturbed,
         },
     }
 }

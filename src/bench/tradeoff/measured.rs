@@ -78,8 +78,11 @@ pub struct PlanRow {
     pub predicted: f64,
     /// Share reached when replayed in the planar engine.
     pub planar: f64,
-    /// Share solved: the plan passed verification in the 3-D engine.
+    /// Share solved, as far as the level has verified it.
     pub success: f64,
+    /// Share of disturbed replays that reach the goal, in the engine in which fewer do; mean over
+    /// the tasks. They are other ones than those by which the level has chosen its plan.
+    pub robustness: f64,
     /// Final error in 3-D, metres.
     pub error: Option<Summary>,
     /// Final error as predicted, metres.
@@ -92,14 +95,20 @@ pub struct PlanRow {
     pub seconds: f64,
     /// The part of it that went to replays.
     pub verification: f64,
-    /// Whether no other level is both cheaper and more successful, beyond the noise.
+    /// Whether no other level is both cheaper and more robust, beyond the noise, among those that
+    /// find out the robustness that tasks ask for.
     pub on_front: bool,
 }
 
 impl PlanRow {
-    /// Cost and share of failures.
+    /// Cost and share of failures under disturbances.
     pub fn point(&self) -> Point {
-        Point { cost: self.seconds, error: 1.0 - self.success }
+        Point { cost: self.seconds, error: 1.0 - self.robustness }
+    }
+
+    /// Whether it finds out the robustness that tasks ask for.
+    pub fn is_complete(&self) -> bool {
+        self.level.settings.disturbed > 0
     }
 }
 
@@ -116,7 +125,7 @@ pub struct TradeOffReport {
     /// from the fastest, which is the one given.
     pub push_noise: f64,
     /// Differences between levels of planning that mean nothing: the cost of one level measured
-    /// twice, and one standard error of the best level's success.
+    /// twice, and one standard error of the best level's robustness.
     pub noise: Noise,
     /// The planar truth against itself with the start off by 0.1 mm.
     pub spread: Vec<SuiteErrors>,
@@ -147,7 +156,7 @@ impl TradeOffReport {
         let spread = errors.next().unwrap_or_default();
         let names = levels.iter().map(Level::name);
         let predictors = predictor_rows(names.zip(errors), &fastest);
-        let noise = task_noise(units, plans, counts.tasks);
+        let noise = task_noise(units, plans);
         let plans = plan_rows(plans, units, noise);
         Self {
             schema_version: SCHEMA_VERSION,
@@ -244,7 +253,8 @@ fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Ve
             PlanRow {
                 predicted: share(&|outcome| reached(&outcome.predicted)),
                 planar: share(&|outcome| reached(&outcome.planar)),
-                success: share(&is_solved),
+                success: share(&|outcome| outcome.status == PlanStatus::Solved),
+                robustness: mean(&over(&|outcome| Some(robustness(outcome)))),
                 error: Summary::of(&over(&|outcome| outcome.spatial.map(|end| end.error))),
                 predicted_error: Summary::of(&over(&|outcome| {
                     outcome.predicted.map(|end| end.error)
@@ -258,35 +268,42 @@ fn plan_rows(plans: &[PlanLevel], units: &[(Unit, Seconds)], noise: Noise) -> Ve
             }
         })
         .collect();
-    let points: Vec<Point> = rows.iter().map(PlanRow::point).collect();
-    let front = on_front(&points, noise);
-    rows.iter_mut().zip(front).for_each(|(row, front)| row.on_front = front);
+    let (complete, points): (Vec<usize>, Vec<Point>) = rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| row.is_complete())
+        .map(|(k, row)| (k, row.point()))
+        .unzip();
+    for (k, front) in complete.into_iter().zip(on_front(&points, noise)) {
+        rows[k].on_front = front;
+    }
     rows
 }
 
-fn is_solved(task: &SolvedTask) -> bool {
-    task.status == PlanStatus::Solved
+/// Where nothing can be pushed, nothing holds.
+fn robustness(task: &SolvedTask) -> f64 {
+    task.robustness.unwrap_or_default()
 }
 
 fn reached(end: &Option<End>) -> bool {
     end.is_some_and(|end| end.reached)
 }
 
-fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel], count: usize) -> Noise {
+fn task_noise(units: &[(Unit, Seconds)], plans: &[PlanLevel]) -> Noise {
     let sum = |name: &str| tasks(units).filter_map(|(_, times)| times.get(name)).sum::<f64>();
     let first = plans.first().map_or(0.0, |plan| sum(&plan.name));
     let again = sum(CONTROL);
     let cost = if first > 0.0 { (again / first - 1.0).abs() } else { 0.0 };
-    let solved = |k: usize| {
+    let shares = (0..plans.len()).map(|k| {
         let all = tasks(units).filter_map(|(plans, _)| plans.get(k));
-        all.filter(|outcome| is_solved(outcome)).count()
-    };
-    let best = (0..plans.len()).map(solved).max().unwrap_or(0) as f64;
-    // One more of either kind (Laplace), so that a perfect score is not taken for certainty.
-    let (count, share) = (count as f64, (best + 1.0) / (count as f64 + 2.0));
+        all.map(robustness).collect::<Vec<f64>>()
+    });
+    let best = shares.max_by(|a, b| mean(a).total_cmp(&mean(b))).unwrap_or_default();
+    let square =
+        mean(&best.iter().map(|share| (share - mean(&best)).powi(2)).collect::<Vec<f64>>());
     Noise {
         cost: cost.max(LEAST_COST_NOISE),
-        error: (share * (1.0 - share) / count.max(1.0)).sqrt(),
+        error: (square / (best.len().max(2) - 1) as f64).sqrt(),
     }
 }
 
