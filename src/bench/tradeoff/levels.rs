@@ -131,7 +131,7 @@ const STRONG: Refinement = ("strong", 24, 8, 4);
 type Verified = (usize, usize, usize);
 
 /// What the shipped network and its prior are planned with.
-const EVERY: [(Search, Refinement, Verified); 10] = [
+const EVERY: [(Search, Refinement, Verified); 8] = [
     (COARSE, LIGHT, (1, 1, 0)),
     (COARSE, LIGHT, (4, 1, 0)),
     (COARSE, LIGHT, (4, 1, 4)),
@@ -139,17 +139,14 @@ const EVERY: [(Search, Refinement, Verified); 10] = [
     (COARSE, USUAL, (4, 2, 8)),
     (MEDIUM, USUAL, (4, 2, 8)),
     (MEDIUM, STRONG, (8, 3, 8)),
-    (MEDIUM, STRONG, (8, 3, 16)),
     (FINE, STRONG, (8, 3, 16)),
-    (FINE, STRONG, (8, 3, 64)),
 ];
 
 /// What other networks and the planar engine at a coarse step are planned with.
-const SOME: [(Search, Refinement, Verified); 4] = [
+const SOME: [(Search, Refinement, Verified); 3] = [
     (COARSE, LIGHT, (4, 1, 4)),
     (COARSE, USUAL, (4, 2, 8)),
     (MEDIUM, STRONG, (8, 3, 8)),
-    (FINE, STRONG, (8, 3, 16)),
 ];
 
 /// What the planar engine at its usual step is planned with.
