@@ -17,8 +17,8 @@ pub type Words<T> = [(&'static str, T, &'static str)];
 pub static EFFORTS: [(&str, Effort, &str); 4] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    ("thorough", Effort::Thorough, "Several times as long"),
-    ("exhaustive", Effort::Exhaustive, "Whatever helps, up to minutes"),
+    ("thorough", Effort::Thorough, "Little longer, for plans that hold more often"),
+    ("exhaustive", Effort::Exhaustive, "The same, its robustness told in finer shares"),
 ];
 
 /// What to do where a model should not be trusted.

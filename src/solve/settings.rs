@@ -12,14 +12,14 @@ use crate::plan::SearchSettings;
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Effort {
-    /// A first look, in hundredths of a second.
+    /// A first look.
     Draft,
     /// The default: a one-push task in well under half a second on two cores.
     #[default]
     Standard,
-    /// Several times as expensive, for tasks that the default does not solve.
+    /// Little more expensive, for plans that hold more often when the world is a little different.
     Thorough,
-    /// Whatever helps, up to minutes.
+    /// The same, its robustness told in finer shares by four times as many replays.
     Exhaustive,
 }
 

@@ -52,8 +52,9 @@ fn its_table_is_the_measured_one() {
         let level = plans.iter().find(|level| level["name"] == *name).expect("its level");
         let number = |value: &Json| value.as_f64().expect("a number");
         let row = format!(
-            "| `{effort}` | {:.1} % | {:.2} mm | {} |",
+            "| `{effort}` | {:.1} % | {:.1} % | {:.2} mm | {} |",
             100.0 * number(&level["success"]),
+            100.0 * number(&level["robustness"]),
             1000.0 * number(&level["error"]["median"]),
             seconds(number(&level["seconds"]))
         );

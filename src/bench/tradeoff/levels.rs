@@ -143,11 +143,8 @@ const EVERY: [(Search, Refinement, Verified); 8] = [
 ];
 
 /// What other networks and the planar engine at a coarse step are planned with.
-const SOME: [(Search, Refinement, Verified); 3] = [
-    (COARSE, LIGHT, (4, 1, 4)),
-    (COARSE, USUAL, (4, 2, 8)),
-    (MEDIUM, STRONG, (8, 3, 8)),
-];
+const SOME: [(Search, Refinement, Verified); 3] =
+    [(COARSE, LIGHT, (4, 1, 4)), (COARSE, USUAL, (4, 2, 8)), (MEDIUM, STRONG, (8, 3, 8))];
 
 /// What the planar engine at its usual step is planned with.
 const FEW: [(Search, Refinement, Verified); 1] = [(COARSE, LIGHT, (4, 1, 4))];
