@@ -31,7 +31,7 @@ pub use random::{
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};
-pub use suite::{Case, Suite, SuiteKind, crowd_cases};
+pub use suite::{Case, Suite, SuiteKind, crowd_cases, jointed_crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};
 pub use tools::{
     EngineErrors, Executed, GoalMade, GoalSet, Layout, Method, PROCESSOR, ReferenceSetup,

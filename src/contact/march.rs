@@ -49,7 +49,13 @@ impl March {
             coasts.extend(
                 bodies.objects.iter().zip(velocities).map(|(body, v)| coast(body, v, duration)),
             );
-            let scenery = Scenery { bodies, state: now, step: &small, coasts };
+            let scenery = Scenery {
+                bodies,
+                state: now,
+                step: &small,
+                coasts,
+                margin: super::system::knob(1, crate::contact::MARGIN),
+            };
             std::mem::swap(contacts, last);
             find_again(scenery, known, contacts);
             match piece {

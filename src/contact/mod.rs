@@ -6,6 +6,8 @@
 //! nothing is known of the network that corrects it. One frame at a time: the loop over time is in
 //! [`crate::rollout`].
 
+mod active;
+mod approach;
 mod awake;
 mod bodies;
 mod coast;

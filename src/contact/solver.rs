@@ -13,7 +13,7 @@ use super::{
     march::March,
     motion::Motion,
     pairs::PairId,
-    points::{Contact, Scenery, find_contacts},
+    points::{Contact, MARGIN, Scenery, find_contacts},
     prior::Prior,
 };
 
@@ -132,7 +132,7 @@ impl FrameSolver {
         coasts.clear();
         let objects = bodies.objects.iter().zip(&state.velocities);
         coasts.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
-        find_contacts(Scenery { bodies, state, step, coasts }, contacts);
+        find_contacts(Scenery { bodies, state, step, coasts, margin: MARGIN }, contacts);
         awake.find(bodies, contacts, coasts, step);
         prior.motions.clear();
         awake.gather(bodies, state, coasts, contacts)
@@ -157,7 +157,7 @@ impl FrameSolver {
 
 fn scenery<'a>(problem: FrameProblem<'a>, awake: &'a Awake, coasts: &'a [Motion]) -> Scenery<'a> {
     let View { bodies, state, coasts } = awake.view(problem.bodies, problem.state, coasts);
-    Scenery { bodies, state, step: problem.step, coasts }
+    Scenery { bodies, state, step: problem.step, coasts, margin: MARGIN }
 }
 
 impl FrameSolution<'_> {
