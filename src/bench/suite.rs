@@ -94,7 +94,7 @@ pub fn crowd_cases(objects: usize, seed: u64, count: usize) -> Vec<Case> {
 }
 
 /// The same with other joints.
-pub fn jointed_crowd_cases(
+pub(super) fn jointed_crowd_cases(
     objects: usize,
     joints: JointRule,
     seed: u64,

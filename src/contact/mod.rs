@@ -26,6 +26,7 @@ mod sight;
 mod solver;
 mod subset;
 mod system;
+mod tally;
 mod twist;
 mod unknown;
 
@@ -38,3 +39,4 @@ pub use points::{Contact, MARGIN};
 pub use sight::Sight;
 pub use solver::{FrameForces, FrameProblem, FrameSolution, FrameSolver, Touch};
 pub use subset::Subset;
+pub use tally::Tally;

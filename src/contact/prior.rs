@@ -34,7 +34,7 @@ pub(super) struct Prior {
     pub system: System,
     /// The tie of every joint that is not within a group.
     pub joints: Vec<Option<usize>>,
-    velocities: System,
+    pub velocities: System,
 }
 
 impl Prior {

@@ -15,6 +15,7 @@ use super::{
     pairs::PairId,
     points::{Contact, MARGIN, Scenery, find_contacts},
     prior::Prior,
+    tally::Tally,
 };
 
 /// Steps that a frame of several objects is solved in. What they do to each other depends on
@@ -92,6 +93,16 @@ pub struct Touch {
 }
 
 impl FrameSolver {
+    /// What all frames so far took.
+    pub fn tally(&self) -> Tally {
+        let mut tally = Tally::default();
+        for prior in [&self.prior, &self.march.prior] {
+            tally.add(&prior.system.tally);
+            tally.add(&prior.velocities.tally);
+        }
+        tally
+    }
+
     /// What everything does in the frame.
     pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
         if self.wake(problem) {

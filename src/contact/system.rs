@@ -23,6 +23,7 @@ use super::{
     bodies::Bodies,
     constraint::{Constraint, Tie},
     motion::Motion,
+    tally::Tally,
     unknown::{Quantity, Unknown},
 };
 
@@ -47,6 +48,8 @@ pub(super) struct System {
     before: Vec<Vector3<f64>>,
     active: ActiveSet,
     approach: Approach,
+    /// Of all systems so far.
+    pub tally: Tally,
 }
 
 impl System {
@@ -69,13 +72,14 @@ impl System {
         self.ties.clear();
         self.unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
         let of = (self.quantity, duration);
-        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
+        let Self { unknowns, tally, .. } = self;
+        for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
             unknown.place(members, state);
             if !follows {
                 unknown.forget();
             }
             unknown.pull((bodies, members), state, of, coasts);
-            unknown.weigh((bodies, members), state, of, (!follows).then_some(reach));
+            unknown.weigh((bodies, members), state, of, (!follows).then_some(reach), tally);
             if !follows {
                 unknown.twist = unknown.free;
             }
@@ -119,6 +123,8 @@ impl System {
         duration: f64,
         mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
+        self.tally.systems += 1;
+        self.tally.constraints += self.constraints.len() as u64;
         for update in 0..UPDATES {
             if update > 0 {
                 self.weigh(bodies, state, duration);
@@ -129,7 +135,7 @@ impl System {
             self.settle();
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
-                change.xy().norm().max(change.z.abs() * JOINT_ARM) > knob(0, SETTLED)
+                change.xy().norm().max(change.z.abs() * JOINT_ARM) > SETTLED
             });
             if !changed && (update > 0 || self.follows) {
                 return;
@@ -139,26 +145,20 @@ impl System {
 
     fn weigh(&mut self, bodies: &Bodies, state: &State, duration: f64) {
         let of = (self.quantity, duration);
-        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.weigh((bodies, members), state, of, None);
+        let Self { unknowns, tally, .. } = self;
+        for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
+            unknown.weigh((bodies, members), state, of, None, tally);
         }
     }
 
     /// Forces and twists at fixed weights.
     fn settle(&mut self) {
-        let Self { unknowns, constraints, ties, active, approach, .. } = self;
+        let Self { unknowns, constraints, ties, active, approach, tally, .. } = self;
+        tally.updates += 1;
         constraints.iter_mut().for_each(|constraint| constraint.weigh(unknowns));
-        if !active.solve(unknowns, constraints, ties) {
+        if !active.solve(unknowns, constraints, ties, tally) {
+            tally.approached += 1;
             approach.run(unknowns, constraints, ties);
         }
     }
-}
-
-pub(super) fn knob(k: usize, default: f64) -> f64 {
-    static KNOBS: std::sync::OnceLock<Vec<Option<f64>>> = std::sync::OnceLock::new();
-    let knobs = KNOBS.get_or_init(|| {
-        let text = std::env::var("KNOBS").unwrap_or_default();
-        text.split(',').map(|t| t.parse().ok()).collect()
-    });
-    knobs.get(k).copied().flatten().unwrap_or(default)
 }

@@ -26,6 +26,7 @@ use crate::{
 use super::{
     bodies::{Bodies, Movable},
     motion::Motion,
+    tally::Tally,
     twist::{along, shift},
 };
 
@@ -88,10 +89,10 @@ pub(super) struct Unknown {
     /// How hard contacts and joints press, as a share of the largest friction, at most one: what
     /// moves the load ahead.
     pressing: Vector,
-    /// Updates of the weights in this frame, and the motion that they were last taken for; not
-    /// numbers before that.
+    /// Updates of the weights in this frame, and the motion that they were last taken for, if they
+    /// were.
     updates: usize,
-    weighed: Vector3<f64>,
+    weighed: Option<Vector3<f64>>,
     /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
     pub share: f64,
     pub turn: Turn,
@@ -143,7 +144,7 @@ impl Unknown {
         coasts: &[Motion],
     ) {
         self.pull = Vector3::zeros();
-        self.weighed = Vector3::repeat(f64::NAN);
+        self.weighed = None;
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
             let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
@@ -175,6 +176,7 @@ impl Unknown {
         state: &State,
         (quantity, duration): (Quantity, f64),
         reach: Option<f64>,
+        tally: &mut Tally,
     ) {
         let before = self.pressing;
         if self.updates < FOLLOWING {
@@ -183,15 +185,15 @@ impl Unknown {
             self.pressing = pressed / pressed.norm().max(load).max(f64::MIN_POSITIVE);
         }
         self.updates += 1;
-        let same =
-            (self.twist - self.weighed).amax() < SAME && (self.pressing - before).amax() < SAME;
-        if same && reach.is_none() {
+        let near = |before: Vector3<f64>| (self.twist - before).amax() < SAME;
+        if self.weighed.is_some_and(near) && (self.pressing - before).amax() < SAME {
             return;
         }
-        self.weighed = self.twist;
+        self.weighed = reach.is_none().then_some(self.twist);
         let mut weight = Matrix3::zeros();
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
+            tally.weigh(bodies.feet(k).count);
             let arm = state.poses[k].position - self.centre;
             let mut rub = match reach {
                 Some(moved) => {

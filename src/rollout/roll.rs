@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    contact::Bodies,
+    contact::{Bodies, Tally},
     scene::{Job, ModelSpec, Record, Scene, Trajectory},
 };
 
@@ -56,6 +56,11 @@ impl Roller {
     /// What all rollouts so far took.
     pub fn work(&self) -> &Work {
         &self.work
+    }
+
+    /// What the equations of all of their frames took.
+    pub fn tally(&self) -> Tally {
+        self.stepper.tally()
     }
 
     /// Rolls out every job until everything rests.

@@ -1,7 +1,7 @@
 //! One frame of many rollouts side by side: solved, corrected by the network, applied.
 
 use crate::{
-    contact::{FrameProblem, FrameSolver, Motion, Touch},
+    contact::{FrameProblem, FrameSolver, Motion, Tally, Touch},
     graph::Batch,
 };
 
@@ -45,6 +45,11 @@ pub struct Stepper {
 }
 
 impl Stepper {
+    /// What the equations of all frames so far took.
+    pub fn tally(&self) -> Tally {
+        self.solver.tally()
+    }
+
     /// Takes every walk that has a frame left on by that frame, all graphs in one batch; returns
     /// whether any had.
     ///

@@ -1,0 +1,227 @@
+//! The forces of a frame's contacts at fixed weights, found exactly.
+//!
+//! Where it is known which contacts stick, slide and stay open, what they and the joints ask for
+//! are linear equations; where these are solved, it is known from their answer. Taken in turn that
+//! is Newton's method on a semismooth equation (Alart and Curnier 1991,
+//! doi:10.1016/0045-7825(91)90022-X), and in the plane it nearly always ends after one or two
+//! rounds. Where it does not, [`super::approach`] answers.
+
+use nalgebra::{Vector2, Vector3};
+
+use super::{
+    constraint::{Constraint, Status, Tie},
+    index::GroupIndex,
+    tally::Tally,
+    unknown::Unknown,
+};
+
+/// Rounds after which it is given up: it goes in circles where things jam.
+const ROUNDS: usize = 8;
+
+/// Most equations at once: what many objects that jam would need is cheaper by iteration.
+const MOST: usize = 64;
+
+/// Share of its own effect by which the force of a joint gives way, so that joints that ask for the
+/// same twice have an answer.
+const GIVE: f64 = 1e-9;
+
+/// Memory that is reused.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ActiveSet {
+    rows: Vec<Row>,
+    /// The equations, row by row, each with what it asks for at its end.
+    matrix: Vec<f64>,
+}
+
+/// An equation of a constraint that presses or of a joint, and the force that meets it.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// The groups that it is about; twice the first where the other body's motion is given.
+    groups: [GroupIndex; 2],
+    /// How their twists count, metres; nothing for a body whose motion is given.
+    value: [Vector3<f64>; 2],
+    /// The twists that a unit of the force gives them.
+    moved: [Vector3<f64>; 2],
+    /// By how much more than the groups' own answer the force gives way.
+    give: f64,
+    target: f64,
+    force: Force,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Force {
+    /// Of a constraint: a unit stands for this along its normal and its tangent.
+    Of(usize, Vector2<f64>),
+    /// Of one of a joint's two equations.
+    Joint(usize, usize),
+}
+
+impl ActiveSet {
+    /// Finds forces and twists, beginning with what the constraints did last; whether that went
+    /// well. If not, the constraints' forces are those of before.
+    pub fn solve(
+        &mut self,
+        unknowns: &mut [Unknown],
+        constraints: &mut [Constraint],
+        ties: &mut [Tie],
+        tally: &mut Tally,
+    ) -> bool {
+        for _ in 0..ROUNDS {
+            self.list(unknowns, constraints, ties);
+            tally.solve(self.rows.len());
+            if self.rows.len() > MOST || !self.eliminate() {
+                return false;
+            }
+            self.apply(unknowns, constraints, ties);
+            let mut same = true;
+            for constraint in constraints.iter_mut() {
+                constraint.read(unknowns);
+                let status = constraint.respond(&constraint.alone()).0;
+                same &= status == constraint.status;
+                constraint.status = status;
+            }
+            if same {
+                constraints.iter_mut().for_each(|constraint| constraint.force = constraint.trial);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Lists the equations that hold if every constraint does what it is taken to do.
+    fn list(&mut self, unknowns: &[Unknown], constraints: &[Constraint], ties: &[Tie]) {
+        self.rows.clear();
+        for (k, tie) in ties.iter().enumerate() {
+            let groups = [tie.b, tie.a];
+            for equation in 0..2 {
+                let value = [tie.to[equation], -tie.from[equation]];
+                let moved = [0, 1].map(|side| unknowns[groups[side].0].inverse * value[side]);
+                let own = value[0].dot(&moved[0]) + value[1].dot(&moved[1]);
+                let (target, force) = (tie.target[equation], Force::Joint(k, equation));
+                self.add(unknowns, Row { groups, value, moved, give: GIVE * own, target, force });
+            }
+        }
+        for (k, c) in constraints.iter().enumerate() {
+            let mut add = |equation: usize, along: Vector2<f64>, give: f64| {
+                let moved = c.moved.map(|rows| rows[0] * along.x + rows[1] * along.y);
+                let row = Row {
+                    groups: [c.a, c.b.unwrap_or(c.a)],
+                    value: [c.to[equation], -c.from[equation]],
+                    moved,
+                    give,
+                    target: c.target[equation],
+                    force: Force::Of(k, along),
+                };
+                self.add(unknowns, row);
+            };
+            match c.status {
+                Status::Open => {}
+                Status::Sticks => {
+                    add(0, Vector2::x(), c.give);
+                    add(1, Vector2::y(), c.give);
+                }
+                Status::Slides(edge) => add(0, Vector2::new(1.0, edge), c.give + c.wedge(edge)),
+            }
+        }
+    }
+
+    /// Adds a row, its target less what the groups do without forces.
+    fn add(&mut self, unknowns: &[Unknown], mut row: Row) {
+        for (group, value) in row.groups.iter().zip(&row.value) {
+            row.target -= value.dot(&unknowns[group.0].free);
+        }
+        self.rows.push(row);
+    }
+
+    /// Fills in the equations and solves them; whether they have an answer.
+    fn eliminate(&mut self) -> bool {
+        let Self { rows, matrix } = self;
+        let n = rows.len();
+        let width = n + 1;
+        matrix.clear();
+        matrix.resize(n * width, 0.0);
+        for (row, line) in rows.iter().zip(matrix.chunks_exact_mut(width)) {
+            for (other, entry) in rows.iter().zip(&mut *line) {
+                // All four without a branch: which of them meet no processor could foresee.
+                for (group, value) in row.groups.iter().zip(&row.value) {
+                    for (with, moved) in other.groups.iter().zip(&other.moved) {
+                        *entry += f64::from(u8::from(group == with)) * value.dot(moved);
+                    }
+                }
+            }
+            line[n] = row.target;
+        }
+        for (k, row) in rows.iter().enumerate() {
+            matrix[k * width + k] += row.give;
+        }
+        solve_in_place(matrix, n)
+    }
+
+    /// Sets the trial forces found and the twists that they make.
+    fn apply(&self, unknowns: &mut [Unknown], constraints: &mut [Constraint], ties: &mut [Tie]) {
+        constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
+        let n = self.rows.len();
+        for (row, line) in self.rows.iter().zip(self.matrix.chunks_exact(n + 1)) {
+            let size = line[n];
+            match row.force {
+                Force::Of(constraint, along) => constraints[constraint].trial += along * size,
+                Force::Joint(tie, equation) => ties[tie].force[equation] = size,
+            }
+        }
+        for unknown in unknowns.iter_mut() {
+            unknown.pressed = Vector3::zeros();
+        }
+        constraints.iter().for_each(|constraint| constraint.press(unknowns));
+        ties.iter().for_each(|tie| tie.press(unknowns));
+        unknowns.iter_mut().for_each(Unknown::settle);
+    }
+}
+
+/// Gaussian elimination with pivots of n equations of n + 1 numbers each; the last number of
+/// equation k becomes the k-th unknown. Returns whether all of them are finite.
+fn solve_in_place(matrix: &mut [f64], n: usize) -> bool {
+    let width = n + 1;
+    for k in 0..n {
+        let size = |row: usize| matrix[row * width + k].abs();
+        let pivot = (k + 1..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
+        if pivot != k {
+            let (above, below) = matrix.split_at_mut(pivot * width);
+            above[k * width + k..(k + 1) * width].swap_with_slice(&mut below[k..width]);
+        }
+        let (above, below) = matrix.split_at_mut((k + 1) * width);
+        let first = &above[k * width + k..];
+        let inverse = 1.0 / first[0];
+        for line in below.chunks_exact_mut(width) {
+            let share = line[k] * inverse;
+            if share != 0.0 {
+                for (entry, above) in line[k + 1..].iter_mut().zip(&first[1..]) {
+                    *entry -= share * above;
+                }
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| matrix[k * width + j] * matrix[j * width + n]).sum();
+        let value = (matrix[k * width + n] - known) / matrix[k * width + k];
+        if !value.is_finite() {
+            return false;
+        }
+        matrix[k * width + n] = value;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equations_that_need_their_rows_swapped_are_solved() {
+        // 2 y = 4; x + y + z = 6; x - z = -2.
+        let mut matrix = [0.0, 2.0, 0.0, 4.0, 1.0, 1.0, 1.0, 6.0, 1.0, 0.0, -1.0, -2.0];
+        assert!(solve_in_place(&mut matrix, 3));
+        assert_eq!([matrix[3], matrix[7], matrix[11]], [1.0, 2.0, 3.0]);
+        let mut none = [1.0, 1.0, 1.0, 1.0, 1.0, 2.0];
+        assert!(!solve_in_place(&mut none, 2));
+    }
+}
