@@ -8,7 +8,6 @@ use crate::geometry::{Vector, perpendicular};
 use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
-    index::GroupIndex,
     joint::{rows, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
@@ -182,37 +181,6 @@ impl Prior {
                 spin: end.z / step.duration,
             });
         }
-    }
-
-    /// The motion that the force of contact `k` alone gives to an object of `group` whose centre
-    /// lies at `position`: shift (metres) and turn (radians).
-    pub fn answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
-        let c = &self.system.constraints[k];
-        let pressed = if c.a == group {
-            c.to[0] * c.force.x + c.to[1] * c.force.y
-        } else {
-            -(c.from[0] * c.force.x + c.from[1] * c.force.y)
-        };
-        self.moved(group, position, &pressed)
-    }
-
-    /// The same for the force of joint `k`; zero for one within a group.
-    pub fn joint_answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
-        let Some(tie) = self.joints[k].map(|tie| &self.system.ties[tie]) else {
-            return (Vector::zeros(), 0.0);
-        };
-        let pressed = if tie.b == group {
-            tie.to[0] * tie.force.x + tie.to[1] * tie.force.y
-        } else {
-            -(tie.from[0] * tie.force.x + tie.from[1] * tie.force.y)
-        };
-        self.moved(group, position, &pressed)
-    }
-
-    fn moved(&self, group: GroupIndex, position: Vector, pressed: &Vector3<f64>) -> (Vector, f64) {
-        let unknown = &self.system.unknowns[group.0];
-        let twist = unknown.inverse * pressed;
-        (shift(&twist, position - unknown.centre), twist.z)
     }
 }
 

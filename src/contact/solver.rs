@@ -9,6 +9,7 @@ use super::{
     awake::{Awake, View},
     bodies::Bodies,
     coast::coast,
+    forces::FrameForces,
     index::{AwakeIndex, ListIndex},
     march::March,
     motion::Motion,
@@ -69,14 +70,6 @@ pub struct FrameSolution<'a> {
     awake: &'a Awake,
 }
 
-/// The forces of a frame taken as a whole.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameForces<'a> {
-    bodies: &'a Bodies,
-    state: &'a State,
-    prior: &'a Prior,
-}
-
 /// Two bodies that touch, or come to touch, in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
@@ -133,7 +126,7 @@ impl FrameSolver {
         }
         let solution = self.solution(problem);
         let FrameSolution { bodies, state, .. } = solution;
-        (solution, FrameForces { bodies, state, prior: &self.prior })
+        (solution, FrameForces::new(bodies, state, &self.prior))
     }
 
     /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
@@ -197,26 +190,6 @@ impl FrameSolution<'_> {
             let Contact { pair, gap, normal, .. } = *contact;
             stops.contains(&true).then_some(Touch { pair, stops, depth: -gap, normal })
         })
-    }
-}
-
-impl FrameForces<'_> {
-    /// The force of contact `index` along its normal, newtons.
-    pub fn normal(&self, index: usize) -> f64 {
-        self.prior.system.constraints[index].force.x
-    }
-
-    /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
-    /// turn (radians).
-    pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
-        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
-        self.prior.answer(index, group, position)
-    }
-
-    /// The same for the force of joint `index`; none for a joint within a rigid group.
-    pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
-        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
-        self.prior.joint_answer(index, group, position)
     }
 }
 
