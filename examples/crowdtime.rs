@@ -1,6 +1,5 @@
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, jointed_crowd_cases};
-use pushplan::dataset::JointRule;
+use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases};
 use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::scene::{Engine, Job, Rate, Record};
 use pushplan::sim::Simulator;
@@ -13,7 +12,7 @@ fn main() {
         |rate| Simulated::new(Simulator::new(Engine::Planar, Rate(NonZeroU16::new(rate).unwrap())));
     let prior = Prior::default();
     let (p120, p240) = (engine(120), engine(240));
-    for (n, joints) in [(1usize, 0), (3, 0), (6, 0), (9, 0), (10, 1)] {
+    for (n, joints) in [(1usize, 0), (3, 0), (6, 1), (9, 1), (10, 1)] {
         let cases: Vec<Case> = match (n, joints) {
             (1, _) => Suite::draw(SuiteKind::Single, &library, 21, count).cases,
             (3, _) => Suite::draw(SuiteKind::Touching, &library, 21, 2 * count)
@@ -22,7 +21,6 @@ fn main() {
                 .filter(|c| c.scene.objects.len() == 3)
                 .take(count)
                 .collect(),
-            (n, 0) => jointed_crowd_cases(n, JointRule::None, 21, count),
             (n, _) => crowd_cases(n, 21, count),
         };
         let run = |model: &dyn EffectModel, rounds: usize| {
@@ -43,6 +41,14 @@ fn main() {
             (total / cases.len() as f64, ends)
         };
         if let Ok(only) = std::env::var("ONLY") {
+            if only == "drag" {
+                let feet = pushplan::scene::Feet::new(&pushplan::scene::Support::Even, &pushplan::geometry::Footprint::Rectangle { half: pushplan::geometry::Vector::new(0.04, 0.03) });
+                let mut s = 0.0;
+                let t = Instant::now();
+                for k in 0..10_000_000 { let d = feet.drag(pushplan::geometry::Vector::x(), (pushplan::geometry::Vector::new(1e-3 * (k % 7) as f64, 2e-3), 0.01), 1e-4, pushplan::geometry::Vector::new(1e-3, 0.0)); s += d.second; }
+                println!("{s} {:.1} ns", t.elapsed().as_secs_f64() * 100.0);
+                return;
+            }
             if only == n.to_string() {
                 for _ in 0..10 {
                     run(&prior, 10);

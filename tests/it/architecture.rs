@@ -76,7 +76,7 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("candle_core", &["network", "train"]),
     ("safetensors", &["network", "train"]),
     ("gemm", &["network", "train"]),
-    ("pulp", &["network"]),
+    ("pulp", &["network", "scene"]),
     ("clarabel", &["plan"]),
     ("rand", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
     ("rand_pcg", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
