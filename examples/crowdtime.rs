@@ -42,10 +42,23 @@ fn main() {
         };
         if let Ok(only) = std::env::var("ONLY") {
             if only == "drag" {
-                let feet = pushplan::scene::Feet::new(&pushplan::scene::Support::Even, &pushplan::geometry::Footprint::Rectangle { half: pushplan::geometry::Vector::new(0.04, 0.03) });
+                let feet = pushplan::scene::Feet::new(
+                    &pushplan::scene::Support::Even,
+                    &pushplan::geometry::Footprint::Rectangle {
+                        half: pushplan::geometry::Vector::new(0.04, 0.03),
+                    },
+                );
                 let mut s = 0.0;
                 let t = Instant::now();
-                for k in 0..10_000_000 { let d = feet.drag(pushplan::geometry::Vector::x(), (pushplan::geometry::Vector::new(1e-3 * (k % 7) as f64, 2e-3), 0.01), 1e-4, pushplan::geometry::Vector::new(1e-3, 0.0)); s += d.second; }
+                for k in 0..10_000_000 {
+                    let d = feet.drag(
+                        pushplan::geometry::Vector::x(),
+                        (pushplan::geometry::Vector::new(1e-3 * (k % 7) as f64, 2e-3), 0.01),
+                        1e-4,
+                        pushplan::geometry::Vector::new(1e-3, 0.0),
+                    );
+                    s += d.second;
+                }
                 println!("{s} {:.1} ns", t.elapsed().as_secs_f64() * 100.0);
                 return;
             }

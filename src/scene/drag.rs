@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::geometry::Vector;
 
@@ -60,23 +60,36 @@ impl Feet {
 
     /// [`Self::drag`] in the points' own frame.
     fn drag_along(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
-        let arch = ARCH.get_or_init(Arch::new);
-        arch.dispatch(
-            #[inline(always)]
-            || self.sums(linear, angular, least, slope),
-        )
+        let moving = Moving { feet: self, linear, angular, least, slope };
+        ARCH.get_or_init(Arch::new).dispatch(moving)
     }
+}
 
-    /// Inlined wherever a processor's features are known, so that the compiler makes vectors of
-    /// what is done to the lanes; spare points carry nothing.
+/// Points that move, in their own frame: see [`Feet::drag`].
+struct Moving<'a> {
+    feet: &'a Feet,
+    linear: Vector,
+    angular: f64,
+    least: f64,
+    /// How much more of its load than at the centre a point carries per metre.
+    slope: Vector,
+}
+
+impl WithSimd for Moving<'_> {
+    type Output = Drag;
+
+    /// Plain loops over lanes, of which the compiler makes the vectors that the processor has;
+    /// spare points carry nothing.
     #[inline(always)]
-    fn sums(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
+    fn with_simd<S: Simd>(self, _: S) -> Drag {
+        let Self { feet, linear, angular, least, slope } = self;
         let mut sums = [[0.0; LANES]; 5];
-        for block in 0..self.count.div_ceil(LANES).min(MAX_FEET / LANES) {
-            let lanes = |of: &[f64; MAX_FEET]| -> [f64; LANES] {
-                std::array::from_fn(|k| of[block * LANES + k])
-            };
-            let (x, y, load) = (lanes(&self.x), lanes(&self.y), lanes(&self.load));
+        for block in 0..feet.count.div_ceil(LANES).min(MAX_FEET / LANES) {
+            let mut lanes = [[0.0; LANES]; 3];
+            for (lanes, of) in lanes.iter_mut().zip([&feet.x, &feet.y, &feet.load]) {
+                lanes.copy_from_slice(&of[block * LANES..(block + 1) * LANES]);
+            }
+            let [x, y, load] = &lanes;
             for k in 0..LANES {
                 let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
                 let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
@@ -88,8 +101,11 @@ impl Feet {
                 sums[4][k] += load;
             }
         }
-        let [sum, x, y, second, whole] =
-            sums.map(|[a, b, c, d, e, f, g, h]| ((a + e) + (c + g)) + ((b + f) + (d + h)));
+        let mut totals = [0.0; 5];
+        for (total, [a, b, c, d, e, f, g, h]) in totals.iter_mut().zip(sums) {
+            *total = ((a + e) + (c + g)) + ((b + f) + (d + h));
+        }
+        let [sum, x, y, second, whole] = totals;
         let scale = 1.0 / whole;
         Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
     }
