@@ -1,7 +1,7 @@
 //! The forces of a frame's contacts at fixed weights, found exactly.
 //!
-//! Where it is known which contacts stick, slide and stay open, what they and the joints ask for
-//! are linear equations; where these are solved, it is known from their answer. Taken in turn that
+//! Where it is known which contacts stick, slide and stay open, what they ask for are linear
+//! equations; where these are solved, it is known from their answer. Taken in turn that
 //! is Newton's method on a semismooth equation (Alart and Curnier 1991,
 //! doi:10.1016/0045-7825(91)90022-X), and in the plane it nearly always ends after one or two
 //! rounds. Where it does not, [`super::approach`] answers.
@@ -10,6 +10,7 @@ use nalgebra::{Vector2, Vector3};
 
 use super::{
     constraint::{Constraint, Status, Tie},
+    eliminated::Eliminated,
     index::GroupIndex,
     tally::Tally,
     unknown::Unknown,
@@ -25,39 +26,33 @@ const ROUNDS: usize = 24;
 /// Most equations at once: what many objects that jam would need is cheaper by iteration.
 const MOST: usize = 64;
 
-/// Share of its own effect by which the force of a joint gives way, so that joints that ask for the
-/// same twice have an answer.
-const GIVE: f64 = 1e-9;
-
 /// Memory that is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ActiveSet {
+    /// Values of all constraints without their forces.
+    free: Vec<Vector2<f64>>,
     rows: Vec<Row>,
     /// The equations, row by row, each with what it asks for at its end.
     matrix: Vec<f64>,
 }
 
-/// An equation of a constraint that presses or of a joint, and the force that meets it.
+/// An equation of a constraint that presses, and the force that meets it.
 #[derive(Clone, Copy, Debug)]
 struct Row {
+    constraint: usize,
     /// The groups that it is about; twice the first where the other body's motion is given.
     groups: [GroupIndex; 2],
     /// How their twists count, metres; nothing for a body whose motion is given.
     value: [Vector3<f64>; 2],
-    /// The twists that a unit of the force gives them.
+    /// What a unit of the force is along normal and tangent.
+    along: Vector2<f64>,
+    /// The force and torque that it puts on the groups.
+    press: [Vector3<f64>; 2],
+    /// The twists that these give them without joints.
     moved: [Vector3<f64>; 2],
     /// By how much more than the groups' own answer the force gives way.
     give: f64,
     target: f64,
-    force: Force,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Force {
-    /// Of a constraint: a unit stands for this along its normal and its tangent.
-    Of(usize, Vector2<f64>),
-    /// Of one of a joint's two equations.
-    Joint(usize, usize),
 }
 
 impl ActiveSet {
@@ -68,15 +63,22 @@ impl ActiveSet {
         unknowns: &mut [Unknown],
         constraints: &mut [Constraint],
         ties: &mut [Tie],
+        joints: &mut Eliminated,
         tally: &mut Tally,
     ) -> bool {
+        constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
+        joints.spread(unknowns, constraints, ties);
+        constraints.iter_mut().for_each(|constraint| constraint.read(unknowns));
+        self.free.clear();
+        self.free.extend(constraints.iter().map(|constraint| constraint.value));
         for round in 0..ROUNDS {
-            self.list(unknowns, constraints, ties);
+            self.list(constraints);
             tally.solve(self.rows.len());
-            if self.rows.len() > MOST || !self.eliminate() {
+            if self.rows.len() > MOST || !self.eliminate(joints) {
                 return false;
             }
-            self.apply(unknowns, constraints, ties);
+            self.apply(constraints);
+            joints.spread(unknowns, constraints, ties);
             let mut worst: Option<(usize, Status, f64)> = None;
             for (k, constraint) in constraints.iter_mut().enumerate() {
                 constraint.read(unknowns);
@@ -103,30 +105,22 @@ impl ActiveSet {
     }
 
     /// Lists the equations that hold if every constraint does what it is taken to do.
-    fn list(&mut self, unknowns: &[Unknown], constraints: &[Constraint], ties: &[Tie]) {
-        self.rows.clear();
-        for (k, tie) in ties.iter().enumerate() {
-            let groups = [tie.b, tie.a];
-            for equation in 0..2 {
-                let value = [tie.to[equation], -tie.from[equation]];
-                let moved = [0, 1].map(|side| unknowns[groups[side].0].inverse * value[side]);
-                let own = value[0].dot(&moved[0]) + value[1].dot(&moved[1]);
-                let (target, force) = (tie.target[equation], Force::Joint(k, equation));
-                self.add(unknowns, Row { groups, value, moved, give: GIVE * own, target, force });
-            }
-        }
-        for (k, c) in constraints.iter().enumerate() {
+    fn list(&mut self, constraints: &[Constraint]) {
+        let Self { rows, free, .. } = self;
+        rows.clear();
+        for (constraint, (c, free)) in constraints.iter().zip(free).enumerate() {
             let mut add = |equation: usize, along: Vector2<f64>, give: f64| {
-                let moved = c.moved.map(|rows| rows[0] * along.x + rows[1] * along.y);
-                let row = Row {
+                let by = |rows: &[Vector3<f64>; 2]| rows[0] * along.x + rows[1] * along.y;
+                rows.push(Row {
+                    constraint,
                     groups: [c.a, c.b.unwrap_or(c.a)],
                     value: [c.to[equation], -c.from[equation]],
-                    moved,
+                    along,
+                    press: [by(&c.to), -by(&c.from)],
+                    moved: [by(&c.moved[0]), by(&c.moved[1])],
                     give,
-                    target: c.target[equation],
-                    force: Force::Of(k, along),
-                };
-                self.add(unknowns, row);
+                    target: c.target[equation] - free[equation],
+                });
             };
             match c.status {
                 Status::Open => {}
@@ -139,27 +133,23 @@ impl ActiveSet {
         }
     }
 
-    /// Adds a row, its target less what the groups do without forces.
-    fn add(&mut self, unknowns: &[Unknown], mut row: Row) {
-        for (group, value) in row.groups.iter().zip(&row.value) {
-            row.target -= value.dot(&unknowns[group.0].free);
-        }
-        self.rows.push(row);
-    }
-
     /// Fills in the equations and solves them; whether they have an answer.
-    fn eliminate(&mut self) -> bool {
-        let Self { rows, matrix } = self;
+    fn eliminate(&mut self, joints: &Eliminated) -> bool {
+        let Self { rows, matrix, .. } = self;
         let n = rows.len();
         let width = n + 1;
         matrix.clear();
         matrix.resize(n * width, 0.0);
         for (row, line) in rows.iter().zip(matrix.chunks_exact_mut(width)) {
             for (other, entry) in rows.iter().zip(&mut *line) {
-                // All four without a branch: which of them meet no processor could foresee.
                 for (group, value) in row.groups.iter().zip(&row.value) {
-                    for (with, moved) in other.groups.iter().zip(&other.moved) {
-                        *entry += f64::from(u8::from(group == with)) * value.dot(moved);
+                    for (side, with) in other.groups.iter().enumerate() {
+                        *entry += if joints.couples(*group, *with) {
+                            value.dot(&(joints.block(*group, *with) * other.press[side]))
+                        } else {
+                            // Without a branch: which of them meet no processor could foresee.
+                            f64::from(u8::from(group == with)) * value.dot(&other.moved[side])
+                        };
                     }
                 }
             }
@@ -171,23 +161,13 @@ impl ActiveSet {
         solve_in_place(matrix, n)
     }
 
-    /// Sets the trial forces found and the twists that they make.
-    fn apply(&self, unknowns: &mut [Unknown], constraints: &mut [Constraint], ties: &mut [Tie]) {
+    /// Sets the trial forces found.
+    fn apply(&self, constraints: &mut [Constraint]) {
         constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
         let n = self.rows.len();
         for (row, line) in self.rows.iter().zip(self.matrix.chunks_exact(n + 1)) {
-            let size = line[n];
-            match row.force {
-                Force::Of(constraint, along) => constraints[constraint].trial += along * size,
-                Force::Joint(tie, equation) => ties[tie].force[equation] = size,
-            }
+            constraints[row.constraint].trial += row.along * line[n];
         }
-        for unknown in unknowns.iter_mut() {
-            unknown.pressed = Vector3::zeros();
-        }
-        constraints.iter().for_each(|constraint| constraint.press(unknowns));
-        ties.iter().for_each(|tie| tie.press(unknowns));
-        unknowns.iter_mut().for_each(Unknown::settle);
     }
 }
 
@@ -274,10 +254,19 @@ mod tests {
         (unknowns, constraints, if jointed { vec![tie] } else { Vec::new() })
     }
 
+    fn joints(unknowns: &[Unknown], constraints: &mut [Constraint], ties: &[Tie]) -> Eliminated {
+        let mut joints = Eliminated::default();
+        joints.prepare(unknowns, ties);
+        constraints.iter_mut().for_each(|constraint| constraint.own = joints.own(constraint));
+        joints
+    }
+
     fn solved(seed: u64, jointed: bool) -> Option<(Vec<Unknown>, Vec<Constraint>)> {
         let (mut unknowns, mut constraints, mut ties) = frame(seed, jointed);
         let (mut active, mut tally) = (ActiveSet::default(), Tally::default());
-        let found = active.solve(&mut unknowns, &mut constraints, &mut ties, &mut tally);
+        let mut joints = joints(&unknowns, &mut constraints, &ties);
+        let found =
+            active.solve(&mut unknowns, &mut constraints, &mut ties, &mut joints, &mut tally);
         assert!(tally.rounds > 0 && tally.rows > 0);
         found.then_some((unknowns, constraints))
     }
@@ -291,8 +280,9 @@ mod tests {
             found += 1;
             let (mut unknowns, mut constraints, mut ties) = frame(seed, jointed);
             let mut approach = Approach::default();
+            let mut joints = joints(&unknowns, &mut constraints, &ties);
             for _ in 0..200 {
-                approach.run(&mut unknowns, &mut constraints, &mut ties);
+                approach.run(&mut unknowns, &mut constraints, &mut ties, &mut joints);
             }
             for (a, b) in exact.iter().zip(&unknowns) {
                 let off = a.twist - b.twist;

@@ -12,6 +12,7 @@ mod awake;
 mod bodies;
 mod coast;
 mod constraint;
+mod eliminated;
 mod fall;
 mod forces;
 mod hold;

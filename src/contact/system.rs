@@ -22,6 +22,7 @@ use super::{
     approach::Approach,
     bodies::Bodies,
     constraint::{Constraint, Tie},
+    eliminated::Eliminated,
     motion::Motion,
     tally::Tally,
     unknown::{Quantity, Unknown},
@@ -48,6 +49,7 @@ pub(super) struct System {
     before: Vec<Vector3<f64>>,
     active: ActiveSet,
     approach: Approach,
+    joints: Eliminated,
     /// Of all systems so far.
     pub tally: Tally,
 }
@@ -153,12 +155,16 @@ impl System {
 
     /// Forces and twists at fixed weights.
     fn settle(&mut self) {
-        let Self { unknowns, constraints, ties, active, approach, tally, .. } = self;
+        let Self { unknowns, constraints, ties, active, approach, joints, tally, .. } = self;
         tally.updates += 1;
-        constraints.iter_mut().for_each(|constraint| constraint.weigh(unknowns));
-        if !active.solve(unknowns, constraints, ties, tally) {
+        joints.prepare(unknowns, ties);
+        for constraint in constraints.iter_mut() {
+            constraint.weigh(unknowns);
+            constraint.own = joints.own(constraint);
+        }
+        if !active.solve(unknowns, constraints, ties, joints, tally) {
             tally.approached += 1;
-            approach.run(unknowns, constraints, ties);
+            approach.run(unknowns, constraints, ties, joints);
         }
     }
 }
