@@ -84,7 +84,7 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("indicatif", &["cli"]),
-    ("ctrlc", &["cli"]),
+    ("signal_hook", &["cli"]),
 ];
 
 /// Longer files must be listed here with the reason.

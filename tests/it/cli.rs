@@ -329,8 +329,11 @@ fn goes_on_after_an_interruption(command: &str, options: &str) {
     };
     run(&whole);
 
-    let mut child = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+    // As long jobs are run; a hangup that is ignored must not cost the other signals.
+    let mut child = Command::new("nohup")
+        .arg(env!("CARGO_BIN_EXE_pushplan"))
         .args(arguments(&broken))
+        .stdin(std::process::Stdio::null())
         .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null())
         .spawn()
