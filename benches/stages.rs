@@ -32,10 +32,12 @@ fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools are sound")
 }
 
-/// One object and a shipped tool, or ten objects and the hand.
-fn cases() -> [(&'static str, Vec<Case>); 2] {
+/// One object or three that touch and a shipped tool, or ten objects and the hand.
+fn cases() -> [(&'static str, Vec<Case>); 3] {
     let single = Suite::draw(SuiteKind::Single, &library(), SEED, 11).cases;
-    [("one object", single), ("ten objects", crowd_cases(10, SEED, 6))]
+    let mut touching = Suite::draw(SuiteKind::Touching, &library(), SEED, 22).cases;
+    touching.retain(|case| case.scene.objects.len() == 3);
+    [("one object", single), ("three objects", touching), ("ten objects", crowd_cases(10, SEED, 6))]
 }
 
 /// Frames of the cases that have a graph, as the planar engine passes through them.
@@ -66,6 +68,23 @@ fn fill(solver: &mut FrameSolver, batch: &mut Batch, frames: &[Near]) {
             solver.solve_with_forces(FrameProblem { bodies, state, step, axis: *axis });
         batch.add(k as u32, &frame, &forces);
     }
+}
+
+/// What everything does in a frame, without forces and features.
+fn frame(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("64 frames");
+    group.throughput(Throughput::Elements(BATCH as u64));
+    for (name, cases) in cases() {
+        let (mut solver, frames) = (FrameSolver::default(), frames(&cases));
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                for (bodies, state, step, axis) in black_box(&frames).iter().cycle().take(BATCH) {
+                    black_box(solver.solve(FrameProblem { bodies, state, step, axis: *axis }));
+                }
+            });
+        });
+    }
+    group.finish();
 }
 
 /// Contacts, prior and features; then the network on the same batch.
@@ -190,6 +209,6 @@ fn settings() -> Criterion {
 criterion_group! {
     name = stages;
     config = settings();
-    targets = graph_and_network, rollouts, planning, programme
+    targets = frame, graph_and_network, rollouts, planning, programme
 }
 criterion_main!(stages);

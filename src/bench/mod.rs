@@ -7,6 +7,7 @@ mod baselines;
 mod cpu_clock;
 mod crowd;
 mod effects;
+mod equations;
 mod far;
 mod heldout;
 mod inference;
@@ -23,6 +24,7 @@ pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
 };
 pub use effects::{TimedEffect, timed_effect};
+pub use equations::{EquationCost, equation_costs};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};

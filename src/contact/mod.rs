@@ -6,11 +6,15 @@
 //! nothing is known of the network that corrects it. One frame at a time: the loop over time is in
 //! [`crate::rollout`].
 
+mod active;
+mod approach;
 mod awake;
 mod bodies;
 mod coast;
 mod constraint;
+mod eliminated;
 mod fall;
+mod forces;
 mod hold;
 mod index;
 mod joint;
@@ -24,15 +28,18 @@ mod sight;
 mod solver;
 mod subset;
 mod system;
+mod tally;
 mod twist;
 mod unknown;
 
 pub use bodies::{Bodies, Given, Groups, Jointed, Movable, Partner};
+pub use forces::FrameForces;
 pub use hold::hold;
 pub use index::{AwakeIndex, GroupIndex, Index, ListIndex, SceneIndex};
 pub use motion::Motion;
 pub use pairs::{PairId, Pairs};
 pub use points::{Contact, MARGIN};
 pub use sight::Sight;
-pub use solver::{FrameForces, FrameProblem, FrameSolution, FrameSolver, Touch};
+pub use solver::{FrameProblem, FrameSolution, FrameSolver, Touch};
 pub use subset::Subset;
+pub use tally::Tally;

@@ -49,6 +49,8 @@ pub(super) struct Scenery<'a> {
     pub state: &'a State,
     pub step: &'a FrameStep,
     pub coasts: &'a [Motion],
+    /// How much farther off than both could travel what still counts may be, metres.
+    pub margin: f64,
 }
 
 /// Every contact point close enough to matter in this frame. Objects of one rigid group do not
@@ -88,13 +90,13 @@ pub(super) fn find_again(scenery: Scenery, known: &[Contact], contacts: &mut Vec
 impl Scenery<'_> {
     /// Adds the contact points of an object and another body.
     fn meet(&self, object: usize, with: Partner, contacts: &mut Vec<Contact>) {
-        let Self { bodies, state, step, coasts } = *self;
+        let Self { bodies, state, step, coasts, .. } = *self;
         let travel = (step.to.position - step.from.position).norm();
         let own = |object: usize| {
             coasts[object].shift.norm() + coasts[object].turn.abs() * bodies.objects[object].radius
         };
         // While the tool turns, its far ends travel more than its frame; margins allow for that.
-        let reach = MARGIN + travel + own(object);
+        let reach = self.margin + travel + own(object);
         let body = &bodies.objects[object];
         let pose = &state.poses[object];
         let part_pose;

@@ -8,7 +8,6 @@ use crate::geometry::{Vector, perpendicular};
 use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
-    index::GroupIndex,
     joint::{rows, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
@@ -34,7 +33,7 @@ pub(super) struct Prior {
     pub system: System,
     /// The tie of every joint that is not within a group.
     pub joints: Vec<Option<usize>>,
-    velocities: System,
+    pub velocities: System,
 }
 
 impl Prior {
@@ -73,7 +72,7 @@ impl Prior {
         contacts: &[Contact],
         last: Option<&[Contact]>,
     ) {
-        let Scenery { bodies, state, step, coasts } = scenery;
+        let Scenery { bodies, state, step, coasts, .. } = scenery;
         let Self { system, joints, .. } = self;
         let duration = step.duration;
         let follows = last.is_some();
@@ -133,35 +132,35 @@ impl Prior {
     /// The velocities at the frame's end: the same equations for v T, with everything where it
     /// has come to, in which what has come into contact stays there.
     fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
-        let Scenery { bodies, state, step, coasts } = scenery;
+        let Scenery { bodies, state, step, coasts, .. } = scenery;
         let duration = step.duration;
         let Self { system, velocities, .. } = self;
         velocities.quantity = Quantity::Velocity;
         velocities.continue_from(system, bodies, state, coasts, duration);
         system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
         let ended = &system.unknowns;
-        for (contact, constraint) in contacts.iter().zip(&mut velocities.constraints) {
+        let pressing = contacts.iter().zip(&system.constraints);
+        let pressing = pressing.filter(|(_, constraint)| constraint.presses());
+        let count = pressing.clone().count();
+        for ((contact, _), constraint) in pressing.zip(&mut velocities.constraints) {
             let end = midway(bodies, state, contact, ended, WHOLE);
             face(contact, &end, constraint);
             let given = contact.given;
             constraint.target = [given.dot(&end.normal), given.dot(&perpendicular(end.normal))];
         }
         let System { constraints, ties, .. } = &mut *velocities;
-        let limits = &mut constraints[contacts.len()..];
+        let limits = &mut constraints[count..];
         turn_joints(bodies, state, axis, ended, ties, limits);
-        limits.iter_mut().for_each(|limit| limit.target = [0.0; 2]);
-        ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
-        for constraint in constraints {
-            if !constraint.presses(&constraint.force) {
-                constraint.target[0] = OUT_OF_REACH;
-            }
+        for limit in limits {
+            limit.target = [if limit.presses() { 0.0 } else { OUT_OF_REACH }, 0.0];
         }
+        ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         velocities.solve(bodies, state, duration, |_, _, _| {});
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is
     /// fixed stays so.
-    fn collect(&mut self, Scenery { bodies, state, step, coasts }: Scenery) {
+    fn collect(&mut self, Scenery { bodies, state, step, coasts, .. }: Scenery) {
         self.motions.clear();
         for (k, &group) in bodies.groups.of.iter().enumerate() {
             let unknown = &self.system.unknowns[group.0];
@@ -182,37 +181,6 @@ impl Prior {
                 spin: end.z / step.duration,
             });
         }
-    }
-
-    /// The motion that the force of contact `k` alone gives to an object of `group` whose centre
-    /// lies at `position`: shift (metres) and turn (radians).
-    pub fn answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
-        let c = &self.system.constraints[k];
-        let pressed = if c.a == group {
-            c.to[0] * c.force.x + c.to[1] * c.force.y
-        } else {
-            -(c.from[0] * c.force.x + c.from[1] * c.force.y)
-        };
-        self.moved(group, position, &pressed)
-    }
-
-    /// The same for the force of joint `k`; zero for one within a group.
-    pub fn joint_answer(&self, k: usize, group: GroupIndex, position: Vector) -> (Vector, f64) {
-        let Some(tie) = self.joints[k].map(|tie| &self.system.ties[tie]) else {
-            return (Vector::zeros(), 0.0);
-        };
-        let pressed = if tie.b == group {
-            tie.to[0] * tie.force.x + tie.to[1] * tie.force.y
-        } else {
-            -(tie.from[0] * tie.force.x + tie.from[1] * tie.force.y)
-        };
-        self.moved(group, position, &pressed)
-    }
-
-    fn moved(&self, group: GroupIndex, position: Vector, pressed: &Vector3<f64>) -> (Vector, f64) {
-        let unknown = &self.system.unknowns[group.0];
-        let twist = unknown.inverse * pressed;
-        (shift(&twist, position - unknown.centre), twist.z)
     }
 }
 
@@ -292,7 +260,13 @@ mod tests {
             .map(|(body, velocity)| coast(body, velocity, step.duration))
             .collect();
         let mut contacts = Vec::new();
-        let scenery = Scenery { bodies: &bodies, state: &state, step: &step, coasts: &coasts };
+        let scenery = Scenery {
+            bodies: &bodies,
+            state: &state,
+            step: &step,
+            coasts: &coasts,
+            margin: crate::contact::MARGIN,
+        };
         find_contacts(scenery, &mut contacts);
         let mut prior = Prior::default();
         prior.solve(scenery, Vector::x(), &contacts);

@@ -9,12 +9,14 @@ use super::{
     awake::{Awake, View},
     bodies::Bodies,
     coast::coast,
+    forces::FrameForces,
     index::{AwakeIndex, ListIndex},
     march::March,
     motion::Motion,
     pairs::PairId,
-    points::{Contact, Scenery, find_contacts},
+    points::{Contact, MARGIN, Scenery, find_contacts},
     prior::Prior,
+    tally::Tally,
 };
 
 /// Steps that a frame of several objects is solved in. What they do to each other depends on
@@ -68,14 +70,6 @@ pub struct FrameSolution<'a> {
     awake: &'a Awake,
 }
 
-/// The forces of a frame taken as a whole.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameForces<'a> {
-    bodies: &'a Bodies,
-    state: &'a State,
-    prior: &'a Prior,
-}
-
 /// Two bodies that touch, or come to touch, in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
@@ -92,6 +86,16 @@ pub struct Touch {
 }
 
 impl FrameSolver {
+    /// What all frames so far took.
+    pub fn tally(&self) -> Tally {
+        let mut tally = Tally::default();
+        for prior in [&self.prior, &self.march.prior] {
+            tally.add(&prior.system.tally);
+            tally.add(&prior.velocities.tally);
+        }
+        tally
+    }
+
     /// What everything does in the frame.
     pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
         if self.wake(problem) {
@@ -110,19 +114,41 @@ impl FrameSolver {
         &'a mut self,
         problem: FrameProblem<'a>,
     ) -> (FrameSolution<'a>, FrameForces<'a>) {
-        if self.wake(problem) {
-            let Self { coasts, contacts, awake, prior, march } = &mut *self;
-            let scenery = scenery(problem, awake, coasts);
-            if let [_] = scenery.bodies.objects[..] {
-                prior.solve(scenery, problem.axis, contacts);
-            } else {
-                prior.press(scenery, problem.axis, contacts, None);
-                march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions);
-            }
-        }
+        self.press(problem, usize::MAX);
         let solution = self.solution(problem);
         let FrameSolution { bodies, state, .. } = solution;
-        (solution, FrameForces { bodies, state, prior: &self.prior })
+        (solution, FrameForces::new(bodies, state, &self.prior))
+    }
+
+    /// The same, without the forces where more than `most` objects are awake.
+    pub fn solve_with_forces_of_few<'a>(
+        &'a mut self,
+        problem: FrameProblem<'a>,
+        most: usize,
+    ) -> (FrameSolution<'a>, Option<FrameForces<'a>>) {
+        let few = self.press(problem, most);
+        let solution = self.solution(problem);
+        let FrameSolution { bodies, state, .. } = solution;
+        (solution, few.then(|| FrameForces::new(bodies, state, &self.prior)))
+    }
+
+    /// Finds motions, and forces if at most `most` objects are awake; returns whether so few are.
+    fn press(&mut self, problem: FrameProblem, most: usize) -> bool {
+        if !self.wake(problem) {
+            return true;
+        }
+        let Self { coasts, contacts, awake, prior, march } = &mut *self;
+        let scenery = scenery(problem, awake, coasts);
+        let few = scenery.bodies.objects.len() <= most;
+        if let [_] = scenery.bodies.objects[..] {
+            prior.solve(scenery, problem.axis, contacts);
+        } else {
+            if few {
+                prior.press(scenery, problem.axis, contacts, None);
+            }
+            march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions);
+        }
+        few
     }
 
     /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
@@ -132,7 +158,7 @@ impl FrameSolver {
         coasts.clear();
         let objects = bodies.objects.iter().zip(&state.velocities);
         coasts.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
-        find_contacts(Scenery { bodies, state, step, coasts }, contacts);
+        find_contacts(Scenery { bodies, state, step, coasts, margin: MARGIN }, contacts);
         awake.find(bodies, contacts, coasts, step);
         prior.motions.clear();
         awake.gather(bodies, state, coasts, contacts)
@@ -157,7 +183,7 @@ impl FrameSolver {
 
 fn scenery<'a>(problem: FrameProblem<'a>, awake: &'a Awake, coasts: &'a [Motion]) -> Scenery<'a> {
     let View { bodies, state, coasts } = awake.view(problem.bodies, problem.state, coasts);
-    Scenery { bodies, state, step: problem.step, coasts }
+    Scenery { bodies, state, step: problem.step, coasts, margin: MARGIN }
 }
 
 impl FrameSolution<'_> {
@@ -186,26 +212,6 @@ impl FrameSolution<'_> {
             let Contact { pair, gap, normal, .. } = *contact;
             stops.contains(&true).then_some(Touch { pair, stops, depth: -gap, normal })
         })
-    }
-}
-
-impl FrameForces<'_> {
-    /// The force of contact `index` along its normal, newtons.
-    pub fn normal(&self, index: usize) -> f64 {
-        self.prior.system.constraints[index].force.x
-    }
-
-    /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
-    /// turn (radians).
-    pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
-        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
-        self.prior.answer(index, group, position)
-    }
-
-    /// The same for the force of joint `index`; none for a joint within a rigid group.
-    pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
-        let (group, position) = (self.bodies.groups.of[object], self.state.poses[object].position);
-        self.prior.joint_answer(index, group, position)
     }
 }
 
@@ -274,6 +280,9 @@ mod tests {
             assert!((force / (pushed * weight) - 1.0).abs() < 0.05, "{force} {contact:?}");
             assert!(forces.by_contact(index, contact.object).0.norm() > 0.0);
         }
+        let (frame, forces) = solver.solve_with_forces_of_few(problem, 1);
+        assert!(frame.motions == motions && forces.is_none());
+        assert!(solver.solve_with_forces_of_few(problem, 2).1.is_some());
     }
 
     #[test]

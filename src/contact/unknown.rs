@@ -26,6 +26,7 @@ use crate::{
 use super::{
     bodies::{Bodies, Movable},
     motion::Motion,
+    tally::Tally,
     twist::{along, shift},
 };
 
@@ -65,6 +66,9 @@ impl Quantity {
 /// 5, 1.63 with 6 and 1.8 without end.
 const FOLLOWING: usize = 5;
 
+/// Weights are kept while motion (metres, radians) and pressing have changed by less.
+const SAME: f64 = 1e-9;
+
 /// A rigid group and its motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Unknown {
@@ -85,8 +89,10 @@ pub(super) struct Unknown {
     /// How hard contacts and joints press, as a share of the largest friction, at most one: what
     /// moves the load ahead.
     pressing: Vector,
-    /// Updates of the weights in this frame.
+    /// Updates of the weights in this frame, and the motion that they were last taken for, if they
+    /// were.
     updates: usize,
+    weighed: Option<Vector3<f64>>,
     /// The share of its motion that is looked at, see [`Self::look`], and the turn then.
     pub share: f64,
     pub turn: Turn,
@@ -123,6 +129,11 @@ impl Unknown {
         self.pressing = Vector::zeros();
     }
 
+    /// Moves as what presses makes it.
+    pub fn settle(&mut self) {
+        self.twist = self.free + self.inverse * self.pressed;
+    }
+
     /// Takes what pulls the group in a frame of this kind and duration: friction and inertia of
     /// members that coast.
     pub fn pull(
@@ -133,6 +144,7 @@ impl Unknown {
         coasts: &[Motion],
     ) {
         self.pull = Vector3::zeros();
+        self.weighed = None;
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
             let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
@@ -164,16 +176,24 @@ impl Unknown {
         state: &State,
         (quantity, duration): (Quantity, f64),
         reach: Option<f64>,
+        tally: &mut Tally,
     ) {
-        let mut weight = Matrix3::zeros();
+        let before = self.pressing;
         if self.updates < FOLLOWING {
             let load: f64 = members.iter().map(|&k| bodies.objects[k].load()).sum();
             let pressed = self.pressed.xy();
             self.pressing = pressed / pressed.norm().max(load).max(f64::MIN_POSITIVE);
         }
         self.updates += 1;
+        let near = |before: Vector3<f64>| (self.twist - before).amax() < SAME;
+        if self.weighed.is_some_and(near) && (self.pressing - before).amax() < SAME {
+            return;
+        }
+        self.weighed = reach.is_none().then_some(self.twist);
+        let mut weight = Matrix3::zeros();
         for (&k, axis) in members.iter().zip(&self.axes) {
             let body = &bodies.objects[k];
+            tally.weigh(bodies.feet(k).count);
             let arm = state.poses[k].position - self.centre;
             let mut rub = match reach {
                 Some(moved) => {

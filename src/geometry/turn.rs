@@ -2,6 +2,9 @@
 
 use super::Vector;
 
+/// Angle below which five terms of a Taylor series are exact, radians.
+const SMALL: f64 = 0.1;
+
 /// A turn, for vectors that are turned by the same angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
@@ -21,12 +24,22 @@ impl Turn {
 
     /// By `angle`, radians, to the left.
     pub fn by(angle: f64) -> Self {
-        // Most tools never turn.
-        if angle == 0.0 {
-            return Self::NONE;
+        // Nearly all turns of a frame are small, and most tools never turn.
+        if angle.abs() < SMALL {
+            return Self::small(angle);
         }
         let (sin, cos) = angle.sin_cos();
         Self { sin, cos }
+    }
+
+    /// By less than [`SMALL`]: Taylor series, exact to rounding.
+    fn small(angle: f64) -> Self {
+        let x = angle * angle;
+        let sin =
+            [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0];
+        let cos = [1.0, -0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0];
+        let sum = |terms: [f64; 6]| terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
+        Self { sin: angle * sum(sin), cos: sum(cos) }
     }
 
     /// `v`, turned.
@@ -37,5 +50,20 @@ impl Turn {
     /// `v`, turned the other way.
     pub fn back(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x + self.sin * v.y, -self.sin * v.x + self.cos * v.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_turns_are_those_of_sine_and_cosine() {
+        for k in -100..=100 {
+            let angle = SMALL * f64::from(k) / 100.0;
+            let Turn { sin, cos } = Turn::small(angle);
+            assert!((sin - angle.sin()).abs() < 2e-17 && (cos - angle.cos()).abs() < 2e-16);
+        }
+        assert_eq!(Turn::by(0.0), Turn::NONE);
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::bench::{FarCost, InferenceCost, PushCost, SearchCost};
+use crate::bench::{EquationCost, FarCost, InferenceCost, PushCost, SearchCost};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Figure, Section};
@@ -41,6 +41,23 @@ pub fn crowd_cost_document(objects: usize, networks: &[InferenceCost]) -> Docume
         ..Document::default()
     }
 }
+
+/// What the prior's equations took, by objects on the table.
+pub fn equation_document(costs: &[EquationCost]) -> Document {
+    Document {
+        title: "Where the prior's time goes, a push".to_owned(),
+        notes: vec![EQUATIONS.to_owned()],
+        sections: vec![section("", equation_table(costs))],
+        json: json!({"equations": costs}),
+        ..Document::default()
+    }
+}
+
+/// What the columns of the equations mean.
+const EQUATIONS: &str = "Two *systems* are solved in each piece of a frame, for displacements and \
+    for velocities. An *update* takes the resistance of moved objects anew and tries *sets* of \
+    contacts that stick, slide or stay open until one is right, else it *iterates*. *Operations* are \
+    those of points that drag and of linear equations alone, and are compared with matrix products.";
 
 /// Costs of a push by the number of objects that it cannot touch.
 pub fn far_document(costs: &[FarCost]) -> Document {
@@ -87,6 +104,35 @@ fn inference_table(costs: &[InferenceCost]) -> Table {
             ("fused of GEMM peak", Right, &|cost| format!("{:.0} %", 100.0 * cost.of_peak)),
             ("with its graph", Right, &|cost| format!("{:.0} %", 100.0 * with_graph(cost))),
             ("GEMM peak", Right, &|cost| format!("{:.0} GFLOP/s", cost.peak / 1e9)),
+        ],
+    )
+}
+
+/// Counts and times of the prior's equations.
+fn equation_table(costs: &[EquationCost]) -> Table {
+    let ratio = |of: u64, by: u64| format!("{:.1}", of as f64 / by.max(1) as f64);
+    let operations = |cost: &EquationCost| cost.tally.operations as f64 / cost.pushes.max(1) as f64;
+    Table::of(
+        costs,
+        &[
+            ("objects", Right, &|cost| cost.objects.to_string()),
+            ("joints", Left, &|cost| if cost.jointed { "some" } else { "none" }.to_owned()),
+            ("prior", Right, &|cost| seconds(cost.seconds)),
+            ("of planar at 1/120 s", Right, &|cost| format!("{:.2}", cost.seconds / cost.rival)),
+            ("systems", Right, &|cost| ratio(cost.tally.systems, cost.pushes as u64)),
+            ("constraints each", Right, &|cost| ratio(cost.tally.constraints, cost.tally.systems)),
+            ("updates each", Right, &|cost| ratio(cost.tally.updates, cost.tally.systems)),
+            ("objects an update", Right, &|cost| ratio(cost.tally.weighed, cost.tally.updates)),
+            ("sets an update", Right, &|cost| ratio(cost.tally.rounds, cost.tally.updates)),
+            ("equations a set", Right, &|cost| ratio(cost.tally.rows, cost.tally.rounds)),
+            ("iterated", Right, &|cost| {
+                let share = cost.tally.approached as f64 / cost.tally.updates.max(1) as f64;
+                format!("{:.1} %", 100.0 * share)
+            }),
+            ("operations", Right, &|cost| format!("{:.0}k", 1e-3 * operations(cost))),
+            ("of peak", Right, &|cost| {
+                format!("{:.1} %", 100.0 * operations(cost) / (cost.seconds * cost.peak))
+            }),
         ],
     )
 }

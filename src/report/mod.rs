@@ -33,7 +33,7 @@ mod verdict;
 
 pub use bars::{BarChart, Bars};
 pub use chart::{Axis, Chart, Mark, Series};
-pub use cost::{cost_document, crowd_cost_document, far_document};
+pub use cost::{cost_document, crowd_cost_document, equation_document, far_document};
 pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;

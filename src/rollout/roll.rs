@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    contact::Bodies,
+    contact::{Bodies, Tally},
     scene::{Job, ModelSpec, Record, Scene, Trajectory},
 };
 
@@ -23,11 +23,13 @@ pub struct RollSettings {
     /// Whether bodies that the motion cannot reach, not even through others, and frames in
     /// which nothing can touch are left out. The results are the same bits.
     pub pruned: bool,
+    /// Most objects that may be awake in a frame whose prior is corrected.
+    pub corrected: usize,
 }
 
 impl Default for RollSettings {
     fn default() -> Self {
-        Self { stride: 1, pruned: true }
+        Self { stride: 1, pruned: true, corrected: usize::MAX }
     }
 }
 
@@ -48,7 +50,7 @@ impl Roller {
             by,
             settings,
             memories: Vec::new(),
-            stepper: Stepper::default(),
+            stepper: Stepper::correcting(settings.corrected),
             work: Work::default(),
         }
     }
@@ -56,6 +58,11 @@ impl Roller {
     /// What all rollouts so far took.
     pub fn work(&self) -> &Work {
         &self.work
+    }
+
+    /// What the equations of all of their frames took.
+    pub fn tally(&self) -> Tally {
+        self.stepper.tally()
     }
 
     /// Rolls out every job until everything rests.

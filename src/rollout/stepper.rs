@@ -1,7 +1,7 @@
 //! One frame of many rollouts side by side: solved, corrected by the network, applied.
 
 use crate::{
-    contact::{FrameProblem, FrameSolver, Motion, Touch},
+    contact::{FrameProblem, FrameSolver, Motion, Tally, Touch},
     graph::Batch,
 };
 
@@ -33,8 +33,9 @@ pub struct Found<'a> {
 }
 
 /// Steps many walks by a frame at a time, on memory that it keeps from one step to the next.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Stepper {
+    most: usize,
     solver: FrameSolver,
     batch: Batch,
     corrections: Vec<[f64; 6]>,
@@ -45,6 +46,24 @@ pub struct Stepper {
 }
 
 impl Stepper {
+    /// A stepper that corrects frames in which at most `most` objects are awake.
+    pub fn correcting(most: usize) -> Self {
+        Self {
+            most,
+            solver: FrameSolver::default(),
+            batch: Batch::default(),
+            corrections: Vec::new(),
+            touches: Vec::new(),
+            motions: Vec::new(),
+            walking: Vec::new(),
+        }
+    }
+
+    /// What the equations of all frames so far took.
+    pub fn tally(&self) -> Tally {
+        self.solver.tally()
+    }
+
     /// Takes every walk that has a frame left on by that frame, all graphs in one batch; returns
     /// whether any had.
     ///
@@ -55,7 +74,7 @@ impl Stepper {
         walks: &mut [W],
         correct: Option<&mut (impl FnMut(&Batch, &mut Vec<[f64; 6]>) + ?Sized)>,
     ) -> bool {
-        let Self { solver, batch, corrections, touches, motions, walking } = self;
+        let Self { most, solver, batch, corrections, touches, motions, walking } = self;
         batch.clear();
         walking.clear();
         if motions.len() < walks.len() {
@@ -69,8 +88,10 @@ impl Stepper {
             walking.push(true);
             let relations = batch.relation_count();
             let frame = if correct.is_some() {
-                let (frame, forces) = solver.solve_with_forces(problem);
-                batch.add(graph as u32, &frame, &forces);
+                let (frame, forces) = solver.solve_with_forces_of_few(problem, *most);
+                if let Some(forces) = forces {
+                    batch.add(graph as u32, &frame, &forces);
+                }
                 frame
             } else {
                 solver.solve(problem)

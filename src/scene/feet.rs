@@ -1,4 +1,4 @@
-//! The points that an object stands on, and how they drag.
+//! The points that an object stands on.
 
 use crate::geometry::{Footprint, Vector};
 
@@ -191,34 +191,9 @@ impl Feet {
         (0..self.count).map(|k| (Vector::new(self.x[k], self.y[k]), self.load[k]))
     }
 
-    /// What resists a planar motion of the object, whose own x axis points along the unit vector
-    /// `axis`, when every point drags with its load along its own motion, and those slower than
-    /// `least` as if they were so fast. With d the motion of a point, the weight of its place is
-    /// load / max(|d|, `least`). The object leans: the centre of its load lies `lean` metres aside.
-    pub fn drag(
-        &self,
-        axis: Vector,
-        (linear, angular): (Vector, f64),
-        least: f64,
-        lean: Vector,
-    ) -> Drag {
-        let speed = linear.norm();
-        // The points of what is round stand for all of its turns, so they turn with the motion.
-        let (cos, sin) = match self.round {
-            true if speed > 0.0 => (linear.x / speed, linear.y / speed),
-            true => (1.0, 0.0),
-            false => (axis.x, axis.y),
-        };
-        let local = |v: Vector| Vector::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
-        let mut drag = self.drag_along(local(linear), angular, least, self.slope(local(lean)));
-        let Drag { first, .. } = drag;
-        drag.first = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
-        drag
-    }
-
     /// How much more of its load than at the centre a point carries per metre, so that the centre
     /// of the load lies at `lean`: the least change that does it (even springs).
-    fn slope(&self, lean: Vector) -> Vector {
+    pub(super) fn slope(&self, lean: Vector) -> Vector {
         let [xx, xy, yy] = self.stiffness;
         Vector::new(xx * lean.x + xy * lean.y, xy * lean.x + yy * lean.y)
     }
@@ -234,52 +209,6 @@ impl Feet {
         let whole: f64 = load.iter().sum();
         load.map(|load| load / whole)
     }
-
-    /// [`Self::drag`] in the points' own frame.
-    #[inline]
-    fn drag_along(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
-        // Whole blocks and a sum for each place in them, so that the compiler makes vectors of
-        // them; spare points carry nothing.
-        let mut sums = [[0.0; BLOCK]; 5];
-        for block in 0..self.count.div_ceil(BLOCK) {
-            let range = block * BLOCK..(block + 1) * BLOCK;
-            let (x, y) = (&self.x[range.clone()], &self.y[range.clone()]);
-            let load = &self.load[range];
-            for k in 0..BLOCK {
-                let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
-                let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
-                let weight = load / (u * u + v * v).sqrt().max(least);
-                sums[0][k] += weight;
-                sums[1][k] += weight * x[k];
-                sums[2][k] += weight * y[k];
-                sums[3][k] += weight * (x[k] * x[k] + y[k] * y[k]);
-                sums[4][k] += load;
-            }
-        }
-        let [sum, x, y, second, whole] = sums.map(|places| places.iter().sum::<f64>());
-        let scale = 1.0 / whole;
-        Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
-    }
-
-    /// The same where every point moves by `moved`.
-    pub fn even_drag(&self, moved: f64) -> Drag {
-        let first = Vector::zeros();
-        Drag { sum: 1.0 / moved, first, second: self.mean_square / moved }
-    }
-}
-
-/// Points that the compiler treats together.
-const BLOCK: usize = 4;
-
-/// Moments of the weights of points that drag, see [`Feet::drag`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Drag {
-    /// Sum of the weights.
-    pub sum: f64,
-    /// Sum of weight times place against the centre, in world axes.
-    pub first: Vector,
-    /// Sum of weight times squared distance from the centre.
-    pub second: f64,
 }
 
 /// The product of two complex numbers.

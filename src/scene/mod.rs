@@ -9,6 +9,7 @@
 //! and gives these types. SI units and radians throughout.
 
 mod balance;
+mod drag;
 mod feet;
 mod friction;
 mod groups;
@@ -36,7 +37,8 @@ mod warning;
 mod world;
 
 pub use balance::carries;
-pub use feet::{Drag, Feet, MAX_FEET};
+pub use drag::Drag;
+pub use feet::{Feet, MAX_FEET};
 pub use friction::{PairFriction, Surface, pair_friction};
 pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;

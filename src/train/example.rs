@@ -171,7 +171,7 @@ impl<'a> Examples<'a> {
         let mut drawn = Supervised::default();
         let mut memory = Memory::default();
         if let Some(forward) = forward {
-            let (mut stepper, mut buffers) = (Stepper::default(), Buffers::default());
+            let (mut stepper, mut buffers) = (Stepper::correcting(usize::MAX), Buffers::default());
             let mut correct = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
                 forward.run(batch, &mut buffers, corrections);
             };

@@ -35,8 +35,8 @@ const ROOMS: [(&str, &[&str]); 22] = [
     (
         "bench",
         &[
-            "geometry", "scene", "asset", "store", "sim", "contact", "graph", "network", "effect",
-            "judge", "plan", "verify", "solve", "dataset",
+            "geometry", "scene", "asset", "store", "sim", "contact", "graph", "network", "rollout",
+            "effect", "judge", "plan", "verify", "solve", "dataset",
         ],
     ),
     ("report", &["geometry", "scene", "asset", "store", "judge", "fit", "solve", "train", "bench"]),
@@ -76,7 +76,7 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("candle_core", &["network", "train"]),
     ("safetensors", &["network", "train"]),
     ("gemm", &["network", "train"]),
-    ("pulp", &["network"]),
+    ("pulp", &["network", "scene"]),
     ("clarabel", &["plan"]),
     ("rand", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
     ("rand_pcg", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),

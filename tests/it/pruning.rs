@@ -25,7 +25,8 @@ use pushplan::{
 /// beside it, and that changes with the frames that are skipped.
 fn compare(forward: &Forward, scene: &Scene, job: &Job, stride: usize) -> (Work, Work) {
     let run = |pruned, record| {
-        let mut roller = Roller::new(ModelKind::NETWORK.into(), RollSettings { stride, pruned });
+        let settings = RollSettings { stride, pruned, ..RollSettings::default() };
+        let mut roller = Roller::new(ModelKind::NETWORK.into(), settings);
         let mut buffers = Buffers::default();
         let rolled = roller.roll(
             scene,

@@ -7,11 +7,12 @@ use clap::Args;
 
 use crate::asset::load_task;
 use crate::bench::{
-    FAR_COUNTS, Suite, SuiteKind, crowd_cases, far_costs, inference_costs, push_costs, search_costs,
+    FAR_COUNTS, Suite, SuiteKind, crowd_cases, equation_costs, far_costs, inference_costs,
+    push_costs, search_costs,
 };
 use crate::cli::{error::CliError, model, output, session::Session, solve::solve_error};
 use crate::effect::{EffectModel, Network, Simulated};
-use crate::report::{cost_document, crowd_cost_document, far_document};
+use crate::report::{cost_document, crowd_cost_document, equation_document, far_document};
 use crate::sim::Simulator;
 use crate::solve::Effort;
 
@@ -23,7 +24,7 @@ pub struct CostArgs {
     #[command(flatten)]
     common: Common,
     /// The task that is searched
-    #[arg(value_name = "TASK", required_unless_present_any = ["crowd", "far"])]
+    #[arg(value_name = "TASK", required_unless_present_any = ["crowd", "far", "equations"])]
     task: Option<PathBuf>,
     /// Time the network alone, on scenes of this many objects, some joined
     #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
@@ -32,6 +33,9 @@ pub struct CostArgs {
     /// Time pushes beside up to 100 objects that they cannot touch, and draw the curves
     #[arg(long, conflicts_with_all = ["task", "crowd"])]
     far: bool,
+    /// Count and time what the prior's equations take, with 1 to 12 objects, free and jointed
+    #[arg(long, conflicts_with_all = ["task", "crowd", "far"])]
+    equations: bool,
     /// Folder for far.svg, the curves of --far
     #[arg(long, value_name = "DIR", requires = "far")]
     out: Option<PathBuf>,
@@ -60,7 +64,11 @@ const NETWORK_BATCHES: [usize; 3] = [1, 64, 512];
 
 pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let Some(task) = &args.task else {
-        return if args.far { far_cost(args, session) } else { crowd_cost(args, session) };
+        return match args {
+            CostArgs { equations: true, .. } => equation_cost(args, session),
+            CostArgs { far: true, .. } => far_cost(args, session),
+            _ => crowd_cost(args, session),
+        };
     };
     let library = args.common.library.load()?;
     let task = load_task(task, &library)?;
@@ -94,6 +102,14 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES);
     spinner.finish_and_clear();
     args.common.form.show(session, &crowd_cost_document(objects, &networks))
+}
+
+fn equation_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let spinner = session.spinner("counting and timing");
+    let costs = equation_costs(&library, args.seed, usize::from(args.pushes));
+    spinner.finish_and_clear();
+    args.common.form.show(session, &equation_document(&costs))
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {

@@ -1,0 +1,57 @@
+//! The forces of a frame taken as a whole, and what each of them alone does.
+
+use nalgebra::Vector3;
+
+use crate::{geometry::Vector, scene::State};
+
+use super::{bodies::Bodies, prior::Prior, twist::shift};
+
+/// The forces of a frame taken as a whole.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameForces<'a> {
+    bodies: &'a Bodies,
+    state: &'a State,
+    prior: &'a Prior,
+}
+
+impl<'a> FrameForces<'a> {
+    pub(super) fn new(bodies: &'a Bodies, state: &'a State, prior: &'a Prior) -> Self {
+        Self { bodies, state, prior }
+    }
+
+    /// The force of contact `index` along its normal, newtons.
+    pub fn normal(&self, index: usize) -> f64 {
+        self.prior.system.constraints[index].force.x
+    }
+
+    /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
+    /// turn (radians).
+    pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
+        let c = &self.prior.system.constraints[index];
+        let pressed = if c.a == self.bodies.groups.of[object] {
+            c.to[0] * c.force.x + c.to[1] * c.force.y
+        } else {
+            -(c.from[0] * c.force.x + c.from[1] * c.force.y)
+        };
+        self.moved(object, &pressed)
+    }
+
+    /// The same for the force of joint `index`; none for a joint within a rigid group.
+    pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
+        let Some(tie) = self.prior.joints[index].map(|tie| &self.prior.system.ties[tie]) else {
+            return (Vector::zeros(), 0.0);
+        };
+        let pressed = if tie.b == self.bodies.groups.of[object] {
+            tie.to[0] * tie.force.x + tie.to[1] * tie.force.y
+        } else {
+            -(tie.from[0] * tie.force.x + tie.from[1] * tie.force.y)
+        };
+        self.moved(object, &pressed)
+    }
+
+    fn moved(&self, object: usize, pressed: &Vector3<f64>) -> (Vector, f64) {
+        let unknown = &self.prior.system.unknowns[self.bodies.groups.of[object].0];
+        let twist = unknown.inverse * pressed;
+        (shift(&twist, self.state.poses[object].position - unknown.centre), twist.z)
+    }
+}
