@@ -1,13 +1,14 @@
 //! `pushplan verify`: replays a plan and gives a verdict.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
 
 use crate::asset::PlanFile;
-use crate::report::{replay_warnings, verdict_document};
-use crate::scene::Situation;
+use crate::effect::EffectModel;
+use crate::report::{quoted, replay_warnings, verdict_document, verdict_page};
+use crate::scene::{Job, Record, Situation, Trajectory, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
 
@@ -16,6 +17,7 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
+    model, output,
     session::Session,
     solve::{share, time_limit},
 };
@@ -50,12 +52,16 @@ pub struct VerifyArgs {
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Write a page that plays the replays, <DIR>/<task>.html
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let mut file = PlanFile::load(&args.plan)?;
+    args.out.as_deref().map(output::prepare).transpose()?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
@@ -75,10 +81,44 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     for warning in replay_warnings(&verdict) {
         session.warn(&warning);
     }
-    args.form.show(session, &verdict_document(&file, &verdict))?;
+    let mut document = verdict_document(&file, &verdict);
+    let written = args.out.as_deref().map(|out| write(out, args, session, &file, &verdict));
+    if let Some(Ok(path)) = &written {
+        document.wrote(std::slice::from_ref(path));
+    }
+    args.form.show(session, &document)?;
+    written.transpose()?;
     Ok(match (verdict.passed, verdict.works()) {
         (true, _) => exit_code::DONE,
         (false, true) => exit_code::FRAGILE,
         (false, false) => exit_code::FAILED_VERIFICATION,
     })
+}
+
+/// The page, with what the plan's effect model says beside the replays.
+fn write(
+    out: &Path,
+    args: &VerifyArgs,
+    session: &Session,
+    file: &PlanFile,
+    verdict: &Verdict,
+) -> Result<PathBuf, CliError> {
+    let predicted = file.model.as_ref().map(|spec| -> Result<Option<Trajectory>, CliError> {
+        let model = model::load(spec)?;
+        let job = Job::stated(&file.task.scene, file.plan.motion(&file.tool));
+        let jobs = std::slice::from_ref(&job);
+        let mut rolled =
+            session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames));
+        Ok(rolled.pop())
+    });
+    let predicted = match predicted.transpose() {
+        Ok(predicted) => predicted.flatten(),
+        Err(error) => {
+            session.warn(&format!("the page shows no prediction: {error}"));
+            None
+        }
+    };
+    let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
+    let page = verdict_page(file, predicted.as_ref(), verdict, &command);
+    output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
 }

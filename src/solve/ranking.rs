@@ -61,7 +61,7 @@ impl Solving<'_> {
             status,
             stopped: self.watch.cancelled(),
             plans,
-            tools: self.workspace.tools.iter().map(|tool| tool.name.clone()).collect(),
+            tools: self.workspace.tools.iter().map(|tool| Tool::clone(tool)).collect(),
             candidates: self.candidates,
             statistics: self.statistics,
             warnings,

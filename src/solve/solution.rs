@@ -128,8 +128,8 @@ pub struct Solution {
     pub stopped: bool,
     /// Ranked plans, the one to use first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
-    /// The tools that were offered, by name.
-    pub tools: Vec<String>,
+    /// The tools that were offered; candidates name them by index.
+    pub tools: Vec<Tool>,
     /// Every way to push that the search considered, with the best that it leads to.
     pub candidates: Vec<ScoredPush>,
     /// What it cost.
