@@ -107,8 +107,7 @@ fn write(
         let model = model::load(spec)?;
         let job = Job::stated(&file.task.scene, file.plan.motion(&file.tool));
         let jobs = std::slice::from_ref(&job);
-        let mut rolled =
-            session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames));
+        let mut rolled = session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames));
         Ok(rolled.pop())
     });
     let predicted = match predicted.transpose() {

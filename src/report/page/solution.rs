@@ -104,7 +104,8 @@ fn choice(solution: &Solution) -> Vec<Choice> {
         let own = |push: &&ScoredPush| push.tool == index;
         let pushes: Vec<&ScoredPush> = solution.candidates.iter().filter(own).collect();
         let best = pushes.iter().filter_map(|push| push.score).reduce(f64::min);
-        let of_tool = |plan: &RankedPlan| plan.plan.tool == tool.name && !plan.plan.pushes.is_empty();
+        let of_tool =
+            |plan: &RankedPlan| plan.plan.tool == tool.name && !plan.plan.pushes.is_empty();
         let plan = solution.plans.iter().position(of_tool);
         let refused = pushes.iter().filter(|push| push.score.is_none() && push.refused.is_some());
         let choice = Choice {
@@ -142,9 +143,7 @@ fn lost(
             Some(reason) => format!("no push can be made, mostly as {reason}"),
             None => "no push was tried".to_owned(),
         },
-        (None, Some(best)) if is_behind(best) => {
-            "leads through what does not give way".to_owned()
-        }
+        (None, Some(best)) if is_behind(best) => "leads through what does not give way".to_owned(),
         (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
         (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
     }

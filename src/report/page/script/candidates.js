@@ -13,7 +13,7 @@
   const { considered, shown: drawn } = candidates;
   byId('candidates-words').textContent = 'Rows: which way a push goes. Columns: which part of the tool makes '
     + 'contact, and how far the object lies to the left of its middle. Colour: the best predicted score, '
-    + 'which is the distance from the goal in tolerances; up to 1 the goal is reached.'
+    + 'which is how far from the goal it ends, in tolerances; up to 1 the goal is reached.'
     + (drawn < considered ? ` Shown are ${drawn} of ${considered}.` : '');
 
   const unique = (list) => [...new Set(list)];
@@ -109,6 +109,8 @@
     const now = page.tools[plan().tool].name;
     if (now === tool) return;
     tool = now;
+    const pushes = plan().strokes.length;
+    if (counts.includes(pushes)) levels.value = `${pushes}`;
     if (named.includes(now)) tools.value = now;
     draw();
   });

@@ -1,16 +1,17 @@
 // How far the object is from the goal over time, under the clock of the replay.
 
 (() => {
-  const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [800, 190, 52, 12, 12, 26];
-  const root = svg('svg', { role: 'img', class: 'plot', viewBox: `0 0 ${WIDTH} ${HEIGHT}` });
+  const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [190, 40, 12, 12, 26];
+  let width = 800;
+  const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');
   const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
   const dots = svg('g');
   root.append(svg('title', {}, 'Distance from the goal over time'), still, hand, dots);
   byId('chart').append(root);
 
-  let most = 1;
-  const x = (time) => +(LEFT + (time / (duration() || 1)) * (WIDTH - LEFT - RIGHT)).toFixed(1);
+  let most = 1; // metres
+  const x = (time) => +(LEFT + (time / (duration() || 1)) * (width - LEFT - RIGHT)).toFixed(1);
   const y = (error) => +(HEIGHT - BOTTOM - (error / most) * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
   /** A round step that cuts `span` into at most `count` pieces. */
@@ -21,23 +22,25 @@
 
   whenPlanChanges.push(() => {
     still.replaceChildren();
+    width = widthOf(byId('chart'));
+    root.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
     const tolerance = page.stage.goal.tolerance * LENGTH;
     const errors = replays().flatMap((replay) => Array.from(replay.time, (t) => replay.error(t)));
     most = Math.max(tolerance * 1.2, ...errors) * 1.06 || 1;
     const bottom = HEIGHT - BOTTOM;
     still.append(svg('rect', {
-      x: LEFT, y: y(tolerance), width: WIDTH - LEFT - RIGHT, height: bottom - y(tolerance), class: 'allowed',
+      x: LEFT, y: y(tolerance), width: width - LEFT - RIGHT, height: bottom - y(tolerance), class: 'allowed',
     }));
     const rise = roundStep(most, 4);
     for (let k = 0; k * rise <= most; k++) {
       const height = y(k * rise);
       still.append(
-        svg('line', { x1: LEFT, x2: WIDTH - RIGHT, y1: height, y2: height, class: 'grid' }),
+        svg('line', { x1: LEFT, x2: width - RIGHT, y1: height, y2: height, class: 'grid' }),
         svg('text', { x: LEFT - 7, y: height + 4, class: 'small end' }, `${+(k * rise * 1000).toPrecision(6)}`),
       );
     }
-    still.append(svg('text', { x: LEFT + 6, y: TOP + 10, class: 'small' }, 'off the goal, mm'));
-    const pace = roundStep(duration() || 1, 8);
+    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, 'off the goal, mm'));
+    const pace = roundStep(duration() || 1, Math.min(8, width / 60));
     for (let k = 0; k * pace <= duration() + 1e-9; k++) {
       const name = `${+(k * pace).toPrecision(6)}${k ? '' : ' s'}`;
       still.append(svg('text', { x: x(k * pace), y: HEIGHT - 8, class: 'small middle' }, name));
@@ -63,8 +66,8 @@
 
   const scrub = (event) => {
     const box = root.getBoundingClientRect();
-    const across = ((event.clientX - box.left) / box.width) * WIDTH;
-    showTime(((across - LEFT) / (WIDTH - LEFT - RIGHT)) * duration());
+    const across = ((event.clientX - box.left) / box.width) * width;
+    showTime(((across - LEFT) / (width - LEFT - RIGHT)) * duration());
   };
   root.addEventListener('pointerdown', (event) => {
     play(false);

@@ -44,6 +44,13 @@
     act(event);
   });
 
+  let width = 0;
+  new ResizeObserver(() => {
+    // Figures are drawn for their width; their own change of height is none.
+    const now = widthOf(byId('stage'));
+    if (now !== width) showPlan(view.plan);
+    width = now;
+  }).observe(byId('stage'));
   addEventListener('hashchange', followLink);
   followLink();
 })();

@@ -28,6 +28,9 @@ function svg(tag, attributes = {}, ...children) {
   return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 }
 
+/** Width of a figure in pixels, so that its text is as large on a phone as on a desk. */
+const widthOf = (figure) => Math.max(300, Math.round(figure.clientWidth) || 800);
+
 /** A length in metres as people read it. */
 function millimetres(metres) {
   const value = metres * 1000;

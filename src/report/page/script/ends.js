@@ -16,7 +16,7 @@
     const tolerance = goal.tolerance * LENGTH;
     const far = Math.max(...[...finals, ...ends].map(({ x, y }) => Math.hypot(x, y)));
     // One that went astray must not shrink all others to a dot.
-    const most = Math.min(Math.max(tolerance * 1.15, far * 1.1), tolerance * 4);
+    const most = Math.min(Math.max(tolerance * 1.3, far * 1.1), tolerance * 4);
     const scale = SIZE / 2 / most;
     const map = ({ x, y }) => {
       const away = Math.hypot(x, y);

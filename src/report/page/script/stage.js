@@ -1,15 +1,16 @@
 // The table from above: what stands where at the time of the clock.
 
 (() => {
-  const WIDTH = 800;
   const MARGIN = 0.05; // metres around everything
   const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');
   const moving = svg('g');
-  root.append(svg('title', {}, 'The table from above'), still, moving);
+  const pushes = svg('g');
+  root.append(svg('title', {}, 'The table from above'), still, moving, pushes);
   byId('stage').append(root);
 
-  let scale = 1;
+  let width = 800; // pixels
+  let scale = 1; // pixels a metre
   let low = [0, 0];
   let high = [0, 0];
   let bodies = [];
@@ -66,6 +67,8 @@
     const { goal, objects, obstacles } = page.stage;
     add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
+    // Where nothing moves there is room to show the robot.
+    if (!plan().strokes.length) add([0, 0]);
     const tool = page.tools[plan().tool];
     for (const stroke of plan().strokes) {
       for (const end of [posed(stroke.from), posed(stroke.to)]) {
@@ -78,12 +81,13 @@
     }
     low = low.map((value) => value - MARGIN);
     high = high.map((value) => value + MARGIN);
-    const [width, height] = [high[0] - low[0], high[1] - low[1]];
-    scale = Math.min(WIDTH / width, 560 / height);
-    const spare = (WIDTH / scale - width) / 2;
+    width = widthOf(byId('stage'));
+    const [across, along] = [high[0] - low[0], high[1] - low[1]];
+    scale = Math.min(width / across, Math.min(540, width * 0.9) / along);
+    const spare = (width / scale - across) / 2;
     low[0] -= spare;
     high[0] += spare;
-    root.setAttribute('viewBox', `0 0 ${WIDTH} ${Math.max(1, px(high[1] - low[1]))}`);
+    root.setAttribute('viewBox', `0 0 ${width} ${Math.max(1, px(high[1] - low[1]))}`);
   }
 
   function drawGrid() {
@@ -144,11 +148,18 @@
       const points = Array.from(replay.time, (_, k) => [columns[0][k], columns[1][k]]);
       still.append(line(points, { class: `way ${replay.layer}` }));
     }
+  }
+
+  /** Where the end effector goes, over everything. */
+  function drawPushes() {
+    pushes.replaceChildren();
     const grip = posed(page.tools[plan().tool].grip);
     plan().strokes.forEach((stroke, k) => {
       const [from, to] = [stroke.from, stroke.to].map((end) => map(placed(posed(end), grip)));
-      still.append(
+      const turn = (Math.atan2(to[1] - from[1], to[0] - from[0]) * 180) / Math.PI;
+      pushes.append(
         svg('line', { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: 'push' }),
+        svg('path', { d: 'M-9-5l9 5-9 5', class: 'push head', transform: `translate(${to[0]} ${to[1]}) rotate(${turn})` }),
         svg('circle', { cx: from[0], cy: from[1], r: 9, class: 'push-dot' }),
         svg('text', { x: from[0], y: from[1] + 4, class: 'push-number' }, `${k + 1}`),
       );
@@ -191,6 +202,7 @@
     fit();
     drawStill();
     drawMoving();
+    drawPushes();
   });
   whenTimeChanges.push(() => {
     for (const [shape, place] of bodies) shape.setAttribute('transform', place(view.time));

@@ -11,7 +11,8 @@
     const badge = byId('badge');
     badge.textContent = WORDS[standing];
     badge.className = `badge ${standing}`;
-    byId('verdict').textContent = `${plan().name}: ${verdict}`;
+    byId('plan').textContent = `Plan${page.plans.length > 1 ? ` ${view.plan + 1}` : ''}: ${plan().name}.`;
+    byId('verdict').textContent = `${verdict[0].toUpperCase()}${verdict.slice(1)}.`;
   }
 
   function layers() {
@@ -45,7 +46,12 @@
     }
   }
 
-  const headed = (names) => html('tr', {}, ...names.map((name) => html('th', { scope: 'col' }, name)));
+  /** Whether a column of a table holds numbers: those between the first two and the last one. */
+  const alignment = (column, columns) => ({ class: column > 1 && column < columns - 1 ? 'number' : '' });
+
+  const headed = (names) => html('tr', {}, ...names.map((name, c) => html('th', {
+    scope: 'col', ...alignment(c, names.length),
+  }, name)));
 
   /** A button that opens a plan. */
   function opener(index, text) {
@@ -61,7 +67,7 @@
   function plans() {
     byId('plans-card').hidden = page.plans.length < 2;
     const rows = page.plans.map((one, k) => {
-      const cells = one.cells.map((cell, c) => html('td', { class: c > 0 && c < 5 ? 'number' : '' }, cell));
+      const cells = one.cells.map((cell, c) => html('td', alignment(c + 1, one.cells.length + 1), cell));
       const row = html('tr', {}, html('td', {}, opener(k, `${k + 1}`)), ...cells);
       if (k === view.plan) row.setAttribute('aria-current', 'true');
       return row;
@@ -78,7 +84,7 @@
       html('td', { class: 'number' }, `${refused}`),
       html('td', { class: 'number' }, best),
       html('td', {}, why)));
-    const names = ['', 'tool', 'pushes considered', 'cannot be made', 'best score', 'why'];
+    const names = ['', 'tool', 'pushes considered', 'cannot be made', 'best score in the search', 'why'];
     byId('tools').replaceChildren(headed(names), ...rows);
   }
 
