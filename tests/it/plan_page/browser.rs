@@ -78,11 +78,12 @@ impl Browser {
     /// Opens a file, with what stands behind `#`, and waits until it is there.
     pub fn open(&mut self, file: &Path, part: &str) {
         let url = format!("file://{}#{part}", file.display());
-        self.call("Page.navigate", json!({"url": "about:blank"}));
-        self.until("Page.loadEventFired");
-        self.events.clear();
-        self.call("Page.navigate", json!({"url": url}));
-        self.until("Page.loadEventFired");
+        // From another page, as a new `#` alone would load nothing.
+        for url in ["about:blank", &url] {
+            self.events.clear();
+            self.call("Page.navigate", json!({"url": url}));
+            self.until("Page.loadEventFired");
+        }
     }
 
     /// The value of an expression on the page.
