@@ -1,14 +1,13 @@
 //! `pushplan verify`: replays a plan and gives a verdict.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
 
 use crate::asset::PlanFile;
-use crate::effect::EffectModel;
-use crate::report::{quoted, replay_warnings, verdict_document, verdict_page};
-use crate::scene::{Job, Record, Situation, Trajectory, Verdict};
+use crate::report::{quoted, replay_warnings, verdict_document};
+use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
 
@@ -17,7 +16,7 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
-    model, output,
+    output, page,
     session::Session,
     solve::{share, time_limit},
 };
@@ -82,7 +81,10 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         session.warn(&warning);
     }
     let mut document = verdict_document(&file, &verdict);
-    let written = args.out.as_deref().map(|out| write(out, args, session, &file, &verdict));
+    let written = args.out.as_deref().map(|out| {
+        let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
+        page::write(out, session, &file, &verdict, &command)
+    });
     if let Some(Ok(path)) = &written {
         document.wrote(std::slice::from_ref(path));
     }
@@ -93,31 +95,4 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         (false, true) => exit_code::FRAGILE,
         (false, false) => exit_code::FAILED_VERIFICATION,
     })
-}
-
-/// The page, with what the plan's effect model says beside the replays.
-fn write(
-    out: &Path,
-    args: &VerifyArgs,
-    session: &Session,
-    file: &PlanFile,
-    verdict: &Verdict,
-) -> Result<PathBuf, CliError> {
-    let predicted = file.model.as_ref().map(|spec| -> Result<Option<Trajectory>, CliError> {
-        let model = model::load(spec)?;
-        let job = Job::stated(&file.task.scene, file.plan.motion(&file.tool));
-        let jobs = std::slice::from_ref(&job);
-        let mut rolled = session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames));
-        Ok(rolled.pop())
-    });
-    let predicted = match predicted.transpose() {
-        Ok(predicted) => predicted.flatten(),
-        Err(error) => {
-            session.warn(&format!("the page shows no prediction: {error}"));
-            None
-        }
-    };
-    let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
-    let page = verdict_page(file, predicted.as_ref(), verdict, &command);
-    output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
 }

@@ -202,6 +202,47 @@ fn names_stay_text_and_the_browser_runs_nothing_else() {
     assert!(browser.complaints().iter().any(|line| line.contains("connect-src")), "{fetched}");
 }
 
+/// Where no solution is at hand a page is made of what is: an action, or a benchmark's record.
+#[test]
+fn an_action_and_a_task_of_a_benchmark_have_pages() {
+    let folder = TempDir::new().expect("a folder");
+    let within = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (task, run) = ("tasks/pull-back.yaml", within("run"));
+    let replays = |page: &str| {
+        let page = std::fs::read_to_string(page).expect("a page");
+        assert!(page.len() <= LARGEST, "{} bytes", page.len());
+        ["predicted", "planar", "spatial"]
+            .map(|layer| page.matches(&format!("{{\"layer\":\"{layer}\",\"by\":")).count())
+    };
+    let out = within("predicted");
+    let predict = ["predict", task, "--tool", "l-hook", "--push", "can:180", "--out", &out];
+    assert_eq!(exit_code(&predict), 0);
+    assert_eq!(replays(&format!("{out}/pull-back.html")), [1, 1, 1]);
+
+    assert_eq!(exit_code(&["bench", "tasks", task, "--out", &run]), 0);
+    let out = within("pages");
+    assert_eq!(exit_code(&["bench", "report", &run, "--page", task, "--out", &out]), 0);
+    assert_eq!(replays(&format!("{out}/pull-back.html")), [1, 1, 1]);
+    // Another task was not measured, and one that was changed since not as it is now.
+    let other = ["bench", "report", &run, "--page", "tasks/pull-back-twice.yaml", "--out", &out];
+    assert_eq!(exit_code(&other), 2);
+    let text =
+        std::fs::read_to_string(task).expect("a task").replace("friction: 0.4", "friction: 0.1");
+    let changed = within("pull-back.yaml");
+    std::fs::write(&changed, text).expect("a file");
+    assert_eq!(exit_code(&["bench", "report", &run, "--page", &changed, "--out", &out]), 2);
+}
+
+/// How the program ends, run in the checkout.
+fn exit_code(arguments: &[&str]) -> i32 {
+    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("the command runs");
+    output.status.code().expect("no signal")
+}
+
 /// A shipped task, solved.
 fn solved(path: &str) -> (Task, Solution) {
     let library = ToolLibrary::embedded().expect("the shipped tools");

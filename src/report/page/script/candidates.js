@@ -10,11 +10,11 @@
   const STEPS = [0.25, 0.5, 1, 2, 4, 8];
   const [tools, levels] = [byId('candidates-tool'), byId('candidates-level')];
 
-  const { considered, shown: drawn } = candidates;
+  const { considered, shown: kept } = candidates;
   byId('candidates-words').textContent = 'Rows: which way a push goes. Columns: which part of the tool makes '
     + 'contact, and how far the object lies to the left of its middle. Colour: the best predicted score, '
     + 'which is how far from the goal it ends, in tolerances; up to 1 the goal is reached.'
-    + (drawn < considered ? ` Shown are ${drawn} of ${considered}.` : '');
+    + (kept < considered ? ` Shown are ${kept} of ${considered}.` : '');
 
   const unique = (list) => [...new Set(list)];
   const order = page.choice.map(({ tool }) => tool);
@@ -85,7 +85,8 @@
     const wanted = candidates.grids.filter(({ tool, pushes }) => tool === tools.value && `${pushes}` === levels.value);
     byId('grids').replaceChildren(...wanted.map(grid));
     byId('cell').textContent = 'Point at a cell for what it says.';
-    const counts = candidates.reasons.map((_, k) => wanted.reduce((sum, { cells }) => sum + cells.filter((cell) => cell === REFUSED - k).length, 0));
+    const drawn = wanted.flatMap(({ cells }) => cells);
+    const counts = candidates.reasons.map((_, k) => drawn.filter((cell) => cell === REFUSED - k).length);
     const key = (name, text, mark = '') => html('span', { class: 'key' },
       svg('svg', { viewBox: '0 0 20 20', 'aria-hidden': 'true' },
         svg('rect', { width: 20, height: 20, rx: 3, class: `cell ${name}` }),
@@ -93,7 +94,7 @@
     const scores = STEPS.map((most, k) => key(`score-${k}`, `≤ ${most}`));
     byId('legend').replaceChildren(
       ...scores, key(`score-${STEPS.length}`, `> ${STEPS.at(-1)}`), key('blocked', 'blocked'), key('untried', 'not tried'),
-      ...candidates.reasons.map((reason, k) => key('refused', `${reason} (${counts[k]})`, `${k + 1}`)));
+      ...candidates.reasons.map((reason, k) => (counts[k] ? key('refused', `${reason} (${counts[k]})`, `${k + 1}`) : '')));
   }
 
   const point = (event) => {

@@ -9,8 +9,10 @@
   byId('forward').addEventListener('click', () => step(1));
   byId('speed').addEventListener('change', (event) => { view.speed = Number(event.target.value); });
   scrub.addEventListener('input', () => {
+    // Before the clock puts the slider back to its own time.
+    const wanted = Number(scrub.value);
     play(false);
-    showTime(Number(scrub.value));
+    showTime(wanted);
   });
   scrub.addEventListener('change', keepLink);
 
@@ -42,6 +44,11 @@
     if (!act) return;
     event.preventDefault();
     act(event);
+  });
+
+  // A button that was clicked must not keep the space key to itself; one reached by key does.
+  document.addEventListener('click', (event) => {
+    if (event.detail > 0) event.target.closest?.('button')?.blur();
   });
 
   let width = 0;

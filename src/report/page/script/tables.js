@@ -68,11 +68,14 @@
     byId('plans-card').hidden = page.plans.length < 2;
     const rows = page.plans.map((one, k) => {
       const cells = one.cells.map((cell, c) => html('td', alignment(c + 1, one.cells.length + 1), cell));
-      const row = html('tr', {}, html('td', {}, opener(k, `${k + 1}`)), ...cells);
-      if (k === view.plan) row.setAttribute('aria-current', 'true');
-      return row;
+      return html('tr', {}, html('td', {}, opener(k, `${k + 1}`)), ...cells);
     });
     byId('plans').replaceChildren(headed(['', ...page.columns]), ...rows);
+  }
+
+  function current() {
+    const rows = byId('plans').querySelectorAll('tr:not(:first-child)');
+    rows.forEach((row, k) => row.setAttribute('aria-current', k === view.plan));
   }
 
   function tools() {
@@ -90,7 +93,8 @@
 
   byId('warnings-card').hidden = page.warnings.length === 0;
   byId('warnings').replaceChildren(...page.warnings.map((line) => html('li', {}, line)));
+  plans();
   tools();
-  whenPlanChanges.push(head, layers, plans);
+  whenPlanChanges.push(head, layers, current);
   whenTimeChanges.push(errors);
 })();
