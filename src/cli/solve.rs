@@ -23,7 +23,7 @@ use super::{
     words::{EFFORTS, words},
 };
 
-/// Choose a tool and pushes for a task, verify them, write the plan, its picture and its page
+/// Choose a tool and pushes for a task, verify them, write plan, picture and page
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan solve tasks/pull-back.yaml

@@ -1,4 +1,4 @@
-//! Results for people and for programs: tables, pictures, charts, numbers with their units.
+//! Results for people and for programs: tables, pictures, charts, pages, numbers with their units.
 //!
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 

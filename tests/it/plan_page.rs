@@ -202,6 +202,42 @@ fn names_stay_text_and_the_browser_runs_nothing_else() {
     assert!(browser.complaints().iter().any(|line| line.contains("connect-src")), "{fetched}");
 }
 
+/// Every tool says why it lost, and every push that was considered what came of it.
+#[test]
+fn tools_and_pushes_say_why_they_lost() {
+    let folder = TempDir::new().expect("a folder");
+    let (task, solution) = solved("tasks/pull-back-behind-wall.yaml");
+    let data = data(&written(&folder, "pull-back-behind-wall", &task, &solution));
+    let choice = data["choice"].as_array().expect("tools");
+    assert_eq!(choice.len(), solution.tools.len());
+    assert_eq!(choice[0]["why"], "chosen");
+    assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool);
+    let sum = |key: &str| choice.iter().map(|tool| number(&tool[key]) as usize).sum::<usize>();
+    // One push was enough, so every way to push was considered from one state.
+    assert_eq!(solution.statistics.depth, 1);
+    let search = &solution.statistics.search;
+    assert_eq!(sum("considered"), search.considered);
+    assert_eq!(sum("refused"), search.infeasible.values().sum::<usize>());
+    let cells = data["candidates"]["grids"].as_array().expect("grids").iter();
+    let cells: Vec<i64> = cells
+        .flat_map(|grid| grid["cells"].as_array().expect("cells"))
+        .flat_map(Json::as_i64)
+        .collect();
+    assert_eq!(cells.iter().filter(|cell| **cell <= -10).count(), sum("refused"));
+    let best = search.best.last().expect("a score").1;
+    assert_eq!(
+        cells.iter().filter(|cell| **cell >= 0).min(),
+        Some(&((100.0 * best).round() as i64))
+    );
+    // A tool that can do nothing says what is in the way.
+    let (task, solution) = solved("tasks/too-far.yaml");
+    let data = self::data(&written(&folder, "too-far", &task, &solution));
+    for tool in data["choice"].as_array().expect("tools") {
+        let why = tool["why"].as_str().expect("words");
+        assert!(why.starts_with("no push can be made, mostly as "), "{why}");
+    }
+}
+
 /// Where no solution is at hand a page is made of what is: an action, or a benchmark's record.
 #[test]
 fn an_action_and_a_task_of_a_benchmark_have_pages() {
@@ -251,6 +287,13 @@ fn solved(path: &str) -> (Task, Solution) {
     let planner = Planner::for_effort(Effort::Standard).expect("a model").build();
     let solution = planner.solve(&task, &library).expect("a sound task");
     (task, solution)
+}
+
+/// What a page holds.
+fn data(page: &Path) -> Json {
+    let page = std::fs::read_to_string(page).expect("a page");
+    let rest = page.split("id=\"data\">").nth(1).expect("data");
+    serde_json::from_str(rest.split("</script>").next().expect("an end")).expect("JSON")
 }
 
 /// The page of a solution in a file, as `solve` writes it.

@@ -35,7 +35,8 @@ pub struct Data {
     pub task: String,
     /// What the task says about itself.
     pub description: String,
-    /// How it ended, in a line.
+    /// How it ended, in a line; the title of the file says it.
+    #[serde(skip)]
     pub headline: String,
     pub stage: Stage,
     pub tools: Vec<Tool>,

@@ -26,7 +26,7 @@ const SCRIPT: &str = concat!(
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "yeHrwWhVabibhaK6iibxqOt1F69lHC7wX8KF4/ohM8M=";
+const SCRIPT_HASH: &str = "IbV9iHUyw0j0cyoqWYBTbd+BvpZNHv7Bx4xhdjQsp3s=";
 const STYLE_HASH: &str = "1Q5I4+VfUzTaxpNFFbEduVwcBQCejbTrwoWOsvTageM=";
 
 /// The page.

@@ -47,10 +47,14 @@ pub fn prediction_page(
     let mut making = Making::of(task, plan_line(plan));
     let page = making.plan(tool, plan, command.to_owned());
     let mut ends = Vec::new();
-    for trajectory in trajectories {
+    for (k, trajectory) in trajectories.iter().enumerate() {
         let outcome = Outcome::judge(&task.goal, trajectory);
         ends.push(format!("{} {}", trajectory.by, millimetres(outcome.error)));
-        page.replays.extend(replay(layer_of(trajectory), trajectory, outcome.reached));
+        // A model that hands a job to an engine is still the one that predicts.
+        let own = layer_of(trajectory);
+        let twice = trajectories[k + 1..].iter().any(|other| layer_of(other) == own);
+        let layer = if twice { Layer::Predicted } else { own };
+        page.replays.extend(replay(layer, trajectory, outcome.reached));
     }
     let allowed = millimetres(task.goal.tolerance);
     page.verdict = format!("error: {}; allowed {allowed}", ends.join(", "));

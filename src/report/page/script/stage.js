@@ -83,7 +83,7 @@
     high = high.map((value) => value + MARGIN);
     width = widthOf(byId('stage'));
     const [across, along] = [high[0] - low[0], high[1] - low[1]];
-    scale = Math.min(width / across, Math.min(540, width * 0.9) / along);
+    scale = Math.min(width / across, Math.min(440, width * 0.9) / along);
     const spare = (width / scale - across) / 2;
     low[0] -= spare;
     high[0] += spare;
