@@ -31,7 +31,7 @@ pub fn candidates(solution: &Solution) -> Option<Candidates> {
         }
     }
     let reasons = reasons.iter().map(ToString::to_string).collect();
-    (shown > 0).then(|| Candidates { reasons, grids, considered: all.len(), shown })
+    (shown > 0).then_some(Candidates { reasons, grids, considered: all.len(), shown })
 }
 
 /// Why most of the pushes cannot be made.
