@@ -7,7 +7,7 @@ use crate::report::solution::headline;
 use crate::report::table::NONE;
 use crate::report::verdict::verdict_line;
 use crate::scene::{Engine, Outcome, Task, Verdict};
-use crate::solve::{RankedPlan, Solution};
+use crate::solve::{PlanStatus, RankedPlan, Solution};
 
 use super::candidates::{candidates, frequent};
 use super::data::{Choice, Layer, Standing};
@@ -132,7 +132,13 @@ fn lost(
 ) -> String {
     let ranked = plan.map(|plan| (plan, &solution.plans[plan]));
     match (ranked, best) {
-        (Some((0, _)), _) => "chosen".to_owned(),
+        (Some((0, _)), _) => match solution.status {
+            PlanStatus::Solved | PlanStatus::Fragile => "chosen".to_owned(),
+            PlanStatus::FailedVerification => {
+                "best by prediction, but fails in a replay".to_owned()
+            }
+            PlanStatus::NoPlan => "comes nearest, but misses the goal".to_owned(),
+        },
         (Some((k, plan)), _) => match &plan.verdict {
             Some(verdict) if verdict.passed => format!("works too, as plan {}", k + 1),
             Some(_) => format!("fails in a replay, as plan {} shows", k + 1),
