@@ -38,7 +38,7 @@ pub struct PredictArgs {
     outside: OutsideArgs,
     #[command(flatten)]
     poses: PosesArgs,
-    /// Write a page that plays what every model says, <DIR>/<task>.html
+    /// Folder for a page that plays what every model says, named after the task
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

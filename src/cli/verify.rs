@@ -51,7 +51,7 @@ pub struct VerifyArgs {
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Write a page that plays the replays, <DIR>/<task>.html
+    /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -16,8 +16,8 @@ use crate::verify::{Verifier, VerifySettings};
 /// Which task, and the tools that it was solved with.
 #[derive(Args, Debug)]
 pub struct PageArgs {
-    /// Also write a page that plays the plan of this task file, <DIR>/<task>.html; `bench random
-    /// --save-tasks` writes the files of random tasks
+    /// A task file whose plan a page is to play; `bench random --save-tasks` writes those of random
+    /// tasks
     #[arg(long, value_name = "TASK", requires = "out")]
     page: Option<PathBuf>,
     #[command(flatten)]
