@@ -34,6 +34,13 @@ impl LibraryArgs {
             None => library,
         })
     }
+
+    /// The same again as options.
+    pub fn options(&self) -> Vec<String> {
+        let folders = [("--tools", &self.tools), ("--more-tools", &self.more_tools)];
+        let given = folders.into_iter().filter_map(|(name, folder)| Some((name, folder.as_ref()?)));
+        given.flat_map(|(name, folder)| [name.to_owned(), folder.display().to_string()]).collect()
+    }
 }
 
 /// One action.

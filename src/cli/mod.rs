@@ -18,6 +18,7 @@ mod generate;
 mod interrupt;
 mod model;
 mod output;
+mod page;
 mod poses;
 mod predict;
 mod push_argument;

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::report::{PoseRow, prediction_document};
+use crate::report::{PoseRow, predict_command, prediction_document, prediction_page};
 use crate::scene::{Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning};
 
 use super::{
@@ -16,6 +16,7 @@ use super::{
     exit_code,
     form::Form,
     model::{self, OutsideArgs},
+    output,
     poses::PosesArgs,
     push_argument::FORMS,
     session::Session,
@@ -37,26 +38,30 @@ pub struct PredictArgs {
     outside: OutsideArgs,
     #[command(flatten)]
     poses: PosesArgs,
+    /// Folder for a page that plays what every model says, named after the task
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
+    args.out.as_deref().map(output::prepare).transpose()?;
     let task = Task::load(&args.task)?;
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let mut specs = vec![args.model.clone()];
     let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
     specs.extend(simulated.into_iter().filter(|spec| *spec != args.model));
-    let (mut effects, mut rows) = (Vec::new(), Vec::new());
+    let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
         effects.extend(session.compute(|| timed_effect(&*model, &task.scene, &job)));
-        if args.poses.wanted() {
+        if args.poses.wanted() || args.out.is_some() {
             let jobs = std::slice::from_ref(&job);
             let rolled = session.compute(|| model.rollout(&task.scene, jobs, Record::Frames));
-            rows.extend(rolled.iter().flat_map(|trajectory| poses(&task, trajectory)));
+            trajectories.extend(rolled);
         }
     }
     for effect in &effects {
@@ -68,8 +73,18 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
             return Err(CliError::Refused(format!("{by} gives no prediction for this action")));
         }
     }
+    let rows: Vec<PoseRow> = trajectories.iter().flat_map(|found| poses(&task, found)).collect();
     args.poses.write(&rows)?;
-    args.form.show(session, &prediction_document(&task, &plan, &effects))?;
+    let mut document = prediction_document(&task, &plan, &effects);
+    if let Some(out) = &args.out {
+        let mut options = vec!["--model".to_owned(), args.model.to_string()];
+        options.extend(args.library.options());
+        let command = predict_command(&args.task.display().to_string(), &options, &plan);
+        let page = prediction_page(&task, &tool, &plan, &trajectories, &command);
+        let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
+        document.wrote(&[path]);
+    }
+    args.form.show(session, &document)?;
     Ok(exit_code::DONE)
 }
 

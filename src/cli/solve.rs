@@ -1,4 +1,4 @@
-//! `pushplan solve`: from a task file to a verified plan with a picture.
+//! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -7,9 +7,9 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::{PlanFile, load_task};
-use crate::report::{plan_figures, solution_document};
+use crate::report::{plan_figures, predict_command, solution_document, solution_page};
 use crate::scene::{ModelSpec, Situation, Task};
-use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, SolveError};
+use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
     action::LibraryArgs,
@@ -23,14 +23,15 @@ use super::{
     words::{EFFORTS, words},
 };
 
-/// Choose a tool and pushes for a task, verify them, write the plan and its picture
+/// Choose a tool and pushes for a task, verify them, write plan, picture and page
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan solve tasks/pull-back.yaml
   pushplan solve tasks/narrow-gap.yaml --effort thorough --json
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
-Writes <out>/<task>.plan.json and <out>/<task>.svg, with --animate <out>/<task>.animated.svg, too.
+Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
+shows why the others lost; with --animate <out>/<task>.animated.svg, too.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
@@ -92,7 +93,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, &task, best, suffix),
+        Some(best) => write(args, session, &task, (&solution, best), suffix),
         None => Ok(Vec::new()),
     };
     let mut document = solution_document(&task, &solution);
@@ -130,12 +131,12 @@ pub fn solve_error(error: SolveError) -> CliError {
     }
 }
 
-/// The plan file and the pictures.
+/// The plan file, the pictures and the page.
 fn write(
     args: &SolveArgs,
     session: &Session,
     task: &Task,
-    best: &RankedPlan,
+    (solution, best): (&Solution, &RankedPlan),
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
     let situation = Situation::stated(&task.scene);
@@ -154,5 +155,12 @@ fn write(
     let mut written = vec![path];
     let figures = plan_figures(task, best, &replays, &name, args.animate);
     written.extend(output::write_figures(&args.out, &figures)?);
+    let command = |ranked: &RankedPlan| {
+        let mut options = vec!["--model".to_owned(), ranked.predicted.by.to_string()];
+        options.extend(args.library.options());
+        predict_command(&args.task.display().to_string(), &options, &ranked.plan)
+    };
+    let page = solution_page(task, solution, &replays, &command);
+    written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);
     Ok(written)
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::PlanFile;
-use crate::report::{replay_warnings, verdict_document};
+use crate::report::{quoted, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
@@ -16,6 +16,7 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
+    output, page,
     session::Session,
     solve::{share, time_limit},
 };
@@ -50,12 +51,16 @@ pub struct VerifyArgs {
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Folder for a page that plays the replays, named after the task
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let mut file = PlanFile::load(&args.plan)?;
+    args.out.as_deref().map(output::prepare).transpose()?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
@@ -75,7 +80,16 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     for warning in replay_warnings(&verdict) {
         session.warn(&warning);
     }
-    args.form.show(session, &verdict_document(&file, &verdict))?;
+    let mut document = verdict_document(&file, &verdict);
+    let written = args.out.as_deref().map(|out| {
+        let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
+        page::write(out, session, &file, &verdict, &command)
+    });
+    if let Some(Ok(path)) = &written {
+        document.wrote(std::slice::from_ref(path));
+    }
+    args.form.show(session, &document)?;
+    written.transpose()?;
     Ok(match (verdict.passed, verdict.works()) {
         (true, _) => exit_code::DONE,
         (false, true) => exit_code::FRAGILE,

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::scene::{Offsets, Push};
 
 use super::field::Field;
+use super::scored::Scores;
 use super::search::Node;
 use super::statistics::SearchStatistics;
 use super::{CandidatePush, Infeasible, Start, Workspace};
@@ -30,6 +31,8 @@ pub(super) struct Extension {
     pub planned: CandidatePush,
     /// The same with its start.
     pub push: Push,
+    /// Where its score is kept.
+    pub scored: Option<usize>,
     /// Least cost left if the object were carried straight along: what is tried first.
     pub promise: f64,
 }
@@ -43,6 +46,7 @@ pub(super) fn extensions(
     grips: &[(usize, f64)],
     offsets: usize,
     statistics: &mut SearchStatistics,
+    scores: &mut Scores,
 ) -> Vec<Extension> {
     let work: Vec<(usize, (usize, f64))> = nodes
         .iter()
@@ -52,28 +56,33 @@ pub(super) fn extensions(
             own.unwrap_or_else(|| grips.to_vec()).into_iter().map(move |pair| (k, pair))
         })
         .collect();
-    let found: Vec<Vec<Result<Extension, Infeasible>>> = work
+    let found: Vec<Vec<(CandidatePush, Result<Extension, Infeasible>)>> = work
         .par_iter()
         .map(|&(node, pair)| {
             pushes(workspace, &nodes[node], pair, offsets)
                 .into_iter()
-                .map(|push| extend(workspace, field, &nodes[node], node, pair, push))
+                .map(|push| (push, extend(workspace, field, &nodes[node], node, pair, push)))
                 .collect()
         })
         .collect();
     let mut kept = Vec::new();
-    for group in found {
+    for ((_, pair), group) in work.into_iter().zip(found) {
+        let first = scores.place(pair, group.iter().map(|(push, _)| *push));
         let mut places = HashSet::new();
-        for result in group {
+        for (k, (_, result)) in group.into_iter().enumerate() {
             statistics.considered += 1;
+            let scored = first.map(|first| first + k);
             match result {
-                Err(reason) => statistics.refuse(reason),
+                Err(reason) => {
+                    statistics.refuse(reason);
+                    scores.refuse(scored, reason);
+                }
                 Ok(extension) => {
                     let grid = |v: f64| (v / SAME_PLACE).round() as i64;
                     let push = &extension.push;
                     let place = (grid(push.start.x), grid(push.start.y), push.direction.to_bits());
                     if places.insert(place) {
-                        kept.push(extension);
+                        kept.push(Extension { scored, ..extension });
                     } else {
                         statistics.repeated += 1;
                     }
@@ -149,5 +158,5 @@ fn extend(
     let promise = (0..=2)
         .map(|k| field.distance(object + push.heading() * (push.length * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
-    Ok(Extension { node: index, pair, planned, push, promise })
+    Ok(Extension { node: index, pair, planned, push, scored: None, promise })
 }

@@ -15,6 +15,7 @@ mod qp;
 mod refine;
 mod rollouts;
 mod score;
+mod scored;
 mod search;
 mod spread;
 mod statistics;
@@ -28,6 +29,7 @@ pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
+pub use scored::ScoredPush;
 pub use search::{Found, Search, SearchSettings, kinds};
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{

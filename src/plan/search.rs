@@ -18,10 +18,11 @@ use super::enumerate::{Extension, extensions};
 use super::field::Field;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
+use super::scored::Scores;
 use super::spread::{Spread, room};
 use super::statistics::SearchStatistics;
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Rollouts, Workspace};
+use super::{Candidate, Rollouts, ScoredPush, Workspace};
 
 /// Rollouts handed to the effect model at a time: enough for every thread, few enough that
 /// their recorded frames stay in the cache.
@@ -97,6 +98,7 @@ pub struct Search<'a> {
     spread: Spread,
     depth: usize,
     statistics: SearchStatistics,
+    scores: Scores,
 }
 
 impl<'a> Search<'a> {
@@ -124,6 +126,7 @@ impl<'a> Search<'a> {
             spread,
             depth: 0,
             statistics: SearchStatistics::default(),
+            scores: Scores::default(),
         }
     }
 
@@ -137,6 +140,11 @@ impl<'a> Search<'a> {
         &self.statistics
     }
 
+    /// Every way to push that was considered so far, with the best that it leads to.
+    pub fn scored(&self) -> &[ScoredPush] {
+        self.scores.list()
+    }
+
     /// Whether sequences of one push more are allowed and any state is left to continue.
     pub fn can_deepen(&self) -> bool {
         self.depth < self.workspace.task.pushes.max_count && !self.nodes.is_empty()
@@ -147,6 +155,7 @@ impl<'a> Search<'a> {
     /// returned.
     pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<Found> {
         let before = rollouts.used();
+        self.scores.deepen();
         let mut list = extensions(
             &self.workspace,
             &self.field,
@@ -154,6 +163,7 @@ impl<'a> Search<'a> {
             &self.grips,
             self.settings.offsets,
             &mut self.statistics,
+            &mut self.scores,
         );
         self.statistics.beyond_budget += keep_promising(&mut list, self.settings.rollouts);
         let mut found = Vec::with_capacity(list.len());
@@ -174,6 +184,7 @@ impl<'a> Search<'a> {
                 let (extension, index) = (&chunk[k], batch * BATCH + k);
                 if let Some((score, length)) = best {
                     self.statistics.improve(self.statistics.rollouts + index + 1, score);
+                    self.scores.improve(extension.scored, score);
                     found.push(Found { candidate: self.candidate(extension, length), score });
                 }
                 offers.extend(stops.into_iter().map(|stop| stop.of(index)));

@@ -1,4 +1,4 @@
-//! Results for people and for programs: tables, pictures, charts, numbers with their units.
+//! Results for people and for programs: tables, pictures, charts, pages, numbers with their units.
 //!
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 
@@ -13,6 +13,7 @@ mod html;
 mod keyframes;
 mod labels;
 mod number;
+mod page;
 mod picture;
 mod plan_picture;
 mod plan_text;
@@ -39,6 +40,7 @@ pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use heldout::heldout_document;
 pub use number::{degrees, millimetres, seconds};
+pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;
 pub use poses::{PoseRow, RECORDED, poses_document};

@@ -38,7 +38,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     }
 }
 
-fn headline(solution: &Solution) -> String {
+pub(super) fn headline(solution: &Solution) -> String {
     let Some(best) = solution.best() else {
         return "no plan; no push can be made at all".to_owned();
     };

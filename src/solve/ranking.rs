@@ -57,7 +57,14 @@ impl Solving<'_> {
             })
             .collect();
         self.statistics.timing.total = began.elapsed().as_secs_f64();
-        let stopped = self.watch.cancelled();
-        Solution { status, stopped, plans, statistics: self.statistics, warnings }
+        Solution {
+            status,
+            stopped: self.watch.cancelled(),
+            plans,
+            tools: self.workspace.tools.iter().map(|tool| Tool::clone(tool)).collect(),
+            candidates: self.candidates,
+            statistics: self.statistics,
+            warnings,
+        }
     }
 }

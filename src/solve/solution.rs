@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
-use crate::plan::{RefineStatistics, SearchStatistics};
+use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
 use crate::scene::{Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
 use crate::verify::{Verifier, VerifySettings};
 
@@ -128,6 +128,10 @@ pub struct Solution {
     pub stopped: bool,
     /// Ranked plans, the one to use first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
+    /// The tools that were offered; candidates name them by index.
+    pub tools: Vec<Tool>,
+    /// Every way to push that the search considered, with the best that it leads to.
+    pub candidates: Vec<ScoredPush>,
     /// What it cost.
     pub statistics: Statistics,
     /// What lowers the trust in the predictions of the first plan.

@@ -6,8 +6,8 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::plan::{
-    Candidate, Evaluation, RefineSettings, Refined, Rollouts, Search, Workspace, bare, behind,
-    is_behind, refine,
+    Candidate, Evaluation, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace, bare,
+    behind, is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -54,6 +54,8 @@ pub(super) struct Solving<'a> {
     verifier: Verifier<'a>,
     pub watch: &'a dyn Watch,
     pub statistics: Statistics,
+    /// What the search made of every way to push.
+    pub candidates: Vec<ScoredPush>,
     pub tried: Vec<Tried>,
     /// What replays have shown not to work.
     pub refuted: Vec<Way>,
@@ -80,6 +82,7 @@ impl<'a> Solving<'a> {
             verifier: Verifier::new(verify).watched(watch),
             watch,
             statistics: Statistics::default(),
+            candidates: Vec::new(),
             tried: Vec::new(),
             refuted: Vec::new(),
             best: None,
@@ -115,6 +118,7 @@ impl<'a> Solving<'a> {
         };
         let best = self.best.filter(|(grade, _)| grade.class > Class::Fails).map(|(_, k)| k);
         self.statistics.search = search.statistics().clone();
+        self.candidates = search.scored().to_vec();
         self.statistics.depth = search.depth();
         self.ranked(status, best, began)
     }

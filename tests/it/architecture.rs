@@ -39,7 +39,10 @@ const ROOMS: [(&str, &[&str]); 22] = [
             "effect", "judge", "plan", "verify", "solve", "dataset",
         ],
     ),
-    ("report", &["geometry", "scene", "asset", "store", "judge", "fit", "solve", "train", "bench"]),
+    (
+        "report",
+        &["geometry", "scene", "asset", "store", "judge", "fit", "plan", "solve", "train", "bench"],
+    ),
     ("export", &["geometry", "scene", "asset"]),
     (
         "cli",

@@ -209,17 +209,22 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
         let task = "tasks/pull-back.yaml";
         let output = pushplan(&["solve", task, "--out", &out, "--threads", threads]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert_eq!(files(folder.path()), ["pull-back.plan.json", "pull-back.svg"]);
+        let names = ["pull-back.html", "pull-back.plan.json", "pull-back.svg"];
+        assert_eq!(files(folder.path()), names);
         let bytes = |name: &str| std::fs::read(folder.path().join(name)).expect("a file");
-        let written = (bytes("pull-back.plan.json"), bytes("pull-back.svg"));
+        let written = (bytes("pull-back.plan.json"), names.map(bytes));
         (folder, written)
     };
     let (folder, one) = solve("1");
     assert_eq!(one, solve("3").1, "files differ with the number of threads");
 
     let plan = folder.path().join("pull-back.plan.json");
-    let output = pushplan(&["verify", plan.to_str().expect("UTF-8"), "--disturbed", "2"]);
+    let plan = plan.to_str().expect("UTF-8");
+    let page = folder.path().join("verified");
+    let out = page.to_str().expect("UTF-8");
+    let output = pushplan(&["verify", plan, "--disturbed", "2", "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(files(&page), ["pull-back.html"]);
 
     // The same plan without its last centimetres misses the goal.
     let text = String::from_utf8(one.0).expect("UTF-8");
@@ -242,7 +247,8 @@ fn a_task_without_a_solution_ends_with_code_4_and_shows_the_nearest_plan() {
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
     assert_eq!(report["status"], "no_plan");
-    assert_eq!(files(folder.path()), ["too-far.nearest.plan.json", "too-far.nearest.svg"]);
+    let names = ["too-far.nearest.html", "too-far.nearest.plan.json", "too-far.nearest.svg"];
+    assert_eq!(files(folder.path()), names);
 }
 
 #[test]

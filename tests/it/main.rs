@@ -21,6 +21,7 @@ mod network;
 mod outside;
 mod pairs;
 mod pictures;
+mod plan_page;
 mod planning;
 mod prior;
 mod prisms;

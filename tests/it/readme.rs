@@ -25,7 +25,7 @@ fn its_commands_run() {
     // Results go elsewhere, so that the tests leave the checkout as it is.
     run(&format!("{solve} --out {folder}"));
     run(&verify.replace("plans/", &format!("{folder}/")));
-    for end in ["plan.json", "svg", "animated.svg"] {
+    for end in ["plan.json", "svg", "html", "animated.svg"] {
         assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
     }
     assert!(README.contains("`cargo test --release`"));

@@ -4,6 +4,7 @@ mod command;
 mod common;
 mod cost;
 mod keep;
+mod page;
 mod random;
 mod refinement;
 mod saved;

@@ -1,6 +1,6 @@
 //! `pushplan bench merge` and `report`: runs that are kept in folders.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -9,6 +9,7 @@ use crate::cli::{error::CliError, form::Form, output, session::Session};
 use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
 use crate::store::{RunManifest, Store, StoreError, merge_runs};
 
+use super::page::PageArgs;
 use super::{keep, random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
@@ -38,6 +39,8 @@ pub struct ReportArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    page: PageArgs,
+    #[command(flatten)]
     form: Form,
 }
 
@@ -48,9 +51,12 @@ pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
 }
 
 pub fn report(args: &ReportArgs, session: &Session) -> Result<(), CliError> {
-    let document = document(&args.runs)?;
+    let mut document = document(&args.runs)?;
     if let Some(out) = &args.out {
         output::prepare(out)?;
+        if let Some(task) = args.page.wanted() {
+            document.wrote(&[page(args, task, out, session)?]);
+        }
     }
     keep::show(args.form, session, &document, args.out.as_deref())
 }
@@ -98,6 +104,36 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             "{} holds a suite that this program does not know: `{suite}`",
             runs[0].display()
         ))),
+    }
+}
+
+/// The page of one task of the run.
+fn page(
+    args: &ReportArgs,
+    task: &Path,
+    out: &Path,
+    session: &Session,
+) -> Result<PathBuf, CliError> {
+    let [dir] = &args.runs[..] else {
+        return Err(CliError::usage("a page is of one run", "name one folder"));
+    };
+    match RunManifest::expect(dir)?.suite.as_str() {
+        tasks::SUITE => {
+            let store = Store::<SolvedTask>::load(dir)?;
+            let run = (store.manifest(), store.manifest().seed);
+            let solved = store.finished().iter().map(|task| &task.record);
+            args.page.write(task, out, session, run, solved)
+        }
+        random::SUITE => {
+            let store = Store::<RandomRecord>::load(dir)?;
+            let solved = store.finished().iter().map(|task| &task.record.solved);
+            // The seed of a random run is that of its tasks; its planner has the default one.
+            args.page.write(task, out, session, (store.manifest(), 0), solved)
+        }
+        suite => Err(CliError::usage(
+            format!("runs of the suite `{suite}` are not of single plans"),
+            "leave out --page",
+        )),
     }
 }
 

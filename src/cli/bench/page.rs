@@ -1,0 +1,85 @@
+//! The page of one task of a benchmark: its plan is replayed as it was measured.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use crate::asset::{PlanFile, load_task};
+use crate::bench::{End, SolvedTask};
+use crate::cli::{action::LibraryArgs, error::CliError, output, page, session::Session};
+use crate::report::predict_command;
+use crate::scene::{Engine, ModelSpec, Situation};
+use crate::store::RunManifest;
+use crate::verify::{Verifier, VerifySettings};
+
+/// Which task, and the tools that it was solved with.
+#[derive(Args, Debug)]
+pub struct PageArgs {
+    /// A task file whose plan a page is to play; `bench random --save-tasks` writes those of random
+    /// tasks
+    #[arg(long, value_name = "TASK", requires = "out")]
+    page: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryArgs,
+}
+
+impl PageArgs {
+    /// The task file, if a page is asked for.
+    pub fn wanted(&self) -> Option<&Path> {
+        self.page.as_deref()
+    }
+
+    /// Replays the plan of the task in `path`, one of those `solved` in a run, with the seed of its
+    /// disturbed replays, and writes its page.
+    ///
+    /// # Errors
+    /// A task that the run does not hold, or holds with other results; a page that cannot be
+    /// written.
+    pub fn write<'a>(
+        &self,
+        path: &Path,
+        out: &Path,
+        session: &Session,
+        (run, seed): (&RunManifest, u64),
+        mut solved: impl Iterator<Item = &'a SolvedTask>,
+    ) -> Result<PathBuf, CliError> {
+        output::prepare(out)?;
+        let library = self.library.load()?;
+        let task = load_task(path, &library)?;
+        let found = solved.find(|record| record.task == task.name);
+        let record = found.ok_or_else(|| {
+            let message = format!("the run holds no task `{}`", task.name);
+            CliError::usage(message, "name the file of a task that was measured")
+        })?;
+        let plan = record.plan.clone().ok_or_else(|| {
+            let message = format!("no push can be made in `{}`, so there is no plan", task.name);
+            CliError::usage(message, "name another task")
+        })?;
+        let tool = library.get(&plan.tool).ok_or_else(|| {
+            let message = format!("the plan uses the tool `{}`, which is not here", plan.tool);
+            CliError::usage(message, "give the --tools or --more-tools of the run")
+        })?;
+        let disturbed = run.settings["budget"]["disturbed"].as_u64().unwrap_or(0) as usize;
+        let verifier = Verifier::new(VerifySettings { disturbed, seed });
+        let situation = Situation::stated(&task.scene);
+        let verdict = session.compute(|| verifier.verify(&task, &situation, tool, &plan));
+        let end = |engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
+        if [record.planar, record.spatial] != Engine::ALL.map(end) {
+            return Err(CliError::usage(
+                format!("the replays of `{}` end elsewhere than those of the run", task.name),
+                "name the very task and tools that were measured, and use the same program",
+            ));
+        }
+        let model: Option<ModelSpec> = run.model.parse().ok();
+        let mut options: Vec<String> = Vec::new();
+        if model.is_some() {
+            options.extend(["--model".to_owned(), run.model.clone()]);
+        }
+        options.extend(self.library.options());
+        let command = predict_command(&path.display().to_string(), &options, &plan);
+        let file =
+            PlanFile { task, tool: Arc::clone(tool), plan, model, predicted: None, verdict: None };
+        page::write(out, session, &file, &verdict, &command)
+    }
+}

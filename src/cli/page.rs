@@ -1,0 +1,46 @@
+//! The page of a plan that was replayed.
+
+use std::path::{Path, PathBuf};
+
+use crate::asset::PlanFile;
+use crate::effect::EffectModel;
+use crate::report::verdict_page;
+use crate::scene::{Job, ModelSpec, Record, Trajectory, Verdict};
+
+use super::{error::CliError, model, output, session::Session};
+
+/// Writes the page `<task>.html` with what the plan's effect model says beside the replays, and
+/// gives its path; `command` makes the replays again.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write(
+    out: &Path,
+    session: &Session,
+    file: &PlanFile,
+    verdict: &Verdict,
+    command: &str,
+) -> Result<PathBuf, CliError> {
+    let predicted = file.model.as_ref().and_then(|spec| {
+        let predicted = predict(session, file, spec);
+        let warn = |error| session.warn(&format!("the page shows no prediction: {error}"));
+        predicted.map_err(warn).ok()?
+    });
+    let page = verdict_page(file, predicted.as_ref(), verdict, command);
+    output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
+}
+
+/// What a model says of a plan; nothing if it gives no trajectory.
+fn predict(
+    session: &Session,
+    file: &PlanFile,
+    spec: &ModelSpec,
+) -> Result<Option<Trajectory>, CliError> {
+    let motion = file.plan.motion(&file.tool);
+    if motion.strokes.is_empty() {
+        return Ok(None);
+    }
+    let (model, job) = (model::load(spec)?, Job::stated(&file.task.scene, motion));
+    let jobs = std::slice::from_ref(&job);
+    Ok(session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames)).pop())
+}

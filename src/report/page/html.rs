@@ -1,0 +1,78 @@
+//! The file: data, style and script in one document that loads nothing.
+
+use crate::report::svg::escape;
+
+use super::data::Data;
+
+/// The page's looks.
+const STYLE: &str = include_str!("page.css");
+
+/// What stands on the page before the script fills it.
+const BODY: &str = include_str!("page.html");
+
+/// What the page does. One script, so that one hash allows it and nothing else.
+const SCRIPT: &str = concat!(
+    include_str!("script/elements.js"),
+    include_str!("script/replay.js"),
+    include_str!("script/clock.js"),
+    include_str!("script/stage.js"),
+    include_str!("script/chart.js"),
+    include_str!("script/ends.js"),
+    include_str!("script/tables.js"),
+    include_str!("script/candidates.js"),
+    include_str!("script/copy.js"),
+    include_str!("script/controls.js"),
+);
+
+/// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
+/// compares them, so that no release needs a hash function.
+const SCRIPT_HASH: &str = "IbV9iHUyw0j0cyoqWYBTbd+BvpZNHv7Bx4xhdjQsp3s=";
+const STYLE_HASH: &str = "1Q5I4+VfUzTaxpNFFbEduVwcBQCejbTrwoWOsvTageM=";
+
+/// The page.
+pub fn page(data: &Data) -> String {
+    // Data cannot fail to be written: it holds no maps with odd keys.
+    let json = serde_json::to_string(data).unwrap_or_default();
+    let title = escape(&format!("{}: {}", data.task, data.headline));
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+         script-src 'sha256-{SCRIPT_HASH}'; style-src 'sha256-{STYLE_HASH}'; base-uri 'none'; \
+         form-action 'none'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{BODY}\
+         <script type=\"application/json\" id=\"data\">{}</script>\n\
+         <script>{SCRIPT}</script>\n</body>\n</html>\n",
+        inert(&json)
+    )
+}
+
+/// JSON in which nothing ends a script or begins a comment.
+fn inert(json: &str) -> String {
+    json.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_ends_the_data() {
+        let evil = serde_json::to_string("</script><!--<script>alert('&')\u{2028}").unwrap();
+        let inert = inert(&evil);
+        assert!(!inert.contains('<') && !inert.contains('\u{2028}'), "{inert}");
+        let back: String = serde_json::from_str(&inert).unwrap();
+        assert_eq!(back, "</script><!--<script>alert('&')\u{2028}");
+    }
+
+    #[test]
+    fn the_hashes_are_those_of_script_and_style() {
+        use base64::{Engine as _, engine::general_purpose::STANDARD};
+        for (name, text, hash) in
+            [("SCRIPT_HASH", SCRIPT, SCRIPT_HASH), ("STYLE_HASH", STYLE, STYLE_HASH)]
+        {
+            let found = STANDARD.encode(hmac_sha256::Hash::hash(text.as_bytes()));
+            assert_eq!(found, hash, "write `const {name}: &str = \"{found}\";`");
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The plan page: one HTML file that plays a plan, with all that is known about it. It needs no
+//! server and no network, and tells the browser to load nothing.
+//!
+//! `data` says what goes into the file, `html` puts it together with the script and the style
+//! beside it; the other files fill the data from what there is to show.
+
+mod candidates;
+mod command;
+mod data;
+mod html;
+mod replay;
+mod replayed;
+mod solution;
+mod stage;
+
+pub use command::{predict_command, quoted};
+pub use replayed::{prediction_page, verdict_page};
+pub use solution::solution_page;

@@ -1,0 +1,101 @@
+//! Trajectories, packed for the page.
+
+use crate::geometry::Pose;
+use crate::scene::{Engine, Evidence, Frame, ModelKind, Task, Trajectory, Verdict};
+
+use super::data::{End, Layer, Replay, fine, length, point};
+
+/// The trajectory of `by`, judged as `reached` or not; nothing without a finite frame.
+pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {
+    let sound = |frame: &&Frame| frame.state.is_finite() && frame.tool.is_finite();
+    let frames: Vec<&Frame> = trajectory.frames.iter().filter(sound).collect();
+    let objects = frames.first()?.state.poses.len();
+    let mut strokes = Vec::new();
+    for (k, frame) in frames.iter().enumerate() {
+        while strokes.len() <= frame.stroke {
+            strokes.push(k);
+        }
+    }
+    let column = |value: &dyn Fn(&Frame) -> i64| packed(frames.iter().map(|frame| value(frame)));
+    let pose = |of: &dyn Fn(&Frame) -> Pose| {
+        [
+            column(&|frame| length(of(frame).position.x)),
+            column(&|frame| length(of(frame).position.y)),
+            column(&|frame| fine(of(frame).heading)),
+        ]
+    };
+    Some(Replay {
+        layer,
+        by: trajectory.by.to_string(),
+        reached,
+        time: differences(frames.iter().map(|frame| fine(frame.time))),
+        strokes,
+        tool: pose(&|frame| frame.tool),
+        objects: (0..objects).map(|k| pose(&|frame| frame.state.poses[k])).collect(),
+    })
+}
+
+/// The nominal replays of a verdict that were recorded.
+pub fn replays(verdict: &Verdict) -> impl Iterator<Item = Replay> {
+    Engine::ALL.into_iter().filter_map(|engine| {
+        let evidence = verdict.nominal(engine)?;
+        replay(layer(engine), evidence.trajectory.as_ref()?, evidence.outcome.reached)
+    })
+}
+
+/// Where the goal's object ends in the disturbed replays.
+pub fn ends(task: &Task, verdict: &Verdict) -> Vec<End> {
+    let end = |evidence: &Evidence| {
+        let pose = evidence.outcome.state.poses.get(task.goal.object)?;
+        pose.is_finite().then(|| End {
+            layer: layer(evidence.engine),
+            at: point(pose.position),
+            reached: evidence.outcome.reached,
+        })
+    };
+    let all = Engine::ALL.into_iter().flat_map(|engine| verdict.disturbed(engine));
+    all.filter_map(end).collect()
+}
+
+/// What a trajectory is shown as.
+pub fn layer_of(trajectory: &Trajectory) -> Layer {
+    match &trajectory.by {
+        by if *by == ModelKind::PLANAR.into() => Layer::Planar,
+        by if *by == ModelKind::SPATIAL.into() => Layer::Spatial,
+        _ => Layer::Predicted,
+    }
+}
+
+fn layer(engine: Engine) -> Layer {
+    match engine {
+        Engine::Planar => Layer::Planar,
+        Engine::Spatial | Engine::Upright => Layer::Spatial,
+    }
+}
+
+/// The first value and then differences; one value if there is no other.
+fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
+    let mut packed = differences(values);
+    if packed.iter().skip(1).all(|step| *step == 0) {
+        packed.truncate(1);
+    }
+    packed
+}
+
+fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
+    let mut before = 0;
+    let step = |value: i64| value.wrapping_sub(std::mem::replace(&mut before, value));
+    values.map(step).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_is_its_first_value_and_differences() {
+        assert_eq!(packed([5, 7, 7, 4].into_iter()), [5, 2, 0, -3]);
+        assert_eq!(packed([5, 5, 5].into_iter()), [5]);
+        assert_eq!(differences([0, 0, 1].into_iter()), [0, 0, 1]);
+    }
+}

@@ -1,0 +1,63 @@
+// Buttons, slider and keys; at last the page is shown as its link says.
+
+(() => {
+  const [scrub, button] = [byId('scrub'), byId('play')];
+  const [PLAY, PAUSE] = ['M4 2l10 6-10 6z', 'M3 2h4v12H3zM9 2h4v12H9z'];
+
+  button.addEventListener('click', () => play(!view.playing));
+  byId('back').addEventListener('click', () => step(-1));
+  byId('forward').addEventListener('click', () => step(1));
+  byId('speed').addEventListener('change', (event) => { view.speed = Number(event.target.value); });
+  scrub.addEventListener('input', () => {
+    // Before the clock puts the slider back to its own time.
+    const wanted = Number(scrub.value);
+    play(false);
+    showTime(wanted);
+  });
+  scrub.addEventListener('change', keepLink);
+
+  whenPlanChanges.push(() => { scrub.max = duration(); });
+  whenTimeChanges.push(() => {
+    scrub.value = view.time;
+    const [now, all] = [view.time.toFixed(2), duration().toFixed(2)];
+    byId('clock').textContent = `${now} / ${all} s`;
+    scrub.setAttribute('aria-valuetext', `${now} seconds of ${all}`);
+    byId('play-shape').setAttribute('d', view.playing ? PAUSE : PLAY);
+    button.setAttribute('aria-label', view.playing ? 'Pause' : 'Play');
+  });
+
+  const KEYS = {
+    ' ': () => play(!view.playing),
+    ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
+    ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
+    Home: () => { play(false); showTime(0); keepLink(); },
+    End: () => { play(false); showTime(duration()); keepLink(); },
+  };
+  for (const [layer, { key }] of Object.entries(LAYERS)) KEYS[key] = () => toggle(layer);
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const { tagName, type } = event.target;
+    // A list has its own keys; a button, a box and a summary are pressed with space.
+    if (tagName === 'SELECT') return;
+    if (event.key === ' ' && (['BUTTON', 'SUMMARY'].includes(tagName) || type === 'checkbox')) return;
+    const act = KEYS[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act(event);
+  });
+
+  // A button that was clicked must not keep the space key to itself; one reached by key does.
+  document.addEventListener('click', (event) => {
+    if (event.detail > 0) event.target.closest?.('button')?.blur();
+  });
+
+  let width = 0;
+  new ResizeObserver(() => {
+    // Figures are drawn for their width; their own change of height is none.
+    const now = widthOf(byId('stage'));
+    if (now !== width) showPlan(view.plan);
+    width = now;
+  }).observe(byId('stage'));
+  addEventListener('hashchange', followLink);
+  followLink();
+})();

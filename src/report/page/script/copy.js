@@ -1,0 +1,36 @@
+// What can be taken along: a command, a plan file, a link.
+
+(() => {
+  const file = () => {
+    const { schema_version, task } = page.file;
+    const { tool, file: own } = plan();
+    const whole = {
+      schema_version, kind: 'plan', plan: own, model: null, predicted: null, verdict: null,
+      tool: page.tools[tool].file, task,
+    };
+    return JSON.stringify(whole, null, 2);
+  };
+
+  whenPlanChanges.push(() => {
+    byId('command').textContent = plan().command;
+    byId('file').textContent = file();
+  });
+  whenTimeChanges.push(() => {
+    byId('link').textContent = `${location.href.split('#')[0]}#${linkPart()}`;
+  });
+
+  for (const button of document.querySelectorAll('[data-copy]')) {
+    button.addEventListener('click', async () => {
+      const source = byId(button.dataset.copy);
+      try {
+        await navigator.clipboard.writeText(source.textContent);
+        button.textContent = 'Copied';
+      } catch {
+        // A browser that refuses leaves the text marked, one key away.
+        getSelection().selectAllChildren(source);
+        button.textContent = 'Marked: press Ctrl-C';
+      }
+      setTimeout(() => { button.textContent = 'Copy'; }, 2000);
+    });
+  }
+})();

@@ -1,0 +1,40 @@
+'use strict';
+// Data of this page, and how elements are made. Text is only ever set as text.
+
+const page = JSON.parse(document.getElementById('data').textContent);
+const LENGTH = 1e-5; // metres in a unit of the data
+const FINE = 1e-4; // radians or seconds in a unit of the data
+const LAYERS = {
+  predicted: { name: 'predicted', key: '1' },
+  planar: { name: 'planar', key: '2' },
+  spatial: { name: '3-D', key: '3' },
+};
+
+const byId = (id) => document.getElementById(id);
+
+function filled(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+/** An HTML element. */
+function html(tag, attributes = {}, ...children) {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+/** An SVG element. */
+function svg(tag, attributes = {}, ...children) {
+  return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
+}
+
+/** Width of a figure in pixels, so that its text is as large on a phone as on a desk. */
+const widthOf = (figure) => Math.max(300, Math.round(figure.clientWidth) || 800);
+
+/** A length in metres as people read it. */
+function millimetres(metres) {
+  const value = metres * 1000;
+  return `${value.toFixed(Math.abs(value) < 99.95 ? 1 : 0)} mm`;
+}
+
+const degrees = (radians) => `${((radians * 180) / Math.PI).toFixed(1)}°`;

@@ -1,0 +1,93 @@
+// Trajectories: unpacked, and where everything is between frames.
+
+/** Values of a column: the first and differences, or one for all `count` frames. */
+function unpacked(column, count, unit) {
+  const values = new Float64Array(count);
+  let sum = 0;
+  for (let k = 0; k < count; k++) {
+    sum += k < column.length ? column[k] : 0;
+    values[k] = sum * unit;
+  }
+  return values;
+}
+
+const posed = ([x, y, heading]) => [x * LENGTH, y * LENGTH, heading * FINE];
+
+const between = (a, b, share) => a.map((value, k) => value + (b[k] - value) * share);
+
+class Replay {
+  constructor(raw, strokes) {
+    const count = raw.time.length;
+    const columns = ([x, y, heading]) => [
+      unpacked(x, count, LENGTH), unpacked(y, count, LENGTH), unpacked(heading, count, FINE),
+    ];
+    this.layer = raw.layer;
+    this.by = raw.by;
+    this.reached = raw.reached;
+    this.time = unpacked(raw.time, count, FINE);
+    this.end = this.time[count - 1];
+    this.tool = columns(raw.tool);
+    this.objects = raw.objects.map(columns);
+    this.firsts = raw.strokes;
+    this.strokes = strokes;
+  }
+
+  /** Index of the last frame at or before `time`, and how far it is to the next one. */
+  place(time) {
+    let [low, high] = [0, this.time.length - 1];
+    if (time >= this.end) return [high, 0];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.time[middle] <= time) low = middle;
+      else high = middle;
+    }
+    const span = this.time[high] - this.time[low];
+    return [low, span > 0 ? Math.max(0, (time - this.time[low]) / span) : 0];
+  }
+
+  /** Pose of an object at `time`. */
+  object(index, time) {
+    return this.pose(this.objects[index], this.place(time));
+  }
+
+  /** Pose of the tool frame at `time`. It is set down for a stroke in no time. */
+  toolPose(time) {
+    const [frame, share] = this.place(time);
+    const stroke = this.firsts.indexOf(frame + 1);
+    if (share > 0 && stroke > 0 && this.strokes[stroke].lowered) {
+      const from = posed(this.strokes[stroke].from);
+      return between(from, this.pose(this.tool, [frame + 1, 0]), share);
+    }
+    return this.pose(this.tool, [frame, share]);
+  }
+
+  pose(columns, [frame, share]) {
+    const here = columns.map((column) => column[frame]);
+    if (share === 0) return here;
+    return between(here, columns.map((column) => column[frame + 1]), share);
+  }
+
+  /** Distance of the goal's object from the goal at `time`, metres. */
+  error(time) {
+    const [x, y] = this.object(page.stage.goal.object, time);
+    return Math.hypot(x - page.stage.goal.at[0] * LENGTH, y - page.stage.goal.at[1] * LENGTH);
+  }
+
+  /** How far its heading is from the nearest that is wanted, radians. */
+  headingError(time) {
+    const { goal } = page.stage;
+    const turn = (this.object(goal.object, time)[2] - goal.heading[0] * FINE) * goal.alike;
+    return Math.abs(Math.atan2(Math.sin(turn), Math.cos(turn))) / goal.alike;
+  }
+}
+
+/** Replays of a plan in the order of layers, unpacked when they are first asked for. */
+const replaysOf = (() => {
+  const known = new Map();
+  return (plan) => {
+    if (!known.has(plan)) {
+      known.set(plan, plan.replays.map((raw) => new Replay(raw, plan.strokes)));
+    }
+    return known.get(plan);
+  };
+})();

@@ -1,0 +1,210 @@
+// The table from above: what stands where at the time of the clock.
+
+(() => {
+  const MARGIN = 0.05; // metres around everything
+  const root = svg('svg', { role: 'img', class: 'plot' });
+  const still = svg('g');
+  const moving = svg('g');
+  const pushes = svg('g');
+  root.append(svg('title', {}, 'The table from above'), still, moving, pushes);
+  byId('stage').append(root);
+
+  let width = 800; // pixels
+  let scale = 1; // pixels a metre
+  let low = [0, 0];
+  let high = [0, 0];
+  let bodies = [];
+
+  const px = (metres) => +(metres * scale).toFixed(2);
+  const map = ([x, y]) => [px(x - low[0]), px(high[1] - y)];
+  const at = (pose) => {
+    const [x, y] = map(pose);
+    return `translate(${x} ${y}) rotate(${((-pose[2] * 180) / Math.PI).toFixed(2)})`;
+  };
+
+  /** The shape of a body about its own origin. */
+  function outline(shape, attributes) {
+    if ('disc' in shape) return svg('circle', { r: px(shape.disc * LENGTH), ...attributes });
+    const corners = shape.polygon.map(([x, y]) => `${px(x * LENGTH)},${px(-y * LENGTH)}`);
+    return svg('polygon', { points: corners.join(' '), ...attributes });
+  }
+
+  const radius = (shape) => LENGTH * ('disc' in shape ? shape.disc
+    : Math.max(...shape.polygon.map(([x, y]) => Math.hypot(x, y))));
+
+  function line(points, attributes) {
+    return svg('polyline', { points: points.map((p) => map(p).join(',')).join(' '), ...attributes });
+  }
+
+  /** A tool as one piece: rims first, fills over them. */
+  function toolShape(tool, className) {
+    const group = svg('g', { class: className });
+    for (const layer of ['rim', 'fill']) {
+      for (const part of tool.parts) {
+        const [x, y, heading] = posed(part.at);
+        const turn = `translate(${px(x)} ${px(-y)}) rotate(${(-heading * 180) / Math.PI})`;
+        group.append(outline(part.shape, { transform: turn, class: layer }));
+      }
+    }
+    const [x, y] = posed(tool.grip);
+    group.append(svg('circle', { cx: px(x), cy: px(-y), r: 4.5, class: 'grip' }));
+    return group;
+  }
+
+  /** The world position of a point in the frame of a pose. */
+  function placed([x, y, heading], [u, v]) {
+    const [c, s] = [Math.cos(heading), Math.sin(heading)];
+    return [x + c * u - s * v, y + s * u + c * v];
+  }
+
+  function fit() {
+    low = [Infinity, Infinity];
+    high = [-Infinity, -Infinity];
+    const add = ([x, y], room = 0) => {
+      low = [Math.min(low[0], x - room), Math.min(low[1], y - room)];
+      high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
+    };
+    const { goal, objects, obstacles } = page.stage;
+    add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
+    // Where nothing moves there is room to show the robot.
+    if (!plan().strokes.length) add([0, 0]);
+    const tool = page.tools[plan().tool];
+    for (const stroke of plan().strokes) {
+      for (const end of [posed(stroke.from), posed(stroke.to)]) {
+        add(placed(end, posed(tool.grip)));
+        for (const part of tool.parts) add(placed(end, posed(part.at)), radius(part.shape));
+      }
+    }
+    for (const replay of replays()) {
+      replay.objects.forEach((object, k) => add(replay.object(k, replay.end), radius(objects[k].shape)));
+    }
+    low = low.map((value) => value - MARGIN);
+    high = high.map((value) => value + MARGIN);
+    width = widthOf(byId('stage'));
+    const [across, along] = [high[0] - low[0], high[1] - low[1]];
+    scale = Math.min(width / across, Math.min(440, width * 0.9) / along);
+    const spare = (width / scale - across) / 2;
+    low[0] -= spare;
+    high[0] += spare;
+    root.setAttribute('viewBox', `0 0 ${width} ${Math.max(1, px(high[1] - low[1]))}`);
+  }
+
+  function drawGrid() {
+    const step = [0.05, 0.1, 0.2, 0.5, 1, 2, 5].find((size) => size * scale >= 45) ?? 10;
+    const [right, bottom] = map([high[0], low[1]]);
+    for (let k = Math.ceil(low[0] / step); k * step <= high[0]; k++) {
+      const [x] = map([k * step, 0]);
+      still.append(svg('line', { x1: x, x2: x, y1: 0, y2: bottom, class: 'grid' }));
+    }
+    for (let k = Math.ceil(low[1] / step); k * step <= high[1]; k++) {
+      const [, y] = map([0, k * step]);
+      still.append(svg('line', { x1: 0, x2: right, y1: y, y2: y, class: 'grid' }));
+    }
+    const [end, height] = [right - 14, bottom - 14];
+    still.append(
+      svg('path', { d: `M${end - px(step)} ${height - 4}v8m0-4H${end}m0-4v8`, class: 'bar' }),
+      svg('text', { x: end - px(step) / 2, y: height - 7, class: 'small middle' },
+        step < 1 ? `${step * 100} cm` : `${step} m`),
+    );
+  }
+
+  function drawStill() {
+    still.replaceChildren();
+    const { goal, objects, obstacles, reach, table } = page.stage;
+    if (table) {
+      const [[x, y], [w, h]] = table.map((pair) => pair.map((value) => value * LENGTH));
+      const [left, top] = map([x - w / 2, y + h / 2]);
+      still.append(svg('rect', { x: left, y: top, width: px(w), height: px(h), class: 'table' }));
+    }
+    drawGrid();
+    const [baseX, baseY] = map([0, 0]);
+    for (const ring of reach) {
+      still.append(svg('circle', { cx: baseX, cy: baseY, r: px(ring * LENGTH), class: 'reach' }));
+    }
+    still.append(svg('circle', { cx: baseX, cy: baseY, r: 4, class: 'robot' }, svg('title', {}, 'robot')));
+    for (const body of obstacles) {
+      const shape = outline(body.shape, { transform: at(posed(body.at)), class: 'obstacle' });
+      shape.append(svg('title', {}, body.name));
+      still.append(shape);
+    }
+    objects.forEach((body, k) => {
+      const className = k === goal.object ? 'start own' : 'start';
+      still.append(outline(body.shape, { transform: at(posed(body.at)), class: className }));
+    });
+    const wanted = [...posed([...goal.at, 0])];
+    const own = objects[goal.object];
+    wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
+    const [x, y] = map(wanted);
+    if (goal.heading || 'disc' in own.shape) {
+      still.append(outline(own.shape, { transform: at(wanted), class: 'wanted' }));
+    }
+    still.append(
+      svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' }),
+      svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }),
+    );
+    for (const replay of shown()) {
+      const columns = replay.objects[goal.object];
+      const points = Array.from(replay.time, (_, k) => [columns[0][k], columns[1][k]]);
+      still.append(line(points, { class: `way ${replay.layer}` }));
+    }
+  }
+
+  /** Where the end effector goes, over everything. */
+  function drawPushes() {
+    pushes.replaceChildren();
+    const grip = posed(page.tools[plan().tool].grip);
+    plan().strokes.forEach((stroke, k) => {
+      const [from, to] = [stroke.from, stroke.to].map((end) => map(placed(posed(end), grip)));
+      const turn = (Math.atan2(to[1] - from[1], to[0] - from[0]) * 180) / Math.PI;
+      pushes.append(
+        svg('line', { x1: from[0], y1: from[1], x2: to[0], y2: to[1], class: 'push' }),
+        svg('path', { d: 'M-9-5l9 5-9 5', class: 'push head', transform: `translate(${to[0]} ${to[1]}) rotate(${turn})` }),
+        svg('circle', { cx: from[0], cy: from[1], r: 9, class: 'push-dot' }),
+        svg('text', { x: from[0], y: from[1] + 4, class: 'push-number' }, `${k + 1}`),
+      );
+    });
+  }
+
+  function drawMoving() {
+    moving.replaceChildren();
+    bodies = [];
+    const { objects, goal } = page.stage;
+    const lead = leading();
+    if (!lead) return;
+    const add = (shape, place) => {
+      moving.append(shape);
+      bodies.push([shape, place]);
+    };
+    const tool = toolShape(page.tools[plan().tool], 'tool');
+    if (plan().strokes.length) add(tool, (time) => at(lead.toolPose(time)));
+    for (const replay of shown()) {
+      objects.forEach((body, k) => {
+        const own = k === goal.object ? ' own' : '';
+        const className = replay === lead ? `object${own}` : `ghost ${replay.layer}`;
+        const shape = svg('g', { class: className },
+          outline(body.shape, {}), svg('title', {}, `${body.name}, ${LAYERS[replay.layer].name}`));
+        if (!('disc' in body.shape)) shape.append(svg('path', { d: `M0 0h${px(radius(body.shape) * 0.45)}` }));
+        add(shape, (time) => at(replay.object(k, time)));
+      });
+    }
+    objects.forEach((body, k) => {
+      if (px(radius(body.shape)) < 4 * body.name.length) return;
+      const label = svg('text', { class: 'label middle', y: 4 }, body.name);
+      add(label, (time) => {
+        const [x, y] = map(lead.object(k, time));
+        return `translate(${x} ${y + (('disc' in body.shape) ? 0 : 14)})`;
+      });
+    });
+  }
+
+  whenPlanChanges.push(() => {
+    fit();
+    drawStill();
+    drawMoving();
+    drawPushes();
+  });
+  whenTimeChanges.push(() => {
+    for (const [shape, place] of bodies) shape.setAttribute('transform', place(view.time));
+  });
+})();

@@ -1,0 +1,100 @@
+// The header, and the tables of layers, plans and tools.
+
+(() => {
+  const WORDS = { passed: 'works', fragile: 'fragile', failed: 'fails', open: 'not verified' };
+
+  byId('task').textContent = page.task;
+  byId('goal').textContent = [page.description, `Goal: ${page.stage.goal.words}.`].filter(Boolean).join(' ');
+
+  function head() {
+    const { standing, verdict } = plan();
+    const badge = byId('badge');
+    badge.textContent = WORDS[standing];
+    badge.className = `badge ${standing}`;
+    byId('plan').textContent = `Plan${page.plans.length > 1 ? ` ${view.plan + 1}` : ''}: ${plan().name}.`;
+    byId('verdict').textContent = `${verdict[0].toUpperCase()}${verdict.slice(1)}.`;
+  }
+
+  function layers() {
+    const rows = replays().map((replay) => {
+      const { name, key } = LAYERS[replay.layer];
+      const box = html('input', { type: 'checkbox', id: `show-${replay.layer}` });
+      box.checked = !view.hidden.has(replay.layer);
+      box.addEventListener('change', () => {
+        toggle(replay.layer);
+        byId(`show-${replay.layer}`).focus();
+      });
+      return html('div', { class: 'layer' },
+        html('label', { title: `${replay.by}; key ${key}` }, box,
+          svg('svg', { viewBox: '0 0 26 10', class: 'sample', 'aria-hidden': 'true' },
+            svg('path', { d: 'M1 5h24', class: `line ${replay.layer}` })),
+          html('span', {}, name)),
+        html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, off the goal` }),
+        html('span', { class: 'faint' }, `ends at ${millimetres(replay.error(replay.end))}`));
+    });
+    byId('layers').replaceChildren(...rows);
+  }
+
+  function errors() {
+    for (const replay of replays()) {
+      byId(`error-${replay.layer}`).textContent = millimetres(replay.error(view.time));
+    }
+    if (page.stage.goal.heading) {
+      const turned = replays().map((replay) => `${LAYERS[replay.layer].name} ${degrees(replay.headingError(view.time))}`);
+      const allowed = degrees(page.stage.goal.heading[1] * FINE);
+      byId('heading').textContent = `Heading off by: ${turned.join(', ')}; ${allowed} allowed.`;
+    }
+  }
+
+  /** Whether a column of a table holds numbers: those between the first two and the last one. */
+  const alignment = (column, columns) => ({ class: column > 1 && column < columns - 1 ? 'number' : '' });
+
+  const headed = (names) => html('tr', {}, ...names.map((name, c) => html('th', {
+    scope: 'col', ...alignment(c, names.length),
+  }, name)));
+
+  /** A button that opens a plan. */
+  function opener(index, text) {
+    const button = html('button', { class: 'open', 'aria-label': `Show plan ${index + 1}` }, text);
+    button.addEventListener('click', () => {
+      play(false);
+      showPlan(index);
+      keepLink();
+    });
+    return button;
+  }
+
+  function plans() {
+    byId('plans-card').hidden = page.plans.length < 2;
+    const rows = page.plans.map((one, k) => {
+      const cells = one.cells.map((cell, c) => html('td', alignment(c + 1, one.cells.length + 1), cell));
+      return html('tr', {}, html('td', {}, opener(k, `${k + 1}`)), ...cells);
+    });
+    byId('plans').replaceChildren(headed(['', ...page.columns]), ...rows);
+  }
+
+  function current() {
+    const rows = byId('plans').querySelectorAll('tr:not(:first-child)');
+    rows.forEach((row, k) => row.setAttribute('aria-current', k === view.plan));
+  }
+
+  function tools() {
+    byId('tools-card').hidden = page.choice.length === 0;
+    const rows = page.choice.map(({ tool, considered, refused, best, why, plan: index }) => html('tr', {},
+      html('td', {}, index === null ? '' : opener(index, `${index + 1}`)),
+      html('td', {}, tool),
+      html('td', { class: 'number' }, `${considered}`),
+      html('td', { class: 'number' }, `${refused}`),
+      html('td', { class: 'number' }, best),
+      html('td', {}, why)));
+    const names = ['', 'tool', 'pushes considered', 'cannot be made', 'best score in the search', 'why'];
+    byId('tools').replaceChildren(headed(names), ...rows);
+  }
+
+  byId('warnings-card').hidden = page.warnings.length === 0;
+  byId('warnings').replaceChildren(...page.warnings.map((line) => html('li', {}, line)));
+  plans();
+  tools();
+  whenPlanChanges.push(head, layers, current);
+  whenTimeChanges.push(errors);
+})();

@@ -1,0 +1,156 @@
+//! The page of a solved task: its plans, its tools, and what the search went through.
+
+use crate::plan::{ScoredPush, bare, is_behind};
+use crate::report::number::millimetres;
+use crate::report::plan_text::{engine_name, plan_line};
+use crate::report::solution::headline;
+use crate::report::table::NONE;
+use crate::report::verdict::verdict_line;
+use crate::scene::{Engine, Outcome, Task, Verdict};
+use crate::solve::{PlanStatus, RankedPlan, Solution};
+
+use super::candidates::{candidates, frequent};
+use super::data::{Choice, Layer, Standing};
+use super::html;
+use super::replay::{ends, replay, replays};
+use super::replayed::{Making, standing};
+
+/// Names of the columns of the table of plans.
+const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
+
+/// The page of a solution. `nominal` holds the replays of its first plan, also where that was not
+/// worth verifying; `command` says how a plan's replays are made again.
+pub fn solution_page(
+    task: &Task,
+    solution: &Solution,
+    nominal: &Verdict,
+    command: &dyn Fn(&RankedPlan) -> String,
+) -> String {
+    let mut making = Making::of(task, headline(solution));
+    for (k, ranked) in solution.plans.iter().enumerate() {
+        let verdict = ranked.verdict.as_ref();
+        let replayed = if k == 0 { Some(nominal) } else { verdict };
+        let mut list = Vec::new();
+        list.extend(replay(Layer::Predicted, &ranked.predicted, ranked.outcome.reached));
+        list.extend(replayed.into_iter().flat_map(replays));
+        let why = why(task, solution, k);
+        let plan = making.plan(&ranked.tool, &ranked.plan, command(ranked));
+        plan.standing = verdict.map_or(Standing::Open, standing);
+        plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
+        plan.cells = cells(ranked, replayed, why);
+        plan.ends = verdict.map_or(Vec::new(), |verdict| ends(task, verdict));
+        plan.replays = list;
+    }
+    making.data.columns = COLUMNS.to_vec();
+    making.data.choice = choice(solution);
+    making.data.candidates = candidates(solution);
+    making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
+    html::page(&making.data)
+}
+
+fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
+    let error = |outcome: Option<&Outcome>| {
+        outcome.map_or(NONE.to_owned(), |outcome| millimetres(outcome.error))
+    };
+    let nominal = |engine| replayed.and_then(|verdict| verdict.nominal(engine));
+    let end = |engine| error(nominal(engine).map(|evidence| &evidence.outcome));
+    let [planar, spatial] = Engine::ALL.map(end);
+    let disturbed = ranked.verdict.as_ref().and_then(fewest).map_or(NONE.to_owned(), |found| {
+        let (reached, replays, _) = found;
+        format!("{reached} of {replays}")
+    });
+    vec![plan_line(&ranked.plan), error(Some(&ranked.outcome)), planar, spatial, disturbed, why]
+}
+
+/// Disturbed replays that reach the goal, and all of them, in the engine in which fewer do.
+fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
+    let counts = Engine::ALL.map(|engine| {
+        let reached = verdict.disturbed(engine).filter(|evidence| evidence.outcome.reached);
+        (reached.count(), verdict.disturbed(engine).count(), engine)
+    });
+    let made = counts.into_iter().filter(|(_, replays, _)| *replays > 0);
+    made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))
+}
+
+/// What came of the plan of rank `k`: of the first its verdict, of the others why it is not first.
+fn why(task: &Task, solution: &Solution, k: usize) -> String {
+    let ranked = &solution.plans[k];
+    let Some(verdict) = &ranked.verdict else {
+        return match (ranked.plan.pushes.is_empty(), ranked.outcome.reached) {
+            (true, _) => "leaves everything as it is".to_owned(),
+            (false, true) => "predicted to reach the goal; not replayed".to_owned(),
+            (false, false) => "predicted to miss the goal".to_owned(),
+        };
+    };
+    let best = solution.best().and_then(|best| best.verdict.as_ref());
+    if k == 0 || !verdict.passed {
+        return verdict_line(task, Some(verdict));
+    }
+    match (verdict.robustness, best.and_then(|best| best.robustness)) {
+        (None, Some(_)) => "works as written; not replayed with disturbances".to_owned(),
+        (Some(own), Some(best)) if own < best => {
+            let found = fewest(verdict);
+            let engine = found.map_or("", |(_, _, engine)| engine_name(engine));
+            format!("passes, but in fewer disturbed replays ({engine})")
+        }
+        _ => "passes as well".to_owned(),
+    }
+}
+
+/// Every tool that was offered, those with a plan first, then by what is predicted for them.
+fn choice(solution: &Solution) -> Vec<Choice> {
+    let mut found: Vec<(Option<usize>, f64, Choice)> = Vec::new();
+    for (index, tool) in solution.tools.iter().enumerate() {
+        let own = |push: &&ScoredPush| push.tool == index;
+        let pushes: Vec<&ScoredPush> = solution.candidates.iter().filter(own).collect();
+        let best = pushes.iter().filter_map(|push| push.score).reduce(f64::min);
+        let of_tool =
+            |plan: &RankedPlan| plan.plan.tool == tool.name && !plan.plan.pushes.is_empty();
+        let plan = solution.plans.iter().position(of_tool);
+        let refused = pushes.iter().filter(|push| push.score.is_none() && push.refused.is_some());
+        let choice = Choice {
+            tool: tool.name.clone(),
+            considered: pushes.len(),
+            refused: refused.count(),
+            best: best.map_or(NONE.to_owned(), |best| format!("{:.2}", bare(best))),
+            why: lost(solution, plan, best, &pushes),
+            plan,
+        };
+        found.push((plan, best.unwrap_or(f64::INFINITY), choice));
+    }
+    let place = |plan: Option<usize>| plan.unwrap_or(usize::MAX);
+    found.sort_by(|a, b| place(a.0).cmp(&place(b.0)).then(a.1.total_cmp(&b.1)));
+    found.into_iter().map(|(.., choice)| choice).collect()
+}
+
+/// Why a tool was not chosen, or that it was.
+fn lost(
+    solution: &Solution,
+    plan: Option<usize>,
+    best: Option<f64>,
+    pushes: &[&ScoredPush],
+) -> String {
+    let ranked = plan.map(|plan| (plan, &solution.plans[plan]));
+    match (ranked, best) {
+        (Some((0, _)), _) => match solution.status {
+            PlanStatus::Solved | PlanStatus::Fragile => "chosen".to_owned(),
+            PlanStatus::FailedVerification => {
+                "best by prediction, but fails in a replay".to_owned()
+            }
+            PlanStatus::NoPlan => "comes nearest, but misses the goal".to_owned(),
+        },
+        (Some((k, plan)), _) => match &plan.verdict {
+            Some(verdict) if verdict.passed => format!("works too, as plan {}", k + 1),
+            Some(_) => format!("fails in a replay, as plan {} shows", k + 1),
+            None if plan.outcome.reached => format!("predicted to work, as plan {}", k + 1),
+            None => format!("predicted to miss, as plan {} shows", k + 1),
+        },
+        (None, None) => match frequent(pushes) {
+            Some(reason) => format!("no push can be made, mostly as {reason}"),
+            None => "no push was tried".to_owned(),
+        },
+        (None, Some(best)) if is_behind(best) => "leads through what does not give way".to_owned(),
+        (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
+        (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
+    }
+}
