@@ -73,6 +73,8 @@ pub mod internals;
 #[doc(hidden)]
 pub mod asset;
 #[doc(hidden)]
+pub mod belief;
+#[doc(hidden)]
 pub mod bench;
 mod checksum;
 #[cfg(feature = "cli")]

@@ -11,7 +11,7 @@ use super::train;
 use super::{
     bench, check, completions,
     error::CliError,
-    evaluate, exit_code, export, fit, generate, interrupt, predict, schema,
+    evaluate, exit_code, export, fit, generate, infer, interrupt, predict, schema,
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
@@ -40,6 +40,7 @@ enum Command {
     Train(train::TrainArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
+    Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
     Tradeoff(tradeoff::TradeOffArgs),
     Schema(schema::SchemaArgs),
@@ -81,6 +82,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Train(args) => train::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
+        Command::Infer(args) => infer::run(args, &session),
         Command::Bench(args) => bench::run(args, &session),
         Command::Tradeoff(args) => tradeoff::run(args, &session),
         Command::Schema(args) => schema::run(args, &session),

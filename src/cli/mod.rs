@@ -15,6 +15,7 @@ mod fit;
 mod follow;
 mod form;
 mod generate;
+mod infer;
 mod interrupt;
 mod model;
 mod output;

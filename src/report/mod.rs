@@ -3,6 +3,7 @@
 //! Pure formatting: values in, text out. Nothing is computed, run or written to disk here.
 
 mod bars;
+mod belief;
 mod chart;
 mod cost;
 mod crowd;
@@ -33,6 +34,7 @@ mod training;
 mod verdict;
 
 pub use bars::{BarChart, Bars};
+pub use belief::belief_document;
 pub use chart::{Axis, Chart, Mark, Series};
 pub use cost::{cost_document, crowd_cost_document, equation_document, far_document};
 pub use crowd::{crowd_document, evaluation_document};

@@ -18,6 +18,7 @@ mod job;
 mod joint;
 mod model;
 mod motion;
+mod observation;
 mod outline;
 mod physics;
 mod plan;
@@ -50,6 +51,7 @@ pub use model::{
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
+pub use observation::{Noise, Observation, Sight};
 pub use outline::Piece;
 pub use physics::{Physics, face_height};
 pub use plan::{Engine, Outcome, Plan};

@@ -3,6 +3,7 @@
 mod architecture;
 mod assets;
 mod baselines;
+mod belief;
 mod bench_store;
 mod benchmarks;
 mod cli;

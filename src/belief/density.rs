@@ -1,0 +1,53 @@
+//! How likely many numbers are together.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Degrees of freedom of Student's law: what was seen may be far from every hypothesis now and then.
+const FREEDOM: f64 = 4.0;
+
+/// Logarithm of Student's density of `off` with the scale matrix `spread`, up to a constant that
+/// depends on the number of them alone; minus infinity where `spread` is no covariance.
+pub(super) fn student(off: &DVector<f64>, spread: DMatrix<f64>) -> f64 {
+    let n = off.len() as f64;
+    let Some(factor) = spread.cholesky() else { return f64::NEG_INFINITY };
+    let volume: f64 = factor.l_dirty().diagonal().iter().map(|side| side.ln()).sum();
+    let square = off.dot(&factor.solve(off));
+    -volume - 0.5 * (FREEDOM + n) * (square / FREEDOM).ln_1p()
+}
+
+/// Logarithm of the sum of what these are logarithms of.
+pub(super) fn log_sum(logs: impl Iterator<Item = f64> + Clone) -> f64 {
+    let most = logs.clone().fold(f64::NEG_INFINITY, f64::max);
+    if most == f64::NEG_INFINITY {
+        return most;
+    }
+    most + logs.map(|log| (log - most).exp()).sum::<f64>().ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_follows_students_law() {
+        let log = |x: f64, s: f64| {
+            student(&DVector::from_element(1, x), DMatrix::from_element(1, 1, s * s))
+        };
+        // The density with four degrees of freedom: 3/8 (1 + x^2/4)^(-5/2).
+        let density = |x: f64| 0.375 * (1.0 + 0.25 * x * x).powf(-2.5);
+        for x in [0.3, 1.0, 4.0] {
+            let wanted = (density(x / 2.0) / density(0.0)).ln();
+            assert!((log(x, 2.0) - log(0.0, 2.0) - wanted).abs() < 1e-12);
+        }
+        assert!(
+            (log(0.0, 1.0) - log(0.0, 2.0) - 2f64.ln()).abs() < 1e-12,
+            "twice as wide, half as high"
+        );
+    }
+
+    #[test]
+    fn sums_of_logarithms_do_not_overflow() {
+        assert!((log_sum([-1000.0, -1000.0].into_iter()) + 1000.0 - 2f64.ln()).abs() < 1e-12);
+        assert_eq!(log_sum([].into_iter()), f64::NEG_INFINITY);
+    }
+}

@@ -1,0 +1,278 @@
+//! The belief, and how it follows what is seen.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::{
+    effect::EffectModel,
+    geometry::Pose,
+    scene::{
+        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool, ToolMotion,
+    },
+};
+
+use super::{
+    joints::{likeliest, with},
+    near::near_pairs,
+    pair::{JointType, PairBelief},
+    relative::{relative, relative_like, spread},
+    rolled::Rolled,
+    settings::BeliefSettings,
+    track::{ARM, Track},
+    window::{Doubt, Instant, evidence},
+};
+
+/// Observations that are looked at together. Of 2, 5 and 10 frames of a push, 5 tell joints best
+/// under noise.
+const WINDOW: usize = 5;
+
+/// How much the places of all objects count beside those of a pair against each other.
+const PLACES: f64 = 0.3;
+
+/// What is believed about the joints of a scene.
+#[derive(Clone, Debug)]
+pub struct Belief {
+    scene: Scene,
+    tool: Arc<Tool>,
+    lift: f64,
+    settings: BeliefSettings,
+    pairs: Vec<PairBelief>,
+    track: Track,
+    /// Not looked at yet.
+    window: Vec<Observation>,
+    seen: usize,
+    history: Vec<Step>,
+}
+
+/// What was believed when, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// Observations until then.
+    pub observations: usize,
+    /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`].
+    pub probabilities: Vec<[f64; 4]>,
+    /// What the window said for each type, as logarithms against the best; `None` where nothing of
+    /// the pair moved.
+    pub evidence: Vec<Option<[f64; 4]>>,
+}
+
+impl Belief {
+    /// What is believed of `scene` before anything has moved, but for its joints, which are not
+    /// known; its objects were seen where it states them. The tool's underside is `lift` metres above
+    /// the table.
+    pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
+        let scene = Scene { joints: Vec::new(), ..scene.clone() };
+        let track = Track::new(scene.start(), settings.noise);
+        let pairs = near_pairs(&scene)
+            .into_iter()
+            .map(|([a, b], midway)| {
+                let [first, second] = [a, b].map(|k| &scene.objects[k].pose);
+                let seen = relative(first, second);
+                let variance = |which: usize| [a, b].map(|k| track.variance[k][which]);
+                let spread = spread(&seen, variance(0), variance(1));
+                PairBelief::new([a, b], seen, &spread, first.local_point(midway))
+            })
+            .collect();
+        Self {
+            scene,
+            tool,
+            lift,
+            settings,
+            pairs,
+            track,
+            window: Vec::new(),
+            seen: 0,
+            history: Vec::new(),
+        }
+    }
+
+    /// Pairs of objects that were near each other at the start and so may be joined: indices, the
+    /// lower first.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
+        self.pairs.iter().map(|pair| pair.between)
+    }
+
+    /// Of each of these pairs the probabilities of [`JointType::ALL`].
+    pub fn probabilities(&self) -> Vec<[f64; 4]> {
+        let map = self.map();
+        let follows = |pair: &PairBelief| {
+            pair.likeliest() != JointType::None && joint_of(&map, pair.between).is_none()
+        };
+        self.pairs.iter().map(|pair| pair.probabilities(follows(pair))).collect()
+    }
+
+    /// What was believed when, and why.
+    pub fn history(&self) -> &[Step] {
+        &self.history
+    }
+
+    /// Takes what was seen. Every few observations are looked at together, so the last ones may
+    /// not have told anything yet: see [`Self::settle`].
+    pub fn update(&mut self, model: &dyn EffectModel, observation: Observation) {
+        let lifted = observation.strokes.last().is_some_and(|stroke| stroke.settle);
+        self.window.push(observation);
+        if self.window.len() >= WINDOW || lifted {
+            self.settle(model);
+        }
+    }
+
+    /// Looks at all that was seen.
+    pub fn settle(&mut self, model: &dyn EffectModel) {
+        let window = std::mem::take(&mut self.window);
+        if window.is_empty() {
+            return;
+        }
+        self.seen += window.len();
+        let map = self.map();
+        let known: Vec<JointType> =
+            self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
+        let Some(base) = self.roll(model, &window, vec![map.clone()]).pop() else { return };
+        let moved: Vec<f64> = (0..self.scene.objects.len())
+            .map(|object| self.track.motion(object, &base, &window))
+            .collect();
+        let tells = |pair: &PairBelief| pair.between.iter().any(|&k| moved[k] > 0.0);
+        // Every other type of joint of every pair that moved.
+        let mut asked: Vec<(usize, JointType)> = Vec::new();
+        for (p, _) in self.pairs.iter().enumerate().filter(|(_, pair)| tells(pair)) {
+            let others = JointType::ALL.into_iter().filter(|kind| *kind != known[p]);
+            asked.extend(others.map(|kind| (p, kind)));
+        }
+        let physics = asked
+            .iter()
+            .map(|&(p, kind)| with(&map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
+        let rolled = self.roll(model, &window, physics.collect());
+        let mut evidences = Vec::new();
+        for (p, known) in known.iter().copied().enumerate() {
+            let by_type = |kind: JointType| match kind == known {
+                true => Some(&base),
+                false => asked.iter().position(|one| *one == (p, kind)).map(|job| &rolled[job]),
+            };
+            let pair = &self.pairs[p];
+            let evidence = tells(pair).then(|| self.judge(pair, by_type, &window, &moved));
+            let pair = &mut self.pairs[p];
+            if let Some(evidence) = &evidence {
+                pair.weigh(evidence, self.settings.tempering);
+            }
+            learn(pair, &window, &self.settings);
+            evidences.push(evidence.map(|evidence| pair.by_type(&evidence)));
+        }
+        self.history.push(Step {
+            observations: self.seen,
+            probabilities: self.probabilities(),
+            evidence: evidences,
+        });
+        self.track.follow(&base, &window);
+    }
+
+    /// The scene as it is thought to stand now, with the likeliest joints.
+    pub fn situation(&self) -> Situation {
+        let physics = Arc::new(self.map());
+        Situation { scene: Arc::new(self.scene_now()), start: self.track.state.clone(), physics }
+    }
+
+    /// The likeliest physics: anchors and axes are where they are with the objects as in
+    /// [`Self::situation`].
+    pub fn map(&self) -> Physics {
+        likeliest(&self.scene, &self.pairs, &self.track.state)
+    }
+
+    fn scene_now(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        for (object, pose) in scene.objects.iter_mut().zip(&self.track.state.poses) {
+            object.pose = *pose;
+        }
+        scene
+    }
+
+    /// What the tool did in a window, rolled out under every one of `physics`.
+    fn roll(
+        &self,
+        model: &dyn EffectModel,
+        window: &[Observation],
+        physics: Vec<Physics>,
+    ) -> Vec<Rolled> {
+        let strokes: Vec<Stroke> = window.iter().flat_map(|seen| seen.strokes.clone()).collect();
+        let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
+        let start = &self.track.state;
+        let job = |physics| Job {
+            start: start.clone(),
+            motion: motion.clone(),
+            physics: Arc::new(physics),
+        };
+        let jobs: Vec<Job> = physics.into_iter().map(job).collect();
+        let rolled = model.rollout(&self.scene_now(), &jobs, Record::Frames);
+        rolled.iter().map(|trajectory| Rolled::new(trajectory, window, start)).collect()
+    }
+
+    /// A pair at the observations of a window, as it was seen and as it was rolled out.
+    fn instants(
+        &self,
+        [a, b]: [usize; 2],
+        rolled: &Rolled,
+        window: &[Observation],
+    ) -> Vec<Instant> {
+        let mut instants = Vec::new();
+        for (k, (now, state)) in window.iter().zip(&rolled.states).enumerate() {
+            let [first, second] = [a, b].map(|k| &state.poses[k]);
+            let one = self.track.sight(a, now.seen[a], first);
+            let other = self.track.sight(b, now.seen[b], second);
+            let (Some(one), Some(other)) = (one, other) else { continue };
+            let predicted = relative(first, second);
+            let seen = relative_like(&one.0, &other.0, &predicted);
+            let spread = spread(&seen, [one.1[0], other.1[0]], [one.1[1], other.1[1]]);
+            let share = (k + 1) as f64 / window.len() as f64;
+            instants.push(Instant { share, seen, spread, predicted });
+        }
+        instants
+    }
+
+    /// What a window says of every hypothesis about a pair, rolled out by type.
+    fn judge<'a>(
+        &self,
+        pair: &PairBelief,
+        rolled: impl Fn(JointType) -> Option<&'a Rolled>,
+        window: &[Observation],
+        moved: &[f64],
+    ) -> Vec<f64> {
+        let [a, b] = pair.between;
+        let [first, second] = [a, b].map(|k| &self.track.state.poses[k]);
+        let before = relative(first, second);
+        let variance = |which: usize| [a, b].map(|k| self.track.variance[k][which]);
+        let start = spread(&before, variance(0), variance(1));
+        let by_type = JointType::ALL.map(|kind| {
+            let rolled = rolled(kind)?;
+            let instants = self.instants(pair.between, rolled, window);
+            let change: Vector3<f64> = instants.last()?.predicted - before;
+            let relative = change.xy().norm().hypot(ARM * change.z);
+            let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM);
+            Some((instants, doubt, PLACES * self.track.places(rolled, window, moved)))
+        });
+        let of = |kind: JointType| by_type[kind as usize].as_ref();
+        let judged = pair.hypotheses.iter().map(|hypothesis| {
+            of(hypothesis.fit.kind).map_or(f64::NEG_INFINITY, |(instants, doubt, places)| {
+                evidence(&hypothesis.fit, instants, doubt) + places
+            })
+        });
+        judged.collect()
+    }
+}
+
+fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint> {
+    physics.joints.iter().find(|joint| joint.between == between)
+}
+
+/// Takes where a pair was seen into the geometry of every hypothesis; where a heading was not seen
+/// geometry would follow the errors of rollouts, so nothing is learnt.
+fn learn(pair: &mut PairBelief, window: &[Observation], settings: &BeliefSettings) {
+    let [position, heading] = [settings.noise.position, settings.noise.heading].map(|sd| sd * sd);
+    for now in window {
+        let pose =
+            |sight: Sight| sight.heading.map(|heading| Pose { position: sight.position, heading });
+        let [Some(one), Some(other)] = pair.between.map(|k| now.seen[k].and_then(pose)) else {
+            continue;
+        };
+        pair.learn(&one, &other, [position, heading]);
+    }
+}

@@ -1,0 +1,140 @@
+//! Where every object is thought to be, from where it was rolled out to and where it was seen.
+
+use crate::{
+    geometry::{Pose, wrap_angle},
+    scene::{Noise, Observation, Sight, State},
+};
+
+use super::rolled::Rolled;
+
+/// What moves by less in a window says nothing, metres.
+const STILL: f64 = 2e-4;
+
+/// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
+pub(super) const ASTRAY: [f64; 2] = [2e-4, 0.05];
+
+/// Standard deviation of a heading that is not seen, against a rollout: radians, and a share of
+/// the turn.
+const UNSEEN: [f64; 2] = [0.01, 0.2];
+
+/// Headings count like positions at this arm, metres.
+pub(super) const ARM: f64 = 0.04;
+
+/// Where every object is thought to be and how it moves.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    noise: Noise,
+    pub state: State,
+    /// Variance of every object's position (either coordinate) and heading.
+    pub variance: Vec<[f64; 2]>,
+}
+
+impl Track {
+    /// Of objects that were seen at rest like this.
+    pub fn new(state: State, noise: Noise) -> Self {
+        let variance = [noise.position.powi(2), noise.heading.powi(2)];
+        Self { variance: vec![variance; state.poses.len()], state, noise }
+    }
+
+    /// How far an object moved in a window, as it was seen or rolled out, metres; nothing where that
+    /// may be noise.
+    pub fn motion(&self, object: usize, rolled: &Rolled, window: &[Observation]) -> f64 {
+        let start = &self.state.poses[object];
+        let far = |pose: &Pose| {
+            let turn = wrap_angle(pose.heading - start.heading).abs() * ARM;
+            (pose.position - start.position).norm().max(turn)
+        };
+        let rolled = rolled.states.last().map_or(0.0, |state| far(&state.poses[object]));
+        let seen = window.last().and_then(|last| last.seen[object]).map_or(0.0, |sight| {
+            let heading = sight.heading.unwrap_or(start.heading);
+            let seen = far(&Pose { position: sight.position, heading });
+            let by_chance = 4.0 * self.noise.position.max(self.noise.heading * ARM);
+            if seen > by_chance { seen } else { 0.0 }
+        });
+        let most = rolled.max(seen);
+        if most > STILL { most } else { 0.0 }
+    }
+
+    /// Where an object was seen, with a heading near the one rolled out, and the variances of both;
+    /// an unseen heading is the one rolled out. `None` where the object was not seen.
+    pub fn sight(
+        &self,
+        object: usize,
+        sight: Option<Sight>,
+        rolled: &Pose,
+    ) -> Option<(Pose, [f64; 2])> {
+        let sight = sight?;
+        let (heading, variance) = match sight.heading {
+            Some(heading) => {
+                (rolled.heading + wrap_angle(heading - rolled.heading), self.noise.heading.powi(2))
+            }
+            None => {
+                let turn = (rolled.heading - self.state.poses[object].heading).abs();
+                let unseen = (UNSEEN[0] + UNSEEN[1] * turn).powi(2);
+                (rolled.heading, unseen + self.variance[object][1])
+            }
+        };
+        let pose = Pose { position: sight.position, heading };
+        Some((pose, [self.noise.position.powi(2), variance]))
+    }
+
+    /// Logarithm of the density of where all objects that `moved` so far, metres, were last seen.
+    pub fn places(&self, rolled: &Rolled, window: &[Observation], moved: &[f64]) -> f64 {
+        let (Some(now), Some(state)) = (window.last(), rolled.states.last()) else { return 0.0 };
+        let mut log = 0.0;
+        for (k, motion) in moved.iter().enumerate().filter(|(_, motion)| **motion > 0.0) {
+            let rolled = &state.poses[k];
+            let Some((pose, variance)) = self.sight(k, now.seen[k], rolled) else { continue };
+            let model = (2.0 * ASTRAY[0] + ASTRAY[1] * motion).powi(2);
+            let off = (pose.position - rolled.position).norm_squared()
+                / (model + variance[0] + self.variance[k][0]);
+            let turn = (pose.heading - rolled.heading).powi(2)
+                / (model / (ARM * ARM) + variance[1] + self.variance[k][1]);
+            // Student's law of three numbers with four degrees of freedom.
+            log -= 3.5 * ((off + turn) / 4.0).ln_1p();
+        }
+        log
+    }
+
+    /// Goes to the end of a window: where things were rolled out to, corrected by where they were
+    /// seen, as far as that is surer.
+    pub fn follow(&mut self, rolled: &Rolled, window: &[Observation]) {
+        let (Some(now), Some(end)) = (window.last(), rolled.states.last()) else { return };
+        for k in 0..self.state.poses.len() {
+            let (before, rolled) = (self.state.poses[k], end.poses[k]);
+            let motion = (rolled.position - before.position).norm();
+            let turn = (rolled.heading - before.heading).abs();
+            let grown = |far: f64| match far > 0.0 {
+                true => (ASTRAY[0] + ASTRAY[1] * far).powi(2),
+                false => 0.0,
+            };
+            let mut variance = self.variance[k];
+            variance[0] += grown(motion);
+            variance[1] += grown(ARM * turn.max(motion)) / (ARM * ARM);
+            let mut pose = rolled;
+            if let Some((seen, noise)) = self.sight(k, now.seen[k], &rolled) {
+                let off = seen.position - rolled.position;
+                // A rollout that was wrong is no reason not to believe one's eyes.
+                variance[0] = variance[0].max(off.norm_squared() / 9.0 - noise[0]);
+                let share = gain(variance[0], noise[0]);
+                pose.position += share * off;
+                variance[0] *= 1.0 - share;
+                if now.seen[k].is_some_and(|sight| sight.heading.is_some()) {
+                    let turned = seen.heading - rolled.heading;
+                    variance[1] = variance[1].max(turned * turned / 9.0 - noise[1]);
+                    let share = gain(variance[1], noise[1]);
+                    pose.heading += share * turned;
+                    variance[1] *= 1.0 - share;
+                }
+            }
+            self.state.poses[k] = pose;
+            self.state.velocities[k] = end.velocities[k];
+            self.variance[k] = variance;
+        }
+    }
+}
+
+/// By how much an observation moves an estimate of this variance.
+fn gain(variance: f64, noise: f64) -> f64 {
+    if variance + noise > 0.0 { variance / (variance + noise) } else { 1.0 }
+}

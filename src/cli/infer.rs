@@ -1,0 +1,93 @@
+//! `pushplan infer`: which objects hang together, from recorded pushes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::belief::{Belief, BeliefSettings};
+use crate::recording::Recording;
+use crate::report::belief_document;
+use crate::scene::{ModelSpec, Noise};
+use crate::watch::Count;
+
+use super::{
+    error::CliError, exit_code, follow::Following, form::Form, model, output,
+    recordings::load_recordings, session::Session,
+};
+
+/// Infer from a recording which objects hang together by which joints
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Tells for every two objects that stand within 3 cm of each other at the start \
+whether they are
+free, fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how
+sure that is, and where the point or line is. Joints that the recording states are not read. Five
+recorded instants are looked at together; the rest of what the recording says of the scene, masses
+and frictions, is taken for true but hardly matters. Objects whose headings are not recorded tell
+little.
+
+Examples:
+  pushplan infer pushes.recording.json
+  pushplan infer pushes.recording.json --noise 0.003 --heading-noise 0.03 --out plans"
+)]
+pub struct InferArgs {
+    /// A recording, or a trajectory file
+    #[arg(value_name = "FILE")]
+    recording: PathBuf,
+    /// What rolls hypotheses out
+    #[arg(long, value_name = "MODEL", default_value = "prior")]
+    model: ModelSpec,
+    /// Standard deviation of recorded positions, metres
+    #[arg(long, value_name = "METRES", default_value_t = 1e-3, value_parser = deviation)]
+    noise: f64,
+    /// Standard deviation of recorded headings, radians
+    #[arg(long, value_name = "RADIANS", default_value_t = 0.01, value_parser = deviation)]
+    heading_noise: f64,
+    /// Folder for belief.json and belief.svg
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    form: Form,
+}
+
+fn deviation(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "1 mm is 0.001".to_owned())?;
+    let sound = (0.0..=0.5).contains(&value);
+    sound.then_some(value).ok_or_else(|| "it must be 0 to 0.5".to_owned())
+}
+
+pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
+    let sets = load_recordings(std::slice::from_ref(&args.recording))?;
+    let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
+    let [recording] = recordings[..] else {
+        let advice = "name one of them; beliefs about several tables do not mix";
+        return Err(CliError::usage("this folder holds several recordings", advice));
+    };
+    let model = model::load(&args.model)?;
+    if let Some(folder) = &args.out {
+        output::prepare(folder)?;
+    }
+    let noise = Noise { position: args.noise, heading: args.heading_noise };
+    let (tool, lift) = (recording.tool.clone(), recording.lift);
+    let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise));
+    let following = Following::bar(session, "inferring");
+    let observations = recording.observations();
+    let count = Count::new(&following, 0, observations.len());
+    session.compute(|| {
+        for observation in observations {
+            belief.update(&model, observation);
+            count.one();
+        }
+        belief.settle(&model);
+    });
+    following.finish()?;
+    let names: Vec<&str> =
+        recording.scene.objects.iter().map(|object| object.name.as_str()).collect();
+    let document = belief_document(&recording.name, &belief, &names);
+    if let Some(folder) = &args.out {
+        output::write(folder, "belief.json", document.to_json().as_bytes())?;
+        output::write_figures(folder, document.figures())?;
+    }
+    args.form.show(session, &document)?;
+    Ok(exit_code::DONE)
+}

@@ -1,0 +1,123 @@
+//! What is believed of a recording: which objects hang together, since when, and over time.
+
+use serde_json::json;
+
+use crate::belief::{Belief, JointType};
+use crate::scene::{Joint, JointKind};
+
+use super::chart::{Axis, Chart, Mark, Series};
+use super::document::{Document, Drawing, Figure, Section};
+use super::number::degrees;
+use super::table::{
+    Align::{Left, Right},
+    NONE, Table,
+};
+
+/// The belief about the objects called `names` that hold a recording of this title.
+pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document {
+    let now = belief.situation();
+    let probabilities = belief.probabilities();
+    let name = |[a, b]: [usize; 2]| format!("{} and {}", names[a], names[b]);
+    let joint = |between: [usize; 2]| now.physics.joints.iter().find(|j| j.between == between);
+    let rows: Vec<(usize, [usize; 2])> = belief.pairs().enumerate().collect();
+    let probability = |k: usize| move |shares: &[f64; 4]| format!("{:.1} %", 1e2 * shares[k]);
+    let mut table = Table::new([
+        ("objects", Left),
+        ("none", Right),
+        ("fixed", Right),
+        ("revolute", Right),
+        ("prismatic", Right),
+        ("taken for", Left),
+        ("where, now", Left),
+        ("since observation", Right),
+    ]);
+    for (p, between) in &rows {
+        let shares = &probabilities[*p];
+        let taken = joint(*between);
+        let mut cells = vec![name(*between)];
+        cells.extend((0..4).map(|k| probability(k)(shares)));
+        cells.push(word(JointType::of(taken)).to_owned());
+        cells.push(taken.map_or(NONE.to_owned(), place));
+        cells.push(since(belief, *p).map_or(NONE.to_owned(), |seen| seen.to_string()));
+        table.row(cells);
+    }
+    let observations = belief.history().last().map_or(0, |step| step.observations);
+    let pairs = match rows.len() {
+        1 => "1 pair is".to_owned(),
+        count => format!("{count} pairs are"),
+    };
+    let title = format!("{title}: {observations} observations; {pairs} near enough to be joined");
+    let figures = if rows.is_empty() { Vec::new() } else { vec![over_time(belief, &name)] };
+    let json = json!({
+        "objects": names,
+        "pairs": rows.iter().map(|(_, between)| between).collect::<Vec<_>>(),
+        "types": JointType::ALL,
+        "probabilities": probabilities,
+        "joints": now.physics.joints,
+        "history": belief.history(),
+    });
+    Document {
+        title,
+        sections: vec![Section { table, figures, ..Section::default() }],
+        json,
+        ..Document::default()
+    }
+}
+
+fn word(kind: JointType) -> &'static str {
+    match kind {
+        JointType::None => "none",
+        JointType::Fixed => "fixed",
+        JointType::Revolute => "revolute",
+        JointType::Prismatic => "prismatic",
+    }
+}
+
+/// Where a joint is while the objects are where they were seen last.
+fn place(joint: &Joint) -> String {
+    match joint.kind {
+        JointKind::Fixed => NONE.to_owned(),
+        JointKind::Revolute { at, .. } => format!("at ({:.3}, {:.3}) m", at.x, at.y),
+        JointKind::Prismatic { axis, .. } => format!("along {}", degrees(axis.y.atan2(axis.x))),
+    }
+}
+
+/// The likeliest of four shares.
+fn likeliest(shares: &[f64; 4]) -> usize {
+    (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0)
+}
+
+/// The observation since which the likeliest type of a pair is what it is; none if nothing of it
+/// moved.
+fn since(belief: &Belief, pair: usize) -> Option<usize> {
+    let history = belief.history();
+    history.iter().find(|step| step.evidence[pair].is_some())?;
+    let last = likeliest(&history.last()?.probabilities[pair]);
+    let same = history.iter().rev().take_while(|step| likeliest(&step.probabilities[pair]) == last);
+    same.last().map(|step| step.observations)
+}
+
+/// Of every pair the probability of the type that it has at the end.
+fn over_time(belief: &Belief, name: &dyn Fn([usize; 2]) -> String) -> Figure {
+    let probabilities = belief.probabilities();
+    let series = belief.pairs().enumerate().map(|(p, between)| {
+        let last = likeliest(&probabilities[p]);
+        let points = belief
+            .history()
+            .iter()
+            .map(|step| [step.observations as f64, 1e2 * step.probabilities[p][last]]);
+        Series {
+            name: format!("{}: {}", name(between), word(JointType::ALL[last])),
+            points: points.collect(),
+            mark: Mark::Line,
+            labels: Vec::new(),
+        }
+    });
+    let chart = Chart {
+        title: "Probability of the type believed at the end".into(),
+        x: Axis { label: "observations".into(), log: false },
+        y: Axis { label: "probability, %".into(), log: false },
+        series: series.collect(),
+    };
+    Figure { name: "belief".into(), drawing: Drawing::Chart(chart) }
+}

@@ -1,0 +1,223 @@
+//! Joints are found from how objects move, in simulated pushes whose truth is known.
+
+use std::process::{Command, Output};
+use std::sync::Arc;
+
+use pushplan::belief::{Belief, BeliefSettings, JointType};
+use pushplan::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
+use pushplan::effect::Prior;
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::recording::Recording;
+use pushplan::scene::{
+    Engine, Job, Joint, JointKind, Noise, Object, Observation, Part, Push, Rate, Record, Scene,
+    Tool, ToolMotion,
+};
+use pushplan::sim::Simulator;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+const EXACT: Noise = Noise { position: 0.0, heading: 0.0 };
+
+/// Two boxes side by side, 4 mm apart, that a finger pushes off their middle.
+fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
+    let cuboid = |name: &str, y| Object::cuboid(name, [0.08, 0.06, 0.05]).at(0.5, y, 0.0);
+    let mut scene = Scene::new([cuboid("first", 0.0), cuboid("second", 0.064)]);
+    scene.joints.extend(joint.map(|kind| Joint::new([0, 1], kind)));
+    let finger =
+        Part::new("finger", Shape::Cylinder { radius: 0.01, height: 0.05 }, Pose::default());
+    let tool = Tool::new("finger", [finger]).expect("one piece");
+    let push = Push { start: Vector::new(0.44, -0.015), direction: 0.1, length: 0.25, speed: 0.1 };
+    (scene, ToolMotion::pushes(Arc::new(tool), 0.0, 0.0, &[push], false))
+}
+
+fn recorded(scene: &Scene, motion: &ToolMotion, engine: Engine) -> Recording {
+    let simulator = Simulator::new(engine, Rate::DEFAULT);
+    let job = Job::stated(scene, motion.clone());
+    let frames = simulator.run(scene, &job, Record::Frames).frames;
+    Recording::of_frames("pushed", scene, motion, &frames)
+}
+
+/// What is believed after all of a recording that was seen with this noise.
+fn believed(recording: &Recording, noise: Noise, seed: u64) -> Belief {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut normal = |sd: f64| {
+        // Sums of twelve even numbers are nearly normal.
+        sd * ((0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0)
+    };
+    let mut scene = recording.scene.clone();
+    for object in &mut scene.objects {
+        object.pose.position += Vector::new(normal(noise.position), normal(noise.position));
+        object.pose.heading += normal(noise.heading);
+    }
+    let settings = BeliefSettings::new(noise);
+    let mut belief = Belief::new(&scene, recording.tool.clone(), recording.lift, settings);
+    let model = Prior::default();
+    for Observation { strokes, mut seen } in recording.observations() {
+        for sight in seen.iter_mut().flatten() {
+            sight.position += Vector::new(normal(noise.position), normal(noise.position));
+            sight.heading = sight.heading.map(|heading| heading + normal(noise.heading));
+        }
+        belief.update(&model, Observation { strokes, seen });
+    }
+    belief.settle(&model);
+    belief
+}
+
+fn hinge() -> JointKind {
+    JointKind::Revolute { at: Vector::new(0.5, 0.032), limits: None }
+}
+
+fn slide() -> JointKind {
+    // Not along the push, which would move one of the two alone as if they were free.
+    JointKind::Prismatic { axis: Vector::new(0.6, 0.8), limits: None }
+}
+
+#[test]
+fn every_type_of_joint_is_found_in_both_engines_with_and_without_noise() {
+    let slight = Noise { position: 1e-3, heading: 0.5f64.to_radians() };
+    for engine in Engine::ALL {
+        for joint in [None, Some(JointKind::Fixed), Some(hinge()), Some(slide())] {
+            let (scene, motion) = pair(joint);
+            let recording = recorded(&scene, &motion, engine);
+            for noise in [EXACT, slight] {
+                let belief = believed(&recording, noise, 3);
+                let truth = JointType::of(scene.joints.first());
+                let shares = belief.probabilities()[0];
+                assert!(shares[truth as usize] > 0.5, "{engine:?} {truth:?} {noise:?}: {shares:?}");
+                assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+                let map = belief.map();
+                assert_eq!(JointType::of(map.joints.first()), truth);
+            }
+        }
+    }
+}
+
+/// The belief's anchor is where the two objects have carried it, and its axis too.
+#[test]
+fn anchors_and_axes_are_found() {
+    for joint in [hinge(), slide()] {
+        let (scene, motion) = pair(Some(joint));
+        let recording = recorded(&scene, &motion, Engine::Planar);
+        let belief = believed(&recording, EXACT, 0);
+        let first = recording.frames.last().expect("frames").poses[0];
+        let carried = |v: Vector| first.point(scene.objects[0].pose.local_point(v));
+        match belief.map().joints[0].kind {
+            JointKind::Revolute { at, .. } => {
+                let off = (at - carried(Vector::new(0.5, 0.032))).norm();
+                assert!(off < 1e-3, "{off}");
+            }
+            JointKind::Prismatic { axis, .. } => {
+                let off = axis.perp(&first.vector(Vector::new(0.6, 0.8))).abs();
+                assert!(off < 0.035, "{off}: two degrees");
+            }
+            JointKind::Fixed => panic!("fixed"),
+        }
+    }
+}
+
+#[test]
+fn nothing_is_learnt_where_nothing_moves_and_what_is_not_seen_is_no_error() {
+    let (scene, motion) = pair(Some(JointKind::Fixed));
+    let mut recording = recorded(&scene, &motion, Engine::Planar);
+    let before = Belief::new(&scene, motion.tool.clone(), 0.0, BeliefSettings::new(EXACT));
+    let start = recording.scene.start().poses;
+    recording.frames.iter_mut().for_each(|frame| {
+        frame.poses.clone_from(&start);
+        frame.tool.position.x -= 0.5;
+    });
+    assert_eq!(believed(&recording, EXACT, 0).probabilities(), before.probabilities());
+
+    let model = Prior::default();
+    let mut belief = before.clone();
+    for mut observation in recorded(&scene, &motion, Engine::Planar).observations() {
+        observation.seen.fill(None);
+        belief.update(&model, observation);
+    }
+    belief.settle(&model);
+    assert!(belief.probabilities()[0].iter().all(|share| share.is_finite()));
+    assert!(belief.situation().start.is_finite());
+}
+
+/// The prototype of this filter told 98 % of the pairs of sparse sets; these are of another seed
+/// than those that its numbers were chosen on.
+#[test]
+fn near_pairs_that_moved_are_told_apart_in_crowds() {
+    for (preset, count, least) in [(Preset::Sparse, 4, 0.93), (Preset::Dense, 8, 0.85)] {
+        let constraints = Constraints::test(9, JointRule::Mixed, Solids::Any);
+        let config = DatasetConfig { seed: 7, episodes: count, preset, constraints };
+        let (mut right, mut all) = (0, 0);
+        for index in 0..count {
+            let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
+            let recording = Recording::of_frames("drawn", &scene, &motion, &frames);
+            let belief = believed(&recording, EXACT, index);
+            let joints = belief.map().joints;
+            let moved = |k: usize| {
+                let start = scene.objects[k].pose.position;
+                recording.frames.iter().any(|f| (f.poses[k].position - start).norm() > 0.01)
+            };
+            for between in belief.pairs().filter(|pair| pair.iter().any(|k| moved(*k))) {
+                let truth = scene.joints.iter().find(|joint| {
+                    let [a, b] = joint.between;
+                    [a.min(b), a.max(b)] == between
+                });
+                let found = joints.iter().find(|joint| joint.between == between);
+                right += usize::from(JointType::of(found) == JointType::of(truth));
+                all += 1;
+            }
+        }
+        println!("{preset:?}: {right} of {all}");
+        assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
+    }
+}
+
+#[test]
+fn beliefs_are_the_same_bits_for_any_number_of_threads() {
+    let (scene, motion) = pair(Some(hinge()));
+    let recording = recorded(&scene, &motion, Engine::Planar);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| believed(&recording, EXACT, 0).history().to_vec())
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn the_command_infers_from_a_simulated_trajectory() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let dir = folder.path().to_str().expect("UTF-8");
+    let pushplan = |arguments: &[&str]| {
+        let command =
+            Command::new(env!("CARGO_BIN_EXE_pushplan")).arg("-q").args(arguments).output();
+        command.expect("the command starts")
+    };
+    let stderr = |output: &Output| String::from_utf8_lossy(&output.stderr).into_owned();
+    let simulated = pushplan(&[
+        "simulate",
+        "tasks/jointed-pair.yaml",
+        "--tool",
+        "finger",
+        "--push",
+        "start=0.44,0.06 direction_deg=0 length=0.15",
+        "--out",
+        dir,
+    ]);
+    assert_eq!(simulated.status.code(), Some(0), "{}", stderr(&simulated));
+    let file = std::fs::read_dir(dir)
+        .expect("the folder")
+        .map(|entry| entry.expect("a file").path())
+        .find(|path| path.to_string_lossy().ends_with(".trajectory.json"))
+        .expect("a trajectory");
+    let file = file.to_str().expect("UTF-8");
+    let output =
+        pushplan(&["infer", file, "--noise", "0", "--heading-noise", "0", "--json", "--out", dir]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let pairs = json["pairs"].as_array().expect("pairs").len();
+    assert!(pairs > 0);
+    assert_eq!(json["probabilities"].as_array().map(Vec::len), Some(pairs));
+    assert!(
+        folder.path().join("belief.json").exists() && folder.path().join("belief.svg").exists()
+    );
+    let wrong = pushplan(&["infer", file, "--noise", "-1"]);
+    assert_eq!(wrong.status.code(), Some(2));
+}
