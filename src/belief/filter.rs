@@ -9,13 +9,13 @@ use crate::{
     effect::EffectModel,
     geometry::Pose,
     scene::{
-        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool, ToolMotion,
+        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool,
+        ToolMotion, near_pairs,
     },
 };
 
 use super::{
     joints::{likeliest, with},
-    near::near_pairs,
     pair::{JointType, PairBelief},
     relative::{relative, relative_like, spread},
     rolled::Rolled,
@@ -24,8 +24,8 @@ use super::{
     window::{Doubt, Instant, evidence},
 };
 
-/// Observations that are looked at together. Of 2, 5 and 10 frames of a push, 5 tell joints best
-/// under noise.
+/// Observations that are looked at together: fewer show less than the noise, more let errors of the
+/// rollout grow.
 const WINDOW: usize = 5;
 
 /// How much the places of all objects count beside those of a pair against each other.

@@ -10,7 +10,6 @@ mod density;
 mod filter;
 mod fit;
 mod joints;
-mod near;
 mod pair;
 mod relative;
 mod rolled;
@@ -19,6 +18,5 @@ mod track;
 mod window;
 
 pub use filter::{Belief, Step};
-pub use near::NEAR;
 pub use pair::JointType;
 pub use settings::BeliefSettings;

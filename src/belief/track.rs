@@ -11,7 +11,7 @@ use super::rolled::Rolled;
 const STILL: f64 = 2e-4;
 
 /// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
-pub(super) const ASTRAY: [f64; 2] = [2e-4, 0.05];
+const ASTRAY: [f64; 2] = [2e-4, 0.05];
 
 /// Standard deviation of a heading that is not seen, against a rollout: radians, and a share of
 /// the turn.
@@ -36,8 +36,8 @@ impl Track {
         Self { variance: vec![variance; state.poses.len()], state, noise }
     }
 
-    /// How far an object moved in a window, as it was seen or rolled out, metres; nothing where that
-    /// may be noise.
+    /// How far an object moved in a window, as it was seen or rolled out, metres; zero where that may
+    /// be noise.
     pub fn motion(&self, object: usize, rolled: &Rolled, window: &[Observation]) -> f64 {
         let start = &self.state.poses[object];
         let far = |pose: &Pose| {

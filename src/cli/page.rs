@@ -30,7 +30,7 @@ pub fn write(
     output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
 }
 
-/// What a model says of a plan; nothing if it gives no trajectory.
+/// What a model says of a plan; `None` if it gives no trajectory.
 fn predict(
     session: &Session,
     file: &PlanFile,

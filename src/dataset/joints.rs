@@ -4,17 +4,14 @@ use rand::{Rng, seq::SliceRandom};
 use rand_pcg::Pcg64;
 
 use crate::{
-    geometry::{Vector, contact_points},
-    scene::{Joint, JointKind, Scene, Span},
+    geometry::Vector,
+    scene::{Joint, JointKind, Scene, Span, near_pairs},
 };
 
 use super::{
     chance::{heading, uniform, weighted},
     curriculum::Block,
 };
-
-/// Two objects closer than this may be joined, metres.
-pub const NEAR: f64 = 0.03;
 
 /// Share of revolute anchors midway between the closest points of the two objects, and of
 /// prismatic axes along their line of centres.
@@ -45,25 +42,6 @@ pub(super) fn join_neighbours(rng: &mut Pcg64, scene: &mut Scene, block: &Block)
         let between = if rng.random::<bool>() { [a, b] } else { [b, a] };
         scene.joints.push(Joint::new(between, kind));
     }
-}
-
-/// Pairs with a gap under [`NEAR`], and the point midway between their closest points.
-fn near_pairs(scene: &Scene) -> Vec<([usize; 2], Vector)> {
-    let objects = &scene.objects;
-    let mut pairs = Vec::new();
-    for (a, first) in objects.iter().enumerate() {
-        for (b, second) in objects.iter().enumerate().skip(a + 1) {
-            let (points, _) = contact_points(
-                (&first.shape.footprint(), &first.pose),
-                (&second.shape.footprint(), &second.pose),
-                NEAR,
-            );
-            if let Some(point) = points[0] {
-                pairs.push(([a, b], (point.on_first + point.on_second) / 2.0));
-            }
-        }
-    }
-    pairs
 }
 
 fn random_kind(

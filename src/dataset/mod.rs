@@ -39,7 +39,6 @@ pub use episode::{Episode, sample};
 pub use error::DatasetError;
 pub use generate::generate;
 pub use hand::HAND_RADIUS;
-pub use joints::NEAR;
 pub use novelty::is_shipped;
 pub use preset::Preset;
 pub use set::Dataset;

@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact},
-    scene::{Frame, Object, Ranges, Scene, Span, State, Stroke, ToolMotion},
+    scene::{Frame, JOINABLE, Object, Ranges, Scene, Span, State, Stroke, ToolMotion},
 };
 
 use super::{
@@ -13,7 +13,7 @@ use super::{
     crowd::{crowd, object_count},
     curriculum::Block,
     hand::{HAND_RADIUS, HandPlay},
-    joints::{NEAR, join_neighbours},
+    joints::join_neighbours,
     tabletop::anywhere,
 };
 
@@ -132,7 +132,7 @@ fn neighbour(rng: &mut Pcg64, objects: &[Object], footprint: &Footprint) -> Opti
     let side = heading(rng);
     let turn = if rng.random_bool(ALIGNED) { anchor.pose.heading } else { heading(rng) };
     let away = Vector::new(side.cos(), side.sin());
-    let far = around.0.bounding_radius() + footprint.bounding_radius() + NEAR;
+    let far = around.0.bounding_radius() + footprint.bounding_radius() + JOINABLE;
     let mut pose = Pose { position: anchor.pose.position + away * far, heading: turn };
     let travel = travel_to_contact((footprint, &pose), -away, around)?;
     pose.position -= away * (travel - log_uniform(rng, NEIGHBOUR_GAP));

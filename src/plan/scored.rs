@@ -22,7 +22,7 @@ pub struct ScoredPush {
     /// Where it starts, as tried from the first state.
     pub start: Start,
     /// The best score that was predicted: error in units of the tolerance, behind all others where
-    /// something could not pass (see [`super::is_behind`]). Nothing if it was not rolled out, or
+    /// something could not pass (see [`super::is_behind`]). `None` if it was not rolled out, or
     /// led to no rest.
     pub score: Option<f64>,
     /// Why it cannot be made, where that was found last; what has a score can be made from another
@@ -52,7 +52,7 @@ impl Scores {
     }
 
     /// Place of the first of `ways`, which are as many and in the same order for every state;
-    /// nothing if they are too many to be kept.
+    /// `None` if they are too many to be kept.
     pub fn place(
         &mut self,
         pair: (usize, f64),

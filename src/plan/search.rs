@@ -81,7 +81,7 @@ pub(super) struct Node {
     pub state: State,
     /// Where the end effector is then.
     pub end: Option<Vector>,
-    /// Where small errors at the start lead instead, see [`Spread`]; nothing if nobody will ask.
+    /// Where small errors at the start lead instead, see [`Spread`]; `None` if nobody will ask.
     pub others: Vec<State>,
     /// Room for where the object may stand, metres.
     pub room: f64,

@@ -36,7 +36,7 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document
         let taken = joint(*between);
         let mut cells = vec![name(*between)];
         cells.extend((0..4).map(|k| probability(k)(shares)));
-        cells.push(word(JointType::of(taken)).to_owned());
+        cells.push(JointType::of(taken).to_string());
         cells.push(taken.map_or(NONE.to_owned(), place));
         cells.push(since(belief, *p).map_or(NONE.to_owned(), |seen| seen.to_string()));
         table.row(cells);
@@ -61,15 +61,6 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document
         sections: vec![Section { table, figures, ..Section::default() }],
         json,
         ..Document::default()
-    }
-}
-
-fn word(kind: JointType) -> &'static str {
-    match kind {
-        JointType::None => "none",
-        JointType::Fixed => "fixed",
-        JointType::Revolute => "revolute",
-        JointType::Prismatic => "prismatic",
     }
 }
 
@@ -107,7 +98,7 @@ fn over_time(belief: &Belief, name: &dyn Fn([usize; 2]) -> String) -> Figure {
             .iter()
             .map(|step| [step.observations as f64, 1e2 * step.probabilities[p][last]]);
         Series {
-            name: format!("{}: {}", name(between), word(JointType::ALL[last])),
+            name: format!("{}: {}", name(between), JointType::ALL[last]),
             points: points.collect(),
             mark: Mark::Line,
             labels: Vec::new(),

@@ -55,7 +55,7 @@ pub fn equation_document(costs: &[EquationCost]) -> Document {
 
 /// What the columns of the equations mean.
 const EQUATIONS: &str = "Two *systems* are solved in each piece of a frame, for displacements and \
-    for velocities. An *update* takes the resistance of moved objects anew and tries *sets* of \
+    for velocities. An *update* recomputes the resistance of objects that moved and tries *sets* of \
     contacts that stick, slide or stay open until one is right, else it *iterates*. *Operations* are \
     those of points that drag and of linear equations alone, and are compared with matrix products.";
 

@@ -18,6 +18,7 @@ mod job;
 mod joint;
 mod model;
 mod motion;
+mod near;
 mod observation;
 mod outline;
 mod physics;
@@ -51,6 +52,7 @@ pub use model::{
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
+pub use near::{JOINABLE, near_pairs};
 pub use observation::{Noise, Observation, Sight};
 pub use outline::Piece;
 pub use physics::{Physics, face_height};

@@ -226,7 +226,7 @@ fn missed(goal: &Goal, tried: &Tried) -> f64 {
 /// Where to aim next, when a plan aimed at `aim` ended beside the goal: as far on the other side.
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
 /// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
-/// not. Nothing if that is on the goal already.
+/// not. `None` if that is on the goal already.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
     let wanted = goal.heading.map_or(0.0, |(heading, _)| heading);
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);

@@ -138,8 +138,7 @@ fn nothing_is_learnt_where_nothing_moves_and_what_is_not_seen_is_no_error() {
     assert!(belief.situation().start.is_finite());
 }
 
-/// The prototype of this filter told 98 % of the pairs of sparse sets; these are of another seed
-/// than those that its numbers were chosen on.
+/// These are of another seed than those that the filter's numbers were chosen on.
 #[test]
 fn near_pairs_that_moved_are_told_apart_in_crowds() {
     for (preset, count, least) in [(Preset::Sparse, 4, 0.93), (Preset::Dense, 8, 0.85)] {

@@ -5,11 +5,11 @@ use pushplan::store::StoreError;
 use pushplan::watch::Unwatched;
 use pushplan::{
     dataset::{
-        Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, NEAR,
-        Preset, Solids, TEST_SPEED, generate,
+        Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, Preset,
+        Solids, TEST_SPEED, generate,
     },
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
-    scene::{Job, JointKind, Record, Trajectory},
+    scene::{JOINABLE, Job, JointKind, Record, Trajectory},
     sim::Simulator,
 };
 
@@ -112,7 +112,8 @@ fn joints_are_a_forest_of_near_neighbours() {
                 let mut group: Vec<usize> = (0..all.len()).collect();
                 for joint in &episode.scene.joints {
                     let [a, b] = joint.between;
-                    let near = contact_points((&all[a].0, &all[a].1), (&all[b].0, &all[b].1), NEAR);
+                    let near =
+                        contact_points((&all[a].0, &all[a].1), (&all[b].0, &all[b].1), JOINABLE);
                     assert!(near.1 > 0, "{preset:?} {}", episode.index);
                     let (kept, gone) = (group[a], group[b]);
                     assert_ne!(kept, gone, "a loop in {preset:?} {}", episode.index);

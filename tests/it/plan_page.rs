@@ -29,7 +29,7 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
     let Some(mut browser) = Browser::start() else { return };
     let folder = TempDir::new().expect("a folder");
     let mut compared = 0;
-    // Two pushes with the tool set down anew between them, and a box that has to turn.
+    // Two pushes with the tool lifted and set down again between them, and a box that has to turn.
     for (name, plans) in [("pull-back-twice", 2), ("turn-the-box", 3)] {
         let (task, solution) = solved(&format!("tasks/{name}.yaml"));
         let file = written(&folder, name, &task, &solution);

@@ -14,7 +14,7 @@ const MOST_CELLS: usize = 6000;
 /// Scores beyond this are shown as this, in units of the tolerance.
 const WORST: f64 = 999.0;
 
-/// The grids of a search; nothing if it considered nothing.
+/// The grids of a search; `None` if it considered nothing.
 pub fn candidates(solution: &Solution) -> Option<Candidates> {
     let all = &solution.candidates;
     let mut reasons: Vec<Infeasible> = all.iter().filter_map(|push| push.refused).collect();

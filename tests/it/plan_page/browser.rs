@@ -28,7 +28,7 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// Starts the program that `PUSHPLAN_CHROMIUM` names, or else `chromium`; nothing if there is
+    /// Starts the program that `PUSHPLAN_CHROMIUM` names, or else `chromium`; `None` if there is
     /// none, which on a server is a fault.
     pub fn start() -> Option<Self> {
         let named = env::var("PUSHPLAN_CHROMIUM").unwrap_or_else(|_| "chromium".to_owned());
