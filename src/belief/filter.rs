@@ -17,11 +17,13 @@ use crate::{
 use super::{
     joints::{likeliest, with},
     pair::{JointType, PairBelief},
+    regulation::{BeliefRegulator, Regulation},
     relative::{relative, relative_like, spread},
     rolled::Rolled,
     settings::BeliefSettings,
+    testimony::{Circumstances, Judged, Testimony, features},
     track::{ARM, Track},
-    window::{Doubt, Instant, evidence},
+    window::{Doubt, Instant, evidence, whitened},
 };
 
 /// Observations that are looked at together: fewer show less than the noise, more let errors of the
@@ -44,6 +46,7 @@ pub struct Belief {
     window: Vec<Observation>,
     seen: usize,
     history: Vec<Step>,
+    regulation: Option<Regulation>,
 }
 
 /// What was believed when, and why.
@@ -85,7 +88,18 @@ impl Belief {
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
+            regulation: None,
         }
+    }
+
+    /// The belief with a regulator beside the filter.
+    pub fn regulated(self, regulator: BeliefRegulator) -> Self {
+        Self { regulation: Some(Regulation::new(regulator)), ..self }
+    }
+
+    /// What windows told a regulator that only listens.
+    pub fn heard(&self) -> &[Testimony] {
+        self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
     }
 
     /// Pairs of objects that were near each other at the start and so may be joined: indices, the
@@ -97,10 +111,7 @@ impl Belief {
     /// Of each of these pairs the probabilities of [`JointType::ALL`].
     pub fn probabilities(&self) -> Vec<[f64; 4]> {
         let map = self.map();
-        let follows = |pair: &PairBelief| {
-            pair.likeliest() != JointType::None && joint_of(&map, pair.between).is_none()
-        };
-        self.pairs.iter().map(|pair| pair.probabilities(follows(pair))).collect()
+        self.pairs.iter().map(|pair| pair.probabilities(follows(&map, pair))).collect()
     }
 
     /// What was believed when, and why.
@@ -144,26 +155,70 @@ impl Belief {
             .map(|&(p, kind)| with(&map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
         let rolled = self.roll(model, &window, physics.collect());
         let mut evidences = Vec::new();
+        let mut told = Vec::new();
         for (p, known) in known.iter().copied().enumerate() {
             let by_type = |kind: JointType| match kind == known {
                 true => Some(&base),
                 false => asked.iter().position(|one| *one == (p, kind)).map(|job| &rolled[job]),
             };
             let pair = &self.pairs[p];
-            let evidence = tells(pair).then(|| self.judge(pair, by_type, &window, &moved));
+            let judged = tells(pair).then(|| self.judge(pair, by_type, &window, &moved));
             let pair = &mut self.pairs[p];
-            if let Some(evidence) = &evidence {
-                pair.weigh(evidence, self.settings.tempering);
+            if let Some(judged) = &judged {
+                pair.weigh(&judged.evidence, self.settings.tempering);
             }
             learn(pair, &window, &self.settings);
-            evidences.push(evidence.map(|evidence| pair.by_type(&evidence)));
+            evidences.push(judged.as_ref().map(|judged| pair.by_type(&judged.evidence)));
+            told.push(judged);
         }
+        self.regulate(&map, &window, &told, &moved);
         self.history.push(Step {
             observations: self.seen,
             probabilities: self.probabilities(),
             evidence: evidences,
         });
         self.track.follow(&base, &window);
+    }
+
+    /// Has the regulator, if there is one, correct what the filter found in a window that was played
+    /// with the likeliest `physics` before it.
+    fn regulate(
+        &mut self,
+        physics: &Physics,
+        window: &[Observation],
+        told: &[Option<Judged>],
+        moved: &[f64],
+    ) {
+        let Some(mut regulation) = self.regulation.take() else { return };
+        let now = self.map();
+        let seen = |k: usize| {
+            window.iter().any(|one| one.seen[k].is_some_and(|sight| sight.heading.is_some()))
+        };
+        let evidence: Vec<_> = self
+            .pairs
+            .iter()
+            .zip(told)
+            .map(|(pair, judged)| {
+                let around = Circumstances {
+                    noise: self.settings.noise,
+                    windows: self.history.len(),
+                    moved: pair.between.map(|k| moved[k]),
+                    headings: pair.between.map(seen),
+                    cylinders: pair.between.map(|k| self.scene.objects[k].shape.is_cylinder()),
+                    taken: JointType::of(joint_of(physics, pair.between)),
+                    follows: follows(&now, pair),
+                };
+                judged.as_ref().map(|judged| features(pair, judged, &around))
+            })
+            .collect();
+        let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
+        let pairs: Vec<[usize; 2]> = self.pairs().collect();
+        let (scene, job) = (self.scene_now(), self.job(window, physics.clone()));
+        let corrections = regulation.take((&scene, &job), &pairs, &evidence, filtered);
+        for (pair, correction) in self.pairs.iter_mut().zip(corrections) {
+            pair.regulated = correction.unwrap_or(pair.regulated);
+        }
+        self.regulation = Some(regulation);
     }
 
     /// The scene as it is thought to stand now, with the likeliest joints.
@@ -193,17 +248,17 @@ impl Belief {
         window: &[Observation],
         physics: Vec<Physics>,
     ) -> Vec<Rolled> {
+        let jobs: Vec<Job> = physics.into_iter().map(|physics| self.job(window, physics)).collect();
+        let rolled = model.rollout(&self.scene_now(), &jobs, Record::Frames);
+        let start = &self.track.state;
+        rolled.iter().map(|trajectory| Rolled::new(trajectory, window, start)).collect()
+    }
+
+    /// What the tool did in a window, as a rollout under `physics`.
+    fn job(&self, window: &[Observation], physics: Physics) -> Job {
         let strokes: Vec<Stroke> = window.iter().flat_map(|seen| seen.strokes.clone()).collect();
         let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
-        let start = &self.track.state;
-        let job = |physics| Job {
-            start: start.clone(),
-            motion: motion.clone(),
-            physics: Arc::new(physics),
-        };
-        let jobs: Vec<Job> = physics.into_iter().map(job).collect();
-        let rolled = model.rollout(&self.scene_now(), &jobs, Record::Frames);
-        rolled.iter().map(|trajectory| Rolled::new(trajectory, window, start)).collect()
+        Job { start: self.track.state.clone(), motion, physics: Arc::new(physics) }
     }
 
     /// A pair at the observations of a window, as it was seen and as it was rolled out.
@@ -235,7 +290,7 @@ impl Belief {
         rolled: impl Fn(JointType) -> Option<&'a Rolled>,
         window: &[Observation],
         moved: &[f64],
-    ) -> Vec<f64> {
+    ) -> Judged {
         let [a, b] = pair.between;
         let [first, second] = [a, b].map(|k| &self.track.state.poses[k]);
         let before = relative(first, second);
@@ -255,8 +310,25 @@ impl Belief {
                 evidence(&hypothesis.fit, instants, doubt) + places
             })
         });
-        judged.collect()
+        let evidence = judged.collect();
+        let off = JointType::ALL.map(|kind| match (pair.best(kind), of(kind)) {
+            (Some(best), Some((instants, doubt, _))) => whitened(&best.fit, instants, doubt),
+            _ => [0.0; 3],
+        });
+        let change = of(JointType::None).and_then(|(instants, ..)| instants.last()).map_or(
+            [0.0; 2],
+            |now| {
+                let change = now.seen - before;
+                [change.xy().norm(), change.z.abs()]
+            },
+        );
+        Judged { evidence, off, change }
     }
+}
+
+/// Whether the motion of a pair is likest to a joint but follows from likelier ones already.
+fn follows(physics: &Physics, pair: &PairBelief) -> bool {
+    pair.likeliest() != JointType::None && joint_of(physics, pair.between).is_none()
 }
 
 fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint> {

@@ -11,12 +11,16 @@ mod filter;
 mod fit;
 mod joints;
 mod pair;
+mod regulation;
 mod relative;
 mod rolled;
 mod settings;
+mod testimony;
 mod track;
 mod window;
 
 pub use filter::{Belief, Step};
 pub use pair::JointType;
+pub use regulation::BeliefRegulator;
 pub use settings::BeliefSettings;
+pub use testimony::{EVIDENCE, Testimony};

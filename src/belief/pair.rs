@@ -101,8 +101,12 @@ pub(super) struct PairBelief {
     /// in the frame of the first, at the start.
     midway: Vector,
     line: f64,
+    /// The relative pose that it was seen in first.
+    first: Vector3<f64>,
     /// The last relative pose that was looked at: headings are counted from there.
     last: Vector3<f64>,
+    /// What the regulator adds to the logarithms of [`JointType::ALL`].
+    pub regulated: [f64; 4],
 }
 
 impl PairBelief {
@@ -131,13 +135,25 @@ impl PairBelief {
             let share = (1.0 - REGULAR) / DIRECTIONS as f64;
             hypotheses.push(Hypothesis { log: (PRIOR[3] * share).ln(), fit });
         }
-        Self { between, hypotheses, midway, line, last: seen }
+        Self { between, hypotheses, midway, line, first: seen, last: seen, regulated: [0.0; 4] }
     }
 
-    /// Probabilities of [`JointType::ALL`]; where its motion also `follows` from other joints, it is
-    /// joined itself with a fifth of what its motion says.
+    /// Probabilities of [`JointType::ALL`], with what the regulator adds.
     pub fn probabilities(&self, follows: bool) -> [f64; 4] {
-        let logs = JointType::ALL.map(|kind| self.log(kind));
+        let filtered = self.filtered(follows);
+        let most = self.regulated.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let shares = JointType::ALL.map(|kind| {
+            let k = kind as usize;
+            filtered[k] * (self.regulated[k] - most).exp()
+        });
+        let all: f64 = shares.iter().sum();
+        if all > 0.0 { shares.map(|share| share / all) } else { filtered }
+    }
+
+    /// Probabilities of [`JointType::ALL`] by the filter alone; where its motion also `follows` from other joints, it is
+    /// joined itself with a fifth of what its motion says.
+    pub fn filtered(&self, follows: bool) -> [f64; 4] {
+        let logs = JointType::ALL.map(|kind| self.filtered_log(kind));
         let all = log_sum(logs.into_iter());
         let [none, joints @ ..] = logs.map(|log| (log - all).exp());
         let joints = joints.map(|share| if follows { FOLLOWS * share } else { share });
@@ -193,6 +209,28 @@ impl PairBelief {
         Some(Joint::new(self.between, fit.joint(poses)?))
     }
 
+    /// How far the likeliest anchor is from the point midway between the two, metres, and the sine of
+    /// how far the likeliest axis is turned from their line of centres; and how surely either is known:
+    /// standard deviations, metres and radians.
+    pub fn places(&self) -> [f64; 4] {
+        let [mut anchor, mut axis, mut anchor_sd, mut axis_sd] = [0.0; 4];
+        if let Some(best) = self.best(JointType::Revolute) {
+            anchor = (best.fit.mean.xy() - self.midway).norm();
+            anchor_sd = (best.fit.covariance[(0, 0)] + best.fit.covariance[(1, 1)]).sqrt();
+        }
+        if let Some(best) = self.best(JointType::Prismatic) {
+            axis = (best.fit.mean.x - self.line).sin().abs();
+            axis_sd = best.fit.covariance[(0, 0)].sqrt();
+        }
+        [anchor, axis, anchor_sd, axis_sd]
+    }
+
+    /// How far the two have moved against each other since they were first seen: metres, radians.
+    pub fn worked(&self) -> [f64; 2] {
+        let change = self.last - self.first;
+        [change.xy().norm(), change.z.abs()]
+    }
+
     /// The likeliest hypothesis of a type.
     pub fn best(&self, kind: JointType) -> Option<&Hypothesis> {
         self.of(kind).max_by(|a, b| a.log.total_cmp(&b.log))
@@ -237,6 +275,10 @@ impl PairBelief {
     }
 
     fn log(&self, kind: JointType) -> f64 {
+        self.filtered_log(kind) + self.regulated[kind as usize]
+    }
+
+    fn filtered_log(&self, kind: JointType) -> f64 {
         log_sum(self.of(kind).map(|hypothesis| hypothesis.log))
     }
 }

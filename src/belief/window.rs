@@ -40,6 +40,24 @@ impl Doubt {
     }
 }
 
+/// How far the last instant of a window is off under a hypothesis in each of its coordinates, in
+/// standard deviations.
+pub(super) fn whitened(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> [f64; 3] {
+    let Some(now) = instants.last() else { return [0.0; 3] };
+    let row = fit.read(&now.seen, &now.predicted);
+    let geometry = row.by_geometry * fit.covariance * row.by_geometry.transpose();
+    let start = row.by_seen * doubt.start * row.by_seen.transpose();
+    let noise = row.noise(&now.spread);
+    [0, 1, 2].map(|k| {
+        let free = match row.held[k] {
+            true => 0.0,
+            false => start[(k, k)] + doubt.model[usize::from(k == 2)].powi(2),
+        };
+        let variance = noise[(k, k)] + geometry[(k, k)] + free;
+        row.off[k].abs() / variance.max(1e-12).sqrt()
+    })
+}
+
 /// Logarithm of the density of a window under a hypothesis, up to what is the same for all.
 pub(super) fn evidence(fit: &Fit, instants: &[Instant], doubt: &Doubt) -> f64 {
     let n = 3 * instants.len();

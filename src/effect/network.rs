@@ -5,8 +5,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
+    graph::Batch,
     network::{Buffers, Forward, Weights},
-    rollout::{RollSettings, Roller},
+    rollout::{PairMeans, RollSettings, Roller},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
 
@@ -64,6 +65,30 @@ impl Network {
     /// What the weights are.
     pub fn weights(&self) -> &Weights {
         &self.weights
+    }
+}
+
+impl Network {
+    /// Number of [`Self::effects`] of a pair.
+    pub fn effect_width(&self) -> usize {
+        self.forward.half()
+    }
+
+    /// What propagation says to each other of these pairs of objects while `job` is rolled out (the
+    /// effects of Li et al., ICRA 2019, eq. 3, in the last step): the half that does not change
+    /// under mirroring, summed over both directions, averaged over frames; a row a pair.
+    pub fn effects(&self, scene: &Scene, job: &Job, pairs: &[[usize; 2]]) -> Vec<Vec<f32>> {
+        let job = if has_guesses(job) { &without_guesses(job) } else { job };
+        let mut means = PairMeans::new(scene, job, self.effect_width());
+        let mut buffers = Buffers::default();
+        let settings = RollSettings { corrected: usize::MAX, ..self.settings };
+        let mut correct = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+            self.forward.run(batch, &mut buffers, corrections);
+            means.add(batch, |k, row| self.forward.add_effect(batch, &buffers, k, row));
+        };
+        let mut roller = Roller::new(self.spec.clone(), settings);
+        roller.roll(scene, std::slice::from_ref(job), Record::Outcome, Some(&mut correct));
+        pairs.iter().map(|pair| means.mean(*pair)).collect()
     }
 }
 

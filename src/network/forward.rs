@@ -10,7 +10,7 @@ use crate::graph::{
 
 use super::{
     Statistics, Weights,
-    parity::{Sum, rectify_rows},
+    parity::{Sum, rectify, rectify_rows},
 };
 
 /// Immutable weights in the layout that it reads; shared between threads.
@@ -89,6 +89,33 @@ impl Forward {
             motion_hidden_bias: get("motion.hidden_bias"),
             motion_even: get("motion.even"),
             motion_odd: get("motion.odd"),
+        }
+    }
+
+    /// Width of the half of a row that keeps its sign under mirroring.
+    pub fn half(&self) -> usize {
+        self.half
+    }
+
+    /// Adds the even half [h] of the effect of relation `k` in the last propagation step of the
+    /// last [`Forward::run`], which was on this batch, to `into`.
+    pub fn add_effect(&self, batch: &Batch, w: &Buffers, k: usize, into: &mut [f32]) {
+        let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
+        let (receiver, sender) = (batch.receivers[k] as usize, batch.senders[k] as usize);
+        let row = |table: &[f32], rows: usize, row: usize, parity: usize, i: usize| {
+            table[(parity * rows + row) * h + i]
+        };
+        for (i, value) in into.iter_mut().enumerate() {
+            let part = |parity: usize| {
+                let sent = match sender < n {
+                    true => row(&w.to_sender, n, sender, parity, i),
+                    false => 0.0,
+                };
+                row(&w.messages, r, k, parity, i)
+                    + row(&w.to_receiver, n, receiver, parity, i)
+                    + sent
+            };
+            *value += rectify(part(0), part(1)).0;
         }
     }
 

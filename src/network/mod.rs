@@ -3,7 +3,7 @@
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
 //! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
 //! training differentiates and that is the reference, and as a fused forward pass on preallocated
-//! buffers that planning runs and that needs no candle. Loops over time are not here but in
+//! buffers that planning runs and that needs no candle. The belief regulator reads its effects. Loops over time are not here but in
 //! `rollout`.
 
 mod config;
@@ -15,6 +15,7 @@ mod parameters;
 mod parity;
 #[cfg(feature = "train")]
 mod predictor;
+mod regulator;
 mod tensors;
 mod weights;
 
@@ -24,5 +25,10 @@ pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 #[cfg(feature = "train")]
 pub use predictor::{Inputs, Predictor};
+pub use regulator::{
+    Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator, regulator_layout,
+};
+#[cfg(feature = "train")]
+pub use regulator::{RegulatorGraph, Unrolled};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

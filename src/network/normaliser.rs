@@ -19,7 +19,8 @@ pub struct Statistics {
 pub(super) const MIN_DEVIATION: f32 = 0.02;
 
 impl Statistics {
-    fn measure(table: &[f32], columns: usize, centred: bool) -> Self {
+    /// Of a table [N, `columns`]; without `centred` means are zero, so that signs survive.
+    pub fn measure(table: &[f32], columns: usize, centred: bool) -> Self {
         let rows = (table.len() / columns).max(1) as f64;
         let mut mean = vec![0.0f64; columns];
         let mut square = vec![0.0f64; columns];

@@ -10,7 +10,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 /// Rectifies one even and one odd number that are the two parts of a pair.
 #[inline(always)]
-fn rectify(even: f32, odd: f32) -> (f32, f32) {
+pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     let as_is = (even + odd).max(0.0);
     let mirrored = (even - odd).max(0.0);
     (0.5 * (as_is + mirrored), 0.5 * (as_is - mirrored))

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use safetensors::{Dtype, SafeTensorError, SafeTensors, tensor::TensorView};
 use thiserror::Error;
 
-use super::{Config, Parameters, layout};
+use super::Parameters;
 
 /// A parameter that is missing or unusable.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -17,22 +17,22 @@ pub struct ParameterError {
     pub fault: &'static str,
 }
 
-/// A file's bytes: every group of parameters under its prefix, and one text of metadata under
+/// A file's bytes: every group of parameters, with names and shapes as in `layout`, under its prefix, and one text of metadata under
 /// `key` (a single entry, since the order of several would differ from run to run).
 ///
 /// # Errors
 /// If a parameter's length does not fit its shape.
 pub fn encode_parameters(
-    config: &Config,
+    layout: &[(&str, Vec<usize>)],
     groups: &[(&str, &Parameters)],
     (key, text): (&str, String),
 ) -> Result<Vec<u8>, SafeTensorError> {
     let mut raw: Vec<(String, Vec<usize>, Vec<u8>)> = Vec::new();
     for (prefix, parameters) in groups {
-        for (name, shape) in layout(config) {
-            let values = parameters.values.get(name).map_or(&[][..], Vec::as_slice);
+        for (name, shape) in layout {
+            let values = parameters.values.get(*name).map_or(&[][..], Vec::as_slice);
             let bytes = values.iter().flat_map(|x| x.to_le_bytes()).collect();
-            raw.push((format!("{prefix}{name}"), shape, bytes));
+            raw.push((format!("{prefix}{name}"), shape.clone(), bytes));
         }
     }
     let views = raw
@@ -51,15 +51,15 @@ pub fn encode_parameters(
 /// [`ParameterError`] for the first that is not.
 pub fn decode_parameters(
     file: &SafeTensors<'_>,
-    config: &Config,
+    layout: &[(&str, Vec<usize>)],
     prefix: &str,
 ) -> Result<Parameters, ParameterError> {
     let mut parameters = Parameters::default();
-    for (name, shape) in layout(config) {
+    for (name, shape) in layout {
         let key = format!("{prefix}{name}");
         let wrong = |fault| ParameterError { name: key.clone(), fault };
         let view = file.tensor(&key).map_err(|_| wrong("is missing"))?;
-        if view.dtype() != Dtype::F32 || view.shape() != shape {
+        if view.dtype() != Dtype::F32 || view.shape() != *shape {
             return Err(wrong("has a wrong type or shape"));
         }
         let values: Vec<f32> = view
@@ -70,7 +70,7 @@ pub fn decode_parameters(
         if values.iter().any(|x| !x.is_finite()) {
             return Err(wrong("holds a number that is not finite"));
         }
-        parameters.values.insert(name.to_owned(), values);
+        parameters.values.insert((*name).to_owned(), values);
     }
     Ok(parameters)
 }

@@ -17,7 +17,7 @@ use crate::{
 };
 
 use super::{
-    Config, Normaliser, Parameters,
+    Config, Normaliser, Parameters, layout,
     normaliser::MIN_DEVIATION,
     tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
@@ -160,7 +160,7 @@ impl Weights {
     pub fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let header = Header { format: FORMAT, checksum: self.checksum()?, card: self.card.clone() };
         let header = serde_json::to_string(&header)?;
-        Ok(encode_parameters(&self.card.config, &[("", &self.parameters)], (KEY, header))?)
+        Ok(encode_parameters(&layout(&self.card.config), &[("", &self.parameters)], (KEY, header))?)
     }
 
     /// Reads a file.
@@ -189,7 +189,7 @@ impl Weights {
         }
         check_card(&card)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let parameters = decode_parameters(&file, &card.config, "")?;
+        let parameters = decode_parameters(&file, &layout(&card.config), "")?;
         check_parameters(&parameters)?;
         let weights = Self { card, parameters };
         let found = weights.checksum()?;

@@ -7,6 +7,7 @@
 
 mod doubt;
 mod integrate;
+mod pair_means;
 mod pressing;
 mod reach;
 mod roll;
@@ -15,6 +16,7 @@ mod stepper;
 mod work;
 
 pub use integrate::integrate;
+pub use pair_means::PairMeans;
 pub use reach::reachable;
 pub use roll::{RollSettings, Roller, roll};
 pub use stepper::{Corrector, Found, Stepper, Walk};

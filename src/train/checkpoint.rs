@@ -6,7 +6,9 @@ use thiserror::Error;
 
 use crate::{
     dataset::DatasetConfig,
-    network::{Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata},
+    network::{
+        Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata, layout,
+    },
 };
 
 use super::{AdamW, HeldOutError, Settings};
@@ -79,7 +81,7 @@ impl Checkpoint {
             ("second/", &self.optimiser.second),
             ("average/", &self.optimiser.average),
         ];
-        Ok(encode_parameters(&self.settings.config, &groups, (KEY, header))?)
+        Ok(encode_parameters(&layout(&self.settings.config), &groups, (KEY, header))?)
     }
 
     /// Reads a file's bytes.
@@ -90,7 +92,8 @@ impl Checkpoint {
         let text = file_metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
         let header: Header = serde_json::from_str(&text)?;
         let file = SafeTensors::deserialize(bytes)?;
-        let group = |prefix: &str| decode_parameters(&file, &header.settings.config, prefix);
+        let group =
+            |prefix: &str| decode_parameters(&file, &layout(&header.settings.config), prefix);
         let optimiser = AdamW {
             weights: group("weights/")?,
             first: group("first/")?,

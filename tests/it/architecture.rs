@@ -17,10 +17,10 @@ const ROOMS: [(&str, &[&str]); 23] = [
     ("graph", &["geometry", "scene", "contact"]),
     ("network", &["scene", "graph"]),
     ("rollout", &["geometry", "scene", "contact", "graph"]),
-    ("effect", &["geometry", "scene", "sim", "network", "rollout"]),
+    ("effect", &["geometry", "scene", "sim", "graph", "network", "rollout"]),
     ("judge", &["geometry", "scene", "recording", "effect"]),
     ("fit", &["scene", "effect", "judge"]),
-    ("belief", &["geometry", "scene", "effect"]),
+    ("belief", &["geometry", "scene", "network", "effect"]),
     ("plan", &["geometry", "scene", "effect"]),
     // Not `plan`: the check shares no code with what it checks.
     ("verify", &["geometry", "scene", "sim"]),

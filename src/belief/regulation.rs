@@ -1,0 +1,87 @@
+//! The belief regulator beside the filter: the same windows, and what propagation says of them.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::{
+    effect::Network,
+    network::{Memory, Regulator},
+    scene::{Job, Scene},
+};
+
+use super::testimony::{EVIDENCE, Testimony};
+
+/// The belief regulator: a recurrent network on the evidence of every pair and on the effects of a
+/// frozen propagation network, whose weights it shares with the physics predictor (thesis 7.2.3).
+#[derive(Clone)]
+pub struct BeliefRegulator {
+    network: Arc<Network>,
+    /// `None` only listens, to make training data.
+    cell: Option<Arc<Regulator>>,
+}
+
+impl BeliefRegulator {
+    /// Of this propagation network and this cell. `None` if the cell was trained on another number
+    /// of effects.
+    pub fn new(network: Arc<Network>, cell: Arc<Regulator>) -> Option<Self> {
+        let fits = cell.features() == EVIDENCE + network.effect_width();
+        fits.then_some(Self { network, cell: Some(cell) })
+    }
+
+    /// One that leaves the belief alone and only keeps what windows tell, for training.
+    pub fn listening(network: Arc<Network>) -> Self {
+        Self { network, cell: None }
+    }
+}
+
+/// A regulator at work in a belief.
+#[derive(Clone)]
+pub(super) struct Regulation {
+    by: BeliefRegulator,
+    memory: Memory,
+    /// What windows told, if it only listens.
+    pub heard: Vec<Testimony>,
+}
+
+impl Regulation {
+    pub fn new(by: BeliefRegulator) -> Self {
+        Self { by, memory: Memory::default(), heard: Vec::new() }
+    }
+
+    /// Takes a window: the evidence of every pair of which anything was `told`, and the `job` that
+    /// was played. Returns what to add to the logarithms of the types of these pairs.
+    pub fn take(
+        &mut self,
+        (scene, job): (&Scene, &Job),
+        pairs: &[[usize; 2]],
+        evidence: &[Option<[f32; EVIDENCE]>],
+        filtered: Vec<[f64; 4]>,
+    ) -> Vec<Option<[f64; 4]>> {
+        let told: Vec<bool> = evidence.iter().map(Option::is_some).collect();
+        if !told.contains(&true) {
+            return vec![None; pairs.len()];
+        }
+        let effects = self.by.network.effects(scene, job, pairs);
+        let mut features = Vec::new();
+        for (evidence, effects) in evidence.iter().zip(effects) {
+            features.extend(evidence.unwrap_or([0.0; EVIDENCE]));
+            features.extend(effects.iter().map(|x| if evidence.is_some() { *x } else { 0.0 }));
+        }
+        match &self.by.cell {
+            Some(cell) => {
+                let pairs = (pairs, scene.objects.len());
+                cell.step(&features, &told, pairs, &mut self.memory)
+            }
+            None => {
+                self.heard.push(Testimony { features, told, filtered });
+                vec![None; pairs.len()]
+            }
+        }
+    }
+}
+
+impl fmt::Debug for Regulation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Regulation").field("memory", &self.memory).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,129 @@
+//! The regulator's step on plain numbers: what `infer` and `run` use, without candle.
+
+use crate::network::{Parameters, Statistics};
+
+use super::{layout::TYPES, weights::RegulatorWeights};
+
+/// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any in
+/// training cannot drive it anywhere.
+const BOUND: f32 = 10.0;
+
+/// The regulator with its weights; shared between beliefs.
+#[derive(Clone, Debug)]
+pub struct Regulator {
+    features: usize,
+    width: usize,
+    scales: Statistics,
+    parameters: Parameters,
+}
+
+/// What a regulator remembers of every pair: [P, H].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Memory {
+    hidden: Vec<f32>,
+}
+
+impl Regulator {
+    /// Of these weights.
+    pub fn new(weights: &RegulatorWeights) -> Self {
+        Self {
+            features: weights.card.features,
+            width: weights.card.width,
+            scales: weights.card.scales.clone(),
+            parameters: weights.parameters.clone(),
+        }
+    }
+
+    /// Number of features of a pair, F.
+    pub fn features(&self) -> usize {
+        self.features
+    }
+
+    /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
+    /// `pairs` of so many `objects`. Returns the logits of these pairs, `None` for the others.
+    pub fn step(
+        &self,
+        features: &[f32],
+        told: &[bool],
+        (pairs, objects): (&[[usize; 2]], usize),
+        memory: &mut Memory,
+    ) -> Vec<Option<[f64; TYPES]>> {
+        let (f, h) = (self.features, self.width);
+        memory.hidden.resize(pairs.len() * h, 0.0);
+        let before = memory.hidden.clone();
+        let messages = messages(&before, (pairs, objects), h);
+        for p in (0..pairs.len()).filter(|p| told[*p]) {
+            let row: Vec<f32> = features[p * f..][..f]
+                .iter()
+                .enumerate()
+                .map(|(k, x)| (x - self.scales.mean[k]) / self.scales.deviation[k])
+                .map(|x| x.clamp(-BOUND, BOUND))
+                .collect();
+            let own = &before[p * h..][..h];
+            let mut given = self.get("gates.bias").to_vec();
+            multiply(&row, self.get("gates.input"), &mut given);
+            multiply(&messages[p * h..][..h], self.get("gates.message"), &mut given);
+            let mut held = vec![0.0; 3 * h];
+            multiply(own, self.get("gates.hidden"), &mut held);
+            let bias = self.get("gates.candidate_bias");
+            for k in 0..h {
+                let reset = sigmoid(given[k] + held[k]);
+                let update = sigmoid(given[h + k] + held[h + k]);
+                let candidate = (given[2 * h + k] + reset * (held[2 * h + k] + bias[k])).tanh();
+                memory.hidden[p * h + k] = (1.0 - update) * candidate + update * own[k];
+            }
+        }
+        let messages = super::cell::messages(&memory.hidden, (pairs, objects), h);
+        let logits = |p: usize| {
+            let mut hidden = self.get("head.bias").to_vec();
+            multiply(&memory.hidden[p * h..][..h], self.get("head.hidden"), &mut hidden);
+            multiply(&messages[p * h..][..h], self.get("head.message"), &mut hidden);
+            hidden.iter_mut().for_each(|value| *value = value.max(0.0));
+            let mut logits = [0.0; TYPES];
+            logits.copy_from_slice(self.get("head.logits_bias"));
+            multiply(&hidden, self.get("head.logits"), &mut logits);
+            logits.map(f64::from)
+        };
+        (0..pairs.len()).map(|p| told[p].then(|| logits(p))).collect()
+    }
+
+    /// A parameter that reading the weights checked.
+    fn get(&self, name: &str) -> &[f32] {
+        &self.parameters.values[name]
+    }
+}
+
+/// Of every pair the sum of the hidden rows of pairs that share an object with it.
+fn messages(hidden: &[f32], (pairs, objects): (&[[usize; 2]], usize), h: usize) -> Vec<f32> {
+    let mut sums = vec![0.0; objects * h];
+    for (pair, row) in pairs.iter().zip(hidden.chunks_exact(h)) {
+        for object in pair {
+            add(&mut sums[object * h..][..h], row, 1.0);
+        }
+    }
+    let mut messages = vec![0.0; hidden.len()];
+    for ((pair, row), message) in
+        pairs.iter().zip(hidden.chunks_exact(h)).zip(messages.chunks_exact_mut(h))
+    {
+        for object in pair {
+            add(message, &sums[object * h..][..h], 1.0);
+            add(message, row, -1.0);
+        }
+    }
+    messages
+}
+
+fn add(into: &mut [f32], row: &[f32], factor: f32) {
+    into.iter_mut().zip(row).for_each(|(into, value)| *into += factor * value);
+}
+
+/// Adds x [n] times `matrix` [n, m] to `into` [m].
+fn multiply(x: &[f32], matrix: &[f32], into: &mut [f32]) {
+    for (x, row) in x.iter().zip(matrix.chunks_exact(into.len())) {
+        add(into, row, *x);
+    }
+}
+
+fn sigmoid(x: f32) -> f32 {
+    0.5 + 0.5 * (0.5 * x).tanh()
+}

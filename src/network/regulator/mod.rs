@@ -1,0 +1,27 @@
+//! The belief regulator's recurrent cell: what it is made of, how it computes and how it is kept.
+//!
+//! A gated recurrent unit per pair of objects (Cho et al., EMNLP 2014) on evidence about that pair and
+//! on the effects of the frozen propagation network, with messages between pairs that share an object
+//! (Tekden et al., ICRA 2020, section III-C; thesis 7.2.3 and 8.1.1). With features x_p [F], hidden
+//! states h_p [H] and the message m_p = the sum of h_q over pairs q != p that share an object with p,
+//! counted once for each shared object:
+//!
+//! ```text
+//! r, z, c = x W_x + m W_m + b,  with h W_h
+//! r = sigmoid(r_x + r_h)   z = sigmoid(z_x + z_h)   c = tanh(c_x + r (c_h + b_c))
+//! h' = (1 - z) c + z h     logits = relu(h' V_h + m' V_m + b_v) V + b_l
+//! ```
+//!
+//! The logits of the four types of joints are added to those of the filter, and start at zero.
+
+mod cell;
+#[cfg(feature = "train")]
+mod graph;
+mod layout;
+mod weights;
+
+pub use cell::{Memory, Regulator};
+#[cfg(feature = "train")]
+pub use graph::{RegulatorGraph, Unrolled};
+pub use layout::{TYPES, fresh_regulator, regulator_layout};
+pub use weights::{RegulatorCard, RegulatorWeights};
