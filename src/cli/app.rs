@@ -6,8 +6,6 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-#[cfg(feature = "train")]
-use super::train;
 use super::{
     bench, check, completions,
     error::CliError,
@@ -15,6 +13,8 @@ use super::{
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
+#[cfg(feature = "train")]
+use super::{train, train_regulator};
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
@@ -38,6 +38,8 @@ enum Command {
     Generate(generate::GenerateArgs),
     #[cfg(feature = "train")]
     Train(train::TrainArgs),
+    #[cfg(feature = "train")]
+    TrainRegulator(train_regulator::TrainRegulatorArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
@@ -80,6 +82,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Generate(args) => generate::run(args, &session),
         #[cfg(feature = "train")]
         Command::Train(args) => train::run(args, &session),
+        #[cfg(feature = "train")]
+        Command::TrainRegulator(args) => train_regulator::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
         Command::Infer(args) => infer::run(args, &session),

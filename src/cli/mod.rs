@@ -31,6 +31,8 @@ mod solve;
 mod tradeoff;
 #[cfg(feature = "train")]
 mod train;
+#[cfg(feature = "train")]
+mod train_regulator;
 mod verify;
 mod words;
 

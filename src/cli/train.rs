@@ -203,7 +203,7 @@ impl Followed<'_> {
     }
 }
 
-fn train_error(error: TrainError) -> CliError {
+pub fn train_error(error: TrainError) -> CliError {
     match error {
         TrainError::Data(error) => data_error(error),
         TrainError::Write(faults) => CliError::Output(faults),

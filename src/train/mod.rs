@@ -6,19 +6,26 @@
 //! generated or drawn here.
 
 mod checkpoint;
+mod descent;
 mod example;
+mod log;
 mod loss;
 mod metrics;
 mod optimiser;
+mod regulator;
 mod rollout_error;
 mod schedule;
 mod settings;
 mod trainer;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
+pub use descent::Descent;
 pub use example::{Examples, Exposure, Noise};
 pub use metrics::{HeldOutError, MetricLine};
 pub use optimiser::AdamW;
+pub use regulator::{
+    RegulatorCheckpoint, RegulatorLine, RegulatorScore, RegulatorSettings, score, train_regulator,
+};
 pub use rollout_error::rollout_error;
 pub use schedule::learning_rate;
 pub use settings::Settings;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::Config;
 
-use super::Noise;
+use super::{Descent, Noise};
 
 /// Settings of a run; a checkpoint resumes only under the same ones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +32,14 @@ pub struct Settings {
     pub noise: Noise,
     /// Steps between held-out evaluations and checkpoints.
     pub evaluate_every: u64,
+}
+
+impl Settings {
+    /// How weights follow gradients.
+    pub fn descent(&self) -> Descent {
+        let Self { steps, learning_rate, warm_up, weight_decay, clip, average, .. } = *self;
+        Descent { steps, learning_rate, warm_up, weight_decay, clip, average }
+    }
 }
 
 impl Default for Settings {

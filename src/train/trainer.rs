@@ -2,7 +2,6 @@
 
 use std::{
     fs,
-    io::Write,
     path::{Path, PathBuf},
     time::Instant,
 };
@@ -23,7 +22,7 @@ use crate::{
 
 use super::{
     AdamW, Checkpoint, CheckpointError, Examples, HeldOutError, MetricLine, Settings,
-    example::Supervised, learning_rate, loss::loss, rollout_error,
+    example::Supervised, learning_rate, log::Log, loss::loss, rollout_error,
 };
 
 /// A step's graphs are split into this many parts, differentiated in parallel and added in
@@ -103,7 +102,7 @@ pub fn train(
             lead = (settings.noise.lead > 0).then(|| Forward::new(&weights(&run, data, None)));
         }
         let (loss, gradients) = gradients(&run, &examples, lead.as_ref())?;
-        let norm = run.optimiser.update(settings, &gradients);
+        let norm = run.optimiser.update(&settings.descent(), &gradients);
         if !loss.is_finite() || !norm.is_finite() {
             return Err(TrainError::NotFinite(step));
         }
@@ -118,7 +117,7 @@ pub fn train(
                 step,
                 loss: since.2 / count,
                 gradient: since.3 / count,
-                learning_rate: learning_rate(settings, step),
+                learning_rate: learning_rate(&settings.descent(), step),
                 graphs_per_second: count * settings.batch as f64 / since.0.elapsed().as_secs_f64(),
                 seconds: started.elapsed().as_secs_f64(),
                 held_out: error.clone(),
@@ -248,37 +247,5 @@ fn weights(run: &Checkpoint, data: &Dataset, error: Option<&HeldOutError>) -> We
             errors,
         },
         parameters: run.optimiser.average.clone(),
-    }
-}
-
-/// `metrics.jsonl`, without lines past the checkpoint that the run goes on from.
-struct Log {
-    path: PathBuf,
-    file: fs::File,
-}
-
-impl Log {
-    fn open(folder: &Path, step: u64) -> Result<Self, TrainError> {
-        let path = folder.join("metrics.jsonl");
-        let kept: String = fs::read_to_string(&path)
-            .unwrap_or_default()
-            .lines()
-            .filter(|line| {
-                serde_json::from_str::<MetricLine>(line).is_ok_and(|line| line.step <= step)
-            })
-            .flat_map(|line| [line, "\n"])
-            .collect();
-        write_atomic(&path, kept.as_bytes())?;
-        let file = fs::OpenOptions::new()
-            .append(true)
-            .open(&path)
-            .map_err(|e| TrainError::File(path.clone(), e))?;
-        Ok(Self { path, file })
-    }
-
-    fn write(&mut self, line: &MetricLine) -> Result<(), TrainError> {
-        // A metric line holds only finite numbers and text, which always encode.
-        let text = serde_json::to_string(line).unwrap_or_default();
-        writeln!(self.file, "{text}").map_err(|e| TrainError::File(self.path.clone(), e))
     }
 }

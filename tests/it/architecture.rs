@@ -25,12 +25,12 @@ const ROOMS: [(&str, &[&str]); 23] = [
     // Not `plan`: the check shares no code with what it checks.
     ("verify", &["geometry", "scene", "sim"]),
     ("solve", &["geometry", "scene", "asset", "sim", "effect", "plan", "verify"]),
-    ("dataset", &["geometry", "scene", "asset", "store", "sim"]),
+    ("dataset", &["geometry", "scene", "recording", "asset", "store", "sim", "effect", "belief"]),
     (
         "train",
         &[
             "geometry", "scene", "asset", "store", "contact", "graph", "network", "rollout",
-            "effect", "judge", "dataset",
+            "effect", "judge", "belief", "dataset",
         ],
     ),
     (
