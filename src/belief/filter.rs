@@ -15,7 +15,7 @@ use crate::{
 };
 
 use super::{
-    joints::{likeliest, with},
+    joints::{likeliest, of_types, with},
     pair::{JointType, PairBelief},
     regulation::{BeliefRegulator, Regulation},
     relative::{relative, relative_like, spread},
@@ -178,6 +178,19 @@ impl Belief {
             evidence: evidences,
         });
         self.track.follow(&base, &window);
+    }
+
+    /// Physics in which [`Self::pairs`] are joined as `types` say, where these joints would most likely
+    /// be; joints close no loop.
+    pub fn physics_of(&self, types: &[JointType]) -> Physics {
+        of_types(&self.scene, &self.pairs, &self.track.state, types)
+    }
+
+    /// The types that the last window which told of a pair says by itself: a belief without memory.
+    pub fn last_types(&self) -> Vec<JointType> {
+        let last = |p: usize| self.history.iter().rev().find_map(|step| step.evidence[p]);
+        let of = |p| last(p).map_or(JointType::None, |evidence| PairBelief::by_window(&evidence));
+        (0..self.pairs.len()).map(of).collect()
     }
 
     /// Has the regulator, if there is one, correct what the filter found in a window that was played

@@ -10,17 +10,28 @@ use super::pair::{JointType, PairBelief};
 /// The likeliest physics, with anchors and axes where they are in `state`. Joints close no loop;
 /// where they would, the likelier ones stay.
 pub(super) fn likeliest(scene: &Scene, pairs: &[PairBelief], state: &State) -> Physics {
+    let types: Vec<JointType> = pairs.iter().map(PairBelief::likeliest).collect();
+    of_types(scene, pairs, state, &types)
+}
+
+/// Physics in which pairs are joined as `types` say, where their joints would most likely be. Joints
+/// close no loop; where they would, the likelier ones stay.
+pub(super) fn of_types(
+    scene: &Scene,
+    pairs: &[PairBelief],
+    state: &State,
+    types: &[JointType],
+) -> Physics {
     let mut physics = Physics::stated(scene);
-    let mut order: Vec<&PairBelief> = pairs.iter().collect();
-    order.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
+    let mut order: Vec<(&PairBelief, JointType)> =
+        pairs.iter().zip(types.iter().copied()).collect();
+    order.sort_by(|a, b| b.0.rank().total_cmp(&a.0.rank()));
     let mut sets = DisjointSets::new(scene.objects.len());
-    for pair in order {
-        let kind = pair.likeliest();
+    for (pair, kind) in order {
         if kind != JointType::None && sets.join(pair.between) {
             physics.joints.extend(pair.joint(kind, poses(state, pair.between)));
         }
     }
-    // In the order of pairs, whatever is likelier at the moment.
     physics.joints.sort_by_key(|joint| joint.between);
     physics
 }

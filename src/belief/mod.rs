@@ -13,6 +13,7 @@ mod joints;
 mod pair;
 mod regulation;
 mod relative;
+mod residual;
 mod rolled;
 mod settings;
 mod testimony;
@@ -21,6 +22,7 @@ mod window;
 
 pub use filter::{Belief, Step};
 pub use pair::JointType;
-pub use regulation::BeliefRegulator;
+pub use regulation::{BeliefRegulator, RegulatorError};
+pub use residual::residual_types;
 pub use settings::BeliefSettings;
 pub use testimony::{EVIDENCE, Testimony};

@@ -165,6 +165,14 @@ impl PairBelief {
         ]
     }
 
+    /// The type that one window alone, whose evidence is `by_type`, would make it.
+    pub fn by_window(by_type: &[f64; 4]) -> JointType {
+        let logs =
+            JointType::ALL.map(|kind| (by_type[kind as usize] + PRIOR[kind as usize].ln(), kind));
+        let most = logs.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        most.map_or(JointType::None, |(_, kind)| kind)
+    }
+
     /// The type that its motion is likest to.
     pub fn likeliest(&self) -> JointType {
         let logs = JointType::ALL.map(|kind| (self.log(kind), kind));

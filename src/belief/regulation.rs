@@ -3,13 +3,37 @@
 use std::fmt;
 use std::sync::Arc;
 
+use thiserror::Error;
+
 use crate::{
-    effect::Network,
-    network::{Memory, Regulator},
+    effect::{EffectModels, ModelError, Network},
+    network::{Memory, Regulator, RegulatorWeights, WeightsError},
     scene::{Job, Scene},
 };
 
 use super::testimony::{EVIDENCE, Testimony};
+
+/// The trained weights that are part of the library; `models/regulator.md` says what they are.
+const WEIGHTS: &[u8] = include_bytes!("../../models/regulator.safetensors");
+
+/// Why a regulator cannot be made.
+#[derive(Debug, Error)]
+pub enum RegulatorError {
+    /// Its weights cannot be used.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
+    /// The propagation network cannot be used.
+    #[error(transparent)]
+    Network(#[from] ModelError),
+    /// They were trained on other features.
+    #[error("the regulator was trained on {found} features of a pair, here there are {expected}")]
+    Features {
+        /// Those of the weights.
+        found: usize,
+        /// Those of this version.
+        expected: usize,
+    },
+}
 
 /// The belief regulator: a recurrent network on the evidence of every pair and on the effects of a
 /// frozen propagation network, whose weights it shares with the physics predictor (thesis 7.2.3).
@@ -21,11 +45,40 @@ pub struct BeliefRegulator {
 }
 
 impl BeliefRegulator {
-    /// Of this propagation network and this cell. `None` if the cell was trained on another number
-    /// of effects.
-    pub fn new(network: Arc<Network>, cell: Arc<Regulator>) -> Option<Self> {
-        let fits = cell.features() == EVIDENCE + network.effect_width();
-        fits.then_some(Self { network, cell: Some(cell) })
+    /// Of this propagation network and these weights.
+    ///
+    /// # Errors
+    /// [`RegulatorError::Features`] if the weights are for other features.
+    pub fn new(network: Arc<Network>, weights: &RegulatorWeights) -> Result<Self, RegulatorError> {
+        let (found, expected) = (weights.card.features, EVIDENCE + network.effect_width());
+        if found != expected {
+            return Err(RegulatorError::Features { found, expected });
+        }
+        Ok(Self { network, cell: Some(Arc::new(Regulator::new(weights))) })
+    }
+
+    /// The shipped one, on the shipped propagation network.
+    ///
+    /// # Errors
+    /// [`RegulatorError`] if the library was built around damaged weights files.
+    pub fn shipped() -> Result<Self, RegulatorError> {
+        Self::on_shipped_network(&Self::shipped_weights()?)
+    }
+
+    /// These weights on the shipped propagation network.
+    ///
+    /// # Errors
+    /// [`RegulatorError`] if they do not fit it.
+    pub fn on_shipped_network(weights: &RegulatorWeights) -> Result<Self, RegulatorError> {
+        Self::new(Arc::new(Network::new(EffectModels::weights()?)), weights)
+    }
+
+    /// The shipped weights with their card.
+    ///
+    /// # Errors
+    /// If the library was built around a damaged weights file.
+    pub fn shipped_weights() -> Result<RegulatorWeights, WeightsError> {
+        RegulatorWeights::from_bytes(WEIGHTS)
     }
 
     /// One that leaves the belief alone and only keeps what windows tell, for training.

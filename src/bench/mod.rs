@@ -4,6 +4,7 @@
 //! be written as JSON; nothing is drawn here.
 
 mod baselines;
+mod belief;
 mod cpu_clock;
 mod crowd;
 mod effects;
@@ -20,6 +21,10 @@ mod tools;
 mod tradeoff;
 
 pub use baselines::{assumed, crowd_baselines, push_baselines};
+pub use belief::{
+    BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint, JointMethod,
+    Rest, RestOfWay, Right, Sighting, Sure, When, summarise_beliefs,
+};
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
 };

@@ -12,7 +12,7 @@ use crate::watch::Count;
 
 use super::{
     error::CliError, exit_code, follow::Following, form::Form, model, output,
-    recordings::load_recordings, session::Session,
+    recordings::load_recordings, regulator::RegulatorArgs, session::Session,
 };
 
 /// Infer from a recording which objects hang together by which joints
@@ -47,6 +47,8 @@ pub struct InferArgs {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    regulator: RegulatorArgs,
+    #[command(flatten)]
     form: Form,
 }
 
@@ -70,6 +72,9 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     let noise = Noise { position: args.noise, heading: args.heading_noise };
     let (tool, lift) = (recording.tool.clone(), recording.lift);
     let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise));
+    if let Some((regulator, _)) = args.regulator.load()? {
+        belief = belief.regulated(regulator);
+    }
     let following = Following::bar(session, "inferring");
     let observations = recording.observations();
     let count = Count::new(&following, 0, observations.len());

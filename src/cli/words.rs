@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::bench::{Layout, TaskKind};
+use crate::bench::{CrowdFamily, Layout, Sighting, TaskKind};
 use crate::dataset::{JointRule, Preset, Solids};
 use crate::effect::Outside;
 use crate::scene::Engine;
@@ -59,6 +59,21 @@ pub static JOINTS: [(&str, JointRule, &str); 3] = [
 pub static SOLIDS: [(&str, Solids, &str); 2] = [
     ("cylinders", Solids::Cylinders, "Cylinders alone"),
     ("any", Solids::Any, "Cylinders and cuboids"),
+];
+
+/// Families of crowds.
+pub static FAMILIES: [(&str, CrowdFamily, &str); 2] = [
+    ("sparse", CrowdFamily::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
+    ("dense", CrowdFamily::Dense, "Objects almost touching, one stroke into them"),
+];
+
+/// How well things are seen.
+pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
+    ("exact", Sighting::Exact, "True poses"),
+    ("fine", Sighting::Fine, "1 mm and 0.5 degrees of noise"),
+    ("coarse", Sighting::Coarse, "3 mm and 2 degrees of noise"),
+    ("unmarked", Sighting::Unmarked, "Cylinders alone, true positions, no headings"),
+    ("unmarked-fine", Sighting::UnmarkedFine, "Cylinders alone, 1 mm of noise, no headings"),
 ];
 
 /// Kinds of random tasks.

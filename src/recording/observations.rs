@@ -2,7 +2,10 @@
 
 use crate::scene::{Observation, Sight};
 
-use super::{observed::Recording, replay::Instant};
+use super::{
+    observed::Recording,
+    replay::{Instant, Replay},
+};
 
 impl Recording {
     /// What was seen at the instants of [`Self::replay`]; where the pusher is lifted, at rest.
@@ -10,11 +13,7 @@ impl Recording {
         let replay = self.replay();
         let mut observations = Vec::new();
         let mut done = 0;
-        for (k, Instant { frame, stroke, settled }) in replay.instants.iter().copied().enumerate() {
-            let rests = replay.instants.get(k + 1).is_some_and(|next| next.settled);
-            if rests && !settled {
-                continue;
-            }
+        for Instant { frame, stroke, .. } in observed(&replay) {
             let poses = self.frames[frame].poses.iter().zip(&self.headings);
             observations.push(Observation {
                 strokes: replay.motion.strokes[done..=stroke].to_vec(),
@@ -24,4 +23,16 @@ impl Recording {
         }
         observations
     }
+
+    /// Indices of the frames that [`Self::observations`] are of.
+    pub fn observed_frames(&self) -> Vec<usize> {
+        observed(&self.replay()).map(|instant| instant.frame).collect()
+    }
+}
+
+/// The instants of a replay; of the end of a stroke and the rest after it only the rest.
+fn observed(replay: &Replay) -> impl Iterator<Item = Instant> {
+    let rests = |k: usize| replay.instants.get(k + 1).is_some_and(|next| next.settled);
+    let instants = replay.instants.iter().copied().enumerate();
+    instants.filter(move |(k, instant)| instant.settled || !rests(*k)).map(|(_, instant)| instant)
 }

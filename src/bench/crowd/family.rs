@@ -98,25 +98,33 @@ impl CrowdSet {
     /// threads of the current rayon pool; none for a family that is not drawn. `watch` is told
     /// the trajectories done.
     pub fn draw(&self, seed: u64, count: usize, watch: &dyn Watch) -> Vec<Trial> {
-        let Some((preset, _)) = self.family.drawn() else { return Vec::new() };
-        let config = DatasetConfig {
-            // Sets must not share scenes either.
-            seed: (seed ^ SALT).wrapping_mul(64).wrapping_add(self.number()),
-            episodes: count as u64,
-            preset,
-            constraints: Constraints::test(self.objects, self.joints, self.solids),
-        };
+        if self.family.drawn().is_none() {
+            return Vec::new();
+        }
         watch.stage("simulating");
         let done = Count::new(watch, 0, count);
-        (0..config.episodes)
+        (0..count as u64)
             .into_par_iter()
             .map(|index| {
-                let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
+                let Episode { scene, motion, frames, .. } = self.episode(seed, index);
                 let trial = Trial::of_frames(scene, motion, &frames);
                 done.one();
                 trial
             })
             .collect()
+    }
+
+    /// Trajectory `index` of the set under `seed`, simulated in the plane.
+    pub fn episode(&self, seed: u64, index: u64) -> Episode {
+        let preset = self.family.drawn().map_or(Preset::Sparse, |(preset, _)| preset);
+        let config = DatasetConfig {
+            // Sets must not share scenes either.
+            seed: (seed ^ SALT).wrapping_mul(64).wrapping_add(self.number()),
+            episodes: index + 1,
+            preset,
+            constraints: Constraints::test(self.objects, self.joints, self.solids),
+        };
+        Episode::draw(&config, index)
     }
 
     /// Different for every set of a family.

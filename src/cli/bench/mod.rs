@@ -3,6 +3,7 @@
 mod command;
 mod common;
 mod cost;
+mod joints;
 mod keep;
 mod page;
 mod random;

@@ -34,11 +34,6 @@ impl Regulator {
         }
     }
 
-    /// Number of features of a pair, F.
-    pub fn features(&self) -> usize {
-        self.features
-    }
-
     /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
     /// `pairs` of so many `objects`. Returns the logits of these pairs, `None` for the others.
     pub fn step(

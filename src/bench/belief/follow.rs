@@ -1,0 +1,252 @@
+//! One trajectory followed by all methods.
+
+use std::sync::Arc;
+
+use crate::{
+    belief::{Belief, BeliefRegulator, BeliefSettings, JointType, residual_types},
+    dataset::{Seeing, generator, true_type},
+    effect::EffectModel,
+    geometry::{Pose, Vector},
+    judge::mean,
+    recording::Recording,
+    scene::{
+        Job, Joint, JointKind, Observation, Physics, Record, Scene, Situation, Span, ToolMotion,
+    },
+};
+
+use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest};
+
+/// Observations of a single stroke after which beliefs are asked; of several strokes after every one.
+const ASKED: [usize; 5] = [5, 10, 15, 20, 30];
+
+/// Objects that moved by less count as unmoved, metres.
+const MOVED: f64 = 0.01;
+
+/// Least play for an anchor and an axis to be judged: radians and metres.
+const PLAY: [f64; 2] = [15.0 / 180.0 * std::f64::consts::PI, 0.02];
+
+/// What is asked of a trajectory.
+struct Followed<'a> {
+    recording: &'a Recording,
+    /// As it was seen at the start.
+    seen: &'a Scene,
+    observations: &'a [Observation],
+    pairs: Vec<[usize; 2]>,
+    seeing: &'a Seeing,
+    model: &'a dyn EffectModel,
+}
+
+/// Follows a recording with the filter, and with the `regulator` if there is one; predicts the rest of
+/// the way if wanted.
+pub(super) fn follow(
+    recording: &Arc<Recording>,
+    seeing: &Seeing,
+    (model, regulator, rest): (&dyn EffectModel, Option<&BeliefRegulator>, bool),
+    (seed, index): (u64, u64),
+    case: usize,
+) -> BeliefRecord {
+    let (seen, observations) = seeing.observe(recording, &mut generator(seed, index));
+    let settings = BeliefSettings::new(seeing.noise);
+    let filter = Belief::new(&seen, recording.tool.clone(), recording.lift, settings);
+    let pairs: Vec<[usize; 2]> = filter.pairs().collect();
+    let of = Followed { recording, seen: &seen, observations: &observations, pairs, seeing, model };
+    let regulated = regulator.map(|regulator| filter.clone().regulated(regulator.clone()));
+    let mut beliefs = vec![(JointMethod::Filter, filter)];
+    beliefs.extend(regulated.map(|belief| (JointMethod::Regulator, belief)));
+    let several = observations.iter().filter(|one| lifted(one)).count() > 1;
+    let mut checkpoints = Vec::new();
+    let mut strokes = 0;
+    for (k, observation) in observations.iter().enumerate() {
+        for (_, belief) in &mut beliefs {
+            belief.update(model, observation.clone());
+        }
+        strokes += usize::from(lifted(observation));
+        let end = k + 1 == observations.len();
+        let asked = if several { lifted(observation) } else { ASKED.contains(&(k + 1)) };
+        if end || asked {
+            for (_, belief) in &mut beliefs {
+                belief.settle(model);
+            }
+            checkpoints.push(of.checkpoint(k + 1, strokes, &beliefs, rest && !end));
+        }
+    }
+    let best = beliefs.last().map(|(_, belief)| belief);
+    let (anchors, axes) = best.map_or_else(Default::default, |belief| of.places(belief));
+    BeliefRecord {
+        case,
+        objects: seen.objects.len(),
+        types: of.pairs.iter().map(|pair| true_type(&recording.scene, *pair)).collect(),
+        checkpoints,
+        anchors,
+        axes,
+    }
+}
+
+fn lifted(observation: &Observation) -> bool {
+    observation.strokes.last().is_some_and(|stroke| stroke.settle)
+}
+
+impl Followed<'_> {
+    fn checkpoint(
+        &self,
+        count: usize,
+        strokes: usize,
+        beliefs: &[(JointMethod, Belief)],
+        rest: bool,
+    ) -> Checkpoint {
+        let (_, filter) = &beliefs[0];
+        let physics = |method: JointMethod, situation: &Situation| match method {
+            JointMethod::True => self.true_physics(situation),
+            JointMethod::None => situation.physics.without_joints(),
+            JointMethod::ContactsFixed => Physics {
+                joints: situation.physics.with_contacts_fixed(self.seen).joints,
+                ..(*situation.physics).clone()
+            },
+            JointMethod::Residuals => {
+                let seen = &self.observations[..count];
+                let types = residual_types(self.seen, &self.pairs, seen, self.seeing.noise);
+                filter.physics_of(&types)
+            }
+            JointMethod::LastWindow => filter.physics_of(&filter.last_types()),
+            JointMethod::Filter | JointMethod::Regulator => (*situation.physics).clone(),
+        };
+        let mut types = Vec::new();
+        let mut rests = Vec::new();
+        for method in JointMethod::ALL {
+            let belief = match method {
+                JointMethod::Regulator => {
+                    beliefs.iter().find(|(by, _)| *by == method).map(|(_, b)| b)
+                }
+                _ => Some(filter),
+            };
+            let Some(belief) = belief else { continue };
+            let situation = belief.situation();
+            let physics = physics(method, &situation);
+            if method != JointMethod::True {
+                types.push((method, self.types(&physics)));
+            }
+            if rest {
+                rests.push(Rest { by: method, error: self.rest(count, &situation, physics) });
+            }
+        }
+        let probabilities =
+            beliefs.iter().map(|(method, belief)| (*method, belief.probabilities()));
+        Checkpoint {
+            observations: count,
+            strokes,
+            moved: self.pairs.iter().map(|pair| self.moved(*pair, count)).collect(),
+            types,
+            probabilities: probabilities.collect(),
+            rest: rests,
+        }
+    }
+
+    fn types(&self, physics: &Physics) -> Vec<JointType> {
+        let of = |pair: &[usize; 2]| {
+            JointType::of(physics.joints.iter().find(|joint| sorted(joint) == *pair))
+        };
+        self.pairs.iter().map(of).collect()
+    }
+
+    /// True poses after `count` observations.
+    fn poses(&self, count: usize) -> &[Pose] {
+        let replay = self.recording.observed_frames();
+        &self.recording.frames[replay[count - 1]].poses
+    }
+
+    fn moved(&self, pair: [usize; 2], count: usize) -> bool {
+        let far = |k: usize, poses: &[Pose]| {
+            (poses[k].position - self.recording.scene.objects[k].pose.position).norm() > MOVED
+        };
+        let last = self.recording.observed_frames()[count - 1];
+        let frames = &self.recording.frames[..=last];
+        pair.iter().any(|k| frames.iter().any(|frame| far(*k, &frame.poses)))
+    }
+
+    /// What is true, while the objects are where they are believed to be.
+    fn true_physics(&self, situation: &Situation) -> Physics {
+        let scene = &self.recording.scene;
+        let carried = |joint: &Joint| {
+            let then = joint.between.map(|k| scene.objects[k].pose);
+            let now = joint.between.map(|k| situation.start.poses[k]);
+            let place = |v: Vector| now[0].point(then[0].local_point(v));
+            let kind = match joint.kind {
+                JointKind::Fixed => JointKind::Fixed,
+                JointKind::Revolute { at, limits } => {
+                    let turned = worked(&then, &now).1;
+                    JointKind::Revolute { at: place(at), limits: limits.map(|of| left(of, turned)) }
+                }
+                JointKind::Prismatic { axis, limits } => {
+                    let local = then[0].local_vector(axis);
+                    let slid = worked(&then, &now).0.dot(&local);
+                    let axis = now[0].vector(local);
+                    JointKind::Prismatic { axis, limits: limits.map(|of| left(of, slid)) }
+                }
+            };
+            Joint { kind, ..joint.clone() }
+        };
+        let joints = scene.joints.iter().map(carried).collect();
+        Physics { joints, ..(*situation.physics).clone() }
+    }
+
+    /// Error of the rest of the way, mean over all objects, metres.
+    fn rest(&self, count: usize, situation: &Situation, physics: Physics) -> f64 {
+        let strokes = self.observations[count..].iter().flat_map(|one| one.strokes.clone());
+        let motion = ToolMotion {
+            tool: Arc::clone(&self.recording.tool),
+            lift: self.recording.lift,
+            strokes: strokes.collect(),
+        };
+        let job = Job { start: situation.start.clone(), motion, physics: Arc::new(physics) };
+        let rolled = self.model.rollout(&situation.scene, &[job], Record::Outcome);
+        let end = rolled.first().and_then(|trajectory| trajectory.frames.last());
+        let predicted = end.map_or(&situation.start.poses, |frame| &frame.state.poses);
+        let truth = self.poses(self.observations.len());
+        let errors = predicted.iter().zip(truth);
+        mean(&errors.map(|(a, b)| (a.position - b.position).norm()).collect::<Vec<_>>())
+    }
+
+    /// Errors of anchors and axes that were found and have been worked.
+    fn places(&self, belief: &Belief) -> (Vec<f64>, Vec<f64>) {
+        let situation = belief.situation();
+        let truth = self.true_physics(&situation);
+        let (start, end) = (&self.recording.scene.objects, self.poses(self.observations.len()));
+        let (mut anchors, mut axes) = (Vec::new(), Vec::new());
+        for joint in &truth.joints {
+            let found = situation.physics.joints.iter().find(|one| one.between == sorted(joint));
+            let then = joint.between.map(|k| start[k].pose);
+            let (slid, turned) = worked(&then, &joint.between.map(|k| end[k]));
+            match (found.map(|joint| joint.kind), joint.kind) {
+                (Some(JointKind::Revolute { at: found, .. }), JointKind::Revolute { at, .. })
+                    if turned.abs() > PLAY[0] =>
+                {
+                    anchors.push((found - at).norm())
+                }
+                (
+                    Some(JointKind::Prismatic { axis: found, .. }),
+                    JointKind::Prismatic { axis, .. },
+                ) if slid.norm() > PLAY[1] => axes.push(found.perp(&axis).abs().min(1.0).asin()),
+                _ => {}
+            }
+        }
+        (anchors, axes)
+    }
+}
+
+fn sorted(joint: &Joint) -> [usize; 2] {
+    let [a, b] = joint.between;
+    [a.min(b), a.max(b)]
+}
+
+/// How far the second of two objects has moved in the frame of the first: shift, metres, and turn,
+/// radians.
+fn worked(then: &[Pose; 2], now: &[Pose; 2]) -> (Vector, f64) {
+    let place = |[first, second]: &[Pose; 2]| first.local_point(second.position);
+    let turn = |[first, second]: &[Pose; 2]| second.heading - first.heading;
+    (place(now) - place(then), turn(now) - turn(then))
+}
+
+/// What is left of limits to either side.
+fn left(limits: Span, worked: f64) -> Span {
+    Span::new((limits.low - worked).min(0.0), (limits.high - worked).max(0.0))
+}

@@ -1,0 +1,15 @@
+//! How well joints are inferred from what is seen, and what that is worth: right types over time, how
+//! sure beliefs are, and the error on the rest of the way under the belief at that moment.
+//!
+//! The sets are those of [`super::CrowdSet`], seen with several noises. Beside the belief stand what
+//! is known without looking (no joints, all contacts fixed), what the last window says alone, and
+//! geometric residual tests.
+
+mod follow;
+mod record;
+mod suite;
+mod summary;
+
+pub use record::{BeliefRecord, Checkpoint, JointMethod, Rest};
+pub use suite::{BeliefCase, BeliefSuite, Sighting};
+pub use summary::{BeliefStep, BeliefSummary, RestOfWay, Right, Sure, When, summarise_beliefs};

@@ -1,0 +1,128 @@
+//! The cases and their trajectories.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    belief::BeliefRegulator,
+    bench::{CrowdFamily, CrowdSet},
+    dataset::{Episode, JointRule, Seeing, Solids},
+    effect::EffectModel,
+    recording::Recording,
+    scene::Noise,
+};
+
+use super::{follow::follow, record::BeliefRecord};
+
+/// How well things are seen, by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sighting {
+    /// True poses.
+    Exact,
+    /// 1 mm and 0.5 degrees of noise.
+    Fine,
+    /// 3 mm and 2 degrees.
+    Coarse,
+    /// True positions, but no headings of cylinders.
+    Unmarked,
+    /// 1 mm, and no headings of cylinders.
+    UnmarkedFine,
+}
+
+impl Sighting {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Exact, Self::Fine, Self::Coarse, Self::Unmarked, Self::UnmarkedFine];
+
+    /// A name for tables.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Fine => "1 mm, 0.5 deg",
+            Self::Coarse => "3 mm, 2 deg",
+            Self::Unmarked => "no headings",
+            Self::UnmarkedFine => "1 mm, no headings",
+        }
+    }
+
+    fn seeing(self) -> Seeing {
+        let (position, degrees) = match self {
+            Self::Exact | Self::Unmarked => (0.0, 0.0),
+            Self::Fine | Self::UnmarkedFine => (1e-3, 0.5f64),
+            Self::Coarse => (3e-3, 2.0),
+        };
+        let noise = Noise { position, heading: degrees.to_radians() };
+        Seeing { noise, round_headings: !matches!(self, Self::Unmarked | Self::UnmarkedFine) }
+    }
+
+    /// Headings can only be missing of what is round.
+    fn solids(self) -> Solids {
+        match self {
+            Self::Unmarked | Self::UnmarkedFine => Solids::Cylinders,
+            _ => Solids::Any,
+        }
+    }
+}
+
+/// A set of crowds and how it is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeliefCase {
+    /// The scenes.
+    pub set: CrowdSet,
+    /// How they are seen.
+    pub sight: Sighting,
+}
+
+/// Trajectories of several cases, in turn.
+pub struct BeliefSuite {
+    cases: Vec<BeliefCase>,
+    seed: u64,
+    regulator: Option<BeliefRegulator>,
+    rest: bool,
+}
+
+impl BeliefSuite {
+    /// Version of the measurement; another one gives other records for the same settings.
+    pub const VERSION: u32 = 1;
+
+    /// Every set of these families, numbers of objects and joints, seen in each of these ways. With
+    /// `rest` the rest of the way is predicted as well, which costs more than the beliefs.
+    pub fn new(
+        (families, objects, joints): (&[CrowdFamily], &[usize], JointRule),
+        sights: &[Sighting],
+        seed: u64,
+        (regulator, rest): (Option<BeliefRegulator>, bool),
+    ) -> Self {
+        let mut cases = Vec::new();
+        for family in families {
+            for set in CrowdSet::all(*family) {
+                if set.joints != joints || !objects.contains(&set.objects) {
+                    continue;
+                }
+                let seen = sights.iter().filter(|sight| sight.solids() == set.solids);
+                cases.extend(seen.map(|sight| BeliefCase { set, sight: *sight }));
+            }
+        }
+        Self { cases, seed, regulator, rest }
+    }
+
+    /// What is measured.
+    pub fn cases(&self) -> &[BeliefCase] {
+        &self.cases
+    }
+
+    /// Follows the trajectory with this index; `model` rolls out hypotheses and the rest of the way.
+    pub fn measure(&self, model: &dyn EffectModel, index: usize) -> BeliefRecord {
+        let case = index % self.cases.len();
+        let BeliefCase { set, sight } = self.cases[case];
+        let trajectory = (index / self.cases.len()) as u64;
+        let Episode { scene, motion, frames, .. } = set.episode(self.seed, trajectory);
+        let recording = Recording::of_frames("drawn", &scene, &motion, &frames);
+        let by = (model, self.regulator.as_ref(), self.rest);
+        // Noise of its own for every case and trajectory.
+        let noise = (self.seed ^ 0x5345_4520, index as u64);
+        follow(&Arc::new(recording), &sight.seeing(), by, noise, case)
+    }
+}

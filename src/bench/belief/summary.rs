@@ -1,0 +1,245 @@
+//! Trajectories of a case, taken together.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    belief::JointType,
+    judge::{Summary, mean, percentile},
+};
+
+use super::{
+    record::{BeliefRecord, Checkpoint, JointMethod},
+    suite::BeliefCase,
+};
+
+/// Bins of probabilities over which calibration is measured.
+const BINS: usize = 10;
+
+/// What was measured on one case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeliefSummary {
+    /// Which.
+    pub case: BeliefCase,
+    /// Number of trajectories.
+    pub trajectories: usize,
+    /// In order of time, the end last.
+    pub steps: Vec<BeliefStep>,
+    /// Errors of anchors at the end, metres.
+    pub anchors: Option<Summary>,
+    /// Errors of axes at the end, radians.
+    pub axes: Option<Summary>,
+}
+
+/// When beliefs are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum When {
+    /// After so many observations of a single stroke.
+    Observations(usize),
+    /// After so many strokes of several.
+    Strokes(usize),
+    /// After everything.
+    End,
+}
+
+/// Beliefs at one point of all trajectories of a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeliefStep {
+    /// When.
+    pub when: When,
+    /// Near pairs of which either object had moved.
+    pub pairs: usize,
+    /// How right types are, by method.
+    pub right: Vec<Right>,
+    /// How sure beliefs are, by method.
+    pub sure: Vec<Sure>,
+    /// Predictions of the rest of the way, by method.
+    pub rest: Vec<RestOfWay>,
+}
+
+/// Shares of pairs whose type is right.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Right {
+    /// By which method.
+    pub by: JointMethod,
+    /// Of near pairs of which either object had moved.
+    pub moved: f64,
+    /// Of those of them that are joined.
+    pub joined: f64,
+    /// Of near pairs that had not moved.
+    pub unmoved: f64,
+    /// Of all ordered pairs, the hand's among them, as the thesis counts.
+    pub all: f64,
+}
+
+/// How well probabilities of near pairs that moved fit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sure {
+    /// By which method.
+    pub by: JointMethod,
+    /// Mean negative logarithm of the probability of the true type.
+    pub nll: f64,
+    /// Expected calibration error over all four probabilities, in ten bins.
+    pub calibration: f64,
+}
+
+/// Errors at the end when the rest of the way is predicted, metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RestOfWay {
+    /// With the joints by which method.
+    pub by: JointMethod,
+    /// Mean over trajectories.
+    pub mean: f64,
+    /// Median over trajectories.
+    pub median: f64,
+    /// Share of the gap between no joints and the true ones that is closed.
+    pub closed: f64,
+}
+
+/// Takes the records of every case together; cases without any are left out.
+pub fn summarise_beliefs(cases: &[BeliefCase], records: &[&BeliefRecord]) -> Vec<BeliefSummary> {
+    let mut summaries = Vec::new();
+    for (index, case) in cases.iter().enumerate() {
+        let of: Vec<&BeliefRecord> =
+            records.iter().copied().filter(|record| record.case == index).collect();
+        if of.is_empty() {
+            continue;
+        }
+        let mut whens: Vec<When> = of.iter().flat_map(|record| whens(record)).collect();
+        whens.sort_unstable();
+        whens.dedup();
+        let gather = |values: &dyn Fn(&BeliefRecord) -> Vec<f64>| {
+            Summary::of(&of.iter().flat_map(|record| values(record)).collect::<Vec<f64>>())
+        };
+        summaries.push(BeliefSummary {
+            case: *case,
+            trajectories: of.len(),
+            steps: whens.iter().map(|when| step(*when, &of)).collect(),
+            anchors: gather(&|record| record.anchors.clone()),
+            axes: gather(&|record| record.axes.clone()),
+        });
+    }
+    summaries
+}
+
+fn whens(record: &BeliefRecord) -> Vec<When> {
+    let last = record.checkpoints.len().saturating_sub(1);
+    let several = record.checkpoints.last().is_some_and(|end| end.strokes > 1);
+    let of = |(k, checkpoint): (usize, &Checkpoint)| match (k == last, several) {
+        (true, _) => When::End,
+        (false, true) => When::Strokes(checkpoint.strokes),
+        (false, false) => When::Observations(checkpoint.observations),
+    };
+    record.checkpoints.iter().enumerate().map(of).collect()
+}
+
+fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
+    let at: Vec<(&BeliefRecord, &Checkpoint)> = records
+        .iter()
+        .filter_map(|record| {
+            let place = whens(record).into_iter().position(|one| one == when)?;
+            Some((*record, &record.checkpoints[place]))
+        })
+        .collect();
+    let methods = |of: &dyn Fn(&Checkpoint) -> Vec<JointMethod>| -> Vec<JointMethod> {
+        at.first().map_or_else(Vec::new, |(_, checkpoint)| of(checkpoint))
+    };
+    let by_types = methods(&|one| one.types.iter().map(|(by, _)| *by).collect());
+    let by_shares = methods(&|one| one.probabilities.iter().map(|(by, _)| *by).collect());
+    let by_rest = methods(&|one| one.rest.iter().map(|rest| rest.by).collect());
+    let errors = |by: JointMethod| -> Vec<f64> {
+        let of = |one: &Checkpoint| one.rest.iter().find(|rest| rest.by == by).map(|r| r.error);
+        at.iter().filter_map(|(_, one)| of(one)).collect()
+    };
+    let [none, truth] = [JointMethod::None, JointMethod::True].map(|by| mean(&errors(by)));
+    let rest = by_rest.into_iter().map(|by| {
+        let errors = errors(by);
+        let mean = mean(&errors);
+        let closed = if none > truth { (none - mean) / (none - truth) } else { 0.0 };
+        RestOfWay { by, mean, median: percentile(&errors, 50.0), closed }
+    });
+    BeliefStep {
+        when,
+        pairs: at.iter().flat_map(|(_, one)| &one.moved).filter(|moved| **moved).count(),
+        right: by_types.into_iter().map(|by| right(by, &at)).collect(),
+        sure: by_shares.into_iter().map(|by| sure(by, &at)).collect(),
+        rest: rest.collect(),
+    }
+}
+
+/// A share, counted.
+#[derive(Default)]
+struct Share {
+    right: usize,
+    all: usize,
+}
+
+impl Share {
+    fn count(&mut self, right: bool) {
+        self.right += usize::from(right);
+        self.all += 1;
+    }
+
+    fn share(&self) -> f64 {
+        if self.all == 0 { 1.0 } else { self.right as f64 / self.all as f64 }
+    }
+}
+
+fn right(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Right {
+    let [mut moved, mut joined, mut unmoved, mut all] = [const { Share { right: 0, all: 0 } }; 4];
+    for (record, one) in at {
+        let Some((_, types)) = one.types.iter().find(|(method, _)| *method == by) else { continue };
+        let bodies = record.objects + 1;
+        // Far pairs and those of the hand are not joined, and nobody says so.
+        all.right += bodies * (bodies - 1) - 2 * types.len();
+        all.all += bodies * (bodies - 1) - 2 * types.len();
+        for ((found, truth), has_moved) in types.iter().zip(&record.types).zip(&one.moved) {
+            let right = found == truth;
+            (0..2).for_each(|_| all.count(right));
+            if *has_moved {
+                moved.count(right);
+                if *truth != JointType::None {
+                    joined.count(right);
+                }
+            } else {
+                unmoved.count(right);
+            }
+        }
+    }
+    Right {
+        by,
+        moved: moved.share(),
+        joined: joined.share(),
+        unmoved: unmoved.share(),
+        all: all.share(),
+    }
+}
+
+fn sure(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Sure {
+    let mut logs = Vec::new();
+    let mut bins = [[0.0; 3]; BINS];
+    for (record, one) in at {
+        let found = one.probabilities.iter().find(|(method, _)| *method == by);
+        let Some((_, shares)) = found else { continue };
+        for ((shares, truth), moved) in shares.iter().zip(&record.types).zip(&one.moved) {
+            if !moved {
+                continue;
+            }
+            logs.push(-shares[*truth as usize].max(1e-9).ln());
+            for (kind, share) in shares.iter().enumerate() {
+                let bin = ((share * BINS as f64) as usize).min(BINS - 1);
+                let hit = if kind == *truth as usize { 1.0 } else { 0.0 };
+                bins[bin][0] += 1.0;
+                bins[bin][1] += share;
+                bins[bin][2] += hit;
+            }
+        }
+    }
+    let count: f64 = bins.iter().map(|[n, ..]| n).sum();
+    let apart: f64 = bins.iter().map(|[_, share, hit]| (share - hit).abs()).sum();
+    Sure {
+        by,
+        nll: if logs.is_empty() { 0.0 } else { mean(&logs) },
+        calibration: if count > 0.0 { apart / count } else { 0.0 },
+    }
+}
