@@ -22,8 +22,9 @@ mod tradeoff;
 
 pub use baselines::{assumed, crowd_baselines, push_baselines};
 pub use belief::{
-    BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint, JointMethod,
-    Rest, RestOfWay, Right, Sighting, Sure, When, summarise_beliefs,
+    Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,
+    JointMethod, Rest, RestOfWay, Right, Sighting, Sure, When, belief_steps, follow,
+    summarise_beliefs,
 };
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,

@@ -7,11 +7,11 @@ use clap::Args;
 use crate::belief::{Belief, BeliefSettings};
 use crate::recording::Recording;
 use crate::report::belief_document;
-use crate::scene::{ModelSpec, Noise};
+use crate::scene::ModelSpec;
 use crate::watch::Count;
 
 use super::{
-    error::CliError, exit_code, follow::Following, form::Form, model, output,
+    error::CliError, exit_code, follow::Following, form::Form, model, noise::NoiseArgs, output,
     recordings::load_recordings, regulator::RegulatorArgs, session::Session,
 };
 
@@ -37,12 +37,8 @@ pub struct InferArgs {
     /// What rolls hypotheses out
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
-    /// Standard deviation of recorded positions, metres
-    #[arg(long, value_name = "METRES", default_value_t = 1e-3, value_parser = deviation)]
-    noise: f64,
-    /// Standard deviation of recorded headings, radians
-    #[arg(long, value_name = "RADIANS", default_value_t = 0.01, value_parser = deviation)]
-    heading_noise: f64,
+    #[command(flatten)]
+    noise: NoiseArgs,
     /// Folder for belief.json and belief.svg
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -50,12 +46,6 @@ pub struct InferArgs {
     regulator: RegulatorArgs,
     #[command(flatten)]
     form: Form,
-}
-
-fn deviation(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "1 mm is 0.001".to_owned())?;
-    let sound = (0.0..=0.5).contains(&value);
-    sound.then_some(value).ok_or_else(|| "it must be 0 to 0.5".to_owned())
 }
 
 pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
@@ -69,7 +59,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     if let Some(folder) = &args.out {
         output::prepare(folder)?;
     }
-    let noise = Noise { position: args.noise, heading: args.heading_noise };
+    let noise = args.noise.noise();
     let (tool, lift) = (recording.tool.clone(), recording.lift);
     let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise));
     if let Some((regulator, _)) = args.regulator.load()? {

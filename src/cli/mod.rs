@@ -18,6 +18,7 @@ mod generate;
 mod infer;
 mod interrupt;
 mod model;
+mod noise;
 mod output;
 mod page;
 mod poses;

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use crate::bench::{CrowdFamily, Layout, Sighting, TaskKind};
+use crate::bench::{CrowdFamily, JointMethod, Layout, Sighting, TaskKind};
 use crate::dataset::{JointRule, Preset, Solids};
 use crate::effect::Outside;
 use crate::scene::Engine;
@@ -53,6 +53,66 @@ pub static JOINTS: [(&str, JointRule, &str); 3] = [
     ("none", JointRule::None, "None"),
     ("fixed", JointRule::Fixed, "Some neighbours joined rigidly"),
     ("mixed", JointRule::Mixed, "Some neighbours joined by fixed, revolute and prismatic joints"),
+];
+
+/// What may be asked of joints where errors are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AskedJoints {
+    /// Sets with these.
+    Rule(JointRule),
+    /// What a prediction on recordings is told of them.
+    Told(JointMethod),
+}
+
+impl AskedJoints {
+    /// For sets.
+    pub fn rule(self) -> Option<JointRule> {
+        match self {
+            Self::Rule(rule) => Some(rule),
+            Self::Told(_) => None,
+        }
+    }
+
+    /// For recordings.
+    pub fn told(self) -> Option<JointMethod> {
+        match self {
+            Self::Rule(_) => None,
+            Self::Told(method) => Some(method),
+        }
+    }
+}
+
+/// Joints of sets, and what is told of them.
+pub static ASKED_JOINTS: [(&str, AskedJoints, &str); 9] = [
+    ("fixed", AskedJoints::Rule(JointRule::Fixed), "Sets whose neighbours are joined rigidly"),
+    ("mixed", AskedJoints::Rule(JointRule::Mixed), "Sets with all types of joints"),
+    ("given", AskedJoints::Told(JointMethod::True), "Recordings: as they are stated"),
+    ("none", AskedJoints::Told(JointMethod::None), "Recordings: nothing is joined"),
+    (
+        "contacts",
+        AskedJoints::Told(JointMethod::ContactsFixed),
+        "Recordings: what touches is fixed",
+    ),
+    (
+        "residuals",
+        AskedJoints::Told(JointMethod::Residuals),
+        "Recordings: by geometric residual tests",
+    ),
+    (
+        "one-step",
+        AskedJoints::Told(JointMethod::LastWindow),
+        "Recordings: what the last window says alone",
+    ),
+    (
+        "filter",
+        AskedJoints::Told(JointMethod::Filter),
+        "Recordings: as the hypothesis filter believes",
+    ),
+    (
+        "believed",
+        AskedJoints::Told(JointMethod::Regulator),
+        "Recordings: as the regulated belief has it",
+    ),
 ];
 
 /// Solids of a crowd.

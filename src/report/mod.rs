@@ -42,7 +42,7 @@ pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use heldout::heldout_document;
-pub use joints::joints_document;
+pub use joints::{joints_document, recorded_joints_document};
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};

@@ -4,20 +4,36 @@ use std::sync::Arc;
 
 use crate::{
     belief::{Belief, BeliefRegulator, BeliefSettings, JointType, residual_types},
-    dataset::{Seeing, generator, true_type},
+    dataset::true_type,
     effect::EffectModel,
     geometry::{Pose, Vector},
     judge::mean,
     recording::Recording,
     scene::{
-        Job, Joint, JointKind, Observation, Physics, Record, Scene, Situation, Span, ToolMotion,
+        Job, Joint, JointKind, Noise, Observation, Physics, Record, Scene, Situation, Span,
+        ToolMotion,
     },
 };
 
-use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest};
+use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 
-/// Observations of a single stroke after which beliefs are asked; of several strokes after every one.
-const ASKED: [usize; 5] = [5, 10, 15, 20, 30];
+/// When beliefs are asked, but at the end, where they always are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// After some observations of a single stroke, and after every one of several strokes.
+    OnTheWay,
+    /// So many observations after anything first moved.
+    AfterContact,
+}
+
+/// Observations of a single stroke after which beliefs are asked.
+const OBSERVATIONS: [usize; 5] = [5, 10, 15, 20, 30];
+
+/// Observations after the first that shows motion, as the thesis asks in the real world (7.4.3).
+const CONTACT: [usize; 5] = [0, 1, 3, 5, 10];
+
+/// What moved by more has been touched, metres, if it is more than noise.
+const CONTACT_MOTION: f64 = 1e-3;
 
 /// Objects that moved by less count as unmoved, metres.
 const MOVED: f64 = 0.01;
@@ -32,28 +48,28 @@ struct Followed<'a> {
     seen: &'a Scene,
     observations: &'a [Observation],
     pairs: Vec<[usize; 2]>,
-    seeing: &'a Seeing,
+    noise: Noise,
     model: &'a dyn EffectModel,
 }
 
-/// Follows a recording with the filter, and with the `regulator` if there is one; predicts the rest of
-/// the way if wanted.
-pub(super) fn follow(
-    recording: &Arc<Recording>,
-    seeing: &Seeing,
+/// Follows a recording that was `seen` with some noise with the filter, and with the `regulator` if
+/// there is one; predicts the rest of the way if wanted.
+pub fn follow(
+    recording: &Recording,
+    (seen, observations, noise): (&Scene, &[Observation], Noise),
     (model, regulator, rest): (&dyn EffectModel, Option<&BeliefRegulator>, bool),
-    (seed, index): (u64, u64),
+    asked: Asked,
     case: usize,
 ) -> BeliefRecord {
-    let (seen, observations) = seeing.observe(recording, &mut generator(seed, index));
-    let settings = BeliefSettings::new(seeing.noise);
-    let filter = Belief::new(&seen, recording.tool.clone(), recording.lift, settings);
+    let settings = BeliefSettings::new(noise);
+    let filter = Belief::new(seen, recording.tool.clone(), recording.lift, settings);
     let pairs: Vec<[usize; 2]> = filter.pairs().collect();
-    let of = Followed { recording, seen: &seen, observations: &observations, pairs, seeing, model };
+    let of = Followed { recording, seen, observations, pairs, noise, model };
     let regulated = regulator.map(|regulator| filter.clone().regulated(regulator.clone()));
     let mut beliefs = vec![(JointMethod::Filter, filter)];
     beliefs.extend(regulated.map(|belief| (JointMethod::Regulator, belief)));
     let several = observations.iter().filter(|one| lifted(one)).count() > 1;
+    let contact = (1..=observations.len()).find(|count| of.contact(*count));
     let mut checkpoints = Vec::new();
     let mut strokes = 0;
     for (k, observation) in observations.iter().enumerate() {
@@ -61,13 +77,20 @@ pub(super) fn follow(
             belief.update(model, observation.clone());
         }
         strokes += usize::from(lifted(observation));
-        let end = k + 1 == observations.len();
-        let asked = if several { lifted(observation) } else { ASKED.contains(&(k + 1)) };
-        if end || asked {
+        let when = match asked {
+            _ if k + 1 == observations.len() => Some(When::End),
+            Asked::AfterContact => contact
+                .and_then(|contact| (k + 1).checked_sub(contact))
+                .filter(|since| CONTACT.contains(since))
+                .map(When::AfterContact),
+            Asked::OnTheWay if several => lifted(observation).then_some(When::Strokes(strokes)),
+            Asked::OnTheWay => OBSERVATIONS.contains(&(k + 1)).then_some(When::Observations(k + 1)),
+        };
+        if let Some(when) = when {
             for (_, belief) in &mut beliefs {
                 belief.settle(model);
             }
-            checkpoints.push(of.checkpoint(k + 1, strokes, &beliefs, rest && !end));
+            checkpoints.push(of.checkpoint(k + 1, when, &beliefs, rest && when != When::End));
         }
     }
     let best = beliefs.last().map(|(_, belief)| belief);
@@ -90,7 +113,7 @@ impl Followed<'_> {
     fn checkpoint(
         &self,
         count: usize,
-        strokes: usize,
+        when: When,
         beliefs: &[(JointMethod, Belief)],
         rest: bool,
     ) -> Checkpoint {
@@ -104,7 +127,7 @@ impl Followed<'_> {
             },
             JointMethod::Residuals => {
                 let seen = &self.observations[..count];
-                let types = residual_types(self.seen, &self.pairs, seen, self.seeing.noise);
+                let types = residual_types(self.seen, &self.pairs, seen, self.noise);
                 filter.physics_of(&types)
             }
             JointMethod::LastWindow => filter.physics_of(&filter.last_types()),
@@ -132,8 +155,7 @@ impl Followed<'_> {
         let probabilities =
             beliefs.iter().map(|(method, belief)| (*method, belief.probabilities()));
         Checkpoint {
-            observations: count,
-            strokes,
+            when,
             moved: self.pairs.iter().map(|pair| self.moved(*pair, count)).collect(),
             types,
             probabilities: probabilities.collect(),
@@ -152,6 +174,14 @@ impl Followed<'_> {
     fn poses(&self, count: usize) -> &[Pose] {
         let replay = self.recording.observed_frames();
         &self.recording.frames[replay[count - 1]].poses
+    }
+
+    /// Whether anything was seen to move from where it stood by observation `count`, for sure.
+    fn contact(&self, count: usize) -> bool {
+        let least = CONTACT_MOTION.max(4.0 * self.noise.position);
+        let now = self.observations[count - 1].seen.iter().zip(&self.seen.objects);
+        now.flat_map(|(sight, object)| sight.map(|sight| sight.position - object.pose.position))
+            .any(|far| far.norm() > least)
     }
 
     fn moved(&self, pair: [usize; 2], count: usize) -> bool {

@@ -10,6 +10,9 @@ mod record;
 mod suite;
 mod summary;
 
-pub use record::{BeliefRecord, Checkpoint, JointMethod, Rest};
+pub use follow::{Asked, follow};
+pub use record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 pub use suite::{BeliefCase, BeliefSuite, Sighting};
-pub use summary::{BeliefStep, BeliefSummary, RestOfWay, Right, Sure, When, summarise_beliefs};
+pub use summary::{
+    BeliefStep, BeliefSummary, RestOfWay, Right, Sure, belief_steps, summarise_beliefs,
+};

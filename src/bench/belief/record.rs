@@ -68,13 +68,25 @@ pub struct BeliefRecord {
     pub axes: Vec<f64>,
 }
 
-/// What is believed after some observations.
+/// When beliefs are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum When {
+    /// After so many observations of a single stroke.
+    Observations(usize),
+    /// After so many strokes of several.
+    Strokes(usize),
+    /// So many observations after the first that shows motion.
+    AfterContact(usize),
+    /// After everything.
+    End,
+}
+
+/// What is believed at some point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Observations so far.
-    pub observations: usize,
-    /// For a trajectory of several strokes, how many of them.
-    pub strokes: usize,
+    /// When.
+    pub when: When,
     /// Whether either object of a pair has moved by more than 1 cm by now.
     pub moved: Vec<bool>,
     /// Types by method.

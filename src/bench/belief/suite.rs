@@ -1,19 +1,23 @@
 //! The cases and their trajectories.
 
-use std::sync::Arc;
-
 use serde::{Deserialize, Serialize};
 
 use crate::{
     belief::BeliefRegulator,
     bench::{CrowdFamily, CrowdSet},
-    dataset::{Episode, JointRule, Seeing, Solids},
+    dataset::{Episode, JointRule, Seeing, Solids, generator},
     effect::EffectModel,
     recording::Recording,
     scene::Noise,
 };
 
-use super::{follow::follow, record::BeliefRecord};
+use super::{
+    follow::{Asked, follow},
+    record::BeliefRecord,
+};
+
+/// Keeps the random numbers of noise apart from those of scenes.
+const SALT: u64 = 0x5345_4549_4E47_0000;
 
 /// How well things are seen, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -121,8 +125,10 @@ impl BeliefSuite {
         let Episode { scene, motion, frames, .. } = set.episode(self.seed, trajectory);
         let recording = Recording::of_frames("drawn", &scene, &motion, &frames);
         let by = (model, self.regulator.as_ref(), self.rest);
+        let seeing = sight.seeing();
         // Noise of its own for every case and trajectory.
-        let noise = (self.seed ^ 0x5345_4520, index as u64);
-        follow(&Arc::new(recording), &sight.seeing(), by, noise, case)
+        let mut rng = generator(self.seed ^ SALT, index as u64);
+        let (seen, observations) = seeing.observe(&recording, &mut rng);
+        follow(&recording, (&seen, &observations, seeing.noise), by, Asked::OnTheWay, case)
     }
 }

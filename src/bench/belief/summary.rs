@@ -8,7 +8,7 @@ use crate::{
 };
 
 use super::{
-    record::{BeliefRecord, Checkpoint, JointMethod},
+    record::{BeliefRecord, Checkpoint, JointMethod, When},
     suite::BeliefCase,
 };
 
@@ -28,18 +28,6 @@ pub struct BeliefSummary {
     pub anchors: Option<Summary>,
     /// Errors of axes at the end, radians.
     pub axes: Option<Summary>,
-}
-
-/// When beliefs are looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum When {
-    /// After so many observations of a single stroke.
-    Observations(usize),
-    /// After so many strokes of several.
-    Strokes(usize),
-    /// After everything.
-    End,
 }
 
 /// Beliefs at one point of all trajectories of a case.
@@ -105,16 +93,13 @@ pub fn summarise_beliefs(cases: &[BeliefCase], records: &[&BeliefRecord]) -> Vec
         if of.is_empty() {
             continue;
         }
-        let mut whens: Vec<When> = of.iter().flat_map(|record| whens(record)).collect();
-        whens.sort_unstable();
-        whens.dedup();
         let gather = |values: &dyn Fn(&BeliefRecord) -> Vec<f64>| {
             Summary::of(&of.iter().flat_map(|record| values(record)).collect::<Vec<f64>>())
         };
         summaries.push(BeliefSummary {
             case: *case,
             trajectories: of.len(),
-            steps: whens.iter().map(|when| step(*when, &of)).collect(),
+            steps: belief_steps(&of),
             anchors: gather(&|record| record.anchors.clone()),
             axes: gather(&|record| record.axes.clone()),
         });
@@ -122,23 +107,20 @@ pub fn summarise_beliefs(cases: &[BeliefCase], records: &[&BeliefRecord]) -> Vec
     summaries
 }
 
-fn whens(record: &BeliefRecord) -> Vec<When> {
-    let last = record.checkpoints.len().saturating_sub(1);
-    let several = record.checkpoints.last().is_some_and(|end| end.strokes > 1);
-    let of = |(k, checkpoint): (usize, &Checkpoint)| match (k == last, several) {
-        (true, _) => When::End,
-        (false, true) => When::Strokes(checkpoint.strokes),
-        (false, false) => When::Observations(checkpoint.observations),
-    };
-    record.checkpoints.iter().enumerate().map(of).collect()
+/// Beliefs of several trajectories together, in order of time.
+pub fn belief_steps(records: &[&BeliefRecord]) -> Vec<BeliefStep> {
+    let checkpoints = records.iter().flat_map(|record| &record.checkpoints);
+    let mut whens: Vec<When> = checkpoints.map(|checkpoint| checkpoint.when).collect();
+    whens.sort_unstable();
+    whens.dedup();
+    whens.into_iter().map(|when| step(when, records)).collect()
 }
 
 fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
     let at: Vec<(&BeliefRecord, &Checkpoint)> = records
         .iter()
         .filter_map(|record| {
-            let place = whens(record).into_iter().position(|one| one == when)?;
-            Some((*record, &record.checkpoints[place]))
+            Some((*record, record.checkpoints.iter().find(|one| one.when == when)?))
         })
         .collect();
     let methods = |of: &dyn Fn(&Checkpoint) -> Vec<JointMethod>| -> Vec<JointMethod> {

@@ -1,6 +1,8 @@
 //! Measuring on crowds and recordings, set by set.
 
-use crate::bench::{CrowdReport, assumed, crowd_baselines};
+use crate::bench::{
+    Asked, BeliefRecord, CrowdReport, JointMethod, assumed, belief_steps, crowd_baselines, follow,
+};
 use crate::cli::{
     error::CliError,
     follow::Following,
@@ -15,8 +17,11 @@ use crate::effect::EffectModel;
 use crate::geometry::Pose;
 use crate::judge::{Comparison, Trial};
 use crate::recording::Recording;
-use crate::report::{PoseRow, RECORDED, crowd_document, evaluation_document};
+use crate::report::{
+    PoseRow, RECORDED, crowd_document, evaluation_document, recorded_joints_document,
+};
 use crate::scene::{Job, ModelSpec, Warning};
+use crate::watch::Count;
 
 use super::sources::{CrowdArgs, Sources};
 
@@ -96,11 +101,47 @@ impl Crowds<'_> {
             following.finish()?;
             self.show_newest(reports, session)?;
         }
+        let told = self.args.told();
+        if !told.is_empty() {
+            self.rest_of_the_way(&all, &told, session)?;
+        }
         if self.poses.wanted() {
             let rows = session.compute(|| poses(&all, &trials, &models));
             self.poses.write(&rows)?;
         }
         Ok(())
+    }
+
+    /// Predicts the rest of the way of every recording with the joints by each of these methods.
+    fn rest_of_the_way(
+        &self,
+        recordings: &[&Recording],
+        told: &[JointMethod],
+        session: &Session,
+    ) -> Result<(), CliError> {
+        let model = self.outside.load(self.model)?;
+        let regulator = match told.contains(&JointMethod::Regulator) {
+            true => self.args.regulator.load()?.map(|(regulator, _)| regulator),
+            false => None,
+        };
+        let following = Following::bar(session, "inferring");
+        let count = Count::new(&following, 0, recordings.len());
+        let records: Vec<BeliefRecord> = session.compute(|| {
+            let of = |recording: &&Recording| {
+                let observations = recording.observations();
+                let seen = (&recording.scene, &observations[..], self.args.noise());
+                let by = (&model as &dyn EffectModel, regulator.as_ref(), true);
+                let record = follow(recording, seen, by, Asked::AfterContact, 0);
+                count.one();
+                record
+            };
+            recordings.iter().map(of).collect()
+        });
+        following.finish()?;
+        let steps = belief_steps(&records.iter().collect::<Vec<_>>());
+        let document =
+            recorded_joints_document(&model.spec().to_string(), recordings.len(), &steps, told);
+        self.form.show_part(session, &document)
     }
 
     /// Says which recordings the model was not made for, one line for each kind of doubt.

@@ -4,11 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bench::{CrowdFamily, CrowdSet};
+use crate::bench::{CrowdFamily, CrowdSet, JointMethod};
 use crate::cli::error::CliError;
+use crate::cli::noise::NoiseArgs;
 use crate::cli::recordings::{RecordingSet, load_recordings};
-use crate::cli::words::{JOINTS, SOLIDS, words};
+use crate::cli::regulator::RegulatorArgs;
+use crate::cli::words::{ASKED_JOINTS, AskedJoints, SOLIDS, words};
 use crate::dataset::{JointRule, Solids};
+use crate::scene::Noise;
 
 /// Options of scenes of many objects.
 #[derive(Args, Debug)]
@@ -20,9 +23,14 @@ pub struct CrowdArgs {
     /// Only sets with this many objects
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
-    /// Only sets with these joints
-    #[arg(long, value_parser = words(&JOINTS[1..]), value_name = "JOINTS")]
-    joints: Option<JointRule>,
+    /// Only sets with these joints; of recordings, what is told of the joints while the rest of the way
+    /// is predicted from first contact on
+    #[arg(long, num_args = 1.., value_parser = words(&ASKED_JOINTS), value_name = "JOINTS")]
+    joints: Vec<AskedJoints>,
+    #[command(flatten)]
+    noise: NoiseArgs,
+    #[command(flatten)]
+    pub regulator: RegulatorArgs,
     /// Only sets of these solids
     #[arg(long, value_parser = words(&SOLIDS), value_name = "SOLIDS")]
     solids: Option<Solids>,
@@ -67,8 +75,20 @@ impl Sources {
 }
 
 impl CrowdArgs {
+    /// Errors of recorded poses, for beliefs.
+    pub fn noise(&self) -> Noise {
+        self.noise.noise()
+    }
+
+    /// What is told of the joints of recordings.
+    pub fn told(&self) -> Vec<JointMethod> {
+        let asked: Vec<JointMethod> = self.joints.iter().filter_map(|asked| asked.told()).collect();
+        JointMethod::ALL.into_iter().filter(|method| asked.contains(method)).collect()
+    }
+
     fn picks(&self, set: &CrowdSet) -> bool {
-        let joints = self.joints.is_none_or(|joints| set.joints == joints);
+        let rules: Vec<JointRule> = self.joints.iter().filter_map(|asked| asked.rule()).collect();
+        let joints = rules.is_empty() || rules.contains(&set.joints);
         let solids = self.solids.is_none_or(|solids| set.solids == solids);
         let objects = self.objects.is_empty() || self.objects.contains(&set.objects);
         joints && solids && objects
