@@ -23,8 +23,8 @@ mod tradeoff;
 pub use baselines::{assumed, crowd_baselines, push_baselines};
 pub use belief::{
     Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,
-    JointMethod, Rest, RestOfWay, Right, Sighting, Sure, When, belief_steps, follow,
-    summarise_beliefs,
+    JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When, belief_steps, follow,
+    summarise_beliefs, update_times,
 };
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,

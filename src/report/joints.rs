@@ -2,7 +2,9 @@
 
 use serde_json::json;
 
-use crate::bench::{BeliefStep, BeliefSummary, CrowdFamily, JointMethod, Sighting, When};
+use crate::bench::{
+    BeliefStep, BeliefSummary, CrowdFamily, JointMethod, Sighting, UpdateTimes, When,
+};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Figure, Section};
@@ -30,8 +32,8 @@ const RECORDED: &str = "Mean distance of predicted from recorded final positions
 const PUBLISHED: [[f64; 2]; 3] = [[50.0, 0.942], [100.0, 0.959], [240.0, 0.976]];
 const FRAMES_A_STROKE: f64 = 30.0;
 
-/// The belief benchmark.
-pub fn joints_document(summaries: &[BeliefSummary]) -> Document {
+/// The belief benchmark, with what updates took, if that is known.
+pub fn joints_document(summaries: &[BeliefSummary], times: &UpdateTimes) -> Document {
     let mut sections = vec![
         Section { title: "Types at the end".into(), table: types(summaries), ..Section::default() },
         Section {
@@ -54,6 +56,13 @@ pub fn joints_document(summaries: &[BeliefSummary]) -> Document {
             ..Section::default()
         });
     }
+    if !times.is_empty() {
+        sections.push(Section {
+            title: "Processor time of an update".into(),
+            table: update_table(times),
+            ..Section::default()
+        });
+    }
     let trajectories: usize = summaries.iter().map(|one| one.trajectories).sum();
     Document {
         title: format!("Joints inferred from {trajectories} observed trajectories"),
@@ -62,6 +71,19 @@ pub fn joints_document(summaries: &[BeliefSummary]) -> Document {
         json: json!({"beliefs": summaries}),
         ..Document::default()
     }
+}
+
+fn update_table(times: &UpdateTimes) -> Table {
+    let mut table =
+        Table::new([("set", Left), ("seen", Left), ("belief", Left), ("an observation", Right)]);
+    for (case, spent) in times {
+        let set = format!("{} {}", case.set.family.title(), case.set.objects);
+        for (by, each) in spent {
+            let time = format!("{:.1} ms", 1e3 * each);
+            table.row([&set, case.sight.title(), by.title(), &time]);
+        }
+    }
+    table
 }
 
 fn percent(share: f64) -> String {

@@ -30,6 +30,7 @@ mod pruning;
 mod random_tasks;
 mod readme;
 mod real_pushes;
+mod regulator;
 mod seams;
 mod shipped_network;
 mod simulation;

@@ -1,6 +1,6 @@
 //! One trajectory followed by all methods.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use crate::{
     belief::{Belief, BeliefRegulator, BeliefSettings, JointType, residual_types},
@@ -15,6 +15,7 @@ use crate::{
     },
 };
 
+use super::super::cpu_clock::processor_time;
 use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 
 /// When beliefs are asked, but at the end, where they always are.
@@ -53,14 +54,15 @@ struct Followed<'a> {
 }
 
 /// Follows a recording that was `seen` with some noise with the filter, and with the `regulator` if
-/// there is one; predicts the rest of the way if wanted.
+/// there is one; predicts the rest of the way if wanted. With it comes what this thread spent on the
+/// updates of each belief.
 pub fn follow(
     recording: &Recording,
     (seen, observations, noise): (&Scene, &[Observation], Noise),
     (model, regulator, rest): (&dyn EffectModel, Option<&BeliefRegulator>, bool),
     asked: Asked,
     case: usize,
-) -> BeliefRecord {
+) -> (BeliefRecord, Vec<(JointMethod, Duration)>) {
     let settings = BeliefSettings::new(noise);
     let filter = Belief::new(seen, recording.tool.clone(), recording.lift, settings);
     let pairs: Vec<[usize; 2]> = filter.pairs().collect();
@@ -68,13 +70,16 @@ pub fn follow(
     let regulated = regulator.map(|regulator| filter.clone().regulated(regulator.clone()));
     let mut beliefs = vec![(JointMethod::Filter, filter)];
     beliefs.extend(regulated.map(|belief| (JointMethod::Regulator, belief)));
+    let mut spent: Vec<(JointMethod, Duration)> =
+        beliefs.iter().map(|(method, _)| (*method, Duration::ZERO)).collect();
     let several = observations.iter().filter(|one| lifted(one)).count() > 1;
     let contact = (1..=observations.len()).find(|count| of.contact(*count));
     let mut checkpoints = Vec::new();
     let mut strokes = 0;
     for (k, observation) in observations.iter().enumerate() {
-        for (_, belief) in &mut beliefs {
-            belief.update(model, observation.clone());
+        for ((_, belief), (_, spent)) in beliefs.iter_mut().zip(&mut spent) {
+            let seen = observation.clone();
+            *spent += processor_time(|| belief.update(model, seen));
         }
         strokes += usize::from(lifted(observation));
         let when = match asked {
@@ -95,14 +100,16 @@ pub fn follow(
     }
     let best = beliefs.last().map(|(_, belief)| belief);
     let (anchors, axes) = best.map_or_else(Default::default, |belief| of.places(belief));
-    BeliefRecord {
+    let record = BeliefRecord {
         case,
+        observations: observations.len(),
         objects: seen.objects.len(),
         types: of.pairs.iter().map(|pair| true_type(&recording.scene, *pair)).collect(),
         checkpoints,
         anchors,
         axes,
-    }
+    };
+    (record, spent)
 }
 
 fn lifted(observation: &Observation) -> bool {

@@ -14,5 +14,6 @@ pub use follow::{Asked, follow};
 pub use record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 pub use suite::{BeliefCase, BeliefSuite, Sighting};
 pub use summary::{
-    BeliefStep, BeliefSummary, RestOfWay, Right, Sure, belief_steps, summarise_beliefs,
+    BeliefStep, BeliefSummary, RestOfWay, Right, Sure, UpdateTimes, belief_steps,
+    summarise_beliefs, update_times,
 };

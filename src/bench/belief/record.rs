@@ -55,6 +55,8 @@ impl JointMethod {
 pub struct BeliefRecord {
     /// The case, an index into [`super::BeliefSuite::cases`].
     pub case: usize,
+    /// Number of observations.
+    pub observations: usize,
     /// Number of objects.
     pub objects: usize,
     /// True types of the pairs that stood near each other.

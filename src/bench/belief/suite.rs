@@ -9,6 +9,7 @@ use crate::{
     effect::EffectModel,
     recording::Recording,
     scene::Noise,
+    store::Measured,
 };
 
 use super::{
@@ -117,8 +118,9 @@ impl BeliefSuite {
         &self.cases
     }
 
-    /// Follows the trajectory with this index; `model` rolls out hypotheses and the rest of the way.
-    pub fn measure(&self, model: &dyn EffectModel, index: usize) -> BeliefRecord {
+    /// Follows the trajectory with this index; `model` rolls out hypotheses and the rest of the way. The
+    /// seconds are processor time of the beliefs' updates, which is known if one thread works alone.
+    pub fn measure(&self, model: &dyn EffectModel, index: usize) -> Measured<BeliefRecord> {
         let case = index % self.cases.len();
         let BeliefCase { set, sight } = self.cases[case];
         let trajectory = (index / self.cases.len()) as u64;
@@ -129,6 +131,12 @@ impl BeliefSuite {
         // Noise of its own for every case and trajectory.
         let mut rng = generator(self.seed ^ SALT, index as u64);
         let (seen, observations) = seeing.observe(&recording, &mut rng);
-        follow(&recording, (&seen, &observations, seeing.noise), by, Asked::OnTheWay, case)
+        let seen = (&seen, &observations[..], seeing.noise);
+        let (record, spent) = follow(&recording, seen, by, Asked::OnTheWay, case);
+        let alone = rayon::current_num_threads() == 1;
+        let seconds = spent.iter().filter(|_| alone);
+        let seconds =
+            seconds.map(|(by, spent)| (by.title().to_owned(), spent.as_secs_f64())).collect();
+        Measured { record, seconds }
     }
 }

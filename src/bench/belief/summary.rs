@@ -7,6 +7,8 @@ use crate::{
     judge::{Summary, mean, percentile},
 };
 
+use crate::store::Finished;
+
 use super::{
     record::{BeliefRecord, Checkpoint, JointMethod, When},
     suite::BeliefCase,
@@ -147,6 +149,27 @@ fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
         sure: by_shares.into_iter().map(|by| sure(by, &at)).collect(),
         rest: rest.collect(),
     }
+}
+
+/// Mean time of an update by case and method, seconds an observation.
+pub type UpdateTimes = Vec<(BeliefCase, Vec<(JointMethod, f64)>)>;
+
+/// What updates took, of cases that were timed.
+pub fn update_times(cases: &[BeliefCase], finished: &[Finished<BeliefRecord>]) -> UpdateTimes {
+    let of = |(index, case): (usize, &BeliefCase)| {
+        let of: Vec<_> = finished.iter().filter(|one| one.record.case == index).collect();
+        let count: usize = of.iter().map(|one| one.record.observations).sum();
+        let times: Vec<(JointMethod, f64)> = JointMethod::ALL
+            .into_iter()
+            .filter_map(|by| {
+                let spent: Vec<f64> =
+                    of.iter().filter_map(|one| one.seconds.get(by.title()).copied()).collect();
+                (!spent.is_empty()).then(|| (by, spent.iter().sum::<f64>() / count.max(1) as f64))
+            })
+            .collect();
+        (!times.is_empty()).then_some((*case, times))
+    };
+    cases.iter().enumerate().filter_map(of).collect()
 }
 
 /// A share, counted.

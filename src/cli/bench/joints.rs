@@ -3,7 +3,9 @@
 use clap::Args;
 use serde_json::json;
 
-use crate::bench::{BeliefRecord, BeliefSuite, CrowdFamily, Sighting, summarise_beliefs};
+use crate::bench::{
+    BeliefCase, BeliefRecord, BeliefSuite, CrowdFamily, Sighting, summarise_beliefs, update_times,
+};
 use crate::cli::{
     error::CliError,
     form::Form,
@@ -13,9 +15,9 @@ use crate::cli::{
     words::{FAMILIES, JOINTS, SIGHTINGS, words},
 };
 use crate::dataset::JointRule;
-use crate::report::joints_document;
+use crate::report::{Document, joints_document};
 use crate::scene::ModelSpec;
-use crate::store::{Measured, RunManifest, Seconds};
+use crate::store::{Finished, RunManifest};
 
 use super::keep::{self, KeepArgs};
 
@@ -91,11 +93,15 @@ pub fn run(args: &JointsArgs, session: &Session) -> Result<(), CliError> {
     let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
         .with_weights(digest)
         .with_settings(settings);
-    let store = args.keep.measure(session, manifest, |index| {
-        let record = session.compute(|| suite.measure(&model, index));
-        Ok(Measured { record, seconds: Seconds::default() })
-    })?;
-    let records: Vec<&BeliefRecord> = store.finished().iter().map(|one| &one.record).collect();
-    let document = joints_document(&summarise_beliefs(suite.cases(), &records));
+    let store = args
+        .keep
+        .measure(session, manifest, |index| Ok(session.compute(|| suite.measure(&model, index))))?;
+    let document = document(suite.cases(), store.finished());
     keep::show(args.form, session, &document, args.keep.out.as_deref())
+}
+
+/// The report of what was measured of these cases.
+pub fn document(cases: &[BeliefCase], finished: &[Finished<BeliefRecord>]) -> Document {
+    let records: Vec<&BeliefRecord> = finished.iter().map(|one| &one.record).collect();
+    joints_document(&summarise_beliefs(cases, &records), &update_times(cases, finished))
 }

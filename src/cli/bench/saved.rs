@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{RandomRecord, SolvedTask, ToolRecord};
+use crate::bench::{BeliefCase, BeliefRecord, RandomRecord, SolvedTask, ToolRecord};
 use crate::cli::{error::CliError, form::Form, output, session::Session};
 use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
 use crate::store::{RunManifest, Store, StoreError, merge_runs};
 
 use super::page::PageArgs;
-use super::{keep, random, tasks, tools};
+use super::{joints, keep, random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -88,7 +88,13 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let store = Store::<ToolRecord>::load(dir)?;
             Ok(tools_document(store.manifest(), store.finished()))
         }
-        (tasks::SUITE | tools::SUITE, _) => Err(CliError::usage(
+        (joints::SUITE, [dir]) => {
+            let store = Store::<BeliefRecord>::load(dir)?;
+            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
+            let cases: Vec<BeliefCase> = cases.unwrap_or_default();
+            Ok(joints::document(&cases, store.finished()))
+        }
+        (tasks::SUITE | tools::SUITE | joints::SUITE, _) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),

@@ -131,7 +131,7 @@ impl Crowds<'_> {
                 let observations = recording.observations();
                 let seen = (&recording.scene, &observations[..], self.args.noise());
                 let by = (&model as &dyn EffectModel, regulator.as_ref(), true);
-                let record = follow(recording, seen, by, Asked::AfterContact, 0);
+                let (record, _) = follow(recording, seen, by, Asked::AfterContact, 0);
                 count.one();
                 record
             };
