@@ -17,6 +17,7 @@ mod facade;
 mod fitting;
 mod fixtures;
 mod jointed;
+mod joints_bench;
 mod models;
 mod network;
 mod outside;

@@ -208,7 +208,8 @@ fn believed(episode: &Episode, mirrored: bool) -> Vec<[f64; 4]> {
 
 #[test]
 fn what_is_seen_in_a_mirror_is_believed_alike() {
-    let constraints = Constraints::test(6, JointRule::Mixed, Solids::Any);
+    // Of parallel faces the closest points, and so where anchors are looked for, are a matter of side.
+    let constraints = Constraints::test(6, JointRule::Mixed, Solids::Cylinders);
     let config = DatasetConfig { seed: 11, episodes: 4, preset: Preset::Dense, constraints };
     let (mut compared, mut apart) = (0, Vec::new());
     for index in 0..4 {
