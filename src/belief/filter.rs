@@ -9,18 +9,20 @@ use crate::{
     effect::EffectModel,
     geometry::Pose,
     scene::{
-        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool,
-        ToolMotion, near_pairs,
+        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, State, Stroke, Tool,
+        ToolMotion, Unknowns, near_pairs,
     },
 };
 
 use super::{
-    joints::{likeliest, with},
+    joints::{carried, likeliest, with},
     pair::{JointType, PairBelief},
+    particles::Particles,
     relative::{relative, relative_like, spread},
     rolled::Rolled,
     settings::BeliefSettings,
     track::{ARM, Track},
+    weighing::Stretch,
     window::{Doubt, Instant, evidence},
 };
 
@@ -31,15 +33,19 @@ const WINDOW: usize = 5;
 /// How much the places of all objects count beside those of a pair against each other.
 const PLACES: f64 = 0.3;
 
-/// What is believed about the joints of a scene.
+/// What is believed about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
-    scene: Scene,
-    tool: Arc<Tool>,
-    lift: f64,
+    pub(super) scene: Scene,
+    pub(super) tool: Arc<Tool>,
+    pub(super) lift: f64,
     settings: BeliefSettings,
-    pairs: Vec<PairBelief>,
-    track: Track,
+    pub(super) pairs: Vec<PairBelief>,
+    pub(super) track: Track,
+    /// Joints that are not to be found out, where the scene states its objects.
+    pub(super) known: Vec<Joint>,
+    pub(super) particles: Particles,
+    pub(super) stretch: Option<Stretch>,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
@@ -64,6 +70,7 @@ impl Belief {
     /// the table.
     pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
+        let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
         let track = Track::new(scene.start(), settings.noise);
         let pairs = near_pairs(&scene)
             .into_iter()
@@ -82,6 +89,9 @@ impl Belief {
             settings,
             pairs,
             track,
+            known: Vec::new(),
+            particles,
+            stretch: None,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -163,6 +173,7 @@ impl Belief {
             probabilities: self.probabilities(),
             evidence: evidences,
         });
+        self.weigh_particles(model, &window);
         self.track.follow(&base, &window);
     }
 
@@ -175,12 +186,18 @@ impl Belief {
     /// The likeliest physics: anchors and axes are where they are with the objects as in
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
-        likeliest(&self.scene, &self.pairs, &self.track.state)
+        let mut physics = likeliest(&self.scene, &self.pairs, &self.track.state);
+        physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
+        self.particles.mean(&self.scene, physics)
     }
 
     fn scene_now(&self) -> Scene {
+        self.scene_at(&self.track.state)
+    }
+
+    pub(super) fn scene_at(&self, state: &State) -> Scene {
         let mut scene = self.scene.clone();
-        for (object, pose) in scene.objects.iter_mut().zip(&self.track.state.poses) {
+        for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
             object.pose = *pose;
         }
         scene
