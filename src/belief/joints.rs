@@ -53,7 +53,7 @@ pub(super) fn with(
 }
 
 /// `joints` that are known at the poses that `scene` states, where its objects stand as in `state`.
-pub(super) fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
+pub fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
     let now = |joint: &Joint| {
         let frames = joint.frames(&scene.objects);
         let [first, second] = [0, 1].map(|k| state.poses[joint.between[k]] * frames[k]);

@@ -27,6 +27,7 @@ mod window;
 
 pub use chance::{generator, normal};
 pub use filter::{Belief, Step};
+pub use joints::carried;
 pub use pair::JointType;
 pub use particles::Numbers;
 pub use settings::BeliefSettings;

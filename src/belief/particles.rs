@@ -86,6 +86,11 @@ impl Particles {
         self.all.is_empty()
     }
 
+    /// Whether what objects rest on is drawn.
+    pub fn draws_support(&self) -> bool {
+        self.unknown.support
+    }
+
     /// `physics` under every particle, where all that is unknown in it is what `scene` states.
     pub fn each(&self, scene: &Scene, physics: &Physics) -> Vec<Physics> {
         let of = |particle: &Particle| self.put(scene, physics.clone(), &particle.place, true);

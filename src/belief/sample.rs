@@ -5,7 +5,7 @@ use rand::Rng;
 
 use crate::{
     geometry::Pose,
-    scene::{DisjointSets, Joint, Physics},
+    scene::{DisjointSets, Feet, Joint, Physics, Scene, Support},
 };
 
 use super::{
@@ -38,6 +38,27 @@ impl Belief {
         physics.joints.sort_by_key(|joint| joint.between);
         physics.joints.extend(carried(&self.known, &self.scene, state));
         self.particles.sample(&self.scene, physics, rng)
+    }
+
+    /// The scene as [`Self::sample`] draws it, its objects where they are thought to be now.
+    pub fn sample_scene(&self, rng: &mut impl Rng) -> Scene {
+        let physics = self.sample(rng);
+        let mut scene = self.scene_at(&self.track.state);
+        for (k, object) in scene.objects.iter_mut().enumerate() {
+            object.mass = physics.masses[k];
+            object.friction = physics.frictions[k];
+            if self.particles.draws_support() {
+                let corners = Feet::new(&Support::Corners, &object.shape.footprint());
+                let spread = physics.feet[k].mean_radius / corners.mean_radius;
+                object.support = Support::Spread(spread);
+            }
+        }
+        Scene {
+            table_friction: physics.table_friction,
+            frictions: physics.pairs,
+            joints: physics.joints,
+            ..scene
+        }
     }
 }
 

@@ -24,6 +24,7 @@ mod poses;
 mod predict;
 mod push_argument;
 mod recordings;
+mod run;
 mod schema;
 mod session;
 mod simulate;

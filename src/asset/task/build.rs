@@ -91,7 +91,7 @@ fn object(node: &Node) -> Option<Object> {
 }
 
 /// What an object stands on.
-pub(super) fn support(object: &Node) -> Option<Support> {
+pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
     let Some(node) = object.get("support") else { return Some(Support::Even) };
     if let Some(word) = node.text() {
         return Some(if word == "corners" { Support::Corners } else { Support::Even });
