@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
+use crate::belief::Belief;
 use crate::geometry::Vector;
 use crate::scene::{Plan, Push, PushForm, Situation, Task, Tool};
-use crate::solve::{AskedPush, AskedStart, Planner, asked_plan};
+use crate::solve::{AskedPush, AskedStart, SolveError, asked_plan};
 use crate::watch::Watch;
 
 use super::error::ActError;
-use super::judge::{Chance, Samples};
+use super::judge::{Chance, Reach, Samples};
+use super::probe::{pays, probe};
 use super::runner::Runner;
-use super::settings::RunSettings;
-use super::trace::{Step, Why};
+use super::trace::{Step, Trace, Why};
 
 /// A plan that misses in all samples is worth a push if it comes nearer by this share on average.
 const NEARER: f64 = 0.05;
@@ -27,39 +28,39 @@ pub(super) enum Decision {
     Nothing,
 }
 
-/// Plans with what is expected of each.
-pub(super) struct Judged {
-    pub plans: Vec<(Plan, Arc<Tool>)>,
-    pub chances: Vec<Chance>,
+/// Plans with what comes of each.
+struct Judged {
+    plans: Vec<(Plan, Arc<Tool>)>,
+    reach: Vec<Vec<Reach>>,
 }
 
 impl Judged {
     /// The best; the first of equals, as the planner ranks them.
-    pub fn best(&self) -> Option<(&(Plan, Arc<Tool>), Chance)> {
-        let mut best: Option<usize> = None;
-        for (k, chance) in self.chances.iter().enumerate() {
-            if best.is_none_or(|best| chance.beats(&self.chances[best])) {
-                best = Some(k);
+    fn best(&self) -> Option<(&(Plan, Arc<Tool>), Chance)> {
+        let mut best: Option<(usize, Chance)> = None;
+        for (k, reach) in self.reach.iter().enumerate() {
+            let chance = Chance::of(reach);
+            if best.is_none_or(|(_, best)| chance.beats(&best)) {
+                best = Some((k, chance));
             }
         }
-        best.map(|k| (&self.plans[k], self.chances[k]))
+        best.map(|(k, chance)| (&self.plans[k], chance))
     }
 }
 
 impl Runner<'_> {
-    /// What to do where things are as in `samples`, after `last`.
+    /// What to do under a belief, of which `samples` were drawn.
     pub(super) fn decide(
         &self,
-        task: &Task,
-        settings: &RunSettings,
-        samples: &Samples,
-        last: Option<&Step>,
+        trace: &Trace,
+        (belief, samples): (&Belief, &Samples),
         watch: &dyn Watch,
     ) -> Result<Decision, ActError> {
+        let Trace { task, settings, steps, .. } = trace;
         let model = self.planner.model();
-        if let Some((plan, tool)) = last.and_then(|last| rest(task, &samples.now, last)) {
+        if let Some((plan, tool)) = steps.last().and_then(|last| rest(task, &samples.now, last)) {
             let plans = [(plan, tool)];
-            let chance = samples.chances(model, task, &plans)[0];
+            let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
             if chance.share >= settings.enough {
                 let [(plan, tool)] = plans;
                 return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
@@ -79,21 +80,27 @@ impl Runner<'_> {
             let other = Situation { physics: Arc::clone(physics), ..samples.now.clone() };
             if let Some(more) = self.plans(task, &other, samples, watch)? {
                 judged.plans.extend(more.plans);
-                judged.chances.extend(more.chances);
+                judged.reach.extend(more.reach);
+            }
+        }
+        if !sure(&judged) && probes(steps) < settings.probes && pays(&judged.reach) {
+            let tools = task.tools(self.library).map_err(SolveError::from)?;
+            let known = (tools.as_slice(), judged.reach.as_slice());
+            let index = steps.len() as u64;
+            let found = probe(model, task, settings, (belief, samples), known, index);
+            if let Some((plan, tool)) = found {
+                let plans = [(plan, tool)];
+                let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
+                let [(plan, tool)] = plans;
+                return Ok(Decision::Do { why: Why::Probe, plan, tool, chance });
             }
         }
         let nothing = task.goal.score(&samples.now.start);
-        Ok(match judged.best() {
-            Some(((plan, tool), chance)) => {
-                let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
-                let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
-                match helps {
-                    true => Decision::Do { why, plan: plan.clone(), tool: tool.clone(), chance },
-                    false => Decision::Nothing,
-                }
-            }
-            None => Decision::Nothing,
-        })
+        let Some(((plan, tool), chance)) = judged.best() else { return Ok(Decision::Nothing) };
+        let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
+        let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
+        let (plan, tool) = (plan.clone(), Arc::clone(tool));
+        Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
     }
 
     /// Plans for a situation, judged under the samples; nothing if no push is needed.
@@ -104,8 +111,7 @@ impl Runner<'_> {
         samples: &Samples,
         watch: &dyn Watch,
     ) -> Result<Option<Judged>, ActError> {
-        let planner: &Planner = self.planner;
-        let solution = planner.solve_from(situation, task, self.library, watch)?;
+        let solution = self.planner.solve_from(situation, task, self.library, watch)?;
         if solution.best().is_some_and(|best| best.plan.pushes.is_empty() && best.outcome.reached) {
             return Ok(None);
         }
@@ -115,9 +121,14 @@ impl Runner<'_> {
             .filter(|ranked| !ranked.plan.pushes.is_empty())
             .map(|ranked| (ranked.plan, ranked.tool))
             .collect();
-        let chances = samples.chances(planner.model(), task, &plans);
-        Ok(Some(Judged { plans, chances }))
+        let reach = samples.reach(self.planner.model(), task, &plans);
+        Ok(Some(Judged { plans, reach }))
     }
+}
+
+/// Pushes that were made only to learn something.
+fn probes(steps: &[Step]) -> usize {
+    steps.iter().filter(|step| step.why == Why::Probe).count()
 }
 
 /// What is left of a plan after a step, moved by as much as the object stands beside where it was

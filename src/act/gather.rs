@@ -1,19 +1,4 @@
 //! What was seen during a motion, put in order.
-//!
-//! Whoever watches a table reports what happens to be seen, not what a filter would like:
-//!
-//! | what comes | what is done |
-//! |---|---|
-//! | an object is not seen | the others tell what they can; at rest the table is looked at again |
-//! | an instant is missing | the next one tells of the motion since the last |
-//! | late, out of order | put in order by its time, within one motion |
-//! | of before the motion, at no time | left out |
-//! | a number that is none | that object was not seen |
-//! | two objects in each other's places | changed back |
-//! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
-//! | another number of objects | an error: this is another table |
-//!
-//! All but the first two leave a [`Note`].
 
 use std::fmt;
 

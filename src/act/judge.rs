@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
-use crate::scene::{Job, Outcome, Physics, Plan, Record, Scene, Situation, Task, Tool};
+use crate::scene::{Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, Trajectory};
 
 /// A miss by more tolerances than this is no worse: one sample in which all goes wrong must not
 /// outweigh the others.
@@ -40,36 +40,46 @@ impl Samples {
         self.physics.iter().map(job).collect()
     }
 
-    /// What is expected of plans with at least one push each.
-    pub fn chances(
+    /// What comes of plans with at least one push each, in every sample.
+    pub fn reach(
         &self,
         model: &dyn EffectModel,
         task: &Task,
         plans: &[(Plan, Arc<Tool>)],
-    ) -> Vec<Chance> {
-        let scene: &Scene = &self.now.scene;
+    ) -> Vec<Vec<Reach>> {
         let jobs: Vec<Job> = plans.iter().flat_map(|(plan, tool)| self.jobs(plan, tool)).collect();
-        let rolled = model.rollout(scene, &jobs, Record::Outcome);
-        let outcomes: Vec<Outcome> =
-            rolled.iter().map(|trajectory| Outcome::judge(&task.goal, trajectory)).collect();
-        let count = self.physics.len().max(1);
-        let chance = |outcomes: &[Outcome]| {
-            let reached = outcomes.iter().filter(|outcome| outcome.reached).count();
-            let score = |outcome: &Outcome| {
-                let score = task.goal.score(&outcome.state);
-                // A NaN is no smaller than anything.
-                if score < WORST { score } else { WORST }
-            };
-            Chance {
-                share: reached as f64 / count as f64,
-                score: outcomes.iter().map(score).sum::<f64>() / count as f64,
-            }
+        let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
+        let reach = |trajectory: &Trajectory| {
+            let outcome = Outcome::judge(&task.goal, trajectory);
+            let score = task.goal.score(&outcome.state);
+            // A NaN is no smaller than anything.
+            Reach { reached: outcome.reached, score: if score < WORST { score } else { WORST } }
         };
-        outcomes.chunks(count).map(chance).collect()
+        let each = rolled.chunks(self.physics.len().max(1));
+        each.map(|rolled| rolled.iter().map(reach).collect()).collect()
     }
 }
 
+/// What comes of a plan in a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    /// Whether it reaches the goal.
+    pub reached: bool,
+    /// Error at its end in units of the tolerance.
+    pub score: f64,
+}
+
 impl Chance {
+    /// Over all samples.
+    pub(super) fn of(reach: &[Reach]) -> Self {
+        let count = reach.len().max(1) as f64;
+        let reached = reach.iter().filter(|reach| reach.reached).count();
+        Self {
+            share: reached as f64 / count,
+            score: reach.iter().map(|reach| reach.score).sum::<f64>() / count,
+        }
+    }
+
     /// Whether it is better than another: reaches the goal in more samples, or, in as many, ends
     /// nearer.
     pub fn beats(&self, other: &Self) -> bool {

@@ -136,7 +136,7 @@ impl<'a> Runner<'a> {
         let mut rng = generator(settings.seed, steps.len() as u64);
         let physics = (0..settings.samples.max(1)).map(|_| Arc::new(belief.sample(&mut rng)));
         let samples = Samples { physics: physics.collect(), now };
-        self.decide(task, settings, &samples, steps.last(), watch)
+        self.decide(trace, (belief, &samples), watch)
     }
 
     /// Makes the first push of a plan, or all of a chained one, and takes in what is seen.

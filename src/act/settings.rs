@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Noise, Truth};
 
+use super::probe::ProbeRule;
+
 /// What a run may cost, and when it is content. All budgets are counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,6 +18,8 @@ pub struct RunSettings {
     pub enough: f64,
     /// Most pushes that are made only to learn something.
     pub probes: usize,
+    /// How these are chosen.
+    pub rule: ProbeRule,
     /// Samples that are planned for by themselves where the likeliest physics gives no plan that is
     /// good enough.
     pub others: usize,
@@ -32,6 +36,7 @@ impl Default for RunSettings {
             samples: 16,
             enough: 0.8,
             probes: 3,
+            rule: ProbeRule::Task,
             others: 2,
             noise: Truth::NOISE,
             seed: 0,

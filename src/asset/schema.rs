@@ -171,8 +171,14 @@ mod tests {
 
     #[test]
     fn names_alone_have_a_pattern() {
-        let schemas =
-            [tool_schema(), task_schema(), plan_schema(), trajectory_schema(), recording_schema()];
+        let schemas = [
+            tool_schema(),
+            task_schema(),
+            plan_schema(),
+            trajectory_schema(),
+            recording_schema(),
+            world_schema(),
+        ];
         for schema in schemas {
             let text = schema.to_string();
             let name = json!(name_pattern()).to_string();
@@ -183,7 +189,7 @@ mod tests {
 
     #[test]
     fn schemas_describe_every_key() {
-        let saved = [plan_schema(), trajectory_schema(), recording_schema()];
+        let saved = [plan_schema(), trajectory_schema(), recording_schema(), world_schema()];
         for schema in [tool_schema(), task_schema()].into_iter().chain(saved) {
             let properties = schema["properties"].as_object().unwrap();
             assert!(!properties.is_empty());

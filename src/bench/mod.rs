@@ -4,6 +4,7 @@
 //! be written as JSON; nothing is drawn here.
 
 mod baselines;
+mod closed;
 mod cpu_clock;
 mod crowd;
 mod effects;
@@ -20,6 +21,7 @@ mod tools;
 mod tradeoff;
 
 pub use baselines::{assumed, crowd_baselines, push_baselines};
+pub use closed::{ClosedRecord, Left};
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
 };
@@ -29,7 +31,8 @@ pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use random::{
-    Choice, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind, random_task,
+    Choice, HiddenTask, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind,
+    random_task,
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::act::{ActError, End, RunSettings, Runner, SimulatedWorld, Trace, hidden};
+use crate::act::{ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden};
 use crate::asset::{ToolLibrary, load_task, load_world};
 use crate::report::run_document;
 use crate::scene::{ModelSpec, Task, Truth};
@@ -21,7 +21,7 @@ use super::{
     output,
     session::Session,
     solve::{share, solve_error},
-    words::{EFFORTS, words},
+    words::{EFFORTS, PROBES, words},
 };
 
 /// Carry a task out in a world that is not quite known: push, look, learn, plan again
@@ -69,6 +69,9 @@ pub struct RunArgs {
     #[arg(long, value_name = "N", default_value_t = 3,
           value_parser = clap::value_parser!(u16).range(0..=1000))]
     probes: u16,
+    /// How these are chosen
+    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
+    rule: ProbeRule,
     /// Seed of samples and plans
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -101,6 +104,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         samples: args.samples.into(),
         enough: args.enough,
         probes: args.probes.into(),
+        rule: args.rule,
         noise: truth.noise,
         seed: args.seed,
         ..RunSettings::default()

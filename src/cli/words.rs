@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use crate::act::ProbeRule;
 use crate::bench::{Layout, TaskKind};
 use crate::dataset::{JointRule, Preset, Solids};
 use crate::effect::Outside;
@@ -55,6 +56,14 @@ pub static JOINTS: [(&str, JointRule, &str); 3] = [
     ("mixed", JointRule::Mixed, "Some neighbours joined by fixed, revolute and prismatic joints"),
 ];
 
+/// Ways to choose a push that is made only to learn something.
+pub static PROBES: [(&str, ProbeRule, &str); 4] = [
+    ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
+    ("random", ProbeRule::Random, "By chance"),
+    ("uncertain", ProbeRule::Uncertain, "At the pair whose joint is least certain"),
+    ("motion", ProbeRule::Motion, "Moves things farthest"),
+];
+
 /// Solids of a crowd.
 pub static SOLIDS: [(&str, Solids, &str); 2] = [
     ("cylinders", Solids::Cylinders, "Cylinders alone"),
@@ -62,7 +71,7 @@ pub static SOLIDS: [(&str, Solids, &str); 2] = [
 ];
 
 /// Kinds of random tasks.
-pub static KINDS: [(&str, TaskKind, &str); 7] = [
+pub static KINDS: [(&str, TaskKind, &str); 8] = [
     ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
     ("pull", TaskKind::Pull, "Towards the robot"),
     ("sweep", TaskKind::Sweep, "Sideways"),
@@ -73,6 +82,11 @@ pub static KINDS: [(&str, TaskKind, &str); 7] = [
         "gap",
         TaskKind::Gap,
         "Behind a gap that is too narrow: no plan can be right (only if asked for)",
+    ),
+    (
+        "cluster",
+        TaskKind::Cluster,
+        "One of four that stand close, some of them joined (only if asked for)",
     ),
 ];
 

@@ -38,14 +38,14 @@ const ROOMS: [(&str, &[&str]); 24] = [
         "bench",
         &[
             "geometry", "scene", "asset", "store", "sim", "contact", "graph", "network", "rollout",
-            "effect", "judge", "plan", "verify", "solve", "dataset",
+            "effect", "judge", "belief", "plan", "verify", "solve", "act", "dataset",
         ],
     ),
     (
         "report",
         &[
             "geometry", "scene", "asset", "store", "judge", "fit", "belief", "plan", "solve",
-            "train", "bench",
+            "act", "train", "bench",
         ],
     ),
     ("export", &["geometry", "scene", "asset"]),
@@ -65,6 +65,7 @@ const ROOMS: [(&str, &[&str]); 24] = [
             "belief",
             "verify",
             "solve",
+            "act",
             "dataset",
             "train",
             "bench",
@@ -89,7 +90,10 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("clarabel", &["plan"]),
     (
         "rand",
-        &["network", "effect", "judge", "belief", "plan", "verify", "dataset", "train", "bench"],
+        &[
+            "network", "effect", "judge", "belief", "plan", "verify", "act", "dataset", "train",
+            "bench",
+        ],
     ),
     (
         "rand_pcg",

@@ -38,7 +38,10 @@ const OBJECT: Value = Value::Map(&[
     Key::required("name", Value::Name, "Name of an object of the task."),
     Key::optional("mass", MASS, "Mass in kg; by default the task's."),
     Key::optional("friction", FRICTION, "Friction value; by default the task's."),
-    OBJECT_SUPPORT,
+    Key {
+        meaning: "How the weight rests on the table; by default as the task says.",
+        ..OBJECT_SUPPORT
+    },
     Key::optional("position", POSITION, "Centre, [x, y] in metres; by default the task's."),
     Key::optional("yaw_deg", ANGLE, "Heading, degrees; by default the task's."),
 ]);

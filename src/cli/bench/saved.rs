@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{RandomRecord, SolvedTask, ToolRecord};
+use crate::bench::{ClosedRecord, RandomRecord, SolvedTask, ToolRecord};
 use crate::cli::{error::CliError, form::Form, output, session::Session};
-use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
+use crate::report::{
+    Document, RandomRun, closed_document, random_document, solved_document, tools_document,
+};
 use crate::store::{RunManifest, Store, StoreError, merge_runs};
 
 use super::page::PageArgs;
@@ -88,7 +90,11 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let store = Store::<ToolRecord>::load(dir)?;
             Ok(tools_document(store.manifest(), store.finished()))
         }
-        (tasks::SUITE | tools::SUITE, _) => Err(CliError::usage(
+        (super::run::SUITE, [dir]) => {
+            let store = Store::<ClosedRecord>::load(dir)?;
+            Ok(closed_document(store.manifest(), store.finished()))
+        }
+        (tasks::SUITE | tools::SUITE | super::run::SUITE, _) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),
