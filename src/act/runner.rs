@@ -59,6 +59,7 @@ impl<'a> Runner<'a> {
         if trace.first.is_none() {
             trace.first = Some(world.look()?);
             trace.before = world.save();
+            trace.prior = self.begin(trace)?.probabilities();
             keep(trace)?;
         }
         let mut belief = self.begin(trace)?;

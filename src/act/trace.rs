@@ -38,6 +38,8 @@ pub struct Trace {
     pub first: Option<Look>,
     /// The simulated world then.
     pub before: Option<WorldState>,
+    /// What was believed then of every near pair, as in steps.
+    pub prior: Vec<[f64; 4]>,
     /// What was done, in order.
     pub steps: Vec<Step>,
     /// How it ended; nothing as long as it goes on.
@@ -122,6 +124,7 @@ impl Trace {
             truth,
             first: None,
             before: None,
+            prior: Vec::new(),
             steps: Vec::new(),
             end: None,
         }

@@ -12,7 +12,7 @@ use crate::solve::{Planner, SolveError};
 use crate::store::Measured;
 use crate::watch::Unwatched;
 
-use super::random::{RandomError, RandomSuite, TaskKind};
+use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
 
 /// What came of a task that does not know its scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +49,7 @@ impl Left {
 }
 
 impl RandomSuite {
-    /// Runs task `index` with everything hidden in a loop with `settings`, and plans it once.
+    /// Runs task `index` with everything hidden in a `world` of this kind in a loop with `settings`, and plans it once.
     ///
     /// # Errors
     /// If the task cannot be made or the planner refuses it.
@@ -57,10 +57,10 @@ impl RandomSuite {
         &self,
         planner: &Planner,
         library: &ToolLibrary,
-        settings: RunSettings,
+        (settings, world): (RunSettings, HiddenWorld),
         index: usize,
     ) -> Result<Measured<ClosedRecord>, RandomError> {
-        let hidden = self.hidden(index)?;
+        let hidden = self.hidden(index)?.in_world(world);
         let goal = hidden.task.goal;
         let began = Instant::now();
         let mut trace =

@@ -31,8 +31,8 @@ pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use random::{
-    Choice, HiddenTask, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind,
-    random_task,
+    Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
+    SuiteTask, TaskKind, random_task,
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};

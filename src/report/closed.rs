@@ -12,25 +12,104 @@ use super::number::{millimetres, seconds};
 use super::solved::progress_note;
 use super::table::{Align, NONE, Table};
 
-/// The benchmark of runs in every form.
-pub fn closed_document(run: &RunManifest, tasks: &[Finished<ClosedRecord>]) -> Document {
+/// A run of the suite: what was measured and what came of it.
+pub type ClosedRun = (RunManifest, Vec<Finished<ClosedRecord>>);
+
+/// Runs of the suite in every form; of several on the same tasks, how their loops compare where one of
+/// them probes.
+pub fn closed_document(runs: &[ClosedRun]) -> Document {
+    let (count, seed) = runs.first().map_or((0, 0), |(run, tasks)| (tasks.len(), run.seed));
     let mut notes = vec![
-        "Random tasks with joints, masses, friction values and supports hidden, in the planar \
-         engine, seen with 1 mm and 0.5 degrees of noise. Reached is where the object really is at \
-         rest: by the closed loop, by one plan made with the guesses and carried out without \
-         looking, and by one plan made with everything known but the noise."
+        "Random tasks with joints, masses, friction values and supports hidden, seen with 1 mm and \
+         0.5 degrees of noise. Reached is where the object really is at rest: by the closed loop, by \
+         one plan made with the guesses and carried out without looking, and by one plan made with \
+         everything known but the noise."
             .to_owned(),
     ];
-    notes.extend(progress_note(run, tasks.len()));
-    let section = Section { table: summary(tasks), ..Section::default() };
+    notes.extend(runs.iter().filter_map(|(run, tasks)| progress_note(run, tasks.len())));
+    let mut sections: Vec<Section> = runs
+        .iter()
+        .map(|(run, tasks)| Section {
+            title: if runs.len() > 1 { name(run) } else { String::new() },
+            table: summary(tasks),
+            ..Section::default()
+        })
+        .collect();
+    if runs.len() > 1 {
+        sections.push(compared(runs));
+    }
     Document {
-        title: format!("{} random tasks of seed {} with everything hidden", tasks.len(), run.seed),
+        title: format!("{count} random tasks of seed {seed} with everything hidden"),
         notes,
-        sections: vec![section],
-        rows: rows(tasks),
-        json: json!({"run": run, "tasks": tasks.iter().map(|task| json!({
-            "index": task.index, "record": task.record, "seconds": task.seconds,
+        sections,
+        rows: rows(runs),
+        json: json!({"runs": runs.iter().map(|(run, tasks)| json!({
+            "run": run,
+            "tasks": tasks.iter().map(|task| json!({
+                "index": task.index, "record": task.record, "seconds": task.seconds,
+            })).collect::<Vec<_>>(),
         })).collect::<Vec<_>>()}),
+    }
+}
+
+/// What tells a run from others on the same tasks.
+fn name(run: &RunManifest) -> String {
+    let settings = &run.settings["run"];
+    let word = |key: &str| settings[key].as_str().unwrap_or_default().to_owned();
+    match settings["probes"].as_u64() {
+        Some(0) => "no probes".to_owned(),
+        _ => format!("probes by {}", word("rule")),
+    }
+}
+
+/// The loops side by side on those tasks in which any of them makes a probe.
+fn compared(runs: &[ClosedRun]) -> Section {
+    let probes = |index: usize| {
+        let mut tasks = runs.iter().flat_map(|(_, tasks)| tasks);
+        tasks.any(|task| task.index == index && task.record.probes > 0)
+    };
+    let mut table = Table::new([
+        ("probes", Align::Left),
+        ("tasks", Align::Right),
+        ("reached", Align::Right),
+        ("with one push", Align::Right),
+        ("two", Align::Right),
+        ("three", Align::Right),
+        ("pushes, mean", Align::Right),
+        ("error, median", Align::Right),
+    ]);
+    for (run, tasks) in runs {
+        let of: Vec<&ClosedRecord> =
+            tasks.iter().filter(|task| probes(task.index)).map(|task| &task.record).collect();
+        let share = |is: &dyn Fn(&ClosedRecord) -> bool| {
+            let count = of.iter().filter(|record| is(record)).count();
+            format!("{:.1} %", 100.0 * count as f64 / of.len().max(1) as f64)
+        };
+        let pushes: Vec<f64> = of.iter().map(|record| record.pushes as f64).collect();
+        let mut errors: Vec<f64> = of.iter().map(|record| record.closed.error).collect();
+        errors.sort_by(f64::total_cmp);
+        let within = |most: usize| {
+            share(&|record: &ClosedRecord| record.closed.reached && record.pushes <= most)
+        };
+        table.row([
+            name(run),
+            of.len().to_string(),
+            share(&|record| record.closed.reached),
+            within(1),
+            within(2),
+            within(3),
+            format!("{:.2}", mean(&pushes)),
+            if errors.is_empty() {
+                NONE.to_owned()
+            } else {
+                millimetres(percentile(&errors, 50.0))
+            },
+        ]);
+    }
+    Section {
+        title: "Tasks in which any of them probes; probes count as pushes".to_owned(),
+        table,
+        ..Section::default()
     }
 }
 
@@ -91,8 +170,9 @@ fn summary(tasks: &[Finished<ClosedRecord>]) -> Table {
     table
 }
 
-fn rows(tasks: &[Finished<ClosedRecord>]) -> Table {
+fn rows(runs: &[ClosedRun]) -> Table {
     let mut table = Table::new([
+        ("run", Align::Left),
         ("index", Align::Right),
         ("kind", Align::Left),
         ("end", Align::Left),
@@ -105,7 +185,8 @@ fn rows(tasks: &[Finished<ClosedRecord>]) -> Table {
         ("known_reached", Align::Left),
         ("known_m", Align::Right),
     ]);
-    for Finished { index, record, .. } in tasks {
+    let tasks = runs.iter().flat_map(|(run, tasks)| tasks.iter().map(move |task| (run, task)));
+    for (run, Finished { index, record, .. }) in tasks {
         let end = match record.end {
             Some(End::Reached) => "reached",
             Some(End::UsedUp) => "used up",
@@ -113,6 +194,7 @@ fn rows(tasks: &[Finished<ClosedRecord>]) -> Table {
             None => "broken off",
         };
         let mut cells = vec![
+            name(run),
             index.to_string(),
             record.kind.to_string(),
             end.to_owned(),

@@ -38,7 +38,7 @@ mod verdict;
 pub use bars::{BarChart, Bars};
 pub use belief::belief_document;
 pub use chart::{Axis, Chart, Mark, Series};
-pub use closed::closed_document;
+pub use closed::{ClosedRun, closed_document};
 pub use cost::{cost_document, crowd_cost_document, equation_document, far_document};
 pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};

@@ -179,13 +179,13 @@ fn joints(trace: &Trace) -> Option<Section> {
     }
     let series = pairs.iter().zip(&last.probabilities).enumerate().map(|(p, (between, shares))| {
         let most = (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0);
-        let at = |(k, step): (usize, &Step)| {
-            let shares = step.probabilities.get(p)?;
-            Some([(k + 1) as f64, 1e2 * shares[most]])
-        };
+        let over_time = std::iter::once(&trace.prior)
+            .chain(trace.steps.iter().map(|step| &step.probabilities))
+            .enumerate()
+            .filter_map(|(k, shares)| Some([k as f64, 1e2 * shares.get(p)?[most]]));
         Series {
             name: format!("{}: {}", name(*between), JointType::ALL[most]),
-            points: trace.steps.iter().enumerate().filter_map(at).collect(),
+            points: over_time.collect(),
             mark: Mark::DottedLine,
             labels: Vec::new(),
         }

@@ -1,10 +1,11 @@
 //! Random tasks that do not know their scene.
 
 use rand::Rng;
+use serde::{Deserialize, Serialize};
 
 use crate::belief::normal;
 use crate::dataset::generator;
-use crate::scene::{Scene, Support, Task, Truth, Unknowns};
+use crate::scene::{Engine, Scene, Support, Task, Truth, Unknowns};
 
 use super::kind::TaskKind;
 use super::layout::round;
@@ -19,8 +20,27 @@ pub struct HiddenTask {
     pub task: Task,
     /// The same task with everything known.
     pub known: Task,
-    /// The world, in the planar engine.
+    /// The world, in the planar engine unless said otherwise.
     pub truth: Truth,
+}
+
+/// What is asked for, and of what kind of world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HiddenWorld {
+    /// What moves it.
+    pub engine: Engine,
+    /// Tolerance of the goals, metres.
+    pub tolerance: f64,
+}
+
+impl HiddenTask {
+    /// The same in another world.
+    pub fn in_world(mut self, world: HiddenWorld) -> Self {
+        self.truth.engine = world.engine;
+        self.task.goal.tolerance = world.tolerance;
+        self.known.goal.tolerance = world.tolerance;
+        self
+    }
 }
 
 impl RandomSuite {

@@ -15,7 +15,7 @@ mod measure;
 mod one_push;
 mod suite;
 
-pub use hidden::HiddenTask;
+pub use hidden::{HiddenTask, HiddenWorld};
 pub use kind::TaskKind;
 pub use measure::{Choice, Maker, RandomError, RandomRecord};
 pub use one_push::random_task;

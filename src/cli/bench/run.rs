@@ -4,14 +4,15 @@ use clap::Args;
 use serde_json::json;
 
 use crate::act::{ProbeRule, RunSettings};
-use crate::bench::{RandomSuite, TaskKind};
+use crate::bench::{HiddenWorld, RandomSuite, TaskKind};
 use crate::cli::{
     error::CliError,
     model,
     session::Session,
-    words::{EFFORTS, KINDS, PROBES, words},
+    words::{EFFORTS, ENGINES, KINDS, PROBES, words},
 };
 use crate::report::closed_document;
+use crate::scene::Engine;
 use crate::solve::{Effort, Planner};
 use crate::store::RunManifest;
 
@@ -46,6 +47,12 @@ pub struct RunArgs {
     /// How hard to try with every plan
     #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
     effort: Effort,
+    /// Engine of the worlds
+    #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
+    engine: Engine,
+    /// Tolerance of the goals, metres
+    #[arg(long, value_name = "METRES", default_value_t = 0.02, value_parser = tolerance)]
+    tolerance: f64,
     /// Most pushes of a run
     #[arg(long, value_name = "N", default_value_t = 12,
           value_parser = clap::value_parser!(u16).range(1..=1000))]
@@ -59,6 +66,12 @@ pub struct RunArgs {
     rule: ProbeRule,
     #[command(flatten)]
     keep: KeepArgs,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "2 cm is 0.02".to_owned())?;
+    let sound = (0.001..=1.0).contains(&value);
+    sound.then_some(value).ok_or_else(|| "it must be 0.001 to 1".to_owned())
 }
 
 pub fn run(args: &RunArgs, session: &Session) -> Result<(), CliError> {
@@ -78,12 +91,14 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<(), CliError> {
         rule: args.rule,
         ..RunSettings::default()
     };
+    let world = HiddenWorld { engine: args.engine, tolerance: args.tolerance };
     let count = args.count as usize;
     let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
     let mut noted = json!({
         "effort": args.effort,
         "budget": planner.settings(),
         "run": settings,
+        "world": world,
         "kinds": suite.kinds(),
         "tasks_version": RandomSuite::VERSION,
         "tools": value_digest(&tools)?,
@@ -94,9 +109,9 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<(), CliError> {
         .with_settings(noted);
     let store = args.keep.measure(session, manifest, |index| {
         session
-            .compute(|| suite.run_hidden(&planner, &library, settings, index))
+            .compute(|| suite.run_hidden(&planner, &library, (settings, world), index))
             .map_err(random_error)
     })?;
-    let document = closed_document(store.manifest(), store.finished());
+    let document = closed_document(&[store.into_parts()]);
     keep::show(args.common.form, session, &document, args.keep.out.as_deref())
 }
