@@ -71,6 +71,8 @@ mod error;
 pub mod internals;
 
 #[doc(hidden)]
+pub mod act;
+#[doc(hidden)]
 pub mod asset;
 #[doc(hidden)]
 pub mod belief;

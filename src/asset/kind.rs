@@ -12,7 +12,7 @@ use super::node::Node;
 use super::recording::RECORDING_KEYS;
 use super::saved::{PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
-use super::{spec::Key, task, tool};
+use super::{spec::Key, task, tool, world};
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub enum Kind {
     Trajectory,
     /// A recording.
     Recording,
+    /// A world file.
+    World,
 }
 
 impl fmt::Display for Kind {
@@ -37,6 +39,7 @@ impl fmt::Display for Kind {
             Kind::Plan => "plan",
             Kind::Trajectory => "trajectory",
             Kind::Recording => "recording",
+            Kind::World => "world",
         })
     }
 }
@@ -55,6 +58,8 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
+        // What it says of a task's objects can be checked beside the task alone.
+        Kind::World => world::check_world(&text, &file).map(|()| kind),
     }
 }
 
@@ -72,13 +77,14 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         (fitting(tool::TOOL_KEYS), Kind::Tool),
         (fitting(task::TASK_KEYS), Kind::Task),
         (fitting(RECORDING_KEYS), Kind::Recording),
+        (fitting(world::WORLD_KEYS), Kind::World),
     ];
     let most = kinds.iter().map(|(keys, _)| *keys).max().unwrap_or(0);
     let mut best = kinds.into_iter().filter(|(keys, _)| *keys == most).map(|(_, kind)| kind);
     match (best.next(), best.next()) {
         (Some(kind), None) => Ok(kind),
         _ => {
-            let message = "this is not a tool, task, plan, trajectory or recording file";
+            let message = "this is not a tool, task, plan, trajectory, recording or world file";
             let advice = "`pushplan schema` shows what belongs into such files";
             Err(Fault::of_file(file, message, advice).into())
         }

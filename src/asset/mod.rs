@@ -23,6 +23,7 @@ mod take;
 mod task;
 mod text;
 mod tool;
+mod world;
 mod write;
 
 pub use fault::{Fault, Faults, Place};
@@ -32,8 +33,11 @@ pub use library::ToolLibrary;
 pub use printable::printable;
 pub use recording::RECORDING_FORMAT;
 pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
-pub use schema::{plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema};
+pub use schema::{
+    plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
+};
 pub use task::load_task;
+pub use world::load_world;
 pub use write::write_atomic;
 
 use text::read_text;

@@ -21,6 +21,11 @@ object looks the same count alike unless the goal says otherwise. The position o
 its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
 prism turns as heavily as an even plate on its base, about its centre of mass. Unknown keys are faults.";
 
+/// What holds for a whole world file.
+const WORLD_RULES: &str = "What is really there where a task does not know it, for `pushplan run`: \
+what is not said here is as the task states it, and no planner sees it. Lengths are in metres, masses in \
+kilograms, angles in degrees. Unknown keys are faults.";
+
 /// The schema of tool files.
 pub fn tool_schema() -> Json {
     let mut schema = document("pushplan tool", &super::tool::TOOL);
@@ -49,6 +54,13 @@ pub fn trajectory_schema() -> Json {
 pub fn recording_schema() -> Json {
     let mut schema = document("pushplan recording", &super::recording::RECORDING);
     schema["description"] = json!(super::RECORDING_FORMAT);
+    schema
+}
+
+/// The schema of world files.
+pub fn world_schema() -> Json {
+    let mut schema = document("pushplan world", &super::world::WORLD);
+    schema["description"] = json!(WORLD_RULES);
     schema
 }
 
@@ -159,8 +171,14 @@ mod tests {
 
     #[test]
     fn names_alone_have_a_pattern() {
-        let schemas =
-            [tool_schema(), task_schema(), plan_schema(), trajectory_schema(), recording_schema()];
+        let schemas = [
+            tool_schema(),
+            task_schema(),
+            plan_schema(),
+            trajectory_schema(),
+            recording_schema(),
+            world_schema(),
+        ];
         for schema in schemas {
             let text = schema.to_string();
             let name = json!(name_pattern()).to_string();
@@ -171,7 +189,7 @@ mod tests {
 
     #[test]
     fn schemas_describe_every_key() {
-        let saved = [plan_schema(), trajectory_schema(), recording_schema()];
+        let saved = [plan_schema(), trajectory_schema(), recording_schema(), world_schema()];
         for schema in [tool_schema(), task_schema()].into_iter().chain(saved) {
             let properties = schema["properties"].as_object().unwrap();
             assert!(!properties.is_empty());

@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use crate::asset::recording::RECORDING;
     use crate::asset::saved::{PLAN_FILE, TRAJECTORY_FILE};
-    use crate::asset::{task::TASK, tool::TOOL};
+    use crate::asset::{task::TASK, tool::TOOL, world::WORLD};
 
     fn walk(value: &Value, visit: &mut impl FnMut(&Value)) {
         visit(value);
@@ -157,7 +157,7 @@ mod tests {
 
     #[test]
     fn every_key_is_explained_and_every_range_holds_something() {
-        for root in [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING] {
+        for root in [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING, &WORLD] {
             walk(root, &mut |value| match value {
                 Value::Map(keys) | Value::Variant(keys) => {
                     for key in *keys {

@@ -9,20 +9,22 @@ use crate::{
     effect::EffectModel,
     geometry::Pose,
     scene::{
-        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool,
-        ToolMotion, near_pairs,
+        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, State, Stroke, Tool,
+        ToolMotion, Unknowns, near_pairs,
     },
 };
 
 use super::{
-    joints::{likeliest, of_types, with},
+    joints::{carried, likeliest, of_types, with},
     pair::{JointType, PairBelief},
+    particles::Particles,
     regulation::{BeliefRegulator, Regulation},
     relative::{relative, relative_like, spread},
     rolled::Rolled,
     settings::BeliefSettings,
     testimony::{Circumstances, Judged, Testimony, features},
     track::{ARM, Track},
+    weighing::Stretch,
     window::{Doubt, Instant, evidence, whitened},
 };
 
@@ -33,15 +35,19 @@ const WINDOW: usize = 5;
 /// How much the places of all objects count beside those of a pair against each other.
 const PLACES: f64 = 0.3;
 
-/// What is believed about the joints of a scene.
+/// What is believed about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
-    scene: Scene,
-    tool: Arc<Tool>,
-    lift: f64,
+    pub(super) scene: Scene,
+    pub(super) tool: Arc<Tool>,
+    pub(super) lift: f64,
     settings: BeliefSettings,
-    pairs: Vec<PairBelief>,
-    track: Track,
+    pub(super) pairs: Vec<PairBelief>,
+    pub(super) track: Track,
+    /// Joints that are not to be found out, where the scene states its objects.
+    pub(super) known: Vec<Joint>,
+    pub(super) particles: Particles,
+    pub(super) stretch: Option<Stretch>,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
@@ -67,6 +73,7 @@ impl Belief {
     /// the table.
     pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
+        let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
         let track = Track::new(scene.start(), settings.noise);
         let pairs = near_pairs(&scene)
             .into_iter()
@@ -85,6 +92,9 @@ impl Belief {
             settings,
             pairs,
             track,
+            known: Vec::new(),
+            particles,
+            stretch: None,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -177,13 +187,14 @@ impl Belief {
             probabilities: self.probabilities(),
             evidence: evidences,
         });
+        self.weigh_particles(model, &window);
         self.track.follow(&base, &window);
     }
 
     /// Physics in which [`Self::pairs`] are joined as `types` say, where these joints would most likely
     /// be; joints close no loop.
     pub fn physics_of(&self, types: &[JointType]) -> Physics {
-        of_types(&self.scene, &self.pairs, &self.track.state, types)
+        self.with_known(of_types(&self.scene, &self.pairs, &self.track.state, types))
     }
 
     /// The types that the last window which told of a pair says by itself: a belief without memory.
@@ -243,12 +254,22 @@ impl Belief {
     /// The likeliest physics: anchors and axes are where they are with the objects as in
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
-        likeliest(&self.scene, &self.pairs, &self.track.state)
+        self.with_known(likeliest(&self.scene, &self.pairs, &self.track.state))
+    }
+
+    /// These joints of near pairs with all that is believed besides.
+    fn with_known(&self, mut physics: Physics) -> Physics {
+        physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
+        self.particles.mean(&self.scene, physics)
     }
 
     fn scene_now(&self) -> Scene {
+        self.scene_at(&self.track.state)
+    }
+
+    pub(super) fn scene_at(&self, state: &State) -> Scene {
         let mut scene = self.scene.clone();
-        for (object, pose) in scene.objects.iter_mut().zip(&self.track.state.poses) {
+        for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
             object.pose = *pose;
         }
         scene

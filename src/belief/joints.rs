@@ -1,8 +1,8 @@
 //! Physics from what is believed of pairs.
 
 use crate::{
-    geometry::Pose,
-    scene::{DisjointSets, Joint, Physics, Scene, State},
+    geometry::{Pose, Vector},
+    scene::{DisjointSets, Joint, JointKind, Physics, Scene, Span, State},
 };
 
 use super::pair::{JointType, PairBelief};
@@ -63,6 +63,32 @@ pub(super) fn with(
     physics
 }
 
+/// `joints` that are known at the poses that `scene` states, where its objects stand as in `state`.
+pub fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
+    let now = |joint: &Joint| {
+        let frames = joint.frames(&scene.objects);
+        let [first, second] = [0, 1].map(|k| state.poses[joint.between[k]] * frames[k]);
+        let left = |limits: Option<Span>, gone: f64| {
+            // What was seen may be a little beyond a limit; the start never is.
+            limits.map(|span| Span::new((span.low - gone).min(0.0), (span.high - gone).max(0.0)))
+        };
+        let kind = match joint.kind {
+            JointKind::Fixed => JointKind::Fixed,
+            JointKind::Revolute { limits, .. } => JointKind::Revolute {
+                at: 0.5 * (first.position + second.position),
+                limits: left(limits, second.heading - first.heading),
+            },
+            JointKind::Prismatic { limits, .. } => {
+                let axis = first.vector(Vector::x());
+                let gone = axis.dot(&(second.position - first.position));
+                JointKind::Prismatic { axis, limits: left(limits, gone) }
+            }
+        };
+        Joint { kind, ..joint.clone() }
+    };
+    joints.iter().map(now).collect()
+}
+
 fn poses(state: &State, between: [usize; 2]) -> [&Pose; 2] {
     between.map(|k| &state.poses[k])
 }
@@ -88,7 +114,32 @@ fn path(joints: &[Joint], [from, to]: [usize; 2]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::JointKind;
+    use crate::scene::Object;
+
+    #[test]
+    fn known_joints_go_with_their_objects_and_use_up_their_limits() {
+        let can = |name: &str, x| Object::cylinder(name, 0.04, 0.1).at(x, 0.0, 0.0);
+        let limits = Some(Span::new(-0.5, 0.5));
+        let (at, axis) = (Vector::new(0.05, 0.0), Vector::y());
+        let scene = Scene::new([can("a", 0.0), can("b", 0.1), can("c", 0.2)])
+            .with_joint([0, 1], JointKind::Revolute { at, limits })
+            .with_joint([1, 2], JointKind::Prismatic { axis, limits });
+        assert_eq!(carried(&scene.joints, &scene, &scene.start()), scene.joints);
+        // The first turned left, which carried the others along; the second turned on by 0.2.
+        let turned = Pose::new(0.3, 0.1, 0.4);
+        let hinge = Pose { position: turned.point(at), heading: 0.6 };
+        let mut state = scene.start();
+        state.poses[0] = turned;
+        state.poses[1] = hinge * Pose::new(0.05, 0.0, 0.0);
+        state.poses[2] = hinge * Pose::new(0.15, 0.1, 0.0);
+        let joints = carried(&scene.joints, &scene, &state);
+        let JointKind::Revolute { at: now, limits: Some(left) } = joints[0].kind else { panic!() };
+        assert!((now - hinge.position).norm() < 1e-12);
+        assert!((left.low + 0.7).abs() < 1e-12 && (left.high - 0.3).abs() < 1e-12, "{left:?}");
+        let JointKind::Prismatic { axis, limits: Some(left) } = joints[1].kind else { panic!() };
+        assert!((axis - hinge.vector(Vector::y())).norm() < 1e-12);
+        assert!((left.low + 0.6).abs() < 1e-12 && (left.high - 0.4).abs() < 1e-12, "{left:?}");
+    }
 
     #[test]
     fn the_way_between_two_objects_is_found_and_no_other() {

@@ -5,23 +5,34 @@
 //! the tool did under every type of joint of every pair of near objects that moved, and compares
 //! what was seen with each in that joint's own coordinates (`fit`): what the joint holds against
 //! where it held it so far, what it leaves free against the rollout.
+//!
+//! Beside it, where these are unknown, particles of masses, frictions and supports, weighed after
+//! every push under the joints that are likeliest then.
 
+mod about;
+mod chance;
 mod density;
 mod filter;
 mod fit;
 mod joints;
 mod pair;
+mod particles;
 mod regulation;
 mod relative;
 mod residual;
 mod rolled;
+mod sample;
 mod settings;
 mod testimony;
 mod track;
+mod weighing;
 mod window;
 
+pub use chance::{generator, normal};
 pub use filter::{Belief, Step};
+pub use joints::carried;
 pub use pair::JointType;
+pub use particles::Numbers;
 pub use regulation::{BeliefRegulator, RegulatorError};
 pub use residual::residual_types;
 pub use settings::BeliefSettings;

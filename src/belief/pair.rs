@@ -293,7 +293,7 @@ impl PairBelief {
 
 impl Fit {
     /// The joint while its two objects stand at these poses.
-    fn joint(&self, [first, second]: [&Pose; 2]) -> Option<JointKind> {
+    pub(super) fn joint(&self, [first, second]: [&Pose; 2]) -> Option<JointKind> {
         let m = &self.mean;
         match self.kind {
             JointType::None => None,

@@ -5,6 +5,7 @@
 
 mod baselines;
 mod belief;
+mod closed;
 mod cpu_clock;
 mod crowd;
 mod effects;
@@ -26,6 +27,7 @@ pub use belief::{
     JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When, belief_steps, follow,
     summarise_beliefs, update_times,
 };
+pub use closed::{ClosedRecord, Left};
 pub use crowd::{
     CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
 };
@@ -35,7 +37,8 @@ pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use random::{
-    Choice, Maker, NoTask, RandomError, RandomRecord, RandomSuite, SuiteTask, TaskKind, random_task,
+    Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
+    SuiteTask, TaskKind, random_task,
 };
 pub use refinement::{PlanErrors, RefinementReport, refinement_report};
 pub use solved::{End, SolvedTask};

@@ -30,6 +30,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Solve(solve::SolveArgs),
+    Run(super::run::RunArgs),
     Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
@@ -74,6 +75,7 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
     let session = Session::start(&cli.global)?;
     match &cli.command {
         Command::Solve(args) => solve::run(args, &session),
+        Command::Run(args) => super::run::run(args, &session),
         Command::Verify(args) => verify::run(args, &session),
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),

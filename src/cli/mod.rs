@@ -26,6 +26,7 @@ mod predict;
 mod push_argument;
 mod recordings;
 mod regulator;
+mod run;
 mod schema;
 mod session;
 mod simulate;

@@ -2,11 +2,11 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{recording_schema, task_schema, tool_schema};
+use crate::asset::{recording_schema, task_schema, tool_schema, world_schema};
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Print the JSON schema of tool, task or recording files, for editors
+/// Print the JSON schema of tool, task, recording or world files, for editors
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan schema task > task.schema.json
@@ -22,6 +22,7 @@ enum Kind {
     Tool,
     Task,
     Recording,
+    World,
 }
 
 pub fn run(args: &SchemaArgs, session: &Session) -> Result<u8, CliError> {
@@ -29,6 +30,7 @@ pub fn run(args: &SchemaArgs, session: &Session) -> Result<u8, CliError> {
         Kind::Tool => tool_schema(),
         Kind::Task => task_schema(),
         Kind::Recording => recording_schema(),
+        Kind::World => world_schema(),
     };
     session.print(&format!("{schema:#}\n"))?;
     Ok(exit_code::DONE)

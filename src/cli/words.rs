@@ -2,6 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use crate::act::ProbeRule;
 use crate::bench::{CrowdFamily, JointMethod, Layout, Sighting, TaskKind};
 use crate::dataset::{JointRule, Preset, Solids};
 use crate::effect::Outside;
@@ -115,6 +116,14 @@ pub static ASKED_JOINTS: [(&str, AskedJoints, &str); 9] = [
     ),
 ];
 
+/// Ways to choose a push that is made only to learn something.
+pub static PROBES: [(&str, ProbeRule, &str); 4] = [
+    ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
+    ("random", ProbeRule::Random, "By chance"),
+    ("uncertain", ProbeRule::Uncertain, "At the pair whose joint is least certain"),
+    ("motion", ProbeRule::Motion, "Moves things farthest"),
+];
+
 /// Solids of a crowd.
 pub static SOLIDS: [(&str, Solids, &str); 2] = [
     ("cylinders", Solids::Cylinders, "Cylinders alone"),
@@ -137,7 +146,7 @@ pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
 ];
 
 /// Kinds of random tasks.
-pub static KINDS: [(&str, TaskKind, &str); 7] = [
+pub static KINDS: [(&str, TaskKind, &str); 8] = [
     ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
     ("pull", TaskKind::Pull, "Towards the robot"),
     ("sweep", TaskKind::Sweep, "Sideways"),
@@ -148,6 +157,11 @@ pub static KINDS: [(&str, TaskKind, &str); 7] = [
         "gap",
         TaskKind::Gap,
         "Behind a gap that is too narrow: no plan can be right (only if asked for)",
+    ),
+    (
+        "cluster",
+        TaskKind::Cluster,
+        "One of four that stand close, some of them joined (only if asked for)",
     ),
 ];
 

@@ -33,13 +33,6 @@ pub(super) fn sign(rng: &mut Pcg64) -> f64 {
     if rng.random::<bool>() { 1.0 } else { -1.0 }
 }
 
-/// A standard normal number, by the method of Box and Muller (1958).
-pub fn normal(rng: &mut Pcg64) -> f64 {
-    // Of (0, 1], whose logarithm is finite.
-    let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
-    radius * (TAU * rng.random::<f64>()).cos()
-}
-
 /// An index drawn with the given weights.
 pub(super) fn weighted(rng: &mut Pcg64, weights: &[f64]) -> usize {
     let mut left = rng.random::<f64>() * weights.iter().sum::<f64>();

@@ -35,7 +35,7 @@ mod unseen;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
-pub use chance::{generator, log_uniform, normal};
+pub use chance::{generator, log_uniform};
 pub use config::DatasetConfig;
 pub use constraints::{Constraints, JointRule, TEST_SPEED};
 pub use episode::{Episode, sample};

@@ -4,12 +4,11 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    belief::normal,
     geometry::Vector,
     recording::Recording,
     scene::{Noise, Observation, Scene, Sight},
 };
-
-use super::chance::normal;
 
 /// How well a trajectory is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -47,7 +47,7 @@ pub fn random_document(runs: &[RandomRun]) -> Document {
     }
     let kinds: Vec<TaskKind> = TaskKind::ALL
         .into_iter()
-        .chain([TaskKind::Gap])
+        .chain([TaskKind::Cluster, TaskKind::Gap])
         .filter(|kind| methods.iter().any(|m| m.tasks.iter().any(|row| row.kind == *kind)))
         .collect();
     let count = runs.iter().map(|(_, tasks)| tasks.len()).max().unwrap_or(0);

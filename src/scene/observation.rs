@@ -16,7 +16,7 @@ pub struct Observation {
 }
 
 /// Where an object was seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sight {
     /// Position of its centre, metres.
     pub position: Vector,

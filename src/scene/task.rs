@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Shape, Vector, wrap_angle};
 
-use super::{Scene, State};
+use super::{Scene, State, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -235,6 +235,9 @@ pub struct Task {
     pub description: String,
     /// The table.
     pub scene: Scene,
+    /// What of it is only a guess.
+    #[serde(default)]
+    pub unknown: Unknowns,
     /// The robot.
     pub robot: Robot,
     /// Allowed tools.
@@ -270,6 +273,7 @@ impl Task {
             name: name.into(),
             description: String::new(),
             scene,
+            unknown: Unknowns::NONE,
             robot,
             tools: ToolChoice::All,
             pushes: PushRules::default(),
@@ -286,6 +290,11 @@ impl Task {
     /// The task with plans that work in this share of the disturbed replays, 0 to 1.
     pub fn robust(self, share: f64) -> Self {
         Self { robustness: share, ..self }
+    }
+
+    /// The task with so much of its scene unknown.
+    pub fn guessing(self, unknown: Unknowns) -> Self {
+        Self { unknown, ..self }
     }
 
     /// The task with other rules for pushes.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ModelSpec, Quantity};
+use super::{ModelSpec, Quantity, Unknowns};
 
 /// Something that lowers the trust in a result without making it an error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,6 +130,11 @@ pub enum Warning {
     },
     /// No prediction was made, because of the other warnings.
     Refused,
+    /// The task does not know its scene, so that this rests on guesses.
+    Guessed {
+        /// What is unknown.
+        unknown: Unknowns,
+    },
 }
 
 impl Warning {
@@ -142,7 +147,8 @@ impl Warning {
             | Warning::Overlap { .. }
             | Warning::LooseJoint { .. }
             | Warning::Differs { .. }
-            | Warning::Simulated { .. } => false,
+            | Warning::Simulated { .. }
+            | Warning::Guessed { .. } => false,
             Warning::NotAtRest { .. }
             | Warning::NotFinite
             | Warning::Stopped
@@ -211,6 +217,7 @@ impl Warning {
             Warning::Differs { .. } => "differing",
             Warning::Simulated { .. } => "simulated",
             Warning::Refused => "refused",
+            Warning::Guessed { .. } => "guessed",
         }
     }
 
@@ -269,6 +276,11 @@ impl fmt::Display for Warning {
                 f,
                 "no prediction was made; `--outside simulate` simulates instead, `--outside warn` \
                  predicts all the same"
+            ),
+            Warning::Guessed { unknown } => write!(
+                f,
+                "the task does not know its {unknown}, so this rests on the middle of what they may \
+                 be; `pushplan run` finds out by pushing"
             ),
             Warning::NotAtRest { waited } => write!(
                 f,

@@ -157,7 +157,12 @@ impl Planner {
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
-        self.solve_from(&Situation::stated(&task.scene), task, library, watch)
+        let mut solution =
+            self.solve_from(&Situation::stated(&task.scene), task, library, watch)?;
+        if task.unknown.any() {
+            solution.warnings.push(Warning::Guessed { unknown: task.unknown });
+        }
+        Ok(solution)
     }
 
     /// [`Planner::solve_with`] from another situation than the one that the task states: where

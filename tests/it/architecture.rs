@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The rooms in order, each with those that it imports from: all of them stand before it. What
 /// is not listed is not allowed, and what nobody needs any more is struck from the list.
-const ROOMS: [(&str, &[&str]); 23] = [
+const ROOMS: [(&str, &[&str]); 24] = [
     ("geometry", &[]),
     ("scene", &["geometry"]),
     ("recording", &["geometry", "scene"]),
@@ -25,6 +25,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
     // Not `plan`: the check shares no code with what it checks.
     ("verify", &["geometry", "scene", "sim"]),
     ("solve", &["geometry", "scene", "asset", "sim", "effect", "plan", "verify"]),
+    ("act", &["geometry", "scene", "asset", "sim", "effect", "belief", "solve"]),
     ("dataset", &["geometry", "scene", "recording", "asset", "store", "sim", "effect", "belief"]),
     (
         "train",
@@ -52,6 +53,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
             "plan",
             "verify",
             "solve",
+            "act",
             "dataset",
         ],
     ),
@@ -59,7 +61,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
         "report",
         &[
             "geometry", "scene", "asset", "store", "judge", "fit", "belief", "plan", "solve",
-            "train", "bench",
+            "act", "train", "bench",
         ],
     ),
     ("export", &["geometry", "scene", "asset"]),
@@ -79,6 +81,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
             "belief",
             "verify",
             "solve",
+            "act",
             "dataset",
             "train",
             "bench",
@@ -101,8 +104,17 @@ const DOORS: [(&str, &[&str]); 17] = [
     ("gemm", &["network", "train"]),
     ("pulp", &["network", "scene"]),
     ("clarabel", &["plan"]),
-    ("rand", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
-    ("rand_pcg", &["network", "effect", "judge", "plan", "verify", "dataset", "train", "bench"]),
+    (
+        "rand",
+        &[
+            "network", "effect", "judge", "belief", "plan", "verify", "act", "dataset", "train",
+            "bench",
+        ],
+    ),
+    (
+        "rand_pcg",
+        &["network", "effect", "judge", "belief", "plan", "verify", "dataset", "train", "bench"],
+    ),
     ("postcard", &["dataset"]),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),

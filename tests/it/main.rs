@@ -7,6 +7,7 @@ mod belief;
 mod bench_store;
 mod benchmarks;
 mod cli;
+mod closed_loop;
 mod crowd_errors;
 mod crowds;
 mod dataset;

@@ -67,6 +67,7 @@ fn is_of_its_kind(made: &SuiteTask) {
         }
         TaskKind::Pair => task.scene.objects.len() == 2,
         TaskKind::Gap => false,
+        TaskKind::Cluster => task.scene.objects.len() == 4,
     };
     assert!(fits, "{} is no task of its kind: {task:?}", task.name);
 }

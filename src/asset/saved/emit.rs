@@ -18,7 +18,7 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     if let Some(force) = task.robot.max_force {
         robot["max_force"] = json!(force);
     }
-    json!({
+    let mut fields = json!({
         "name": task.name,
         "description": task.description,
         "scene": scene(&task.scene),
@@ -30,7 +30,12 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         "pushes": pushes(&task.pushes),
         "goal": goal(&task.goal, &task.scene),
         "robustness": task.robustness,
-    })
+    });
+    if task.unknown.any() {
+        let unknown = task.unknown.words().into_iter().filter(|(_, unknown)| *unknown);
+        fields["unknown"] = unknown.map(|(word, _)| word).collect();
+    }
+    fields
 }
 
 /// A tool as in a tool file.

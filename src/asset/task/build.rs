@@ -9,7 +9,7 @@ use crate::asset::text::named_after;
 use crate::geometry::Vector;
 use crate::scene::{
     Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
-    TableTop, Task, ToolChoice,
+    TableTop, Task, ToolChoice, Unknowns,
 };
 
 use super::spec::default;
@@ -24,6 +24,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
         name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         scene,
+        unknown: unknown(root)?,
         robot: robot(root.get("robot")?)?,
         tools: tools(root.get("tools")?),
         pushes: match root.get("pushes") {
@@ -33,6 +34,12 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
         goal,
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
+}
+
+/// What is unknown.
+fn unknown(root: &Node) -> Option<Unknowns> {
+    let words = root.get("unknown").map(Node::items).unwrap_or_default();
+    words.iter().try_fold(Unknowns::NONE, |so_far, word| so_far.with(word.text()?))
 }
 
 /// The scene, or `None` if anything needed is missing or was faulty.
@@ -84,7 +91,7 @@ fn object(node: &Node) -> Option<Object> {
 }
 
 /// What an object stands on.
-pub(super) fn support(object: &Node) -> Option<Support> {
+pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
     let Some(node) = object.get("support") else { return Some(Support::Even) };
     if let Some(word) = node.text() {
         return Some(if word == "corners" { Support::Corners } else { Support::Even });

@@ -79,7 +79,7 @@ const ALONG: Value = Value::Number(Range {
 });
 
 /// The joint, or `None` if anything needed is missing or was faulty.
-pub(super) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> {
+pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> {
     let index = |node: &Node| {
         let name = node.text()?;
         objects.iter().position(|object| object.name == name)

@@ -8,7 +8,9 @@ mod load;
 mod rules;
 mod spec;
 
+pub(super) use build::support as support_of;
 pub(super) use frictions::{FRICTIONS, name_of_surface};
+pub(super) use joints::joint as joint_of;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use spec::{

@@ -30,11 +30,30 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let objects = scene.get("objects").map(Node::items).unwrap_or_default();
     let obstacles = scene.get("obstacles").map(Node::items).unwrap_or_default();
     check_scene(scene, SLACK, ledger);
+    unknown(section("unknown"), scene, ledger);
     robot(section("robot"), pushes, ledger);
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     goal(section("goal"), objects, obstacles, ledger);
     on_table(scene, section("goal"), ledger);
+}
+
+/// What is unknown is named once, and joints are not stated where they are unknown.
+fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
+    let words = unknown.items();
+    for (k, word) in words.iter().enumerate().filter(|(_, word)| word.text().is_some()) {
+        if words[..k].iter().any(|before| before.text() == word.text()) {
+            let message = format!("`{}` is named twice", word.text().unwrap_or_default());
+            ledger.fault(word, message, "name it once");
+        }
+    }
+    let joints = words.iter().any(|word| word.text() == Some("joints"));
+    if let Some(stated) = scene.get("joints").filter(|stated| !stated.items().is_empty())
+        && joints
+    {
+        let advice = "remove them, or `joints` from `unknown`";
+        ledger.fault(stated, "joints are stated and unknown at once", advice);
+    }
 }
 
 /// Objects and goal must lie on a table that ends.

@@ -21,6 +21,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::required("scene", SCENE, "What stands on the table."),
+    Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING),
     Key::required("robot", ROBOT, "Where the end effector can be."),
     Key::required(
         "tools",
@@ -44,6 +45,20 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
          for a plan to count; default 0.75.",
     ),
 ];
+
+/// What of a scene may be unknown.
+const UNKNOWN: Value = Value::List {
+    of: &Value::Word(&["joints", "masses", "frictions", "support"]),
+    items: "words",
+    min: 0,
+    max: 4,
+};
+
+const UNKNOWN_MEANING: &str = "What of the scene nobody knows, so that `pushplan run` has to find out \
+by pushing: `joints` (any two objects with a gap below 30 mm may be joined; none are stated then), \
+`masses` (the stated one times or over 2, nine times in ten), `frictions` (of objects and table, times \
+or over 1.5), `support` (anything from even pressure to the corners). What is stated is the middle of \
+what it may be, and what `pushplan solve` plans with; by default nothing is unknown.";
 
 const SCENE: Value = Value::Map(&[
     TABLE,

@@ -6,7 +6,9 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Shape, Vector};
-use crate::scene::{Goal, Object, Obstacle, Robot, Scene, Span, Support, Task, ToolChoice};
+use crate::scene::{
+    Goal, Object, Obstacle, Robot, Scene, Span, Support, Task, ToolChoice, Unknowns,
+};
 
 use super::kind::TaskKind;
 use super::layout::round;
@@ -74,6 +76,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
             obstacles: vec![side("left", 1.0), side("right", -1.0)],
             ..Scene::default()
         },
+        unknown: Unknowns::NONE,
         robot: Robot {
             home: Vector::new(0.1, 0.0),
             reach_min: 0.1,

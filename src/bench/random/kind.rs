@@ -28,6 +28,8 @@ pub enum TaskKind {
     Pair,
     /// The goal lies behind a gap too narrow for the object: no plan can be right.
     Gap,
+    /// One of four objects that stand close, some of them joined. Asked for by name alone.
+    Cluster,
 }
 
 /// Room that a kind gives, and how hard its tasks are.
@@ -54,7 +56,7 @@ const LEAST_TURN: f64 = PI / 12.0;
 const LEANING: f64 = PI / 6.0;
 
 impl TaskKind {
-    /// All that can be solved.
+    /// All that can be solved, but for clusters.
     pub const ALL: [TaskKind; 6] = [
         TaskKind::Reach,
         TaskKind::Pull,
@@ -74,6 +76,7 @@ impl TaskKind {
             TaskKind::Heading => "heading",
             TaskKind::Pair => "pair",
             TaskKind::Gap => "gap",
+            TaskKind::Cluster => "cluster",
         }
     }
 
@@ -87,6 +90,7 @@ impl TaskKind {
             TaskKind::Heading => "A cuboid to bring to a place and a heading.",
             TaskKind::Pair => "One of two objects that are joined.",
             TaskKind::Gap => "A goal behind a gap that is too narrow.",
+            TaskKind::Cluster => "One of several objects that stand close, some of them joined.",
         }
     }
 
@@ -114,7 +118,7 @@ impl TaskKind {
                 ..usual
             },
             TaskKind::Heading => Rules { least_way: 0.05, ..usual },
-            TaskKind::Pair | TaskKind::Gap => usual,
+            TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => usual,
         }
     }
 
@@ -136,7 +140,11 @@ impl TaskKind {
             TaskKind::Sweep => (outwards + side, 0.7),
             // Around a corner.
             TaskKind::Obstacle if index > 0 => (before + side, 0.4),
-            TaskKind::Obstacle | TaskKind::Heading | TaskKind::Pair | TaskKind::Gap => (0.0, PI),
+            TaskKind::Obstacle
+            | TaskKind::Heading
+            | TaskKind::Pair
+            | TaskKind::Gap
+            | TaskKind::Cluster => (0.0, PI),
         }
     }
 
@@ -154,7 +162,7 @@ impl TaskKind {
             TaskKind::Pull => off >= PI - LEANING,
             TaskKind::Sweep => (off - FRAC_PI_2).abs() <= LEANING,
             TaskKind::Heading => wrap_angle(end.heading - start.heading).abs() >= LEAST_TURN,
-            TaskKind::Obstacle | TaskKind::Pair | TaskKind::Gap => true,
+            TaskKind::Obstacle | TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => true,
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::dataset::{Crowd, Solids, random_scene};
 use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
 use crate::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task};
 
+use super::cluster::cluster;
 use super::kind::TaskKind;
 use super::one_push::{moderate, pushes};
 
@@ -34,6 +35,7 @@ pub(super) fn open_task(rng: &mut Pcg64, kind: TaskKind, ordinal: usize) -> Task
     let rules = kind.rules();
     let scene = match kind {
         TaskKind::Pair => pair(rng, ordinal),
+        TaskKind::Cluster => cluster(rng, &Ranges { mass_ratio: JOINED_MASSES, ..moderate() }),
         TaskKind::Heading => one(rng, Solids::Cuboids),
         _ if ordinal.is_multiple_of(2) => one(rng, Solids::Cylinders),
         _ => one(rng, Solids::Cuboids),

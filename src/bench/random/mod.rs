@@ -5,7 +5,9 @@
 //! [`RandomSuite`] (several kinds, up to three pushes), so that the plan that made a task passes
 //! its verification.
 
+mod cluster;
 mod gap;
+mod hidden;
 mod kind;
 mod layout;
 mod making;
@@ -13,6 +15,7 @@ mod measure;
 mod one_push;
 mod suite;
 
+pub use hidden::{HiddenTask, HiddenWorld};
 pub use kind::TaskKind;
 pub use measure::{Choice, Maker, RandomError, RandomRecord};
 pub use one_push::random_task;

@@ -17,6 +17,7 @@ pub struct BenchArgs {
 enum What {
     Tasks(tasks::TasksArgs),
     Random(random::RandomArgs),
+    Run(super::run::RunArgs),
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
     Tools(tools::ToolsArgs),
@@ -29,6 +30,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
     match &args.what {
         What::Tasks(args) => tasks::run(args, session)?,
         What::Random(args) => random::run(args, session)?,
+        What::Run(args) => super::run::run(args, session)?,
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,

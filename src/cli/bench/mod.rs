@@ -8,6 +8,7 @@ mod keep;
 mod page;
 mod random;
 mod refinement;
+mod run;
 mod saved;
 mod tasks;
 mod tools;

@@ -115,7 +115,7 @@ fn save_tasks(
     Ok(())
 }
 
-fn random_error(error: RandomError) -> CliError {
+pub fn random_error(error: RandomError) -> CliError {
     match error {
         RandomError::NoTask(_) => {
             CliError::usage(error.to_string(), "choose other kinds with --kind, or other tools")

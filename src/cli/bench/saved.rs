@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{BeliefCase, BeliefRecord, RandomRecord, SolvedTask, ToolRecord};
+use crate::bench::{BeliefCase, BeliefRecord, ClosedRecord, RandomRecord, SolvedTask, ToolRecord};
 use crate::cli::{error::CliError, form::Form, output, session::Session};
-use crate::report::{Document, RandomRun, random_document, solved_document, tools_document};
-use crate::store::{RunManifest, Store, StoreError, merge_runs};
+use crate::report::{
+    ClosedRun, Document, RandomRun, closed_document, random_document, solved_document,
+    tools_document,
+};
+use crate::store::{Finished, RunManifest, Store, StoreError, merge_runs};
 
 use super::page::PageArgs;
 use super::{joints, keep, random, tasks, tools};
@@ -94,6 +97,14 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
+        (super::run::SUITE, runs) => {
+            let runs: Vec<ClosedRun> = runs
+                .iter()
+                .map(|dir| Ok(Store::<ClosedRecord>::load(dir)?.into_parts()))
+                .collect::<Result<_, StoreError>>()?;
+            same_tasks(&runs)?;
+            Ok(closed_document(&runs))
+        }
         (tasks::SUITE | tools::SUITE | joints::SUITE, _) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
@@ -144,9 +155,10 @@ fn page(
 }
 
 /// Methods are compared on the same tasks only.
-fn same_tasks(runs: &[RandomRun]) -> Result<(), CliError> {
+fn same_tasks<R>(runs: &[(RunManifest, Vec<Finished<R>>)]) -> Result<(), CliError> {
     let tasks = |run: &RunManifest| {
-        let decides = ["kinds", "tasks_version", "tools"].map(|key| run.settings[key].to_string());
+        let decides =
+            ["kinds", "tasks_version", "tools", "world"].map(|key| run.settings[key].to_string());
         (run.seed, run.tasks, run.shard, decides)
     };
     let Some((first, others)) = runs.split_first() else { return Ok(()) };

@@ -26,12 +26,15 @@ pub enum Source {
     Predicted,
     /// A replay in an engine.
     Simulated(Engine),
+    /// Who looked.
+    Seen,
 }
 
 impl fmt::Display for Source {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Source::Predicted => "predicted",
+            Source::Seen => "seen",
             Source::Simulated(Engine::Planar) => "simulated in the plane",
             Source::Simulated(Engine::Spatial) => "simulated in 3-D",
             Source::Simulated(Engine::Upright) => "simulated in 3-D, upright",
@@ -195,6 +198,7 @@ impl ScenePicture<'_> {
         for track in &self.tracks {
             let words = match track.source {
                 Source::Predicted => "predicted way and end",
+                Source::Seen => "seen",
                 Source::Simulated(Engine::Planar) => "simulated, planar",
                 Source::Simulated(Engine::Spatial) => "simulated, 3-D",
                 Source::Simulated(Engine::Upright) => "simulated, 3-D upright",
@@ -231,7 +235,7 @@ fn style(source: Source) -> Style {
     let colour = colour(source);
     match source {
         Source::Predicted => Style::stroke(colour, 2.0).dashed("6 4"),
-        Source::Simulated(Engine::Planar) => Style::stroke(colour, 2.0),
+        Source::Seen | Source::Simulated(Engine::Planar) => Style::stroke(colour, 2.0),
         Source::Simulated(Engine::Spatial | Engine::Upright) => {
             Style::stroke(colour, 1.6).dashed("2 3")
         }
@@ -241,7 +245,7 @@ fn style(source: Source) -> Style {
 fn colour(source: Source) -> &'static str {
     match source {
         Source::Predicted => palette::PREDICTED,
-        Source::Simulated(Engine::Planar) => palette::PLANAR,
+        Source::Seen | Source::Simulated(Engine::Planar) => palette::PLANAR,
         Source::Simulated(Engine::Spatial | Engine::Upright) => palette::SPATIAL,
     }
 }

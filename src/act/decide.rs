@@ -1,0 +1,152 @@
+//! Which push comes next, under what is believed.
+
+use std::sync::Arc;
+
+use crate::belief::Belief;
+use crate::geometry::Vector;
+use crate::scene::{Plan, Push, PushForm, Situation, Task, Tool};
+use crate::solve::{AskedPush, AskedStart, SolveError, asked_plan};
+use crate::watch::Watch;
+
+use super::error::ActError;
+use super::judge::{Chance, Reach, Samples};
+use super::probe::{pays, probe};
+use super::runner::Runner;
+use super::trace::{Step, Trace, Why};
+
+/// A plan that misses in all samples is worth a push if it comes nearer by this share on average.
+const NEARER: f64 = 0.05;
+
+/// What is done next.
+#[derive(Clone, Debug)]
+pub(super) enum Decision {
+    /// A plan, of which the first push is made.
+    Do { why: Why, plan: Plan, tool: Arc<Tool>, chance: Chance },
+    /// Nothing, as the goal is reached.
+    Done,
+    /// Nothing, as nothing helps.
+    Nothing,
+}
+
+/// Plans with what comes of each.
+struct Judged {
+    plans: Vec<(Plan, Arc<Tool>)>,
+    reach: Vec<Vec<Reach>>,
+}
+
+impl Judged {
+    /// The best; the first of equals, as the planner ranks them.
+    fn best(&self) -> Option<(&(Plan, Arc<Tool>), Chance)> {
+        let mut best: Option<(usize, Chance)> = None;
+        for (k, reach) in self.reach.iter().enumerate() {
+            let chance = Chance::of(reach);
+            if best.is_none_or(|(_, best)| chance.beats(&best)) {
+                best = Some((k, chance));
+            }
+        }
+        best.map(|(k, chance)| (&self.plans[k], chance))
+    }
+}
+
+impl Runner<'_> {
+    /// What to do under a belief, of which `samples` were drawn.
+    pub(super) fn decide(
+        &self,
+        trace: &Trace,
+        (belief, samples): (&Belief, &Samples),
+        watch: &dyn Watch,
+    ) -> Result<Decision, ActError> {
+        let Trace { task, settings, steps, .. } = trace;
+        let model = self.planner.model();
+        if let Some((plan, tool)) = steps.last().and_then(|last| rest(task, &samples.now, last)) {
+            let plans = [(plan, tool)];
+            let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
+            if chance.share >= settings.enough {
+                let [(plan, tool)] = plans;
+                return Ok(Decision::Do { why: Why::Rest, plan, tool, chance });
+            }
+        }
+        let Some(mut judged) = self.plans(task, &samples.now, samples, watch)? else {
+            return Ok(Decision::Done);
+        };
+        let sure = |judged: &Judged| {
+            judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
+        };
+        // Where the likeliest physics gives no plan that does, another may.
+        for physics in samples.physics.iter().take(settings.others) {
+            if sure(&judged) || watch.cancelled() {
+                break;
+            }
+            let other = Situation { physics: Arc::clone(physics), ..samples.now.clone() };
+            if let Some(more) = self.plans(task, &other, samples, watch)? {
+                judged.plans.extend(more.plans);
+                judged.reach.extend(more.reach);
+            }
+        }
+        if !sure(&judged) && probes(steps) < settings.probes && pays(&judged.reach) {
+            let tools = task.tools(self.library).map_err(SolveError::from)?;
+            let known = (tools.as_slice(), judged.reach.as_slice());
+            let index = steps.len() as u64;
+            let found = probe(model, task, settings, (belief, samples), known, index);
+            if let Some((plan, tool)) = found {
+                let plans = [(plan, tool)];
+                let chance = Chance::of(&samples.reach(model, task, &plans)[0]);
+                let [(plan, tool)] = plans;
+                return Ok(Decision::Do { why: Why::Probe, plan, tool, chance });
+            }
+        }
+        let nothing = task.goal.score(&samples.now.start);
+        let Some(((plan, tool), chance)) = judged.best() else { return Ok(Decision::Nothing) };
+        let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
+        let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
+        let (plan, tool) = (plan.clone(), Arc::clone(tool));
+        Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
+    }
+
+    /// Plans for a situation, judged under the samples; nothing if no push is needed.
+    fn plans(
+        &self,
+        task: &Task,
+        situation: &Situation,
+        samples: &Samples,
+        watch: &dyn Watch,
+    ) -> Result<Option<Judged>, ActError> {
+        let solution = self.planner.solve_from(situation, task, self.library, watch)?;
+        if solution.best().is_some_and(|best| best.plan.pushes.is_empty() && best.outcome.reached) {
+            return Ok(None);
+        }
+        let plans: Vec<(Plan, Arc<Tool>)> = solution
+            .plans
+            .into_iter()
+            .filter(|ranked| !ranked.plan.pushes.is_empty())
+            .map(|ranked| (ranked.plan, ranked.tool))
+            .collect();
+        let reach = samples.reach(self.planner.model(), task, &plans);
+        Ok(Some(Judged { plans, reach }))
+    }
+}
+
+/// Pushes that were made only to learn something.
+fn probes(steps: &[Step]) -> usize {
+    steps.iter().filter(|step| step.why == Why::Probe).count()
+}
+
+/// What is left of a plan after a step, moved by as much as the object stands beside where it was
+/// expected; nothing if that breaks a rule of the task, or nothing is left.
+fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
+    let left = last.plan.pushes.get(last.pushes..).filter(|left| !left.is_empty())?;
+    if last.why == Why::Probe || last.plan.form == PushForm::Chained {
+        return None;
+    }
+    let off: Vector = now.start.poses[task.goal.object].position - last.expected.position;
+    let asked = |push: &Push| AskedPush {
+        start: AskedStart::At(push.start + off),
+        direction: push.direction,
+        length: Some(push.length),
+        speed: Some(push.speed),
+    };
+    let pushes: Vec<AskedPush> = left.iter().map(asked).collect();
+    let tool = Arc::new(last.tool.clone());
+    let asked = asked_plan(task, now, &tool, &[last.plan.grip_yaw], &pushes).ok()?;
+    asked.broken.is_empty().then_some((asked.plan, tool))
+}

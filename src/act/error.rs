@@ -1,0 +1,47 @@
+//! Why a run cannot go on.
+
+use thiserror::Error;
+
+use crate::asset::Faults;
+use crate::solve::SolveError;
+
+use super::world::WorldError;
+
+/// Why a run cannot go on. What was done is in the trace.
+#[derive(Debug, Error)]
+pub enum ActError {
+    /// The task cannot be tried.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The world cannot be acted in any more.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// What is seen is of another table.
+    #[error("{found} objects are reported where the task has {expected}")]
+    Objects {
+        /// Objects of the task.
+        expected: usize,
+        /// Objects that were reported.
+        found: usize,
+    },
+    /// The object that matters is not seen any more.
+    #[error("`{object}` is not seen, though the tool is lifted and {looks} looks were taken")]
+    Lost {
+        /// Its name.
+        object: String,
+        /// How often was looked.
+        looks: usize,
+    },
+    /// The trace is of another run, or was damaged.
+    #[error("the trace does not fit: {0}")]
+    Trace(String),
+    /// The trace cannot be kept.
+    #[error(transparent)]
+    Keep(#[from] Faults),
+    /// Stopped from outside.
+    #[error("stopped after {pushes} pushes")]
+    Stopped {
+        /// Pushes that were made and kept.
+        pushes: usize,
+    },
+}

@@ -1,0 +1,336 @@
+//! What was seen during a motion, put in order.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Vector;
+use crate::scene::{FRAME_TRAVEL, Observation, Sight, State, Stroke, ToolMotion};
+
+use super::error::ActError;
+use super::world::Look;
+
+/// Two objects have changed places where each is farther than the first from where it can be and
+/// nearer than the second to where the other can be, metres.
+const APART: f64 = 0.04;
+const THERE: f64 = 0.02;
+
+/// What a tool pushes goes at most so many times as far as the tool, and as much farther, metres: it
+/// may swing about a joint and slide on.
+const SWING: f64 = 2.0;
+const SLIDE: f64 = 0.10;
+
+/// What was wrong with what was seen, and ridden out.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Note {
+    /// Looks came late and were put in order.
+    OutOfOrder,
+    /// Looks of no time of this motion were left out.
+    Untimely,
+    /// A sight that is no place was left out.
+    Unreadable {
+        /// Index of the object.
+        object: usize,
+    },
+    /// Two objects were taken for each other.
+    Swapped {
+        /// Their indices.
+        between: [usize; 2],
+    },
+    /// An object was seen where it cannot be.
+    Jumped {
+        /// Its index.
+        object: usize,
+    },
+    /// An object was not seen at rest, and is taken to be where it was predicted.
+    Unseen {
+        /// Its index.
+        object: usize,
+    },
+    /// An object is not where any push can have brought it: somebody has moved it.
+    Moved {
+        /// Its index.
+        object: usize,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Note::OutOfOrder => write!(f, "looks came late and were put in order"),
+            Note::Untimely => write!(f, "looks of another time were left out"),
+            Note::Unreadable { object } => {
+                write!(f, "object {object} was seen at no place; left out")
+            }
+            Note::Swapped { between: [a, b] } => {
+                write!(f, "objects {a} and {b} were taken for each other; changed back")
+            }
+            Note::Jumped { object } => {
+                write!(f, "object {object} was seen where it cannot be; left out")
+            }
+            Note::Unseen { object } => {
+                write!(
+                    f,
+                    "object {object} was not seen at rest; taken to be where it was predicted"
+                )
+            }
+            Note::Moved { object } => write!(f, "object {object} was moved by somebody else"),
+        }
+    }
+}
+
+/// What is seen, one after another, with what was wrong with it.
+#[derive(Clone, Debug)]
+pub(super) struct Gatherer {
+    /// Where every object was seen last, or else is thought to be.
+    last: Vec<Vector>,
+    /// Where every object is predicted to come to rest.
+    predicted: Vec<Vector>,
+    /// Travel of the tool since every object was seen last, metres.
+    travelled: Vec<f64>,
+    pub notes: Vec<Note>,
+}
+
+impl Gatherer {
+    /// Before a motion that begins in `before` and is predicted to end in `predicted`.
+    pub fn new(before: &State, predicted: &State) -> Self {
+        let places = |state: &State| state.poses.iter().map(|pose| pose.position).collect();
+        Self {
+            last: places(before),
+            predicted: places(predicted),
+            travelled: vec![0.0; before.poses.len()],
+            notes: Vec::new(),
+        }
+    }
+
+    /// What was seen while a motion went on, and at rest after it; nothing for the latter where no
+    /// look is of then.
+    ///
+    /// # Errors
+    /// [`ActError::Objects`] if the looks are of another table.
+    pub fn motion(
+        &mut self,
+        motion: &ToolMotion,
+        mut looks: Vec<Look>,
+    ) -> Result<(Vec<Observation>, Option<Look>), ActError> {
+        let whole: f64 = motion.strokes.iter().map(|stroke| stroke.duration).sum();
+        let travel: f64 = motion.strokes.iter().map(Stroke::travel).sum();
+        let count = looks.len();
+        looks.retain(|look| look.time >= 0.0 && look.time.is_finite());
+        if looks.len() < count {
+            self.note(Note::Untimely);
+        }
+        if !looks.is_sorted_by(|a, b| a.time <= b.time) {
+            looks.sort_by(|a, b| a.time.total_cmp(&b.time));
+            self.note(Note::OutOfOrder);
+        }
+        // About one look for each frame of a model: nearer ones show less than the noise.
+        let least = 0.8 * whole * FRAME_TRAVEL / travel.max(FRAME_TRAVEL);
+        let (mut observations, mut rest, mut done) = (Vec::new(), None, 0.0);
+        for look in looks {
+            if look.time >= whole - 1e-9 {
+                rest = Some(look);
+            } else if look.time - done >= least && whole - look.time >= least {
+                let strokes = between(motion, done, look.time);
+                let gone = strokes.iter().map(Stroke::travel).sum();
+                let seen = self.sights(&look, gone)?;
+                observations.push(Observation { strokes, seen });
+                done = look.time;
+            }
+        }
+        let mut strokes = between(motion, done, whole);
+        if let Some(last) = strokes.last_mut() {
+            last.settle = true;
+        }
+        let gone: f64 = strokes.iter().map(Stroke::travel).sum();
+        let seen = match &rest {
+            Some(look) => self.sights(look, gone)?,
+            None => {
+                self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
+                vec![None; self.last.len()]
+            }
+        };
+        observations.push(Observation { strokes, seen });
+        Ok((observations, rest))
+    }
+
+    /// Where objects were seen after another `gone` metres of travel, as far as that can be.
+    ///
+    /// # Errors
+    /// [`ActError::Objects`] if the look is of another table.
+    pub fn sights(&mut self, look: &Look, gone: f64) -> Result<Vec<Option<Sight>>, ActError> {
+        let (expected, found) = (self.last.len(), look.seen.len());
+        if expected != found {
+            return Err(ActError::Objects { expected, found });
+        }
+        self.travelled.iter_mut().for_each(|travelled| *travelled += gone);
+        let mut seen = look.seen.clone();
+        for (object, sight) in seen.iter_mut().enumerate() {
+            let is_place = |sight: &Sight| {
+                let heading = sight.heading.is_none_or(f64::is_finite);
+                heading && sight.position.iter().all(|x| x.is_finite())
+            };
+            if sight.is_some_and(|sight| !is_place(&sight)) {
+                *sight = None;
+                self.note(Note::Unreadable { object });
+            }
+        }
+        self.change_back(&mut seen);
+        for (object, sight) in seen.iter_mut().enumerate() {
+            let Some(Sight { position, .. }) = *sight else { continue };
+            let most = SWING * self.travelled[object] + SLIDE;
+            if (position - self.last[object]).norm() > most {
+                *sight = None;
+                self.note(Note::Jumped { object });
+            } else {
+                self.last[object] = position;
+                self.travelled[object] = 0.0;
+            }
+        }
+        Ok(seen)
+    }
+
+    /// Notes something once.
+    pub fn note(&mut self, note: Note) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
+        }
+    }
+
+    /// Changes objects back that were taken for each other.
+    fn change_back(&mut self, seen: &mut [Option<Sight>]) {
+        for a in 0..seen.len() {
+            for b in a + 1..seen.len() {
+                let [Some(one), Some(other)] = [seen[a], seen[b]] else { continue };
+                let off = |object: usize, sight: Sight| {
+                    let from = |place: Vector| (sight.position - place).norm();
+                    from(self.last[object]).min(from(self.predicted[object]))
+                };
+                let apart = off(a, one).min(off(b, other)) > APART;
+                if apart && off(a, other).max(off(b, one)) < THERE {
+                    seen.swap(a, b);
+                    self.note(Note::Swapped { between: [a, b] });
+                }
+            }
+        }
+    }
+}
+
+/// What the tool does from one time of a motion to another, seconds.
+fn between(motion: &ToolMotion, from: f64, to: f64) -> Vec<Stroke> {
+    let mut strokes = Vec::new();
+    let mut begins = 0.0;
+    for stroke in &motion.strokes {
+        let ends = begins + stroke.duration;
+        let (first, last) = (from.max(begins), to.min(ends));
+        if last - first > 1e-9 {
+            let share = |time: f64| (time - begins) / stroke.duration;
+            strokes.push(Stroke {
+                from: stroke.from.towards(&stroke.to, share(first)),
+                to: stroke.from.towards(&stroke.to, share(last)),
+                duration: last - first,
+                settle: false,
+            });
+        }
+        begins = ends;
+    }
+    strokes
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::geometry::Pose;
+    use crate::scene::{Part, Push, Tool};
+
+    fn motion() -> ToolMotion {
+        let part = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
+        let tool = Arc::new(Tool::new("bar", [part]).expect("one piece"));
+        let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
+        ToolMotion::pushes(tool, 0.0, 0.0, &[push], true)
+    }
+
+    fn state(places: [[f64; 2]; 2]) -> State {
+        State::at_rest(places.map(|[x, y]| Pose::new(x, y, 0.0)).to_vec())
+    }
+
+    fn look(time: f64, places: [[f64; 2]; 2]) -> Look {
+        let sight = |[x, y]: [f64; 2]| Some(Sight::new(&Pose::new(x, y, 0.0), true));
+        Look { time, seen: places.map(sight).to_vec() }
+    }
+
+    const STILL: [f64; 2] = [0.5, 0.3];
+
+    /// The first object goes with the tool from 0.05 on, the second stays.
+    fn looks() -> Vec<Look> {
+        let at = |k: usize| look(0.1 * k as f64, [[0.05 + 0.01 * k as f64, 0.0], STILL]);
+        (1..=21).map(at).collect()
+    }
+
+    fn gatherer() -> Gatherer {
+        Gatherer::new(&state([[0.05, 0.0], STILL]), &state([[0.25, 0.0], STILL]))
+    }
+
+    #[test]
+    fn strokes_between_looks_are_the_motion_and_only_the_last_settles() {
+        let (observations, rest) = gatherer().motion(&motion(), looks()).expect("one table");
+        let strokes: Vec<&Stroke> = observations.iter().flat_map(|seen| &seen.strokes).collect();
+        let travel: f64 = strokes.iter().map(|stroke| stroke.travel()).sum();
+        assert!((travel - 0.2).abs() < 1e-9 && observations.len() == 20, "{travel}");
+        assert!(strokes.windows(2).all(|two| two[0].to == two[1].from && !two[0].settle));
+        assert!(strokes.last().is_some_and(|last| last.settle));
+        assert_eq!(rest.map(|look| look.time), Some(0.1 * 21.0));
+    }
+
+    #[test]
+    fn late_looks_change_nothing_but_are_noted_and_those_of_other_times_are_left_out() {
+        let (ordered, _) = gatherer().motion(&motion(), looks()).expect("one table");
+        let mut late = looks();
+        late.swap(3, 9);
+        late.push(look(-1.0, [[9.0, 9.0], STILL]));
+        late.push(look(f64::NAN, [[9.0, 9.0], STILL]));
+        let mut gatherer = gatherer();
+        let (again, _) = gatherer.motion(&motion(), late).expect("one table");
+        assert_eq!(again, ordered);
+        assert_eq!(gatherer.notes, [Note::Untimely, Note::OutOfOrder]);
+    }
+
+    #[test]
+    fn missing_looks_leave_longer_strokes_and_no_rest() {
+        let few: Vec<Look> = looks().into_iter().step_by(6).take(3).collect();
+        let (observations, rest) = gatherer().motion(&motion(), few).expect("one table");
+        assert_eq!(observations.len(), 4);
+        assert!(rest.is_none() && observations[3].seen == [None, None]);
+    }
+
+    #[test]
+    fn objects_that_were_taken_for_each_other_are_changed_back() {
+        let mut swapped = looks();
+        for look in &mut swapped[8..] {
+            look.seen.swap(0, 1);
+        }
+        let (ordered, _) = gatherer().motion(&motion(), looks()).expect("one table");
+        let mut gatherer = gatherer();
+        let (again, _) = gatherer.motion(&motion(), swapped).expect("one table");
+        assert_eq!(again, ordered);
+        assert_eq!(gatherer.notes, [Note::Swapped { between: [0, 1] }]);
+    }
+
+    #[test]
+    fn what_cannot_be_is_not_seen_and_another_table_is_an_error() {
+        let mut wild = looks();
+        wild[4].seen[1] = Some(Sight { position: Vector::new(2.0, 2.0), heading: None });
+        wild[5].seen[0] = Some(Sight { position: Vector::new(f64::NAN, 0.0), heading: None });
+        let mut one = gatherer();
+        let (observations, _) = one.motion(&motion(), wild).expect("one table");
+        assert_eq!([observations[4].seen[1], observations[5].seen[0]], [None, None]);
+        let notes = [Note::Jumped { object: 1 }, Note::Unreadable { object: 0 }];
+        assert_eq!(one.notes, notes);
+        let short = vec![Look { time: 1.0, seen: vec![None] }];
+        let refused = gatherer().motion(&motion(), short);
+        assert!(matches!(refused, Err(ActError::Objects { expected: 2, found: 1 })));
+    }
+}

@@ -1,0 +1,89 @@
+//! How good a plan is under samples of a belief.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::effect::EffectModel;
+use crate::scene::{Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, Trajectory};
+
+/// A miss by more tolerances than this is no worse: one sample in which all goes wrong must not
+/// outweigh the others.
+const WORST: f64 = 10.0;
+
+/// What is expected of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Chance {
+    /// Share of the samples in which it reaches the goal.
+    pub share: f64,
+    /// Mean error at its end in units of the tolerance.
+    pub score: f64,
+}
+
+/// The situation under every sample: where things are is the same, what they are like is not.
+#[derive(Clone, Debug)]
+pub(super) struct Samples {
+    pub now: Situation,
+    pub physics: Vec<Arc<Physics>>,
+}
+
+impl Samples {
+    /// Jobs of a plan under all samples.
+    pub fn jobs(&self, plan: &Plan, tool: &Arc<Tool>) -> Vec<Job> {
+        let motion = plan.motion(tool);
+        let job = |physics: &Arc<Physics>| Job {
+            start: self.now.start.clone(),
+            motion: motion.clone(),
+            physics: Arc::clone(physics),
+        };
+        self.physics.iter().map(job).collect()
+    }
+
+    /// What comes of plans with at least one push each, in every sample.
+    pub fn reach(
+        &self,
+        model: &dyn EffectModel,
+        task: &Task,
+        plans: &[(Plan, Arc<Tool>)],
+    ) -> Vec<Vec<Reach>> {
+        let jobs: Vec<Job> = plans.iter().flat_map(|(plan, tool)| self.jobs(plan, tool)).collect();
+        let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
+        let reach = |trajectory: &Trajectory| {
+            let outcome = Outcome::judge(&task.goal, trajectory);
+            let score = task.goal.score(&outcome.state);
+            // A NaN is no smaller than anything.
+            Reach { reached: outcome.reached, score: if score < WORST { score } else { WORST } }
+        };
+        let each = rolled.chunks(self.physics.len().max(1));
+        each.map(|rolled| rolled.iter().map(reach).collect()).collect()
+    }
+}
+
+/// What comes of a plan in a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    /// Whether it reaches the goal.
+    pub reached: bool,
+    /// Error at its end in units of the tolerance.
+    pub score: f64,
+}
+
+impl Chance {
+    /// Over all samples.
+    pub(super) fn of(reach: &[Reach]) -> Self {
+        let count = reach.len().max(1) as f64;
+        let reached = reach.iter().filter(|reach| reach.reached).count();
+        Self {
+            share: reached as f64 / count,
+            score: reach.iter().map(|reach| reach.score).sum::<f64>() / count,
+        }
+    }
+
+    /// Whether it is better than another: reaches the goal in more samples, or, in as many, ends
+    /// nearer.
+    pub fn beats(&self, other: &Self) -> bool {
+        let (mine, theirs) = ((self.share, -self.score), (other.share, -other.score));
+        mine.0 > theirs.0 || (mine.0 == theirs.0 && mine.1 > theirs.1)
+    }
+}

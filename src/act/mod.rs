@@ -1,0 +1,45 @@
+//! The closed loop: plan under what is believed, push, look, believe, plan again.
+//!
+//! A [`Runner`] does that in any [`World`], a robot's table or a [`SimulatedWorld`] with a hidden
+//! truth, and writes down everything in a [`Trace`], from which it can go on after an interruption.
+//! Nothing is planned, predicted or inferred here; that is for `solve`, `effect` and `belief`.
+//!
+//! # What is seen
+//!
+//! Whoever watches a table reports what happens to be seen, not what a filter would like:
+//!
+//! | what comes | what is done |
+//! |---|---|
+//! | an object is not seen | the others tell what they can; at rest the table is looked at again, up to three times |
+//! | still not seen at rest | taken to be where it was predicted; of the goal's object [`ActError::Lost`] |
+//! | an instant is missing | the next one tells of the motion since the last |
+//! | late, out of order | put in order by its time, within one motion |
+//! | of before the motion, at no time | left out |
+//! | a number that is none | that object was not seen |
+//! | two objects in each other's places | changed back |
+//! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
+//! | another number of objects | [`ActError::Objects`]: this is another table |
+//!
+//! All that is ridden out, but objects that are not seen for a while and instants that are missing,
+//! leaves a [`Note`] in the trace.
+
+mod decide;
+mod error;
+mod gather;
+mod judge;
+mod probe;
+mod runner;
+mod settings;
+mod simulated;
+mod trace;
+mod world;
+
+pub use error::ActError;
+pub use gather::Note;
+pub use judge::Chance;
+pub use probe::ProbeRule;
+pub use runner::Runner;
+pub use settings::RunSettings;
+pub use simulated::{SimulatedWorld, hidden};
+pub use trace::{End, Step, TRACE_VERSION, Trace, Why};
+pub use world::{Look, World, WorldError, WorldState};

@@ -1,0 +1,291 @@
+//! The loop.
+
+use std::sync::Arc;
+
+use crate::asset::{Faults, ToolLibrary};
+use crate::belief::{Belief, BeliefSettings, generator};
+use crate::effect::Prior;
+use crate::geometry::Pose;
+use crate::scene::{
+    Goal, Job, Observation, Plan, PushForm, Record, Scene, Sight, Situation, State, Tool,
+};
+use crate::solve::Planner;
+use crate::watch::Watch;
+
+use super::decide::Decision;
+use super::error::ActError;
+use super::gather::{Gatherer, Note};
+use super::judge::{Chance, Samples};
+use super::trace::{End, Step, Trace, Why};
+use super::world::{Look, World};
+
+/// The table is looked at so often where something is not seen at rest.
+const LOOKS: usize = 3;
+
+/// Two looks at rest agree within this distance beyond the noise, metres.
+const AGREE: f64 = 0.01;
+
+/// The goal counts as reached if it is with this many standard deviations of doubt, but half of the
+/// tolerance is never asked for more.
+const SURE: f64 = 1.645;
+
+/// Plans, acts, looks, believes, and plans again.
+pub struct Runner<'a> {
+    pub(super) planner: &'a Planner,
+    pub(super) library: &'a ToolLibrary,
+    /// Rolls out hypotheses of the belief.
+    model: Prior,
+}
+
+impl<'a> Runner<'a> {
+    /// A runner that plans with `planner` and chooses among the tools of `library`.
+    pub fn new(planner: &'a Planner, library: &'a ToolLibrary) -> Self {
+        Self { planner, library, model: Prior::default() }
+    }
+
+    /// Goes on with `trace`, from the beginning if it is new, until it has an end. `keep` is given the
+    /// trace after the first look and after every step, so that an interrupted run goes on from there,
+    /// to the same bits.
+    ///
+    /// # Errors
+    /// If the run cannot go on, or is stopped by `watch`; what was done is in the trace.
+    pub fn run(
+        &self,
+        trace: &mut Trace,
+        world: &mut dyn World,
+        keep: &mut dyn FnMut(&Trace) -> Result<(), Faults>,
+        watch: &dyn Watch,
+    ) -> Result<(), ActError> {
+        if trace.first.is_none() {
+            trace.first = Some(world.look()?);
+            trace.before = world.save();
+            trace.prior = self.begin(trace)?.probabilities();
+            keep(trace)?;
+        }
+        let mut belief = self.begin(trace)?;
+        for step in &trace.steps {
+            self.again(trace, &mut belief, step)?;
+        }
+        let saved = match trace.steps.last() {
+            Some(step) => step.world.as_ref(),
+            None => trace.before.as_ref(),
+        };
+        if let Some(saved) = saved {
+            world.restore(saved);
+        }
+        while trace.end.is_none() {
+            if watch.cancelled() {
+                return Err(ActError::Stopped { pushes: trace.pushes() });
+            }
+            let decision = self.next(trace, &belief, watch)?;
+            // What was decided under pressure of time would not be decided again.
+            if watch.cancelled() {
+                return Err(ActError::Stopped { pushes: trace.pushes() });
+            }
+            match decision {
+                Decision::Done => trace.end = Some(End::Reached),
+                Decision::Nothing => trace.end = Some(End::NoPush),
+                Decision::Do { .. } if trace.steps.len() >= trace.settings.pushes => {
+                    trace.end = Some(End::UsedUp);
+                }
+                Decision::Do { why, plan, tool, chance } => {
+                    let step = self.step(trace, &mut belief, world, (why, plan, tool, chance))?;
+                    trace.steps.push(step);
+                    watch.progress(trace.steps.len() as u64, trace.settings.pushes as u64);
+                }
+            }
+            keep(trace)?;
+        }
+        Ok(())
+    }
+
+    /// What is believed after the first look.
+    fn begin(&self, trace: &Trace) -> Result<Belief, ActError> {
+        let Trace { task, settings, first, .. } = trace;
+        let stated = task.scene.start();
+        let mut gatherer = Gatherer::new(&stated, &stated);
+        let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
+        let seen = gatherer.sights(look, 0.0)?;
+        let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
+            Some(Sight { position, heading }) => Pose {
+                position: *position,
+                heading: heading.map_or(stated.heading, |heading| near(heading, stated.heading)),
+            },
+            None => *stated,
+        });
+        let start = State::at_rest(poses.collect());
+        let scene = seen_at(&task.scene, &start);
+        let tools = task.tools(self.library).map_err(crate::solve::SolveError::from)?;
+        let tool = tools.first().ok_or_else(|| ActError::Trace("its task has no tool".into()))?;
+        let belief_settings = BeliefSettings::new(settings.noise);
+        let held = (Arc::clone(tool), task.pushes.lift);
+        Ok(Belief::about(&scene, task.unknown, held, belief_settings, settings.seed))
+    }
+
+    /// What is done next.
+    fn next(
+        &self,
+        trace: &Trace,
+        belief: &Belief,
+        watch: &dyn Watch,
+    ) -> Result<Decision, ActError> {
+        let Trace { task, settings, steps, .. } = trace;
+        let now = belief.situation();
+        if is_sure(&task.goal, &now.start, belief.doubt()[task.goal.object]) {
+            return Ok(Decision::Done);
+        }
+        let mut rng = generator(settings.seed, steps.len() as u64);
+        let physics = (0..settings.samples.max(1)).map(|_| Arc::new(belief.sample(&mut rng)));
+        let samples = Samples { physics: physics.collect(), now };
+        self.decide(trace, (belief, &samples), watch)
+    }
+
+    /// Makes the first push of a plan, or all of a chained one, and takes in what is seen.
+    fn step(
+        &self,
+        trace: &Trace,
+        belief: &mut Belief,
+        world: &mut dyn World,
+        (why, plan, tool, chance): (Why, Plan, Arc<Tool>, Chance),
+    ) -> Result<Step, ActError> {
+        let task = &trace.task;
+        let pushes = match plan.form {
+            PushForm::Placed => 1.min(plan.pushes.len()),
+            PushForm::Chained => plan.pushes.len(),
+        };
+        let done = Plan { pushes: plan.pushes[..pushes].to_vec(), ..plan.clone() };
+        let predicted = self.predicted(&belief.situation(), &done, &tool);
+        let motion = done.motion(&tool);
+        let looks = world.act(&motion)?;
+        let mut gatherer = Gatherer::new(&belief.situation().start, &predicted);
+        let seen = gatherer.motion(&motion, looks.clone())?;
+        let mut again = Vec::new();
+        let mut look = || {
+            let look = world.look()?;
+            again.push(look.clone());
+            Ok(look)
+        };
+        let observations = rests(trace, &mut gatherer, seen, &mut look)?;
+        self.believe(belief, (&tool, plan.lift), observations);
+        Ok(Step {
+            why,
+            pushes,
+            chance,
+            expected: predicted.poses[task.goal.object],
+            tool: Tool::clone(&tool),
+            plan,
+            looks,
+            again,
+            notes: gatherer.notes,
+            state: belief.situation().start,
+            probabilities: belief.probabilities(),
+            numbers: belief.numbers(),
+            world: world.save(),
+        })
+    }
+
+    /// Takes a step of a trace into the belief again.
+    fn again(&self, trace: &Trace, belief: &mut Belief, step: &Step) -> Result<(), ActError> {
+        let unfit = |why: &str| ActError::Trace(why.to_owned());
+        let pushes = step.plan.pushes.get(..step.pushes).filter(|pushes| !pushes.is_empty());
+        let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan has not"))?;
+        if step.state.poses.len() != trace.task.scene.objects.len() {
+            return Err(unfit("a step is of another number of objects"));
+        }
+        let done = Plan { pushes: pushes.to_vec(), ..step.plan.clone() };
+        let tool = Arc::new(step.tool.clone());
+        let motion = done.motion(&tool);
+        let now = belief.situation();
+        let predicted = self.predicted(&now, &done, &tool);
+        let mut gatherer = Gatherer::new(&now.start, &predicted);
+        let seen = gatherer.motion(&motion, step.looks.clone())?;
+        let mut again = step.again.iter().cloned();
+        let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
+        let observations = rests(trace, &mut gatherer, seen, &mut look)?;
+        self.believe(belief, (&tool, done.lift), observations);
+        Ok(())
+    }
+
+    fn believe(
+        &self,
+        belief: &mut Belief,
+        (tool, lift): (&Arc<Tool>, f64),
+        observations: Vec<Observation>,
+    ) {
+        belief.take_tool(Arc::clone(tool), lift);
+        for observation in observations {
+            belief.update(&self.model, observation);
+        }
+        belief.settle(&self.model);
+    }
+
+    /// Where a plan leaves everything, as far as is believed.
+    fn predicted(&self, now: &Situation, plan: &Plan, tool: &Arc<Tool>) -> State {
+        let job = Job::new(now, plan.motion(tool));
+        let model = self.planner.model();
+        let rolled = model.rollout(&now.scene, std::slice::from_ref(&job), Record::Outcome);
+        rolled.first().map_or_else(|| now.start.clone(), |rolled| rolled.outcome().clone())
+    }
+}
+
+/// Looks again at what was not seen at rest, and gives the observations with what is then seen.
+fn rests(
+    trace: &Trace,
+    gatherer: &mut Gatherer,
+    (mut observations, mut rest): (Vec<Observation>, Option<Look>),
+    look: &mut dyn FnMut() -> Result<Look, ActError>,
+) -> Result<Vec<Observation>, ActError> {
+    let task = &trace.task;
+    let Some(last) = observations.last_mut() else { return Ok(observations) };
+    for _ in 0..LOOKS {
+        if last.seen.iter().all(Option::is_some) {
+            break;
+        }
+        let now = look()?;
+        let seen = gatherer.sights(&now, 0.0)?;
+        let missing = last.seen.iter_mut().enumerate().filter(|(_, sight)| sight.is_none());
+        for (object, sight) in missing {
+            *sight = seen[object];
+            let twice = [rest.as_ref().and_then(|rest| rest.seen[object]), now.seen[object]];
+            if let (None, [Some(one), Some(other)]) = (&sight, twice) {
+                let off = (one.position - other.position).norm();
+                // A NaN agrees with nothing.
+                if off <= AGREE + 6.0 * trace.settings.noise.position {
+                    *sight = Some(other);
+                    gatherer.note(Note::Moved { object });
+                }
+            }
+        }
+        rest = Some(now);
+    }
+    for (object, _) in last.seen.iter().enumerate().filter(|(_, sight)| sight.is_none()) {
+        if object == task.goal.object {
+            let object = task.scene.objects[object].name.clone();
+            return Err(ActError::Lost { object, looks: LOOKS });
+        }
+        gatherer.note(Note::Unseen { object });
+    }
+    Ok(observations)
+}
+
+/// Whether the goal is reached whatever the doubt about where the object is: metres and radians.
+fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
+    let less = |tolerance: f64, doubt: f64| (tolerance - SURE * doubt).max(0.5 * tolerance);
+    let heading = goal.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
+    Goal { tolerance: less(goal.tolerance, place), heading, ..*goal }.reached(state)
+}
+
+/// The scene with its objects where they are seen; known joints go with them.
+fn seen_at(scene: &Scene, start: &State) -> Scene {
+    let mut seen = scene.clone();
+    seen.joints = crate::belief::carried(&scene.joints, scene, start);
+    for (object, pose) in seen.objects.iter_mut().zip(&start.poses) {
+        object.pose = *pose;
+    }
+    seen
+}
+
+/// A heading up to whole turns, near another.
+fn near(heading: f64, other: f64) -> f64 {
+    other + crate::geometry::wrap_angle(heading - other)
+}

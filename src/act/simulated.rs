@@ -1,0 +1,99 @@
+//! A simulated world, whose truth is hidden behind noise.
+
+use crate::asset::{Faults, ToolLibrary};
+use crate::belief::{Belief, BeliefSettings, generator, normal};
+use crate::geometry::Vector;
+use crate::scene::{Job, Physics, Rate, Record, Sight, State, Task, ToolMotion, Truth, Warning};
+use crate::sim::Simulator;
+
+use super::world::{Look, World, WorldError, WorldState};
+
+/// A world in one of the engines.
+#[derive(Clone, Debug)]
+pub struct SimulatedWorld {
+    truth: Truth,
+    simulator: Simulator,
+    state: State,
+    looks: u64,
+}
+
+impl SimulatedWorld {
+    /// The world as it begins.
+    pub fn new(truth: Truth) -> Self {
+        let simulator = Simulator::new(truth.engine, Rate::DEFAULT);
+        Self { state: truth.scene.start(), simulator, looks: 0, truth }
+    }
+
+    /// Where everything really is.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// What is seen of a state.
+    fn see(&mut self, time: f64, state: &State) -> Look {
+        let mut rng = generator(self.truth.seed, self.looks);
+        self.looks += 1;
+        let noise = self.truth.noise;
+        let seen = state.poses.iter().map(|pose| {
+            let off = Vector::new(normal(&mut rng), normal(&mut rng)) * noise.position;
+            let heading = pose.heading + noise.heading * normal(&mut rng);
+            let position = pose.position + off;
+            Some(Sight { position, heading: self.truth.headings.then_some(heading) })
+        });
+        Look { time, seen: seen.collect() }
+    }
+}
+
+impl World for SimulatedWorld {
+    fn look(&mut self) -> Result<Look, WorldError> {
+        let state = self.state.clone();
+        Ok(self.see(0.0, &state))
+    }
+
+    fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
+        let physics = Physics::stated(&self.truth.scene).into();
+        let job = Job { start: self.state.clone(), motion: motion.clone(), physics };
+        let trajectory = self.simulator.run(&self.truth.scene, &job, Record::Frames);
+        if let Some(warning) = trajectory.warnings.iter().find(|warning| ends(warning)) {
+            return Err(WorldError(format!("the simulated world cannot go on: {warning}")));
+        }
+        let looks =
+            trajectory.frames.iter().skip(1).map(|frame| self.see(frame.time, &frame.state));
+        let looks = looks.collect();
+        self.state = State::at_rest(trajectory.outcome().poses.clone());
+        Ok(looks)
+    }
+
+    fn save(&self) -> Option<WorldState> {
+        Some(WorldState { state: self.state.clone(), looks: self.looks })
+    }
+
+    fn restore(&mut self, saved: &WorldState) {
+        self.state = saved.state.clone();
+        self.looks = saved.looks;
+    }
+}
+
+/// Whether a replay with this warning left no table to go on with.
+fn ends(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::NotFinite | Warning::Stopped | Warning::OffTable { .. } | Warning::Toppled { .. }
+    )
+}
+
+/// A world of a task, drawn from `seed`: what the task does not know is as likely as it says, everything
+/// else as it is stated. In the planar engine, seen with [`Truth::NOISE`].
+///
+/// # Errors
+/// If the task names tools that `library` does not have.
+pub fn hidden(task: &Task, library: &ToolLibrary, seed: u64) -> Result<Truth, Faults> {
+    let mut truth = Truth::stated(&task.scene, seed);
+    // Before anything has moved the tool does not matter.
+    if let Some(tool) = task.tools(library)?.into_iter().next() {
+        let settings = BeliefSettings::new(Default::default());
+        let belief = Belief::about(&task.scene, task.unknown, (tool, 0.0), settings, seed);
+        truth.scene = belief.sample_scene(&mut generator(seed, u64::MAX));
+    }
+    Ok(truth)
+}

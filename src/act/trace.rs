@@ -1,0 +1,180 @@
+//! What happened in a run: all that was seen, thought and done.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::asset::{Faults, write_atomic};
+use crate::belief::Numbers;
+use crate::geometry::Pose;
+use crate::scene::{Plan, State, Task, Tool, Truth};
+
+use super::error::ActError;
+use super::gather::Note;
+use super::judge::Chance;
+use super::settings::RunSettings;
+use super::world::{Look, WorldState};
+
+/// Version of the format; another one cannot be gone on with.
+pub const TRACE_VERSION: u32 = 1;
+
+/// A run from its beginning to where it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Trace {
+    /// Version of the format.
+    pub schema_version: u32,
+    /// What the file is.
+    pub kind: Kind,
+    /// What is to be done.
+    pub task: Task,
+    /// With which budgets.
+    pub settings: RunSettings,
+    /// What plans: effect model and effort.
+    pub planner: String,
+    /// What the world is really like, where it is simulated. The planner does not see it.
+    pub truth: Option<Truth>,
+    /// What was seen before anything was done.
+    pub first: Option<Look>,
+    /// The simulated world then.
+    pub before: Option<WorldState>,
+    /// What was believed then of every near pair, as in steps.
+    pub prior: Vec<[f64; 4]>,
+    /// What was done, in order.
+    pub steps: Vec<Step>,
+    /// How it ended; nothing as long as it goes on.
+    pub end: Option<End>,
+}
+
+/// What the file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A run.
+    Run,
+}
+
+/// Why a push was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    /// It begins a new plan that reaches the goal in enough samples.
+    Plan,
+    /// It goes on with the plan before, which still does.
+    Rest,
+    /// No plan reaches the goal in enough samples; it begins the one that is best on average.
+    Best,
+    /// It tells apart what the task depends on.
+    Probe,
+}
+
+/// One push, or the pushes of a chained plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// Why it was made.
+    pub why: Why,
+    /// What was meant to be done from here on.
+    pub plan: Plan,
+    /// With which tool.
+    pub tool: Tool,
+    /// How many of its pushes were made.
+    pub pushes: usize,
+    /// What was expected of the plan.
+    pub chance: Chance,
+    /// Where the goal's object was expected after these pushes.
+    pub expected: Pose,
+    /// What was seen meanwhile and at rest, as it was reported.
+    pub looks: Vec<Look>,
+    /// What was seen at rest where that was not enough, look by look.
+    pub again: Vec<Look>,
+    /// What was wrong with all that.
+    pub notes: Vec<Note>,
+    /// Where everything is thought to be now.
+    pub state: State,
+    /// Of every near pair the probabilities of no, a fixed, a revolute and a prismatic joint.
+    pub probabilities: Vec<[f64; 4]>,
+    /// What is believed of masses, frictions and supports.
+    pub numbers: Numbers,
+    /// The simulated world after it.
+    pub world: Option<WorldState>,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// The goal is reached, as far as can be seen.
+    Reached,
+    /// All pushes are used up.
+    UsedUp,
+    /// No push brings the object nearer.
+    NoPush,
+}
+
+impl Trace {
+    /// Of a run that begins.
+    pub fn new(task: Task, settings: RunSettings, planner: String, truth: Option<Truth>) -> Self {
+        Self {
+            schema_version: TRACE_VERSION,
+            kind: Kind::Run,
+            task,
+            settings,
+            planner,
+            truth,
+            first: None,
+            before: None,
+            prior: Vec::new(),
+            steps: Vec::new(),
+            end: None,
+        }
+    }
+
+    /// Reads a trace.
+    ///
+    /// # Errors
+    /// [`ActError::Trace`] if there is none at `path`, or a damaged one.
+    pub fn load(path: &Path) -> Result<Self, ActError> {
+        let fault = |why: String| ActError::Trace(format!("{}: {why}", path.display()));
+        let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
+        let trace: Self =
+            serde_json::from_slice(&text).map_err(|error| fault(error.to_string()))?;
+        match trace.schema_version {
+            TRACE_VERSION => Ok(trace),
+            other => Err(fault(format!("it is of version {other}, this program reads 1"))),
+        }
+    }
+
+    /// Writes the trace whole or not at all.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), Faults> {
+        // Plain data: it always has a JSON text.
+        let mut text = serde_json::to_vec(self).unwrap_or_default();
+        text.push(b'\n');
+        write_atomic(path, &text)
+    }
+
+    /// Whether it began as `other` did, so that it can be gone on with.
+    pub fn is_of(&self, other: &Self) -> bool {
+        self.task == other.task
+            && self.settings == other.settings
+            && self.planner == other.planner
+            && self.truth == other.truth
+    }
+
+    /// Pushes made so far, those of chained plans one by one.
+    pub fn pushes(&self) -> usize {
+        self.steps.iter().map(|step| step.pushes).sum()
+    }
+
+    /// Where everything really is in a simulated world.
+    pub fn real(&self) -> Option<State> {
+        let saved = match self.steps.last() {
+            Some(step) => step.world.as_ref(),
+            None => self.before.as_ref(),
+        };
+        saved.map(|saved| saved.state.clone())
+    }
+}

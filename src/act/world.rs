@@ -1,0 +1,60 @@
+//! What can be acted in.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::scene::{Sight, State, ToolMotion};
+
+/// A table on which something can be pushed and looked at: behind this a robot can stand.
+pub trait World {
+    /// Looks at the table at rest.
+    ///
+    /// # Errors
+    /// If nothing can be seen at all.
+    fn look(&mut self) -> Result<Look, WorldError>;
+
+    /// Carries out a motion, of whose strokes only the last one settles: sets the tool down where
+    /// the first stroke begins, moves it along all of them, waits until everything rests and lifts
+    /// it. Gives what was seen meanwhile and at rest, as much as there is; the more instants the more
+    /// can be learnt, one for each 10 mm of travel being enough.
+    ///
+    /// # Errors
+    /// If the motion was not carried out as it is.
+    fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
+
+    /// What an interrupted run needs to go on in a world that does not outlive it; nothing for a
+    /// real one.
+    fn save(&self) -> Option<WorldState> {
+        None
+    }
+
+    /// Goes back to what was [saved](Self::save).
+    fn restore(&mut self, state: &WorldState) {
+        let _ = state;
+    }
+}
+
+/// What is seen of the table at one instant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Look {
+    /// Since the motion began, seconds. What is seen at rest after it has a later time than its end.
+    pub time: f64,
+    /// Every object of the scene; `None` where it is not seen.
+    pub seen: Vec<Option<Sight>>,
+}
+
+/// A simulated world at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldState {
+    /// Where everything really is.
+    pub state: State,
+    /// How often was looked.
+    pub looks: u64,
+}
+
+/// Why a world cannot be acted in any more.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{0}")]
+pub struct WorldError(pub String);

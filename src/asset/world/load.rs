@@ -1,0 +1,141 @@
+//! Reading a world file beside its task.
+
+use std::path::Path;
+
+use crate::asset::fault::{Faults, did_you_mean};
+use crate::asset::node::Node;
+use crate::asset::read_text;
+use crate::asset::strict::{Ledger, check};
+use crate::asset::take::{angle_of, name_of, number_or, position, unique_names};
+use crate::asset::task::{joint_of, support_of};
+use crate::asset::text::Source;
+use crate::scene::{DisjointSets, Engine, Noise, Scene, Support, Task, Truth, carries};
+
+use super::spec::WORLD;
+
+/// Reads a world file: what is not said there is as `task` states it.
+///
+/// # Errors
+/// All faults of the file, each with its place.
+pub fn load_world(path: impl AsRef<Path>, task: &Task) -> Result<Truth, Faults> {
+    let (file, text) = read_text(path.as_ref())?;
+    let source = Source::of(&file, &text);
+    let mut root = Node::parse(source)?;
+    let mut ledger = Ledger::new(source);
+    check(&mut root, &WORLD, &mut ledger);
+    rules(&root, task, &mut ledger);
+    let truth = truth(&root, task);
+    ledger.finish(truth)
+}
+
+/// Checks a world file as far as that can be done without its task.
+pub(in crate::asset) fn check_world(text: &str, file: &str) -> Result<(), Faults> {
+    let source = Source::of(file, text);
+    let mut root = Node::parse(source)?;
+    let mut ledger = Ledger::new(source);
+    check(&mut root, &WORLD, &mut ledger);
+    unique_names(items(&root, "objects"), "objects", &mut ledger);
+    ledger.finish(Some(()))
+}
+
+fn items<'a>(root: &'a Node, key: &str) -> &'a [Node] {
+    root.get(key).map(Node::items).unwrap_or_default()
+}
+
+/// Notes faults of what refers to the task, or to something else in the file.
+fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
+    let objects = items(root, "objects");
+    unique_names(objects, "objects", ledger);
+    let names = || task.scene.objects.iter().map(|object| object.name.as_str());
+    let joints = items(root, "joints");
+    let between = joints.iter().filter_map(|joint| joint.get("between")).flat_map(Node::items);
+    for node in objects.iter().filter_map(|object| object.get("name")).chain(between) {
+        if let Some(name) = node.text().filter(|name| !names().any(|known| known == *name)) {
+            let message = format!("the task has no object `{name}`");
+            ledger.fault(node, message, did_you_mean(name, names()));
+        }
+    }
+    for object in objects {
+        if let Some(Support::Points(points)) = support_of(object)
+            && carries(&points).is_none()
+        {
+            let node = object.get("support").unwrap_or(object);
+            let message = "the object would fall: its centre does not lie between these points";
+            ledger.fault(node, message, "the points are in the object's own frame");
+        }
+    }
+    let mut sets = DisjointSets::new(task.scene.objects.len());
+    for joint in joints {
+        let kind = joint.get("kind").and_then(Node::text);
+        let needed = match kind {
+            Some("revolute") => Some("at"),
+            Some("prismatic") => Some("axis"),
+            _ => None,
+        };
+        if let Some(needed) = needed.filter(|needed| joint.get(needed).is_none()) {
+            let message = format!("a {} joint needs `{needed}`", kind.unwrap_or_default());
+            ledger.fault(joint, message, format!("add `{needed}: [x, y]`"));
+            continue;
+        }
+        let Some(read) = joint_of(joint, &task.scene.objects) else {
+            if joint.get("axis").is_some_and(|axis| !axis.items().is_empty()) && kind.is_some() {
+                let advice = "write a direction, such as [1, 0] for +x";
+                ledger.fault(joint, "this joint cannot be read", advice);
+            }
+            continue;
+        };
+        if read.between[0] == read.between[1] || !sets.join(read.between) {
+            let message = "this joint closes a loop that the simulator cannot hold";
+            ledger.fault(joint, message, "remove one joint of the loop");
+        }
+        if read
+            .limits()
+            .is_some_and(|span| span.low > 0.0 || span.high < 0.0 || span.low >= span.high)
+        {
+            let advice = "limits count from where the objects stand at the start: let them hold 0";
+            ledger.fault(joint, "the start violates these limits", advice);
+        }
+    }
+}
+
+fn truth(root: &Node, task: &Task) -> Option<Truth> {
+    let mut scene: Scene = task.scene.clone();
+    for node in items(root, "objects") {
+        let index = scene.object(name_of(node)?)?;
+        let object = &mut scene.objects[index];
+        object.mass = number_or(node, "mass", object.mass)?;
+        object.friction = number_or(node, "friction", object.friction)?;
+        if node.get("support").is_some() {
+            object.support = support_of(node)?;
+        }
+        if node.get("position").is_some() {
+            object.pose.position = position(node)?;
+        }
+        if let Some(yaw) = node.get("yaw_deg") {
+            object.pose.heading = angle_of(yaw)?;
+        }
+    }
+    scene.table_friction = number_or(root, "table_friction", scene.table_friction)?;
+    if root.get("joints").is_some() {
+        let joints = items(root, "joints").iter().map(|node| joint_of(node, &scene.objects));
+        scene.joints = joints.collect::<Option<_>>()?;
+    }
+    let noise = match root.get("noise") {
+        Some(noise) => Noise {
+            position: number_or(noise, "position", Truth::NOISE.position)?,
+            heading: noise.get("heading_deg").map_or(Some(Truth::NOISE.heading), angle_of)?,
+        },
+        None => Truth::NOISE,
+    };
+    Some(Truth {
+        scene,
+        engine: match root.get("engine").map(Node::text) {
+            None | Some(Some("planar")) => Engine::Planar,
+            Some(Some(_)) => Engine::Spatial,
+            Some(None) => return None,
+        },
+        noise,
+        headings: root.get("headings").map_or(Some(true), Node::switch)?,
+        seed: number_or(root, "seed", 0.0)? as u64,
+    })
+}

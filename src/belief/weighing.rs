@@ -1,0 +1,104 @@
+//! How what was seen of a whole push weighs the particles.
+
+use std::sync::Arc;
+
+use crate::{
+    effect::EffectModel,
+    scene::{Job, Observation, Record, State, Stroke, ToolMotion},
+};
+
+use super::{
+    filter::Belief,
+    joints::{carried, likeliest},
+    rolled::Rolled,
+    track::{ARM, Track},
+};
+
+/// Most observations that are rolled out in one go.
+const LONGEST: usize = 40;
+
+/// Instants of a push that count, the last among them: the model goes astray nearly evenly, so that
+/// more would say the same again.
+const INSTANTS: usize = 3;
+
+/// Error of a rollout: metres, and a share of the motion.
+const ASTRAY: [f64; 2] = [4e-4, 0.03];
+
+/// Share of the evidence that counts: errors of the model are the same for all objects and instants
+/// of a push.
+const TEMPERING: f64 = 0.5;
+
+/// Observations since the tool was set down.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    /// Where everything was thought to be then.
+    before: Track,
+    seen: Vec<Observation>,
+}
+
+impl Belief {
+    /// Takes a window into the particles; they are weighed once the tool is lifted.
+    pub(super) fn weigh_particles(&mut self, model: &dyn EffectModel, window: &[Observation]) {
+        if self.particles.is_empty() {
+            return;
+        }
+        let before = || Stretch { before: self.track.clone(), seen: Vec::new() };
+        let mut stretch = self.stretch.take().unwrap_or_else(before);
+        stretch.seen.extend_from_slice(window);
+        let lifted = |seen: &Observation| seen.strokes.last().is_some_and(|last| last.settle);
+        if stretch.seen.len() < LONGEST && !stretch.seen.last().is_some_and(lifted) {
+            self.stretch = Some(stretch);
+            return;
+        }
+        let Stretch { before, seen } = &stretch;
+        let start = &before.state;
+        // With the joints as they are believed by now, where they were then.
+        let mut physics = likeliest(&self.scene, &self.pairs, start);
+        physics.joints.extend(carried(&self.known, &self.scene, start));
+        let strokes: Vec<Stroke> = seen.iter().flat_map(|seen| seen.strokes.clone()).collect();
+        let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
+        let each = self.particles.each(&self.scene, &physics);
+        let job = |physics| Job {
+            start: start.clone(),
+            motion: motion.clone(),
+            physics: Arc::new(physics),
+        };
+        let jobs: Vec<Job> = each.into_iter().map(job).collect();
+        let rolled = model.rollout(&self.scene_at(start), &jobs, Record::Frames);
+        let logs: Vec<f64> = rolled
+            .iter()
+            .map(|trajectory| likelihood(before, &Rolled::new(trajectory, seen, start), seen))
+            .collect();
+        self.particles.weigh(&logs);
+    }
+}
+
+/// Logarithm of the density of what was seen, where it was rolled out so.
+fn likelihood(before: &Track, rolled: &Rolled, seen: &[Observation]) -> f64 {
+    let mut log = 0.0;
+    for instant in 1..=INSTANTS.min(seen.len()) {
+        let k = seen.len() * instant / INSTANTS.min(seen.len()) - 1;
+        let (state, now) = (&rolled.states[k], &seen[k]);
+        for object in 0..state.poses.len() {
+            log += of_object(before, object, state, now);
+        }
+    }
+    TEMPERING * log
+}
+
+fn of_object(before: &Track, object: usize, state: &State, now: &Observation) -> f64 {
+    let (start, rolled) = (&before.state.poses[object], &state.poses[object]);
+    let Some((pose, variance)) = before.sight(object, now.seen[object], rolled) else { return 0.0 };
+    let motion =
+        (rolled.position - start.position).norm().max((pose.position - start.position).norm());
+    let model = (ASTRAY[0] + ASTRAY[1] * motion).powi(2);
+    let [place, turn] = [
+        model + variance[0] + before.variance[object][0],
+        model / (ARM * ARM) + variance[1] + before.variance[object][1],
+    ];
+    let square = (pose.position - rolled.position).norm_squared() / place
+        + (pose.heading - rolled.heading).powi(2) / turn;
+    // Student's law of three numbers with four degrees of freedom; what stays where it is has the
+    // same variances under all particles.
+    -place.ln() - 0.5 * turn.ln() - 3.5 * (square / 4.0).ln_1p()
+}

@@ -1,0 +1,175 @@
+//! `pushplan run`: plan, push, look, believe, plan again.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::act::{ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden};
+use crate::asset::{ToolLibrary, load_task, load_world};
+use crate::report::run_document;
+use crate::scene::{ModelSpec, Task, Truth};
+use crate::solve::{Effort, Planner};
+
+use super::{
+    action::LibraryArgs,
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    interrupt,
+    model::{self, OutsideArgs},
+    output,
+    session::Session,
+    solve::{share, solve_error},
+    words::{EFFORTS, PROBES, words},
+};
+
+/// Carry a task out in a world that is not quite known: push, look, learn, plan again
+#[derive(Args, Debug)]
+#[command(
+    after_help = "The task's `unknown` says what nobody knows of its scene: joints, masses, frictions, support. What
+they really are is hidden in the world, a file (`pushplan schema world`) or a number, from which it is
+drawn. Every plan is judged under samples of what is believed; after every push its rest is judged
+again, and something else is planned where too few samples reach the goal.
+
+Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
+goes on from there, and the file is then the same bytes as without. Pictures: <task>.run.svg and
+<task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
+5: all pushes are used up.
+
+Examples:
+  pushplan run tasks/hidden-hinge.yaml --world 1
+  pushplan run my-task.yaml --world my-world.yaml --pushes 20 --out runs --resume"
+)]
+pub struct RunArgs {
+    /// The task file
+    task: PathBuf,
+    /// What is really there: a world file, or a seed from which it is drawn
+    #[arg(long, value_name = "FILE|SEED")]
+    world: String,
+    /// How hard to try with every plan
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
+    effort: Effort,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
+    model: Option<ModelSpec>,
+    #[command(flatten)]
+    outside: OutsideArgs,
+    /// Most pushes before giving up
+    #[arg(long, value_name = "N", default_value_t = 12,
+          value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pushes: u16,
+    /// Samples of the belief under which plans are judged
+    #[arg(long, value_name = "N", default_value_t = 16,
+          value_parser = clap::value_parser!(u16).range(1..=1000))]
+    samples: u16,
+    /// Share of the samples in which a plan must reach the goal, 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 0.8, value_parser = share)]
+    enough: f64,
+    /// Most pushes that are made only to learn something
+    #[arg(long, value_name = "N", default_value_t = 3,
+          value_parser = clap::value_parser!(u16).range(0..=1000))]
+    probes: u16,
+    /// How these are chosen
+    #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
+    rule: ProbeRule,
+    /// Seed of samples and plans
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Go on with the run that is kept in the folder, if there is one
+    #[arg(long)]
+    resume: bool,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
+    out: PathBuf,
+    #[command(flatten)]
+    library: LibraryArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
+    let library = args.library.load()?;
+    let task = load_task(&args.task, &library)?;
+    let truth = world(&args.world, &task, &library)?;
+    let spec = args.model.clone().unwrap_or_else(|| args.effort.spec());
+    let planner = Planner::builder(model::load(&spec)?)
+        .effort(args.effort)
+        .seed(args.seed)
+        .outside(args.outside.outside())
+        .build();
+    output::prepare(&args.out)?;
+    let path = args.out.join(format!("{}.run.json", task.name));
+    let settings = RunSettings {
+        pushes: args.pushes.into(),
+        samples: args.samples.into(),
+        enough: args.enough,
+        probes: args.probes.into(),
+        rule: args.rule,
+        noise: truth.noise,
+        seed: args.seed,
+        ..RunSettings::default()
+    };
+    let planned_by = format!("{spec}, effort {}, outside {}", args.effort, args.outside.outside());
+    let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
+    let mut trace = begin(&path, begun, args.resume)?;
+    let mut world = SimulatedWorld::new(truth);
+    interrupt::watch();
+    let following = Following::bar(session, "pushes");
+    let mut keep = |trace: &Trace| trace.write(&path);
+    let ran = session.compute(|| {
+        Runner::new(&planner, &library).run(&mut trace, &mut world, &mut keep, &following)
+    });
+    following.finish()?;
+    ran.map_err(|error| act_error(error, &path))?;
+    for note in trace.steps.iter().flat_map(|step| &step.notes) {
+        session.warn(&note.to_string());
+    }
+    let mut document = run_document(&trace);
+    let mut written = vec![path];
+    written.extend(output::write_figures(&args.out, document.figures())?);
+    document.wrote(&written);
+    args.form.show(session, &document)?;
+    Ok(match trace.end {
+        Some(End::Reached) => exit_code::DONE,
+        Some(End::UsedUp) => exit_code::FAILED_VERIFICATION,
+        Some(End::NoPush) | None => exit_code::NO_PLAN,
+    })
+}
+
+/// The world in a file, or drawn from a number.
+fn world(argument: &str, task: &Task, library: &ToolLibrary) -> Result<Truth, CliError> {
+    match argument.parse() {
+        Ok(seed) => Ok(hidden(task, library, seed)?),
+        Err(_) => Ok(load_world(argument, task)?),
+    }
+}
+
+/// The trace to go on with.
+fn begin(path: &Path, begun: Trace, resume: bool) -> Result<Trace, CliError> {
+    if !resume || !path.exists() {
+        return Ok(begun);
+    }
+    let there = Trace::load(path).map_err(|error| CliError::File(error.to_string()))?;
+    match there.is_of(&begun) {
+        true => Ok(there),
+        false => Err(CliError::usage(
+            format!("{} is of another task, world or settings", path.display()),
+            "the same command as before goes on with a run; without --resume a new one begins",
+        )),
+    }
+}
+
+fn act_error(error: ActError, path: &Path) -> CliError {
+    let message = error.to_string();
+    match error {
+        ActError::Solve(error) => solve_error(error),
+        ActError::Keep(faults) => CliError::Output(faults),
+        ActError::Trace(_) => CliError::File(format!("{}: {message}", path.display())),
+        ActError::Stopped { .. } => CliError::Interrupted(format!(
+            "{message}; the same command with --resume goes on from there"
+        )),
+        ActError::World(_) | ActError::Objects { .. } | ActError::Lost { .. } => {
+            CliError::Unexpected(format!("{message}; what was done is in {}", path.display()))
+        }
+    }
+}

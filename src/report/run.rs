@@ -1,0 +1,310 @@
+//! A run: what was done, what was believed meanwhile, and how it ended.
+
+use std::sync::Arc;
+
+use serde_json::json;
+
+use crate::act::{End, Step, Trace, Why};
+use crate::belief::JointType;
+use crate::geometry::{Pose, Shape};
+use crate::scene::{
+    Frame, JOINABLE, ModelKind, Part, Physics, Scene, State, Stroke, Tool, ToolMotion, Trajectory,
+    near_pairs,
+};
+
+use super::chart::{Axis, Chart, Mark, Series};
+use super::document::{Document, Figure, Section};
+use super::number::{degrees, millimetres};
+use super::picture::{ScenePicture, Source, Track};
+use super::plan_text::goal_line;
+use super::table::{
+    Align::{Left, Right},
+    NONE, Table,
+};
+
+/// A run with its pictures: `<task>.run.svg` is what was done, `<task>.belief.svg` what was believed.
+pub fn run_document(trace: &Trace) -> Document {
+    let task = &trace.task;
+    let steps = Section {
+        table: steps(trace),
+        lines: notes(trace),
+        figures: vec![picture(trace)],
+        ..Section::default()
+    };
+    let mut sections = vec![steps];
+    sections.extend(joints(trace));
+    sections.extend(numbers(trace));
+    let real = trace.real().map(|state| task.goal.error(&state));
+    Document {
+        title: format!("{}: {}", task.name, headline(trace)),
+        notes: vec![format!("goal: {}", goal_line(task)), format!("unknown: {}", task.unknown)],
+        sections,
+        json: json!({
+            "task": task.name,
+            "end": trace.end,
+            "pushes": trace.pushes(),
+            "probes": trace.steps.iter().filter(|step| step.why == Why::Probe).count(),
+            "seen_error": seen(trace).map(|state| task.goal.error(&state)),
+            "real_error": real,
+            "really_reached": trace.real().map(|state| task.goal.reached(&state)),
+            "steps": trace.steps.iter().map(|step| json!({
+                "why": step.why,
+                "tool": step.tool.name,
+                "pushes": step.plan.pushes.get(..step.pushes),
+                "grip_yaw": step.plan.grip_yaw,
+                "chance": step.chance,
+                "notes": step.notes,
+                "state": step.state,
+                "probabilities": step.probabilities,
+                "numbers": step.numbers,
+            })).collect::<Vec<_>>(),
+        }),
+        ..Document::default()
+    }
+}
+
+fn headline(trace: &Trace) -> String {
+    let pushes = match trace.pushes() {
+        0 => "without a push".to_owned(),
+        1 => "after 1 push".to_owned(),
+        count => format!("after {count} pushes"),
+    };
+    let end = match trace.end {
+        Some(End::Reached) => "reached",
+        Some(End::UsedUp) => "given up, all pushes are used up",
+        Some(End::NoPush) => "given up, no push brings it nearer",
+        None => "not finished",
+    };
+    let off = |what: &str, state: Option<State>| {
+        state.map(|state| format!("{what} {}", millimetres(trace.task.goal.error(&state))))
+    };
+    let off: Vec<String> =
+        [off("seen", seen(trace)), off("really", trace.real())].into_iter().flatten().collect();
+    match off.is_empty() {
+        true => format!("{end} {pushes}"),
+        false => format!("{end} {pushes}; off by {}", off.join(", ")),
+    }
+}
+
+/// Where everything is thought to be.
+fn seen(trace: &Trace) -> Option<State> {
+    trace.steps.last().map(|step| step.state.clone())
+}
+
+fn steps(trace: &Trace) -> Table {
+    let goal = &trace.task.goal;
+    let push = |step: &Step| step.plan.pushes.first().copied();
+    let real = |step: &Step| step.world.as_ref().map(|world| goal.error(&world.state));
+    Table::of(
+        trace.steps.iter().enumerate(),
+        &[
+            ("push", Right, &|(k, _)| (k + 1).to_string()),
+            ("why", Left, &|(_, step)| why(step.why).to_owned()),
+            ("tool", Left, &|(_, step)| step.tool.name.clone()),
+            ("direction", Right, &|(_, step)| {
+                push(step).map_or(NONE.to_owned(), |push| degrees(push.direction))
+            }),
+            ("length", Right, &|(_, step)| {
+                push(step).map_or(NONE.to_owned(), |push| millimetres(push.length))
+            }),
+            ("left of the plan", Right, &|(_, step)| {
+                step.plan.pushes.len().saturating_sub(step.pushes).to_string()
+            }),
+            ("reaches the goal in", Right, &|(_, step)| {
+                format!("{:.0} %", 100.0 * step.chance.share)
+            }),
+            ("off, seen", Right, &|(_, step)| millimetres(goal.error(&step.state))),
+            ("really", Right, &|(_, step)| real(step).map_or(NONE.to_owned(), millimetres)),
+        ],
+    )
+}
+
+fn why(why: Why) -> &'static str {
+    match why {
+        Why::Plan => "plan",
+        Why::Rest => "rest of the plan",
+        Why::Best => "best known",
+        Why::Probe => "probe",
+    }
+}
+
+fn notes(trace: &Trace) -> Vec<String> {
+    let steps = trace.steps.iter().enumerate();
+    let of = |(k, step): (usize, &Step)| {
+        step.notes.iter().map(|note| format!("push {}: {note}", k + 1)).collect::<Vec<_>>()
+    };
+    steps.flat_map(of).collect()
+}
+
+/// The pairs of a task whose joints are unknown.
+fn pairs(trace: &Trace) -> Vec<[usize; 2]> {
+    match trace.task.unknown.joints {
+        true => near_pairs(&trace.task.scene).into_iter().map(|(between, _)| between).collect(),
+        false => Vec::new(),
+    }
+}
+
+/// What is believed of the joints, and over time.
+fn joints(trace: &Trace) -> Option<Section> {
+    let last = trace.steps.last()?;
+    let pairs = pairs(trace);
+    // The pairs that are believed in are those that were seen near each other.
+    if pairs.is_empty() || pairs.len() != last.probabilities.len() {
+        return None;
+    }
+    let name = |[a, b]: [usize; 2]| {
+        let objects = &trace.task.scene.objects;
+        format!("{} and {}", objects[a].name, objects[b].name)
+    };
+    let share = |k: usize| move |shares: &[f64; 4]| format!("{:.1} %", 1e2 * shares[k]);
+    let truth = |between: [usize; 2]| {
+        let truth = trace.truth.as_ref()?;
+        let mut joints = truth.scene.joints.iter();
+        let is = |joint: [usize; 2]| joint == between || joint == [between[1], between[0]];
+        Some(JointType::of(joints.find(|joint| is(joint.between))).to_string())
+    };
+    let mut table = Table::new([
+        ("objects", Left),
+        ("none", Right),
+        ("fixed", Right),
+        ("revolute", Right),
+        ("prismatic", Right),
+        ("really", Left),
+    ]);
+    for (between, shares) in pairs.iter().zip(&last.probabilities) {
+        let mut cells = vec![name(*between)];
+        cells.extend((0..4).map(|k| share(k)(shares)));
+        cells.push(truth(*between).unwrap_or(NONE.to_owned()));
+        table.row(cells);
+    }
+    let series = pairs.iter().zip(&last.probabilities).enumerate().map(|(p, (between, shares))| {
+        let most = (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0);
+        let over_time = std::iter::once(&trace.prior)
+            .chain(trace.steps.iter().map(|step| &step.probabilities))
+            .enumerate()
+            .filter_map(|(k, shares)| Some([k as f64, 1e2 * shares.get(p)?[most]]));
+        Series {
+            name: format!("{}: {}", name(*between), JointType::ALL[most]),
+            points: over_time.collect(),
+            mark: Mark::DottedLine,
+            labels: Vec::new(),
+        }
+    });
+    let chart = Chart {
+        title: "Probability of the joints believed at the end".into(),
+        x: Axis { label: "pushes".into(), log: false },
+        y: Axis { label: "probability, %".into(), log: false },
+        series: series.collect(),
+    };
+    let figures = vec![Figure::chart(format!("{}.belief", trace.task.name), chart)];
+    Some(Section { title: "joints".into(), table, figures, ..Section::default() })
+}
+
+/// What is believed of masses, frictions and supports.
+fn numbers(trace: &Trace) -> Option<Section> {
+    let (last, unknown) = (trace.steps.last()?, trace.task.unknown);
+    if !unknown.numbers() {
+        return None;
+    }
+    let scene = &trace.task.scene;
+    let truth = trace.truth.as_ref().map(|truth| Physics::stated(&truth.scene));
+    let believed = |[mean, sd]: [f64; 2]| format!("{mean:.2} \u{00b1} {sd:.2}");
+    let really = |value: &dyn Fn(&Physics) -> f64| {
+        truth.as_ref().map_or(NONE.to_owned(), |truth| format!("{:.2}", value(truth)))
+    };
+    let mut table = Table::new([
+        ("", Left),
+        ("mass, kg", Right),
+        ("really", Right),
+        ("friction", Right),
+        ("really", Right),
+    ]);
+    for (k, object) in scene.objects.iter().enumerate() {
+        let (Some(mass), Some(friction)) =
+            (last.numbers.masses.get(k), last.numbers.frictions.get(k))
+        else {
+            continue;
+        };
+        table.row([
+            object.name.clone(),
+            believed(*mass),
+            really(&|truth| truth.masses[k]),
+            believed(*friction),
+            really(&|truth| truth.frictions[k]),
+        ]);
+    }
+    table.row([
+        "table".to_owned(),
+        NONE.to_owned(),
+        NONE.to_owned(),
+        believed(last.numbers.table_friction),
+        really(&|truth| truth.table_friction),
+    ]);
+    Some(Section { title: "masses and friction values".into(), table, ..Section::default() })
+}
+
+/// What was done, and where things came.
+fn picture(trace: &Trace) -> Figure {
+    let task = &trace.task;
+    let start = trace.before.as_ref().map_or(task.scene.start(), |before| before.state.clone());
+    let states = trace.steps.iter().map(|step| match &step.world {
+        Some(world) => world.state.clone(),
+        None => step.state.clone(),
+    });
+    let states: Vec<State> = std::iter::once(start).chain(states).collect();
+    let motion = motion(trace);
+    let frames = states.iter().enumerate().map(|(k, state)| Frame {
+        time: k as f64,
+        stroke: k.saturating_sub(1),
+        tool: motion.as_ref().map_or(Pose::default(), |motion| motion.strokes[0].from),
+        state: state.clone(),
+    });
+    let trajectory =
+        Trajectory { frames: frames.collect(), ..Trajectory::new(ModelKind::Still.into()) };
+    let source = match &trace.truth {
+        Some(truth) => Source::Simulated(truth.engine),
+        None => Source::Seen,
+    };
+    // Hidden joints are drawn, as they really are.
+    let joints = trace.truth.as_ref().map_or(&task.scene.joints, |truth| &truth.scene.joints);
+    let scene = Scene { joints: joints.clone(), ..task.scene.clone() };
+    let picture = ScenePicture {
+        title: format!("{}: {}", task.name, headline(trace)),
+        notes: vec![format!("unknown: {}", task.unknown)],
+        scene: &scene,
+        goal: Some(&task.goal),
+        robot: Some(&task.robot),
+        motion: motion.as_ref(),
+        tracks: vec![Track { source, trajectory: &trajectory }],
+    };
+    Figure::svg(format!("{}.run", task.name), picture.to_svg())
+}
+
+/// All pushes as those of one tool; of several tools the end effector alone is shown.
+fn motion(trace: &Trace) -> Option<ToolMotion> {
+    let last = trace.steps.last()?;
+    let one = trace.steps.iter().all(|step| step.tool == last.tool);
+    let pin = || {
+        let shape = Shape::Cylinder { radius: 0.5 * JOINABLE.min(0.01), height: 0.05 };
+        Tool::new("end effector", [Part::new("pin", shape, Pose::default())]).ok()
+    };
+    let tool = if one { last.tool.clone() } else { pin()? };
+    let strokes = trace.steps.iter().flat_map(|step| {
+        let done = step.plan.pushes.get(..step.pushes).unwrap_or_default();
+        let at = |position| tool.pose(Pose { position, heading: step.plan.grip_yaw });
+        done.iter()
+            .map(move |push| Stroke {
+                from: at(push.start),
+                to: at(push.end()),
+                duration: push.length / push.speed,
+                settle: true,
+            })
+            .collect::<Vec<_>>()
+    });
+    let strokes: Vec<Stroke> = strokes.collect();
+    (!strokes.is_empty()).then(|| ToolMotion {
+        tool: Arc::new(tool),
+        lift: last.plan.lift,
+        strokes,
+    })
+}
