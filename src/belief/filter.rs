@@ -7,21 +7,20 @@ use serde::Serialize;
 
 use crate::{
     effect::EffectModel,
-    geometry::Pose,
     scene::{
-        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool,
-        ToolMotion, near_pairs,
+        Job, Joint, Observation, Physics, Record, Scene, Situation, Stroke, Tool, ToolMotion,
+        near_pairs,
     },
 };
 
 use super::{
     joints::{likeliest, with},
     pair::{JointType, PairBelief},
-    relative::{relative, relative_like, spread},
+    relative::{relative, spread},
     rolled::Rolled,
     settings::BeliefSettings,
     track::{ARM, Track},
-    window::{Doubt, Instant, evidence},
+    window::{Doubt, Instant, drift, evidence},
 };
 
 /// Observations that are looked at together: fewer show less than the noise, more let errors of the
@@ -143,19 +142,29 @@ impl Belief {
             .iter()
             .map(|&(p, kind)| with(&map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
         let rolled = self.roll(model, &window, physics.collect());
-        let mut evidences = Vec::new();
+        let mut told = Vec::new();
         for (p, known) in known.iter().copied().enumerate() {
-            let by_type = |kind: JointType| match kind == known {
-                true => Some(&base),
-                false => asked.iter().position(|one| *one == (p, kind)).map(|job| &rolled[job]),
-            };
+            let by_type = JointType::ALL.map(|kind| {
+                let job = asked.iter().position(|one| *one == (p, kind) && kind != known);
+                job.map_or(&base, |job| &rolled[job])
+            });
             let pair = &self.pairs[p];
-            let evidence = tells(pair).then(|| self.judge(pair, by_type, &window, &moved));
-            let pair = &mut self.pairs[p];
+            let instants =
+                by_type.map(|rolled| self.instants(pair.between, rolled, &window, &moved));
+            let evidence =
+                tells(pair).then(|| self.judge(pair, &by_type, &instants, &window, &moved));
+            told.push((by_type, instants, evidence));
+        }
+        self.track.follow(&base, &window);
+        let mut evidences = Vec::new();
+        for (pair, (by_type, instants, evidence)) in self.pairs.iter_mut().zip(told) {
             if let Some(evidence) = &evidence {
                 pair.weigh(evidence, self.settings.tempering);
             }
-            learn(pair, &window, &self.settings);
+            pair.learn(&instants);
+            pair.recount(
+                &by_type.map(|rolled| pair.between.map(|k| self.track.above(k, rolled, &window))),
+            );
             evidences.push(evidence.map(|evidence| pair.by_type(&evidence)));
         }
         self.history.push(Step {
@@ -163,7 +172,6 @@ impl Belief {
             probabilities: self.probabilities(),
             evidence: evidences,
         });
-        self.track.follow(&base, &window);
     }
 
     /// The scene as it is thought to stand now, with the likeliest joints.
@@ -209,42 +217,61 @@ impl Belief {
     /// A pair at the observations of a window, as it was seen and as it was rolled out.
     fn instants(
         &self,
-        [a, b]: [usize; 2],
+        between: [usize; 2],
         rolled: &Rolled,
         window: &[Observation],
+        moved: &[f64],
     ) -> Vec<Instant> {
+        let drift = between.map(|k| {
+            let end = rolled.states.last().map_or(0.0, |state| state.poses[k].heading);
+            let turn = end - self.track.state.poses[k].heading;
+            if moved[k] > 0.0 { drift(turn) } else { 0.0 }
+        });
         let mut instants = Vec::new();
         for (k, (now, state)) in window.iter().zip(&rolled.states).enumerate() {
-            let [first, second] = [a, b].map(|k| &state.poses[k]);
-            let one = self.track.sight(a, now.seen[a], first);
-            let other = self.track.sight(b, now.seen[b], second);
-            let (Some(one), Some(other)) = (one, other) else { continue };
-            let predicted = relative(first, second);
-            let seen = relative_like(&one.0, &other.0, &predicted);
-            let spread = spread(&seen, [one.1[0], other.1[0]], [one.1[1], other.1[1]]);
+            let rolled = between.map(|k| state.poses[k]);
+            let sights = [0, 1].map(|k| {
+                let seen = now.seen[between[k]];
+                let (pose, variance) = self.track.sight(between[k], seen, &rolled[k])?;
+                Some((pose, variance, seen?.heading.is_some()))
+            });
+            let [Some(one), Some(other)] = sights else { continue };
             let share = (k + 1) as f64 / window.len() as f64;
-            instants.push(Instant { share, seen, spread, predicted });
+            instants.push(Instant {
+                share,
+                seen: [one.0, other.0],
+                headings: [one.2, other.2],
+                variance: [one.1, other.1],
+                rolled,
+                drift: drift.map(|drift| share * drift),
+            });
         }
         instants
     }
 
     /// What a window says of every hypothesis about a pair, rolled out by type.
-    fn judge<'a>(
+    fn judge(
         &self,
         pair: &PairBelief,
-        rolled: impl Fn(JointType) -> Option<&'a Rolled>,
+        rolled: &[&Rolled; 4],
+        instants: &[Vec<Instant>; 4],
         window: &[Observation],
         moved: &[f64],
     ) -> Vec<f64> {
         let [a, b] = pair.between;
         let [first, second] = [a, b].map(|k| &self.track.state.poses[k]);
         let before = relative(first, second);
-        let variance = |which: usize| [a, b].map(|k| self.track.variance[k][which]);
-        let start = spread(&before, variance(0), variance(1));
         let by_type = JointType::ALL.map(|kind| {
-            let rolled = rolled(kind)?;
-            let instants = self.instants(pair.between, rolled, window);
-            let change: Vector3<f64> = instants.last()?.predicted - before;
+            let (rolled, instants) = (rolled[kind as usize], &instants[kind as usize]);
+            let last = instants.last()?;
+            let variance = |which: usize| {
+                // Errors of headings that are not seen turn all of a pair's frame alike.
+                let known = |k: usize| which == 0 || last.headings[k];
+                let of = |k: usize| self.track.variance[pair.between[k]][which];
+                [0, 1].map(|k| if known(k) { of(k) } else { 0.0 })
+            };
+            let start = spread(&before, variance(0), variance(1));
+            let change: Vector3<f64> = relative(&last.rolled[0], &last.rolled[1]) - before;
             let relative = change.xy().norm().hypot(ARM * change.z);
             let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM);
             Some((instants, doubt, PLACES * self.track.places(rolled, window, moved)))
@@ -261,18 +288,4 @@ impl Belief {
 
 fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint> {
     physics.joints.iter().find(|joint| joint.between == between)
-}
-
-/// Takes where a pair was seen into the geometry of every hypothesis; where a heading was not seen
-/// geometry would follow the errors of rollouts, so nothing is learnt.
-fn learn(pair: &mut PairBelief, window: &[Observation], settings: &BeliefSettings) {
-    let [position, heading] = [settings.noise.position, settings.noise.heading].map(|sd| sd * sd);
-    for now in window {
-        let pose =
-            |sight: Sight| sight.heading.map(|heading| Pose { position: sight.position, heading });
-        let [Some(one), Some(other)] = pair.between.map(|k| now.seen[k].and_then(pose)) else {
-            continue;
-        };
-        pair.learn(&one, &other, [position, heading]);
-    }
 }

@@ -10,11 +10,7 @@ use crate::{
     scene::{Joint, JointKind},
 };
 
-use super::{
-    density::log_sum,
-    fit::Fit,
-    relative::{relative_like, spread},
-};
+use super::{density::log_sum, fit::Fit, window::Instant};
 
 /// Types of joints, *none* among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -101,8 +97,6 @@ pub(super) struct PairBelief {
     /// in the frame of the first, at the start.
     midway: Vector,
     line: f64,
-    /// The last relative pose that was looked at: headings are counted from there.
-    last: Vector3<f64>,
 }
 
 impl PairBelief {
@@ -131,7 +125,7 @@ impl PairBelief {
             let share = (1.0 - REGULAR) / DIRECTIONS as f64;
             hypotheses.push(Hypothesis { log: (PRIOR[3] * share).ln(), fit });
         }
-        Self { between, hypotheses, midway, line, last: seen }
+        Self { between, hypotheses, midway, line }
     }
 
     /// Probabilities of [`JointType::ALL`]; where its motion also `follows` from other joints, it is
@@ -214,13 +208,24 @@ impl PairBelief {
         }
     }
 
-    /// Takes poses of the two, seen with these variances of positions and headings, into the geometry
-    /// of every hypothesis.
-    pub fn learn(&mut self, one: &Pose, other: &Pose, [position, heading]: [f64; 2]) {
-        let seen = relative_like(one, other, &self.last);
-        let spread = spread(&seen, [position; 2], [heading; 2]);
-        self.last = seen;
-        self.hypotheses.iter_mut().for_each(|hypothesis| hypothesis.fit.learn(&seen, &spread));
+    /// Takes what was seen in a window, rolled out by type, into the geometry of every hypothesis.
+    pub fn learn(&mut self, instants: &[Vec<Instant>; 4]) {
+        for Hypothesis { fit, .. } in &mut self.hypotheses {
+            fit.learn(&instants[fit.kind as usize]);
+        }
+    }
+
+    /// Counts the errors of unseen headings from other ones, by type and object: what those rolled
+    /// out are above the new ones, or `None` for a heading that was seen in the end.
+    pub fn recount(&mut self, above: &[[Option<f64>; 2]; 4]) {
+        for Hypothesis { fit, .. } in &mut self.hypotheses {
+            for (k, above) in above[fit.kind as usize].iter().enumerate() {
+                match above {
+                    Some(above) => fit.errors[k] += above,
+                    None => fit.forget(k, 0.0, 0.0),
+                }
+            }
+        }
     }
 
     /// The best evidence of each type, against the best of all.
@@ -242,9 +247,11 @@ impl PairBelief {
 }
 
 impl Fit {
-    /// The joint while its two objects stand at these poses.
-    fn joint(&self, [first, second]: [&Pose; 2]) -> Option<JointKind> {
+    /// The joint while its two objects are tracked at these poses.
+    fn joint(&self, poses: [&Pose; 2]) -> Option<JointKind> {
         let m = &self.mean;
+        let [first, second] =
+            [0, 1].map(|k| Pose { heading: poses[k].heading + self.errors[k], ..*poses[k] });
         match self.kind {
             JointType::None => None,
             JointType::Fixed => Some(JointKind::Fixed),

@@ -13,10 +13,6 @@ const STILL: f64 = 2e-4;
 /// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
 const ASTRAY: [f64; 2] = [2e-4, 0.05];
 
-/// Standard deviation of a heading that is not seen, against a rollout: radians, and a share of
-/// the turn.
-const UNSEEN: [f64; 2] = [0.01, 0.2];
-
 /// Headings count like positions at this arm, metres.
 pub(super) const ARM: f64 = 0.04;
 
@@ -56,7 +52,8 @@ impl Track {
     }
 
     /// Where an object was seen, with a heading near the one rolled out, and the variances of both;
-    /// an unseen heading is the one rolled out. `None` where the object was not seen.
+    /// an unseen heading is the one rolled out, without variance. `None` where the object was not
+    /// seen.
     pub fn sight(
         &self,
         object: usize,
@@ -68,14 +65,21 @@ impl Track {
             Some(heading) => {
                 (rolled.heading + wrap_angle(heading - rolled.heading), self.noise.heading.powi(2))
             }
-            None => {
-                let turn = (rolled.heading - self.state.poses[object].heading).abs();
-                let unseen = (UNSEEN[0] + UNSEEN[1] * turn).powi(2);
-                (rolled.heading, unseen + self.variance[object][1])
-            }
+            None => (rolled.heading, 0.0),
         };
         let pose = Pose { position: sight.position, heading };
         Some((pose, [self.noise.position.powi(2), variance]))
+    }
+
+    /// How much larger the heading of an object is at the end of a rollout than it is tracked; `None`
+    /// where it was seen then.
+    pub fn above(&self, object: usize, rolled: &Rolled, window: &[Observation]) -> Option<f64> {
+        let sight = window.last().and_then(|now| now.seen[object]);
+        if sight.is_some_and(|sight| sight.heading.is_some()) {
+            return None;
+        }
+        let end = rolled.states.last()?;
+        Some(end.poses[object].heading - self.state.poses[object].heading)
     }
 
     /// Logarithm of the density of where all objects that `moved` so far, metres, were last seen.
