@@ -8,8 +8,8 @@ use serde::Serialize;
 use crate::{
     effect::EffectModel,
     scene::{
-        Job, Joint, Observation, Physics, Record, Scene, Situation, Stroke, Tool, ToolMotion,
-        near_pairs,
+        Job, Joint, Observation, Physics, Record, Scene, Sight, Situation, Stroke, Tool,
+        ToolMotion, near_pairs,
     },
 };
 
@@ -27,8 +27,9 @@ use super::{
 /// rollout grow.
 const WINDOW: usize = 5;
 
-/// How much the places of all objects count beside those of a pair against each other.
-const PLACES: f64 = 0.3;
+/// How much the places of all objects count beside those of a pair against each other: where headings
+/// of the pair are seen, and where they are not and more must come from how all objects move.
+const PLACES: [f64; 2] = [0.3, 0.6];
 
 /// What is believed about the joints of a scene.
 #[derive(Clone, Debug)]
@@ -55,6 +56,16 @@ pub struct Step {
     /// What the window said for each type, as logarithms against the best; `None` where nothing of
     /// the pair moved.
     pub evidence: Vec<Option<[f64; 4]>>,
+}
+
+/// What a window tells of a pair.
+struct Told {
+    /// Of every hypothesis, as logarithms; `None` where nothing of the pair moved.
+    evidence: Option<Vec<f64>>,
+    /// By type of joint: the instants of the window, and the headings of the two that were rolled
+    /// out to its end; `None` for those that were seen then.
+    instants: [Vec<Instant>; 4],
+    ends: [[Option<f64>; 2]; 4],
 }
 
 impl Belief {
@@ -124,12 +135,53 @@ impl Belief {
             return;
         }
         self.seen += window.len();
-        let map = self.map();
+        let Some((mut base, mut told)) = self.look(model, &window, &self.map()) else { return };
+        let unseen = |sight: &Sight| sight.heading.is_none();
+        if window.iter().any(|now| now.seen.iter().flatten().any(unseen)) {
+            // Without headings a pair is told by how all of its group moves: once more, with the
+            // others joined as this window has them.
+            let mut pairs = self.pairs.clone();
+            for (pair, Told { evidence, .. }) in pairs.iter_mut().zip(&told) {
+                if let Some(evidence) = evidence {
+                    pair.weigh(evidence, self.settings.tempering);
+                }
+            }
+            let map = likeliest(&self.scene, &pairs, &self.track.state);
+            let Some(again) = self.look(model, &window, &map) else { return };
+            (base, told) = again;
+        }
+        self.track.follow(&base, &window);
+        let mut evidences = Vec::new();
+        for (pair, Told { evidence, instants, ends }) in self.pairs.iter_mut().zip(told) {
+            if let Some(evidence) = &evidence {
+                pair.weigh(evidence, self.settings.tempering);
+            }
+            pair.learn(&instants);
+            let between = pair.between;
+            pair.recount(&ends.map(|ends| {
+                [0, 1].map(|k| Some(ends[k]? - self.track.state.poses[between[k]].heading))
+            }));
+            evidences.push(evidence.map(|evidence| pair.by_type(&evidence)));
+        }
+        self.history.push(Step {
+            observations: self.seen,
+            probabilities: self.probabilities(),
+            evidence: evidences,
+        });
+    }
+
+    /// What a window tells of every pair, the others joined as in `map`, which is rolled out too.
+    fn look(
+        &self,
+        model: &dyn EffectModel,
+        window: &[Observation],
+        map: &Physics,
+    ) -> Option<(Rolled, Vec<Told>)> {
         let known: Vec<JointType> =
-            self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
-        let Some(base) = self.roll(model, &window, vec![map.clone()]).pop() else { return };
+            self.pairs.iter().map(|pair| JointType::of(joint_of(map, pair.between))).collect();
+        let base = self.roll(model, window, vec![map.clone()]).pop()?;
         let moved: Vec<f64> = (0..self.scene.objects.len())
-            .map(|object| self.track.motion(object, &base, &window))
+            .map(|object| self.track.motion(object, &base, window))
             .collect();
         let tells = |pair: &PairBelief| pair.between.iter().any(|&k| moved[k] > 0.0);
         // Every other type of joint of every pair that moved.
@@ -140,38 +192,23 @@ impl Belief {
         }
         let physics = asked
             .iter()
-            .map(|&(p, kind)| with(&map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
-        let rolled = self.roll(model, &window, physics.collect());
-        let mut told = Vec::new();
-        for (p, known) in known.iter().copied().enumerate() {
+            .map(|&(p, kind)| with(map, &self.pairs, (&self.pairs[p], kind), &self.track.state));
+        let rolled = self.roll(model, window, physics.collect());
+        let tell = |(p, pair): (usize, &PairBelief)| {
             let by_type = JointType::ALL.map(|kind| {
-                let job = asked.iter().position(|one| *one == (p, kind) && kind != known);
+                let job = asked.iter().position(|one| *one == (p, kind));
                 job.map_or(&base, |job| &rolled[job])
             });
-            let pair = &self.pairs[p];
             let instants =
-                by_type.map(|rolled| self.instants(pair.between, rolled, &window, &moved));
-            let evidence =
-                tells(pair).then(|| self.judge(pair, &by_type, &instants, &window, &moved));
-            told.push((by_type, instants, evidence));
-        }
-        self.track.follow(&base, &window);
-        let mut evidences = Vec::new();
-        for (pair, (by_type, instants, evidence)) in self.pairs.iter_mut().zip(told) {
-            if let Some(evidence) = &evidence {
-                pair.weigh(evidence, self.settings.tempering);
-            }
-            pair.learn(&instants);
-            pair.recount(
-                &by_type.map(|rolled| pair.between.map(|k| self.track.above(k, rolled, &window))),
-            );
-            evidences.push(evidence.map(|evidence| pair.by_type(&evidence)));
-        }
-        self.history.push(Step {
-            observations: self.seen,
-            probabilities: self.probabilities(),
-            evidence: evidences,
-        });
+                by_type.map(|rolled| self.instants(pair.between, rolled, window, &moved));
+            let judged = || self.judge(pair, &by_type, &instants, window, &moved);
+            let evidence = tells(pair).then(judged);
+            let ends =
+                by_type.map(|rolled| pair.between.map(|k| Track::unseen_end(k, rolled, window)));
+            Told { evidence, instants, ends }
+        };
+        let told = self.pairs.iter().enumerate().map(tell).collect();
+        Some((base, told))
     }
 
     /// The scene as it is thought to stand now, with the likeliest joints.
@@ -273,8 +310,13 @@ impl Belief {
             let start = spread(&before, variance(0), variance(1));
             let change: Vector3<f64> = relative(&last.rolled[0], &last.rolled[1]) - before;
             let relative = change.xy().norm().hypot(ARM * change.z);
-            let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM);
-            Some((instants, doubt, PLACES * self.track.places(rolled, window, moved)))
+            let unseen = last.headings == [false; 2];
+            let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM, unseen);
+            Some((
+                instants,
+                doubt,
+                PLACES[usize::from(unseen)] * self.track.places(rolled, window, moved),
+            ))
         });
         let of = |kind: JointType| by_type[kind as usize].as_ref();
         let judged = pair.hypotheses.iter().map(|hypothesis| {

@@ -1,5 +1,5 @@
-//! Where a joint holds two objects, as far as was seen: a Gaussian over its geometry, and what was
-//! seen in the joint's own coordinates.
+//! Where a joint holds two objects, as far as was seen: a Gaussian over its geometry and the errors of
+//! unseen headings, and what was seen in the joint's own coordinates.
 //!
 //! With the pose (r, h) of the second object in the frame of the first, R a turn by h:
 //!
@@ -11,7 +11,10 @@
 //! | prismatic | angle p of the axis u in the first frame, offset o, h0 | n.r - o, h - h0 | u.r |
 //!
 //! The change to these coordinates keeps volumes, so densities in them compare between types. What
-//! is held follows a Kalman filter, extended for the axis.
+//! is held follows a Kalman filter, extended for the axis. Its state also has the errors of the two
+//! headings where these are not seen: they are then rolled out under this type of joint, drift a
+//! little in every window, and are corrected by what the joint holds, be it a heading held against
+//! another unseen one.
 
 use nalgebra::{
     Matrix3, Matrix3x4, Matrix3x6, Matrix4, Matrix6, SMatrix, Vector2, Vector3, Vector4,
@@ -28,7 +31,7 @@ use super::{
 /// simulated ones drift.
 const PLAY: [f64; 2] = [1.2e-4, 2e-3];
 
-/// A Gaussian over the geometry of a joint of some type.
+/// A Gaussian over the geometry of a joint of some type and the errors of unseen headings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
     pub kind: JointType,

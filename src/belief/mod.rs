@@ -5,6 +5,10 @@
 //! the tool did under every type of joint of every pair of near objects that moved, and compares
 //! what was seen with each in that joint's own coordinates (`fit`): what the joint holds against
 //! where it held it so far, what it leaves free against the rollout.
+//!
+//! A heading that is not seen is the one rolled out plus an error that every hypothesis estimates for
+//! itself, together with its geometry. What a hypothesis says then rests on how all of a group moves,
+//! so a window is looked at twice, the second time with the joints that it spoke for.
 
 mod density;
 mod filter;

@@ -71,15 +71,13 @@ impl Track {
         Some((pose, [self.noise.position.powi(2), variance]))
     }
 
-    /// How much larger the heading of an object is at the end of a rollout than it is tracked; `None`
-    /// where it was seen then.
-    pub fn above(&self, object: usize, rolled: &Rolled, window: &[Observation]) -> Option<f64> {
+    /// The heading of an object that was rolled out to the end of a window; `None` where it was seen
+    /// then.
+    pub fn unseen_end(object: usize, rolled: &Rolled, window: &[Observation]) -> Option<f64> {
         let sight = window.last().and_then(|now| now.seen[object]);
-        if sight.is_some_and(|sight| sight.heading.is_some()) {
-            return None;
-        }
-        let end = rolled.states.last()?;
-        Some(end.poses[object].heading - self.state.poses[object].heading)
+        let seen = sight.is_some_and(|sight| sight.heading.is_some());
+        let end = rolled.states.last().filter(|_| !seen)?;
+        Some(end.poses[object].heading)
     }
 
     /// Logarithm of the density of where all objects that `moved` so far, metres, were last seen.

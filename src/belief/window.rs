@@ -11,15 +11,16 @@ use super::{
 };
 
 /// Error of a rollout over a window, as standard deviations: metres, and shares of how far two
-/// objects move against each other and over the table.
-const MODEL: [f64; 3] = [4e-4, 0.2, 0.01];
+/// objects move against each other (where headings are seen, and where they are not and the
+/// rollout is most of what tells types apart) and over the table.
+const MODEL: (f64, [f64; 2], f64) = (4e-4, [0.2, 0.1], 0.01);
 
 /// How unevenly that grows: the error of a single instant as a share of that at the end.
 const UNEVEN: f64 = 0.2;
 
 /// Standard deviation of what the rollout of a window adds to the error of a heading that is not
 /// seen: radians, and a share of the turn.
-const DRIFT: [f64; 2] = [0.01, 0.1];
+const DRIFT: [f64; 2] = [0.02, 0.1];
 
 /// Where a pair was seen at one instant of a window, and where a rollout under some type of joint had
 /// it.
@@ -101,10 +102,10 @@ pub(super) struct Doubt {
 }
 
 impl Doubt {
-    /// Of a rollout in which a pair moves against each other by `relative` metres (turns at `arm`
-    /// metres counted in), either over the table by at most `whole`.
-    pub fn new(start: Matrix3<f64>, relative: f64, whole: f64, arm: f64) -> Self {
-        let far = MODEL[0] + MODEL[1] * relative + MODEL[2] * whole;
+    /// Of a rollout in which a pair, its headings `unseen` or not, moves against each other by
+    /// `relative` metres (turns at `arm` metres counted in), either over the table by at most `whole`.
+    pub fn new(start: Matrix3<f64>, relative: f64, whole: f64, arm: f64, unseen: bool) -> Self {
+        let far = MODEL.0 + MODEL.1[usize::from(unseen)] * relative + MODEL.2 * whole;
         Self { start, model: [far, far / arm] }
     }
 }
