@@ -6,6 +6,10 @@
 //! what was seen with each in that joint's own coordinates (`fit`): what the joint holds against
 //! where it held it so far, what it leaves free against the rollout.
 //!
+//! A heading that is not seen is the one rolled out plus an error that every hypothesis estimates for
+//! itself, together with its geometry. What a hypothesis says then rests on how all of a group moves,
+//! so a window is looked at twice, the second time with the joints that it spoke for.
+//!
 //! Beside it, where these are unknown, particles of masses, frictions and supports, weighed after
 //! every push under the joints that are likeliest then.
 
@@ -15,6 +19,7 @@ mod density;
 mod filter;
 mod fit;
 mod joints;
+mod look;
 mod pair;
 mod particles;
 mod regulation;

@@ -10,11 +10,7 @@ use crate::{
     scene::{Joint, JointKind},
 };
 
-use super::{
-    density::log_sum,
-    fit::Fit,
-    relative::{relative_like, spread},
-};
+use super::{density::log_sum, fit::Fit, window::Instant};
 
 /// Types of joints, *none* among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -101,10 +97,6 @@ pub(super) struct PairBelief {
     /// in the frame of the first, at the start.
     midway: Vector,
     line: f64,
-    /// The relative pose that it was seen in first.
-    first: Vector3<f64>,
-    /// The last relative pose that was looked at: headings are counted from there.
-    last: Vector3<f64>,
     /// What the regulator adds to the logarithms of [`JointType::ALL`].
     pub regulated: [f64; 4],
 }
@@ -135,7 +127,7 @@ impl PairBelief {
             let share = (1.0 - REGULAR) / DIRECTIONS as f64;
             hypotheses.push(Hypothesis { log: (PRIOR[3] * share).ln(), fit });
         }
-        Self { between, hypotheses, midway, line, first: seen, last: seen, regulated: [0.0; 4] }
+        Self { between, hypotheses, midway, line, regulated: [0.0; 4] }
     }
 
     /// Probabilities of [`JointType::ALL`], with what the regulator adds.
@@ -150,8 +142,8 @@ impl PairBelief {
         if all > 0.0 { shares.map(|share| share / all) } else { filtered }
     }
 
-    /// Probabilities of [`JointType::ALL`] by the filter alone; where its motion also `follows` from other joints, it is
-    /// joined itself with a fifth of what its motion says.
+    /// Probabilities of [`JointType::ALL`] by the filter alone; where its motion also `follows` from
+    /// other joints, it is joined itself with a fifth of what its motion says.
     pub fn filtered(&self, follows: bool) -> [f64; 4] {
         let logs = JointType::ALL.map(|kind| self.filtered_log(kind));
         let all = log_sum(logs.into_iter());
@@ -233,12 +225,6 @@ impl PairBelief {
         [anchor, axis, anchor_sd, axis_sd]
     }
 
-    /// How far the two have moved against each other since they were first seen: metres, radians.
-    pub fn worked(&self) -> [f64; 2] {
-        let change = self.last - self.first;
-        [change.xy().norm(), change.z.abs()]
-    }
-
     /// The likeliest hypothesis of a type.
     pub fn best(&self, kind: JointType) -> Option<&Hypothesis> {
         self.of(kind).max_by(|a, b| a.log.total_cmp(&b.log))
@@ -260,13 +246,24 @@ impl PairBelief {
         }
     }
 
-    /// Takes poses of the two, seen with these variances of positions and headings, into the geometry
-    /// of every hypothesis.
-    pub fn learn(&mut self, one: &Pose, other: &Pose, [position, heading]: [f64; 2]) {
-        let seen = relative_like(one, other, &self.last);
-        let spread = spread(&seen, [position; 2], [heading; 2]);
-        self.last = seen;
-        self.hypotheses.iter_mut().for_each(|hypothesis| hypothesis.fit.learn(&seen, &spread));
+    /// Takes what was seen in a window, rolled out by type, into the geometry of every hypothesis.
+    pub fn learn(&mut self, instants: &[Vec<Instant>; 4]) {
+        for Hypothesis { fit, .. } in &mut self.hypotheses {
+            fit.learn(&instants[fit.kind as usize]);
+        }
+    }
+
+    /// Counts the errors of unseen headings from other ones, by type and object: what those rolled
+    /// out are above the new ones, or `None` for a heading that was seen in the end.
+    pub fn recount(&mut self, above: &[[Option<f64>; 2]; 4]) {
+        for Hypothesis { fit, .. } in &mut self.hypotheses {
+            for (k, above) in above[fit.kind as usize].iter().enumerate() {
+                match above {
+                    Some(above) => fit.errors[k] += above,
+                    None => fit.forget(k, 0.0, 0.0),
+                }
+            }
+        }
     }
 
     /// The best evidence of each type, against the best of all.
@@ -292,9 +289,11 @@ impl PairBelief {
 }
 
 impl Fit {
-    /// The joint while its two objects stand at these poses.
-    pub(super) fn joint(&self, [first, second]: [&Pose; 2]) -> Option<JointKind> {
+    /// The joint while its two objects are tracked at these poses.
+    pub(super) fn joint(&self, poses: [&Pose; 2]) -> Option<JointKind> {
         let m = &self.mean;
+        let [first, second] =
+            [0, 1].map(|k| Pose { heading: poses[k].heading + self.errors[k], ..*poses[k] });
         match self.kind {
             JointType::None => None,
             JointType::Fixed => Some(JointKind::Fixed),

@@ -1,8 +1,8 @@
 //! Where one object is as seen from another, and how errors of what is seen show in it.
 
-use nalgebra::{Matrix2x3, Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix3x2, Vector3};
 
-use crate::geometry::{Pose, Vector, perpendicular, wrap_angle};
+use crate::geometry::{Pose, Vector, perpendicular};
 
 /// Pose of a second object in the frame of a first: position (metres) and heading (radians).
 pub(super) fn relative(first: &Pose, second: &Pose) -> Vector3<f64> {
@@ -10,10 +10,10 @@ pub(super) fn relative(first: &Pose, second: &Pose) -> Vector3<f64> {
     Vector3::new(position.x, position.y, second.heading - first.heading)
 }
 
-/// The same with a heading that is nearest to that of `like`.
-pub(super) fn relative_like(first: &Pose, second: &Pose, like: &Vector3<f64>) -> Vector3<f64> {
-    let seen = relative(first, second);
-    Vector3::new(seen.x, seen.y, like.z + wrap_angle(seen.z - like.z))
+/// How it changes as the heading of the first, or the second, object grows.
+pub(super) fn by_headings(relative: &Vector3<f64>) -> Matrix3x2<f64> {
+    let arm = perpendicular(Vector::new(relative.x, relative.y));
+    Matrix3x2::new(-arm.x, 0.0, -arm.y, 0.0, -1.0, 1.0)
 }
 
 /// Covariance of a relative pose when the variances of both objects' positions (either coordinate)
@@ -23,13 +23,10 @@ pub(super) fn spread(
     position: [f64; 2],
     heading: [f64; 2],
 ) -> Matrix3<f64> {
-    // A turn of the first object by d moves the second by -d times this in its frame.
-    let arm = perpendicular(Vector::new(relative.x, relative.y));
-    let turn = Vector3::new(arm.x, arm.y, 1.0);
     let shifts = Matrix2x3::identity();
+    let turns = by_headings(relative);
     (position[0] + position[1]) * shifts.transpose() * shifts
-        + heading[0] * turn * turn.transpose()
-        + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, heading[1]))
+        + turns * Matrix2::from_diagonal(&heading.into()) * turns.transpose()
 }
 
 #[cfg(test)]

@@ -8,15 +8,11 @@
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
 
 use crate::{
-    geometry::{Pose, Vector},
+    geometry::{Pose, Vector, wrap_angle},
     scene::{Noise, Observation, Scene, Sight},
 };
 
-use super::{
-    fit::turn,
-    pair::JointType,
-    relative::{relative, relative_like},
-};
+use super::{fit::turn, pair::JointType, relative::relative};
 
 /// Play of joints beside the noise, as standard deviations: metres and radians.
 const PLAY: [f64; 2] = [3e-4, 5e-3];
@@ -44,8 +40,10 @@ pub fn residual_types(
                 sight.heading.map(|heading| Pose { position: sight.position, heading })
             };
             if let [Some(one), Some(other)] = pair.map(|k| observation.seen[k].and_then(sight)) {
-                let last = *poses.last().unwrap_or(&poses[0]);
-                poses.push(relative_like(&one, &other, &last));
+                let last = poses.last().map_or(0.0, |pose: &Vector3<f64>| pose.z);
+                let mut now = relative(&one, &other);
+                now.z = last + wrap_angle(now.z - last);
+                poses.push(now);
             }
         }
         likeliest(&poses, [sd[0].hypot(PLAY[0]), sd[1].hypot(PLAY[1])])

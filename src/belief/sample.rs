@@ -1,6 +1,6 @@
 //! What a scene may be like, as far as is believed: drawn physics.
 
-use nalgebra::Vector4;
+use nalgebra::Vector6;
 use rand::Rng;
 
 use crate::{
@@ -72,9 +72,14 @@ fn draw(pair: &PairBelief, poses: [&Pose; 2], rng: &mut impl Rng) -> Option<Join
     Some(Joint::new(pair.between, fit.joint(poses)?))
 }
 
-/// The geometry, drawn from its Gaussian.
+/// The geometry, and the errors of unseen headings, drawn from their Gaussian.
 fn drawn(fit: &Fit, rng: &mut impl Rng) -> Fit {
     let eigen = fit.covariance.symmetric_eigen();
-    let along = Vector4::from_fn(|k, _| eigen.eigenvalues[k].max(0.0).sqrt() * normal(rng));
-    Fit { mean: fit.mean + eigen.eigenvectors * along, ..*fit }
+    let along = Vector6::from_fn(|k, _| eigen.eigenvalues[k].max(0.0).sqrt() * normal(rng));
+    let off = eigen.eigenvectors * along;
+    Fit {
+        mean: fit.mean + off.fixed_rows::<4>(0),
+        errors: fit.errors + off.fixed_rows::<2>(4),
+        ..*fit
+    }
 }

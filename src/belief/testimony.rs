@@ -39,6 +39,8 @@ pub(super) struct Circumstances {
     pub windows: usize,
     /// How far the two moved over the table, metres.
     pub moved: [f64; 2],
+    /// How far they have moved against each other since the start: metres, radians.
+    pub worked: [f64; 2],
     /// Whether their headings were seen.
     pub headings: [bool; 2],
     /// Whether they are cylinders.
@@ -63,7 +65,7 @@ pub(super) fn features(
     row.extend(pair.by_type(&judged.evidence).map(|log| log.max(-20.0) / 5.0));
     row.extend(pair.filtered(around.follows).map(|share| share.max(1e-6).ln() / 4.0));
     row.extend(judged.off.iter().flatten().map(|off| off.ln_1p().min(5.0)));
-    let [worked, turned] = pair.worked();
+    let [worked, turned] = around.worked;
     row.extend([length(judged.change[0]), angle(judged.change[1]), length(worked), angle(turned)]);
     let [one, other] = around.moved;
     row.extend([length(one.min(other)), length(one.max(other))]);

@@ -13,10 +13,6 @@ const STILL: f64 = 2e-4;
 /// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
 const ASTRAY: [f64; 2] = [2e-4, 0.05];
 
-/// Standard deviation of a heading that is not seen, against a rollout: radians, and a share of
-/// the turn.
-const UNSEEN: [f64; 2] = [0.01, 0.2];
-
 /// Headings count like positions at this arm, metres.
 pub(super) const ARM: f64 = 0.04;
 
@@ -56,26 +52,27 @@ impl Track {
     }
 
     /// Where an object was seen, with a heading near the one rolled out, and the variances of both;
-    /// an unseen heading is the one rolled out. `None` where the object was not seen.
-    pub fn sight(
-        &self,
-        object: usize,
-        sight: Option<Sight>,
-        rolled: &Pose,
-    ) -> Option<(Pose, [f64; 2])> {
+    /// an unseen heading is the one rolled out, without variance. `None` where the object was not
+    /// seen.
+    pub fn sight(&self, sight: Option<Sight>, rolled: &Pose) -> Option<(Pose, [f64; 2])> {
         let sight = sight?;
         let (heading, variance) = match sight.heading {
             Some(heading) => {
                 (rolled.heading + wrap_angle(heading - rolled.heading), self.noise.heading.powi(2))
             }
-            None => {
-                let turn = (rolled.heading - self.state.poses[object].heading).abs();
-                let unseen = (UNSEEN[0] + UNSEEN[1] * turn).powi(2);
-                (rolled.heading, unseen + self.variance[object][1])
-            }
+            None => (rolled.heading, 0.0),
         };
         let pose = Pose { position: sight.position, heading };
         Some((pose, [self.noise.position.powi(2), variance]))
+    }
+
+    /// The heading of an object that was rolled out to the end of a window; `None` where it was seen
+    /// then.
+    pub fn unseen_end(object: usize, rolled: &Rolled, window: &[Observation]) -> Option<f64> {
+        let sight = window.last().and_then(|now| now.seen[object]);
+        let seen = sight.is_some_and(|sight| sight.heading.is_some());
+        let end = rolled.states.last().filter(|_| !seen)?;
+        Some(end.poses[object].heading)
     }
 
     /// Logarithm of the density of where all objects that `moved` so far, metres, were last seen.
@@ -84,7 +81,7 @@ impl Track {
         let mut log = 0.0;
         for (k, motion) in moved.iter().enumerate().filter(|(_, motion)| **motion > 0.0) {
             let rolled = &state.poses[k];
-            let Some((pose, variance)) = self.sight(k, now.seen[k], rolled) else { continue };
+            let Some((pose, variance)) = self.sight(now.seen[k], rolled) else { continue };
             let model = (2.0 * ASTRAY[0] + ASTRAY[1] * motion).powi(2);
             let off = (pose.position - rolled.position).norm_squared()
                 / (model + variance[0] + self.variance[k][0]);
@@ -112,7 +109,7 @@ impl Track {
             variance[0] += grown(motion);
             variance[1] += grown(ARM * turn.max(motion)) / (ARM * ARM);
             let mut pose = rolled;
-            if let Some((seen, noise)) = self.sight(k, now.seen[k], &rolled) {
+            if let Some((seen, noise)) = self.sight(now.seen[k], &rolled) {
                 let off = seen.position - rolled.position;
                 // A rollout that was wrong is no reason not to believe one's eyes.
                 variance[0] = variance[0].max(off.norm_squared() / 9.0 - noise[0]);

@@ -88,7 +88,7 @@ fn likelihood(before: &Track, rolled: &Rolled, seen: &[Observation]) -> f64 {
 
 fn of_object(before: &Track, object: usize, state: &State, now: &Observation) -> f64 {
     let (start, rolled) = (&before.state.poses[object], &state.poses[object]);
-    let Some((pose, variance)) = before.sight(object, now.seen[object], rolled) else { return 0.0 };
+    let Some((pose, variance)) = before.sight(now.seen[object], rolled) else { return 0.0 };
     let motion =
         (rolled.position - start.position).norm().max((pose.position - start.position).norm());
     let model = (ASTRAY[0] + ASTRAY[1] * motion).powi(2);

@@ -23,8 +23,9 @@ whether they are
 free, fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how
 sure that is, and where the point or line is. Joints that the recording states are not read. Five
 recorded instants are looked at together; the rest of what the recording says of the scene, masses
-and frictions, is taken for true but hardly matters. Objects whose headings are not recorded tell
-little.
+and frictions, is taken for true but hardly matters. Headings that are not recorded are estimated:
+where objects are pushed about one by one nearly as many joints are found as with headings, in a
+tight crowd about a quarter of the pairs are mistaken.
 
 Examples:
   pushplan infer pushes.recording.json
