@@ -269,7 +269,7 @@ impl Belief {
             let rolled = between.map(|k| state.poses[k]);
             let sights = [0, 1].map(|k| {
                 let seen = now.seen[between[k]];
-                let (pose, variance) = self.track.sight(between[k], seen, &rolled[k])?;
+                let (pose, variance) = self.track.sight(seen, &rolled[k])?;
                 Some((pose, variance, seen?.heading.is_some()))
             });
             let [Some(one), Some(other)] = sights else { continue };

@@ -54,12 +54,7 @@ impl Track {
     /// Where an object was seen, with a heading near the one rolled out, and the variances of both;
     /// an unseen heading is the one rolled out, without variance. `None` where the object was not
     /// seen.
-    pub fn sight(
-        &self,
-        object: usize,
-        sight: Option<Sight>,
-        rolled: &Pose,
-    ) -> Option<(Pose, [f64; 2])> {
+    pub fn sight(&self, sight: Option<Sight>, rolled: &Pose) -> Option<(Pose, [f64; 2])> {
         let sight = sight?;
         let (heading, variance) = match sight.heading {
             Some(heading) => {
@@ -86,7 +81,7 @@ impl Track {
         let mut log = 0.0;
         for (k, motion) in moved.iter().enumerate().filter(|(_, motion)| **motion > 0.0) {
             let rolled = &state.poses[k];
-            let Some((pose, variance)) = self.sight(k, now.seen[k], rolled) else { continue };
+            let Some((pose, variance)) = self.sight(now.seen[k], rolled) else { continue };
             let model = (2.0 * ASTRAY[0] + ASTRAY[1] * motion).powi(2);
             let off = (pose.position - rolled.position).norm_squared()
                 / (model + variance[0] + self.variance[k][0]);
@@ -114,7 +109,7 @@ impl Track {
             variance[0] += grown(motion);
             variance[1] += grown(ARM * turn.max(motion)) / (ARM * ARM);
             let mut pose = rolled;
-            if let Some((seen, noise)) = self.sight(k, now.seen[k], &rolled) {
+            if let Some((seen, noise)) = self.sight(now.seen[k], &rolled) {
                 let off = seen.position - rolled.position;
                 // A rollout that was wrong is no reason not to believe one's eyes.
                 variance[0] = variance[0].max(off.norm_squared() / 9.0 - noise[0]);
