@@ -166,18 +166,17 @@ impl Fit {
 
     /// Takes what was seen in a window into the geometry and the errors of unseen headings.
     pub fn learn(&mut self, instants: &[Instant]) {
-        let mut before = [0.0; 2];
+        let mut before = [0.0f64; 2];
         for now in instants {
-            for k in 0..2 {
+            for (k, before) in std::mem::replace(&mut before, now.drift).into_iter().enumerate() {
                 if now.headings[k] {
                     let error = now.seen[k].heading - now.rolled[k].heading;
                     self.forget(k, error, now.variance[k][1]);
                 } else {
-                    let grown = now.drift[k].powi(2) - f64::powi(before[k], 2);
+                    let grown = now.drift[k].powi(2) - before.powi(2);
                     self.covariance[(4 + k, 4 + k)] += grown;
                 }
             }
-            before = now.drift;
             self.correct(&now.look(&self.errors));
         }
     }
