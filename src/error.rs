@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use crate::act::ActError;
 use crate::asset::Faults;
 use crate::effect::ModelError;
 use crate::geometry::PolygonError;
@@ -35,6 +36,9 @@ pub enum Error {
     /// A task that cannot even be tried.
     #[error(transparent)]
     Task(#[from] SolveError),
+    /// A run that cannot go on.
+    #[error(transparent)]
+    Act(#[from] ActError),
 }
 
 impl fmt::Debug for Error {

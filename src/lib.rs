@@ -124,14 +124,17 @@ pub mod verify;
 #[doc(hidden)]
 pub mod watch;
 
+pub use act::{
+    ActError, Look, RunSettings, Runner, SimulatedWorld, Trace, World, WorldError, hidden,
+};
 pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use scene::{
-    Goal, Job, Joint, JointKind, ModelSpec, Object, Obstacle, Outcome, Part, Physics, Plan, Push,
-    PushRules, Record, Robot, Scene, Situation, State, Task, Tool, ToolMotion, Trajectory, Verdict,
-    Warning,
+    Goal, Job, Joint, JointKind, ModelSpec, Noise, Object, Obstacle, Outcome, Part, Physics, Plan,
+    Push, PushRules, Record, Robot, Scene, Sight, Situation, State, Task, Tool, ToolMotion,
+    Trajectory, Truth, Unknowns, Verdict, Warning,
 };
 pub use sim::Simulator;
 pub use solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};

@@ -72,16 +72,19 @@ impl Runner<'_> {
         let sure = |judged: &Judged| {
             judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
         };
-        // Where the likeliest physics gives no plan that does, another may.
-        for physics in samples.physics.iter().take(settings.others) {
-            if sure(&judged) || watch.cancelled() {
-                break;
-            }
-            let other = Situation { physics: Arc::clone(physics), ..samples.now.clone() };
+        // Where no plan does in enough samples, one is made for those in which none does at all.
+        let mut tried = Vec::new();
+        while tried.len() < settings.others && !sure(&judged) && !watch.cancelled() {
+            let missed = |s: &usize| judged.reach.iter().all(|plan| !plan[*s].reached);
+            let mut samples_left = (0..samples.physics.len()).filter(|s| !tried.contains(s));
+            let Some(sample) = samples_left.find(missed) else { break };
+            let physics = Arc::clone(&samples.physics[sample]);
+            let other = Situation { physics, ..samples.now.clone() };
             if let Some(more) = self.plans(task, &other, samples, watch)? {
                 judged.plans.extend(more.plans);
                 judged.reach.extend(more.reach);
             }
+            tried.push(sample);
         }
         if !sure(&judged) && probes(steps) < settings.probes && pays(&judged.reach) {
             let tools = task.tools(self.library).map_err(SolveError::from)?;
@@ -111,7 +114,8 @@ impl Runner<'_> {
         samples: &Samples,
         watch: &dyn Watch,
     ) -> Result<Option<Judged>, ActError> {
-        let solution = self.planner.solve_from(situation, task, self.library, watch)?;
+        let quiet = Quiet(watch);
+        let solution = self.planner.solve_from(situation, task, self.library, &quiet)?;
         if solution.best().is_some_and(|best| best.plan.pushes.is_empty() && best.outcome.reached) {
             return Ok(None);
         }
@@ -123,6 +127,15 @@ impl Runner<'_> {
             .collect();
         let reach = samples.reach(self.planner.model(), task, &plans);
         Ok(Some(Judged { plans, reach }))
+    }
+}
+
+/// Stops as another does, but tells it nothing: what a plan takes is no progress of a run.
+struct Quiet<'a>(&'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
     }
 }
 

@@ -2,6 +2,25 @@
 //!
 //! A [`Runner`] does that in any [`World`], a robot's table or a [`SimulatedWorld`] with a hidden
 //! truth, and writes down everything in a [`Trace`], from which it can go on after an interruption.
+//!
+//! ```
+//! use pushplan::{
+//!     Effort, Planner, RunSettings, Runner, SimulatedWorld, Task, ToolLibrary, Trace, hidden,
+//! };
+//!
+//! let library = ToolLibrary::embedded()?;
+//! let task = Task::parse(include_str!("../../tasks/hidden-hinge.yaml"), "hidden-hinge.yaml")?;
+//! let planner = Planner::for_effort(Effort::Draft)?.build();
+//! // A robot's table would stand here.
+//! let truth = hidden(&task, &library, 1)?;
+//! let mut world = SimulatedWorld::new(truth);
+//! let mut trace = Trace::new(task, RunSettings::default(), "draft".into(), None);
+//! let runner = Runner::new(&planner, &library);
+//! runner.run(&mut trace, &mut world, &mut |_| Ok(()), &pushplan::internals::watch::Unwatched)?;
+//! assert!(trace.task.goal.reached(world.state()));
+//! # Ok::<(), pushplan::Error>(())
+//! ```
+//!
 //! Nothing is planned, predicted or inferred here; that is for `solve`, `effect` and `belief`.
 //!
 //! # What is seen

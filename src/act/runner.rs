@@ -7,7 +7,7 @@ use crate::belief::{Belief, BeliefSettings, generator};
 use crate::effect::Prior;
 use crate::geometry::Pose;
 use crate::scene::{
-    Goal, Job, Observation, Plan, PushForm, Record, Scene, Sight, Situation, State, Tool,
+    Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, Tool,
 };
 use crate::solve::Planner;
 use crate::watch::Watch;
@@ -189,8 +189,15 @@ impl<'a> Runner<'a> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
         let pushes = step.plan.pushes.get(..step.pushes).filter(|pushes| !pushes.is_empty());
         let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan has not"))?;
-        if step.state.poses.len() != trace.task.scene.objects.len() {
+        let count = trace.task.scene.objects.len();
+        let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
+        let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
+        if [step.state.poses.len(), world, before] != [count; 3] {
             return Err(unfit("a step is of another number of objects"));
+        }
+        let can_be = |push: &Push| push.speed > 0.0 && (0.0..=10.0).contains(&push.length);
+        if !pushes.iter().all(can_be) {
+            return Err(unfit("a step makes a push that none can make"));
         }
         let done = Plan { pushes: pushes.to_vec(), ..step.plan.clone() };
         let tool = Arc::new(step.tool.clone());

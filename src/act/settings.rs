@@ -20,8 +20,8 @@ pub struct RunSettings {
     pub probes: usize,
     /// How these are chosen.
     pub rule: ProbeRule,
-    /// Samples that are planned for by themselves where the likeliest physics gives no plan that is
-    /// good enough.
+    /// Samples that are planned for by themselves where no plan is good enough, one after another of
+    /// those in which none reaches the goal.
     pub others: usize,
     /// Errors of what is seen.
     pub noise: Noise,
@@ -37,7 +37,7 @@ impl Default for RunSettings {
             enough: 0.8,
             probes: 3,
             rule: ProbeRule::Task,
-            others: 2,
+            others: 3,
             noise: Truth::NOISE,
             seed: 0,
         }

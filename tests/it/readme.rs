@@ -21,12 +21,20 @@ fn its_commands_run() {
     let blocks = blocks(README, "sh");
     let lines = blocks.iter().flat_map(|block| block.lines()).filter_map(|l| l.strip_prefix(RUN));
     let lines: Vec<&str> = lines.collect();
-    let [solve, verify] = &lines[..] else { panic!("solve, then verify: {lines:?}") };
+    let [solve, verify, act] = &lines[..] else { panic!("solve, verify, run: {lines:?}") };
     // Results go elsewhere, so that the tests leave the checkout as it is.
     run(&format!("{solve} --out {folder}"));
     run(&verify.replace("plans/", &format!("{folder}/")));
     for end in ["plan.json", "svg", "html", "animated.svg"] {
         assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
+    }
+    run(&format!("{act} --out {folder}"));
+    // The pictures beside the command are those that it makes.
+    for name in ["coupled-or-not.run.svg", "coupled-or-not.belief.svg"] {
+        let shown = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks").join(name);
+        let [made, shown] = [out.path().join(name), shown].map(std::fs::read);
+        let old = format!("tasks/{name} is old: {act} --out tasks, and remove the trace");
+        assert!(made.unwrap() == shown.unwrap(), "{old}");
     }
     assert!(README.contains("`cargo test --release`"));
 }

@@ -29,7 +29,7 @@ pub struct HiddenTask {
 pub struct HiddenWorld {
     /// What moves it.
     pub engine: Engine,
-    /// Tolerance of the goals, metres.
+    /// Tolerance of the goals as a share of the usual one.
     pub tolerance: f64,
 }
 
@@ -37,8 +37,8 @@ impl HiddenTask {
     /// The same in another world.
     pub fn in_world(mut self, world: HiddenWorld) -> Self {
         self.truth.engine = world.engine;
-        self.task.goal.tolerance = world.tolerance;
-        self.known.goal.tolerance = world.tolerance;
+        self.task.goal.tolerance *= world.tolerance;
+        self.known.goal.tolerance *= world.tolerance;
         self
     }
 }

@@ -50,8 +50,8 @@ pub struct RunArgs {
     /// Engine of the worlds
     #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
     engine: Engine,
-    /// Tolerance of the goals, metres
-    #[arg(long, value_name = "METRES", default_value_t = 0.02, value_parser = tolerance)]
+    /// Tolerance of the goals as a share of the usual 2 cm
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = tolerance)]
     tolerance: f64,
     /// Most pushes of a run
     #[arg(long, value_name = "N", default_value_t = 12,
@@ -69,9 +69,9 @@ pub struct RunArgs {
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "2 cm is 0.02".to_owned())?;
-    let sound = (0.001..=1.0).contains(&value);
-    sound.then_some(value).ok_or_else(|| "it must be 0.001 to 1".to_owned())
+    let value: f64 = text.parse().map_err(|_| "a quarter is 0.25".to_owned())?;
+    let sound = (0.05..=10.0).contains(&value);
+    sound.then_some(value).ok_or_else(|| "it must be 0.05 to 10".to_owned())
 }
 
 pub fn run(args: &RunArgs, session: &Session) -> Result<(), CliError> {
