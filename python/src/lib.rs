@@ -12,6 +12,7 @@ mod belief;
 mod errors;
 mod json;
 mod mapping;
+mod moved;
 mod page;
 mod plan;
 mod push;

@@ -6,12 +6,15 @@ use std::sync::Arc;
 use numpy::PyArray2;
 use pushplan::asset::load_task;
 use pushplan::scene::ToolChoice;
-use pushplan::{Pose, Task};
+use pushplan::{Pose, State, Task};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
+use crate::arrays::Numbers;
 use crate::json::{dict, unpickled};
 use crate::mapping::Text;
+use crate::moved::moved;
 use crate::tool::PyToolLibrary;
 use crate::{arrays, errors};
 
@@ -158,6 +161,19 @@ impl PyTask {
         self.task.robustness
     }
 
+    /// The task with its objects at these poses, `[objects, 3]` (x and y in metres, heading in
+    /// radians): to plan on from where things stand by now. Joints go along.
+    fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
+        let poses = self.poses(&poses)?;
+        Ok(Self { task: Arc::new(moved(&self.task, &poses)), file: self.file.clone() })
+    }
+
+    /// How far the goal's object is from the goal with the objects at these poses, `[objects, 3]`, in
+    /// units of the tolerance, the larger of position and heading: at most 1 is success.
+    fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
+        Ok(self.task.goal.score(&State::at_rest(self.poses(&poses)?)))
+    }
+
     /// The keys of its file, from which `Task.of` makes it again.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         dict(py, &self.task.to_json())
@@ -183,6 +199,17 @@ impl PyTask {
         self.file.clone().unwrap_or_else(|| format!("{}.yaml", self.task.name))
     }
 
+    /// Poses of its objects.
+    fn poses(&self, poses: &Numbers<'_>) -> PyResult<Vec<Pose>> {
+        let (poses, objects) = (poses.as_array(), self.task.scene.objects.len());
+        arrays::finite("poses", &poses)?;
+        if *poses.shape() != [objects, 3] {
+            let message = format!("`poses` is [{objects}, 3], found {:?}", poses.shape());
+            return Err(PyValueError::new_err(message));
+        }
+        Ok(arrays::state(poses).poses)
+    }
+
     /// The task, which wants this robustness if one is given.
     pub fn robust(&self, robustness: Option<f64>) -> PyResult<Arc<Task>> {
         match robustness {
@@ -190,10 +217,7 @@ impl PyTask {
             Some(share) if (0.0..=1.0).contains(&share) => {
                 Ok(Arc::new(Task::clone(&self.task).robust(share)))
             }
-            Some(_) => {
-                let message = "`robustness` is a share from 0 to 1";
-                Err(pyo3::exceptions::PyValueError::new_err(message))
-            }
+            Some(_) => Err(PyValueError::new_err("`robustness` is a share from 0 to 1")),
         }
     }
 }
