@@ -24,6 +24,9 @@ __all__ = ["PushEnv"]
 #: What a push costs, so that fewer are better; reaching the goal is worth one.
 COST = 0.02
 
+#: Farther out nothing comes, metres: files place things up to 10 m from the robot.
+FAR = 20.0
+
 #: How often shifted starts are drawn until nothing overlaps.
 TRIES = 100
 
@@ -54,7 +57,8 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         render_mode: ``"html"`` for the page of the last push, or ``None``.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["html"]}  # type: ignore[misc]
+    # A frame is a push; its page plays it.
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["html"], "render_fps": 1}  # type: ignore[misc]
 
     def __init__(
         self,
@@ -78,8 +82,8 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         self.spread = spread
         self.most_offset = most_offset
         self.render_mode = render_mode
-        size = 4 * len(task.objects) + 4
-        self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (size,), np.float32)
+        most = np.array([FAR, FAR, 1.0, 1.0] * len(task.objects) + [FAR] * 4, dtype=np.float32)
+        self.observation_space = gymnasium.spaces.Box(-most, most, dtype=np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (5,), np.float32)
         self._poses = task.start
         self._first = task.score(self._poses)

@@ -13,14 +13,17 @@ import pushplan
 
 
 def recorded(task: pushplan.Task) -> dict[str, Any]:
-    """A push of two blocks, as a camera would have seen it: without their joint."""
+    """A push of two cans that are fixed to each other, as a camera would have seen it.
+
+    Their joint is stated, or the rules of recordings would ask what moves the other one; `infer`
+    does not read it.
+    """
     keys: Any = task.to_dict()
-    push = pushplan.Push.before(task.goal_object, np.pi / 3, offset=0.02)
-    plan = pushplan.Plan.of(task, "stick", [push])
+    push = pushplan.Push.before(task.goal_object, 0.0, offset=0.01)
+    plan = pushplan.Plan.of(task, "finger", [push])
     seen = pushplan.predict(plan, "planar")
-    tool = pushplan.ToolLibrary.shipped()["stick"].to_dict()
+    tool = pushplan.ToolLibrary.shipped()["finger"].to_dict()
     degrees = np.array([1.0, 1.0, 180.0 / np.pi])
-    keys["scene"].pop("joints", None)
     for one in keys["scene"]["objects"]:
         del one["position"]
     return {

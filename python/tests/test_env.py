@@ -15,7 +15,6 @@ import pushplan.env
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.filterwarnings("ignore:.*Box observation space (minimum|maximum) value is -?infinity")
 @pytest.mark.parametrize(
     ("name", "spread"), [("pull-back-behind-wall", 0.01), ("jointed-pair", 0.02), ("crowd", 0.0)]
 )
