@@ -30,3 +30,17 @@ def test_the_readme_runs(root: Path) -> None:
             [sys.executable, "-c", code], cwd=root, text=True, capture_output=True, check=False
         )
         assert ran.returncode == 0, ran.stderr
+
+
+def test_the_notebook_runs_and_shows_pages(root: Path) -> None:
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.read(root / "examples/can_behind_wall.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells), "kept without its outputs"
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": root}}).execute()
+    shown = [
+        output["data"]["text/html"]
+        for cell in notebook.cells
+        for output in cell.get("outputs", [])
+        if "text/html" in output.get("data", {})
+    ]
+    assert len(shown) == 2 and all(page.startswith("<iframe srcdoc=") for page in shown)
