@@ -122,7 +122,7 @@ def rollout(rounds, count):
             rows.append([name, way, f"{1e3 * seconds:.3f} ms", *cheaper, away])
     print(f"\nProcessor time of one thread for a push, frames in an array; {count} pushes, median of")
     print(f"{rounds} runs. MuJoCo {mujoco.__version__} by its `rollout`, in the scene that is exported.\n")
-    print("| task | by | a push | cheaper than MuJoCo, usual | than MuJoCo, exact | apart from it, median |")
+    print("| task | by | a push | cheaper than MuJoCo, usual | than MuJoCo, as exported | apart from it, median |")
     print("| --- | --- | --: | --: | --: | --: |")
     for row in rows:
         print("| " + " | ".join(row) + " |")
