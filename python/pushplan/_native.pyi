@@ -128,7 +128,7 @@ class Task:
 class Push:
     def __new__(
         cls,
-        start: Sequence[float] | None,
+        start: Sequence[float] | _Floats | None,
         direction: float,
         length: float | None = None,
         speed: float | None = None,

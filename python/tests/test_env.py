@@ -67,8 +67,10 @@ def test_seeds_shift_starts_alike(root: Path) -> None:
     assert np.allclose(shifts[0][0], shifts[0][1])
 
 
-def test_a_moved_task_goes_on_where_it_was(root: Path) -> None:
-    task = pushplan.Task.load(root / "tasks/drawer.yaml")
+# A joint that slides within limits, and joints that turn.
+@pytest.mark.parametrize("name", ["drawer", "hinged-train"])
+def test_a_moved_task_goes_on_where_it_was(root: Path, name: str) -> None:
+    task = pushplan.Task.load(root / f"tasks/{name}.yaml")
     solution = pushplan.solve(task, effort="draft")
     assert solution.best is not None
     [push] = solution.best.pushes
