@@ -81,6 +81,11 @@ const PART_KEYS: &[Key] = &[
 ];
 
 impl Tool {
+    /// The tool in the keys of its file, which [`Tool::parse`] reads back.
+    pub fn to_json(&self) -> serde_json::Value {
+        super::saved::emit::tool(self)
+    }
+
     /// Reads a tool file.
     ///
     /// # Errors

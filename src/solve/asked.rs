@@ -35,7 +35,8 @@ pub enum AskedStart {
     At(Vector),
     /// At home, or where the last push ended (chained pushes).
     Last,
-    /// Just before this object.
+    /// Just before this object, by the first part of the tool that can push it without breaking a
+    /// rule, or else the first that can.
     Before {
         /// Its name.
         object: String,
@@ -175,15 +176,26 @@ fn start(
     of_object.goal.object = index;
     let tools = std::slice::from_ref(tool);
     let workspace = Workspace { task: &of_object, tools };
-    let length = asked.length.unwrap_or(task.pushes.length);
+    let (direction, rules) = (asked.direction, &task.pushes);
+    let (length, speed) =
+        (asked.length.unwrap_or(rules.length), asked.speed.unwrap_or(rules.speed));
     let mut why = Infeasible::NoContact;
+    let mut first = None;
     for part in 0..tool.parts().len() {
         let start = Start::Placed { part, offset };
-        let push = CandidatePush { start, direction: asked.direction, length, room: 0.0 };
+        let push = CandidatePush { start, direction, length, room: 0.0 };
         match workspace.place((0, grip_yaw), state, &push, previous) {
-            Ok(start) => return Ok(start),
+            Ok(start) => {
+                let push = Push { start, direction, length, speed };
+                if workspace.margins((0, grip_yaw), state, &push, Some(0.0)).broken().is_none() {
+                    return Ok(start);
+                }
+                first.get_or_insert(start);
+            }
             Err(infeasible) => why = infeasible,
         }
     }
-    Err(ActionError::CannotPush { tool: tool.name.clone(), object: object.clone(), why })
+    let refused =
+        || ActionError::CannotPush { tool: tool.name.clone(), object: object.clone(), why };
+    first.ok_or_else(refused)
 }

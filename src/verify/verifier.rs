@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Evidence, Job, Outcome, Plan, Record, Scene, Situation, Task, Tool, Verdict,
-    Warning,
+    Disturbance, Evidence, Job, Outcome, Plan, Record, Scene, Situation, Task, Tool, Trajectory,
+    Verdict, Warning,
 };
 use crate::sim::Simulator;
 use crate::watch::{Unwatched, Watch};
@@ -96,8 +97,11 @@ impl<'a> Verifier<'a> {
         let replays: Vec<Evidence> = draws
             .into_par_iter()
             .map(|(engine, draw)| {
-                let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(&motion);
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
+                if self.watch.cancelled() {
+                    return stopped(engine, task, situation, disturbance);
+                }
+                let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(&motion);
                 self.replay(engine, task, &situation.scene, &job, disturbance)
             })
             .collect();
@@ -144,5 +148,26 @@ impl<'a> Verifier<'a> {
             force: trajectory.force,
             trajectory: nominal.then_some(trajectory),
         }
+    }
+}
+
+/// A replay that was stopped before it began: thousands of draws would take a minute to be made for
+/// nothing.
+fn stopped(
+    engine: &Simulator,
+    task: &Task,
+    situation: &Situation,
+    disturbance: Disturbance,
+) -> Evidence {
+    let start = situation.start.clone();
+    let mut trajectory = Trajectory::standing(engine.spec(), Pose::default(), start);
+    trajectory.warnings.push(Warning::Stopped);
+    Evidence {
+        engine: engine.engine(),
+        disturbance,
+        outcome: Outcome::judge(&task.goal, &trajectory),
+        warnings: trajectory.warnings,
+        force: None,
+        trajectory: None,
     }
 }

@@ -1,0 +1,78 @@
+"""Chooses a tool and pushes that bring objects to goals, and shows that the plan works.
+
+    import pushplan
+
+    task = pushplan.Task.load("tasks/pull-back-behind-wall.yaml")
+    solution = pushplan.solve(task)
+    print(solution.status, solution.best)
+
+Lengths are metres, angles radians, masses kilograms and times seconds throughout; keys of files and
+mappings that end in ``_deg`` are degrees. The table is the plane z = 0, and x points forward from
+the robot's base at the origin. Results do not depend on the number of threads.
+"""
+
+from ._native import (
+    Belief,
+    Plan,
+    Push,
+    Recording,
+    Replay,
+    Rollouts,
+    Solution,
+    Task,
+    Tool,
+    ToolLibrary,
+    Trajectory,
+    Verdict,
+    __version__,
+    infer,
+    predict,
+    recording_schema,
+    rollout,
+    solve,
+    solve_all,
+    task_schema,
+    tool_schema,
+    verify,
+)
+from .errors import (
+    ActionError,
+    Fault,
+    FileError,
+    ModelError,
+    PushplanError,
+    RefusedError,
+    TaskError,
+)
+
+__all__ = [
+    "ActionError",
+    "Belief",
+    "Fault",
+    "FileError",
+    "ModelError",
+    "Plan",
+    "Push",
+    "PushplanError",
+    "Recording",
+    "RefusedError",
+    "Replay",
+    "Rollouts",
+    "Solution",
+    "Task",
+    "TaskError",
+    "Tool",
+    "ToolLibrary",
+    "Trajectory",
+    "Verdict",
+    "__version__",
+    "infer",
+    "predict",
+    "recording_schema",
+    "rollout",
+    "solve",
+    "solve_all",
+    "task_schema",
+    "tool_schema",
+    "verify",
+]

@@ -1,0 +1,220 @@
+"""The keys of files as types, for tools and tasks that are built in code.
+
+``Task.of`` and ``Tool.of`` take such mappings and check them as strictly as files; a type checker
+finds misspelled keys before. ``pushplan.task_schema()`` says what every key means, its range and its
+default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
+"""
+
+import sys
+from collections.abc import Sequence
+from typing import Literal, TypedDict, Union
+
+import numpy as np
+import numpy.typing as npt
+
+if sys.version_info >= (3, 11):
+    from typing import NotRequired
+else:
+    from typing_extensions import NotRequired
+
+__all__ = [
+    "CuboidKeys",
+    "CylinderKeys",
+    "FrictionKeys",
+    "GoalKeys",
+    "GripKeys",
+    "JointKeys",
+    "Numbers",
+    "ObjectKeys",
+    "ObstacleKeys",
+    "PartKeys",
+    "PrismKeys",
+    "PushKeys",
+    "ReachKeys",
+    "RobotKeys",
+    "SceneKeys",
+    "ShapeKeys",
+    "SupportKeys",
+    "TableKeys",
+    "TaskFile",
+    "ToolFile",
+]
+
+#: Numbers in a row, such as a position [x, y] in metres.
+Numbers = Union[Sequence[float], npt.NDArray[np.float64]]
+
+
+class CylinderKeys(TypedDict):
+    """An upright cylinder, metres."""
+
+    radius: float
+    height: float
+
+
+class CuboidKeys(TypedDict):
+    """A cuboid of these full extents [x, y, z], metres."""
+
+    size: Numbers
+
+
+class PrismKeys(TypedDict):
+    """An upright prism on a convex polygon, metres."""
+
+    corners: Sequence[Numbers]
+    height: float
+    centre_of_mass: NotRequired[Numbers]
+
+
+class ShapeKeys(TypedDict, total=False):
+    """One solid: exactly one of the keys."""
+
+    cylinder: CylinderKeys
+    cuboid: CuboidKeys
+    prism: PrismKeys
+
+
+class SupportKeys(TypedDict, total=False):
+    """How an object's weight is spread: exactly one of the keys."""
+
+    spread: float
+    points: Sequence[Numbers]
+
+
+class TableKeys(TypedDict, total=False):
+    """The table; extents and position [x, y] in metres."""
+
+    friction: float
+    size: Numbers
+    position: Numbers
+
+
+class ObjectKeys(TypedDict):
+    """A movable object; mass in kilograms, position [x, y] in metres."""
+
+    name: str
+    shape: ShapeKeys
+    mass: float
+    friction: float
+    position: Numbers
+    yaw_deg: NotRequired[float]
+    support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
+
+
+class ObstacleKeys(TypedDict):
+    """A fixed cuboid; extents [x, y, z] and position [x, y] in metres."""
+
+    name: str
+    size: Numbers
+    position: Numbers
+    yaw_deg: NotRequired[float]
+    friction: NotRequired[float]
+
+
+class JointKeys(TypedDict):
+    """A joint between two objects; where it is, in metres in the world at the start."""
+
+    between: Sequence[str]
+    kind: Literal["fixed", "revolute", "prismatic"]
+    at: NotRequired[Numbers]
+    axis: NotRequired[Numbers]
+    limits: NotRequired[Numbers]
+    limits_deg: NotRequired[Numbers]
+    guessed: NotRequired[bool]
+
+
+class FrictionKeys(TypedDict):
+    """The coefficient of friction of a pair that is not the mean of the two values."""
+
+    between: Sequence[str]
+    coefficient: float
+
+
+class SceneKeys(TypedDict):
+    """What stands on the table."""
+
+    objects: Sequence[ObjectKeys]
+    table: NotRequired[TableKeys]
+    push_height: NotRequired[float]
+    joints: NotRequired[Sequence[JointKeys]]
+    obstacles: NotRequired[Sequence[ObstacleKeys]]
+    frictions: NotRequired[Sequence[FrictionKeys]]
+
+
+class ReachKeys(TypedDict):
+    """Distances of the end effector from the base, metres."""
+
+    max: float
+    min: NotRequired[float]
+
+
+class RobotKeys(TypedDict):
+    """Where the end effector can be, metres, and how hard it can press, newtons."""
+
+    reach: ReachKeys
+    home: NotRequired[Numbers]
+    max_force: NotRequired[float]
+
+
+class PushKeys(TypedDict, total=False):
+    """The pushes that a plan may contain; lengths in metres, speed in m/s."""
+
+    form: Literal["placed", "chained"]
+    directions: Union[Literal["principal"], int, Numbers]
+    offsets: Numbers
+    grip_yaws_deg: Numbers
+    length: float
+    speed: float
+    max_count: int
+    lift: float
+
+
+class GoalKeys(TypedDict):
+    """Where an object must come to rest; position [x, y] and tolerance in metres."""
+
+    object: str
+    position: Numbers
+    tolerance: float
+    heading_deg: NotRequired[float]
+    heading_tolerance_deg: NotRequired[float]
+    symmetric: NotRequired[bool]
+
+
+class TaskFile(TypedDict):
+    """The keys of a task file."""
+
+    scene: SceneKeys
+    robot: RobotKeys
+    tools: Union[Literal["all"], Sequence[str]]
+    goal: GoalKeys
+    name: NotRequired[str]
+    description: NotRequired[str]
+    pushes: NotRequired[PushKeys]
+    robustness: NotRequired[float]
+
+
+class GripKeys(TypedDict):
+    """The end effector's pose in the tool frame; position [x, y] in metres."""
+
+    position: Numbers
+    yaw_deg: NotRequired[float]
+
+
+class PartKeys(TypedDict):
+    """One solid of a tool; extents [x, y, z] and position [x, y] in metres."""
+
+    name: str
+    position: Numbers
+    size: NotRequired[Numbers]
+    shape: NotRequired[ShapeKeys]
+    yaw_deg: NotRequired[float]
+
+
+class ToolFile(TypedDict):
+    """The keys of a tool file."""
+
+    name: str
+    friction: float
+    parts: Sequence[PartKeys]
+    description: NotRequired[str]
+    grip: NotRequired[GripKeys]
+    joints: NotRequired[Sequence[Sequence[str]]]

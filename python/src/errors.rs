@@ -1,0 +1,71 @@
+//! Errors of the library as the exceptions of `pushplan.errors`.
+
+use pushplan::SolveError;
+use pushplan::asset::Faults;
+use pushplan::effect::ModelError;
+use pushplan::scene::Warning;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+/// The exception `name` of `pushplan.errors`, made with `arguments`.
+fn raise<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = py
+        .import("pushplan.errors")
+        .and_then(|module| module.getattr(name))
+        .and_then(|class| class.call1(arguments));
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// Faults of files or texts; of a mapping where `keys` says what every line of its text is.
+pub fn files(py: Python<'_>, faults: &Faults, keys: Option<&[String]>) -> PyErr {
+    let fault = |fault: &pushplan::asset::Fault| -> PyResult<Py<PyAny>> {
+        let class = py.import("pushplan.errors")?.getattr("Fault")?;
+        let (line, column, key) = match keys {
+            None => (fault.place.map(|at| at.line), fault.place.map(|at| at.column), None),
+            Some(keys) => {
+                let line = fault.place.map_or(0, |at| at.line.saturating_sub(1));
+                (None, None, keys.get(line).cloned().filter(|_| fault.place.is_some()))
+            }
+        };
+        let made = class.call1((&fault.file, line, column, key, &fault.message, &fault.advice))?;
+        Ok(made.unbind())
+    };
+    let faults: PyResult<Vec<Py<PyAny>>> = faults.0.iter().map(fault).collect();
+    match faults.and_then(|faults| PyTuple::new(py, faults)) {
+        Ok(faults) => raise(py, "FileError", (faults,)),
+        Err(error) => error,
+    }
+}
+
+/// A task that cannot be tried.
+pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
+    match error {
+        SolveError::Tools(faults) => files(py, faults, None),
+        SolveError::BadTask { .. } => raise(py, "TaskError", (error.to_string(),)),
+        SolveError::Refused { warnings, .. } => refused(py, &error.to_string(), warnings),
+    }
+}
+
+/// A model that gives no answer.
+pub fn refused(py: Python<'_>, message: &str, warnings: &[Warning]) -> PyErr {
+    let warnings: Vec<String> = warnings.iter().map(Warning::to_string).collect();
+    match PyTuple::new(py, warnings) {
+        Ok(warnings) => raise(py, "RefusedError", (message, warnings)),
+        Err(error) => error,
+    }
+}
+
+/// A model that cannot be made.
+pub fn model(py: Python<'_>, error: &ModelError) -> PyErr {
+    raise(py, "ModelError", (error.to_string(),))
+}
+
+/// A text that names no model.
+pub fn spec(py: Python<'_>, error: &pushplan::scene::SpecError) -> PyErr {
+    raise(py, "ModelError", (error.to_string(),))
+}
+
+/// Pushes that cannot be made.
+pub fn action(py: Python<'_>, message: &str) -> PyErr {
+    raise(py, "ActionError", (message,))
+}

@@ -1,0 +1,44 @@
+//! A task with its objects somewhere else, for planning on from the middle.
+
+use pushplan::scene::{Joint, JointKind, Object, Span};
+use pushplan::{Pose, Task};
+
+/// The task that states these poses. Joints go along: anchors and axes lie where the first object
+/// of each has taken them, and limits count from the poses.
+pub fn moved(task: &Task, poses: &[Pose]) -> Task {
+    let mut task = task.clone();
+    let mut objects = task.scene.objects.clone();
+    for (object, pose) in objects.iter_mut().zip(poses) {
+        object.pose = *pose;
+    }
+    let before = std::mem::replace(&mut task.scene.objects, objects);
+    for joint in &mut task.scene.joints {
+        joint.kind = followed(joint, &before, &task.scene.objects);
+    }
+    task
+}
+
+fn followed(joint: &Joint, before: &[Object], now: &[Object]) -> JointKind {
+    let [first, second] = joint.frames(before);
+    let [a, b] = joint.between;
+    let (first, second) = (now[a].pose * first, now[b].pose * second);
+    match joint.kind {
+        JointKind::Fixed => JointKind::Fixed,
+        JointKind::Revolute { limits, .. } => {
+            let turned = second.heading - first.heading;
+            JointKind::Revolute { at: first.position, limits: from(limits, turned) }
+        }
+        JointKind::Prismatic { limits, .. } => {
+            let axis = first.vector([1.0, 0.0].into());
+            let slid = (second.position - first.position).dot(&axis);
+            JointKind::Prismatic { axis, limits: from(limits, slid) }
+        }
+    }
+}
+
+/// Limits counted from where a joint has come. One that stands at its limit may be past it by what
+/// an engine's joints give way.
+fn from(limits: Option<Span>, come: f64) -> Option<Span> {
+    let Span { low, high } = limits?;
+    Some(Span { low: (low - come).min(0.0), high: (high - come).max(0.0) })
+}

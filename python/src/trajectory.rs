@@ -1,0 +1,103 @@
+//! What happens to the objects, frame by frame.
+
+use std::sync::Arc;
+
+use numpy::{PyArray1, PyArray2, PyArray3};
+use pushplan::scene::Warning;
+use pushplan::{Outcome, Task, Trajectory};
+use pyo3::prelude::*;
+
+use crate::arrays;
+
+/// What pushes do according to one model, frame by frame until everything rests.
+#[pyclass(name = "Trajectory", module = "pushplan", frozen)]
+pub struct PyTrajectory {
+    pub trajectory: Trajectory,
+    outcome: Outcome,
+    objects: Vec<String>,
+}
+
+#[pymethods]
+impl PyTrajectory {
+    /// The model that computed it.
+    #[getter]
+    fn model(&self) -> String {
+        self.trajectory.by.to_string()
+    }
+
+    /// Names of the objects, in the order of `poses`.
+    #[getter]
+    fn objects(&self) -> Vec<String> {
+        self.objects.clone()
+    }
+
+    /// Time of every frame since the start, seconds: `[frames]`.
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        arrays::times(py, &self.trajectory)
+    }
+
+    /// Poses of all objects, `[frames, objects, 3]`: x and y in metres, heading in radians (which
+    /// counts its turns).
+    #[getter]
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let frames = &self.trajectory.frames;
+        let poses = frames.iter().flat_map(|frame| &frame.state.poses);
+        let numbers = poses.flat_map(arrays::numbers).collect();
+        arrays::array(py, numbers, [frames.len(), self.objects.len(), 3])
+    }
+
+    /// Poses of the tool frame, `[frames, 3]`: x and y in metres, heading in radians.
+    #[getter]
+    fn tool_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let frames = &self.trajectory.frames;
+        let numbers = frames.iter().flat_map(|frame| arrays::numbers(&frame.tool)).collect();
+        arrays::array(py, numbers, [frames.len(), 3])
+    }
+
+    /// Distance of the goal's object from the goal at the end, metres.
+    #[getter]
+    fn error(&self) -> f64 {
+        self.outcome.error
+    }
+
+    /// Heading error at the end, radians, where a heading is asked for.
+    #[getter]
+    fn heading_error(&self) -> Option<f64> {
+        self.outcome.heading_error
+    }
+
+    /// Whether the goal is reached, at rest and with nothing gone wrong on the way.
+    #[getter]
+    fn reached(&self) -> bool {
+        self.outcome.reached
+    }
+
+    /// What lowers the trust in it.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.trajectory.warnings.iter().map(Warning::to_string).collect()
+    }
+
+    fn __len__(&self) -> usize {
+        self.trajectory.frames.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let reached = if self.outcome.reached { "reached" } else { "not reached" };
+        let (by, frames) = (&self.trajectory.by, self.trajectory.frames.len());
+        format!(
+            "<Trajectory of {frames} frames by {by}: goal {reached}, off by {:.2} mm>",
+            1e3 * self.outcome.error
+        )
+    }
+}
+
+impl PyTrajectory {
+    /// A trajectory on the table of `task`, judged by its goal.
+    pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
+        let outcome = Outcome::judge(&task.goal, &trajectory);
+        let objects = task.scene.objects.iter().map(|object| object.name.clone()).collect();
+        Self { trajectory, outcome, objects }
+    }
+}

@@ -1,0 +1,37 @@
+"""Where the repository and the command are, and a task that most tests use."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+from typing import Any, Callable
+
+import pytest
+
+import pushplan
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def root() -> Path:
+    return ROOT
+
+
+@pytest.fixture
+def task() -> pushplan.Task:
+    return pushplan.Task.load(ROOT / "tasks/pull-back-behind-wall.yaml")
+
+
+@pytest.fixture
+def command() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command in the checkout, which `.ci/run` has built before."""
+    program = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
+
+    def run(*words: Any) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [program, *map(str, words)], cwd=ROOT, text=True, capture_output=True, check=False
+        )
+
+    return run

@@ -1,0 +1,46 @@
+"""The examples and the README's Python run as they stand."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = sorted(ROOT.glob("examples/*.py"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run(path: Path, tmp_path: Path) -> None:
+    ran = subprocess.run(
+        [sys.executable, path], cwd=tmp_path, text=True, capture_output=True, check=False
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert ran.stdout
+
+
+def test_the_readme_runs(root: Path) -> None:
+    blocks = (root / "README.md").read_text().split("```python\n")[1:]
+    assert blocks
+    for block in blocks:
+        code = block.split("```")[0]
+        ran = subprocess.run(
+            [sys.executable, "-c", code], cwd=root, text=True, capture_output=True, check=False
+        )
+        assert ran.returncode == 0, ran.stderr
+
+
+def test_the_notebook_runs_and_shows_pages(root: Path) -> None:
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    notebook = nbformat.read(root / "examples/can_behind_wall.ipynb", as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells), "kept without its outputs"
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": root}}).execute()
+    shown = [
+        output["data"]["text/html"]
+        for cell in notebook.cells
+        for output in cell.get("outputs", [])
+        if "text/html" in output.get("data", {})
+    ]
+    assert len(shown) == 2 and all(page.startswith("<iframe srcdoc=") for page in shown)

@@ -1,0 +1,53 @@
+"""In a notebook a plan shows its page, which cannot reach the notebook."""
+
+from __future__ import annotations
+
+import html
+import re
+from pathlib import Path
+
+import pytest
+
+import pushplan
+
+
+def shown(element: str) -> str:
+    """The page in a frame."""
+    found = re.fullmatch(r'<iframe srcdoc="([^"]*)" sandbox="allow-scripts" [^>]*></iframe>', element)
+    assert found, element[:200]
+    return html.unescape(found.group(1))
+
+
+def test_solutions_plans_and_verdicts_show_their_pages(task: pushplan.Task) -> None:
+    solution = pushplan.solve(task, effort="draft")
+    assert solution.best is not None and solution.best.verdict is not None
+    for what in (solution, solution.best, solution.best.verdict):
+        page = what.page()
+        assert page.startswith("<!DOCTYPE html>")
+        assert "default-src 'none'" in page and task.name in page
+        assert shown(what._repr_html_()) == page
+        assert len(page) < 200_000
+
+
+def test_a_plan_from_a_file_is_replayed_for_its_page(task: pushplan.Task, tmp_path: Path) -> None:
+    best = pushplan.solve(task, effort="draft").best
+    assert best is not None
+    best.save(tmp_path / "best.plan.json")
+    page = pushplan.Plan.load(tmp_path / "best.plan.json").page()
+    # Both engines' replays are in it.
+    assert page.count('"layer"') >= 2
+
+
+def test_plans_go_to_mujoco(task: pushplan.Task) -> None:
+    best = pushplan.solve(task, effort="draft").best
+    assert best is not None
+    mjcf = best.to_mjcf()
+    assert mjcf.startswith("<") and "object/can" in mjcf
+    mujoco = pytest.importorskip("mujoco")
+    assert mujoco.MjModel.from_xml_string(mjcf).nbody > 2
+
+
+def test_words_are_those_of_the_command(task: pushplan.Task) -> None:
+    solution = pushplan.solve(task, effort="draft")
+    assert "verdict: passed" in str(solution)
+    assert repr(solution) == "<Solution pull-back-behind-wall: solved with l-hook, grip yaw 0°, 1 push>"

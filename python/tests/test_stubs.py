@@ -1,0 +1,47 @@
+"""The stubs say what is there, and all of the package's Python is typed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pushplan
+
+
+def checked(*words: str, cwd: Path) -> None:
+    ran = subprocess.run(
+        [sys.executable, "-m", *words], text=True, capture_output=True, cwd=cwd, check=False
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+
+
+def test_stubs_are_those_of_the_package(tmp_path: Path) -> None:
+    checked("mypy.stubtest", "pushplan", cwd=tmp_path)
+
+
+def test_package_tests_and_examples_are_typed(root: Path) -> None:
+    sources = ["-p", "pushplan", "python/tests", "examples"]
+    checked("mypy", *sources[:2], cwd=root)
+    checked("mypy", "--explicit-package-bases", *sources[2:], cwd=root)
+
+
+def test_everything_public_says_what_it_is() -> None:
+    undocumented = [
+        name
+        for name in pushplan.__all__
+        if name != "__version__" and not getattr(pushplan, name).__doc__
+    ]
+    for name in pushplan.__all__:
+        found = getattr(pushplan, name)
+        if isinstance(found, type):
+            own = [key for key in vars(found) if not key.startswith("_")]
+            # The fields of exceptions and of a fault stand in their source.
+            if found.__module__ == "pushplan":
+                undocumented += [f"{name}.{key}" for key in own if not vars(found)[key].__doc__]
+    assert not undocumented
+
+
+def test_files_stay_short(root: Path) -> None:
+    for path in [*root.glob("python/**/*.py"), *root.glob("python/**/*.rs")]:
+        assert len(path.read_text().splitlines()) <= 400, path
