@@ -59,7 +59,9 @@ impl<'a> Runner<'a> {
         if trace.first.is_none() {
             trace.first = Some(world.look()?);
             trace.before = world.save();
-            trace.prior = self.begin(trace)?.probabilities();
+            let belief = self.begin(trace)?;
+            trace.pairs = belief.pairs().collect();
+            trace.prior = belief.probabilities();
             keep(trace)?;
         }
         let mut belief = self.begin(trace)?;

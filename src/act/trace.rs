@@ -38,7 +38,9 @@ pub struct Trace {
     pub first: Option<Look>,
     /// The simulated world then.
     pub before: Option<WorldState>,
-    /// What was believed then of every near pair, as in steps.
+    /// Pairs of objects that were seen near each other then and so may be joined, where that is unknown.
+    pub pairs: Vec<[usize; 2]>,
+    /// What was believed then of every one of them, as in steps.
     pub prior: Vec<[f64; 4]>,
     /// What was done, in order.
     pub steps: Vec<Step>,
@@ -92,7 +94,7 @@ pub struct Step {
     pub notes: Vec<Note>,
     /// Where everything is thought to be now.
     pub state: State,
-    /// Of every near pair the probabilities of no, a fixed, a revolute and a prismatic joint.
+    /// Of each of [`Trace::pairs`] the probabilities of no, a fixed, a revolute and a prismatic joint.
     pub probabilities: Vec<[f64; 4]>,
     /// What is believed of masses, frictions and supports.
     pub numbers: Numbers,
@@ -124,6 +126,7 @@ impl Trace {
             truth,
             first: None,
             before: None,
+            pairs: Vec::new(),
             prior: Vec::new(),
             steps: Vec::new(),
             end: None,

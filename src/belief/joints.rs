@@ -66,6 +66,9 @@ pub(super) fn with(
 /// `joints` that are known at the poses that `scene` states, where its objects stand as in `state`.
 pub fn carried(joints: &[Joint], scene: &Scene, state: &State) -> Vec<Joint> {
     let now = |joint: &Joint| {
+        if joint.between.iter().all(|&k| state.poses[k] == scene.objects[k].pose) {
+            return joint.clone();
+        }
         let frames = joint.frames(&scene.objects);
         let [first, second] = [0, 1].map(|k| state.poses[joint.between[k]] * frames[k]);
         let left = |limits: Option<Span>, gone: f64| {

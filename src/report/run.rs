@@ -9,7 +9,6 @@ use crate::belief::JointType;
 use crate::geometry::{Pose, Shape};
 use crate::scene::{
     Frame, JOINABLE, ModelKind, Part, Physics, Scene, State, Stroke, Tool, ToolMotion, Trajectory,
-    near_pairs,
 };
 
 use super::chart::{Axis, Chart, Mark, Series};
@@ -136,19 +135,12 @@ fn notes(trace: &Trace) -> Vec<String> {
     steps.flat_map(of).collect()
 }
 
-/// The pairs of a task whose joints are unknown.
-fn pairs(trace: &Trace) -> Vec<[usize; 2]> {
-    match trace.task.unknown.joints {
-        true => near_pairs(&trace.task.scene).into_iter().map(|(between, _)| between).collect(),
-        false => Vec::new(),
-    }
-}
-
 /// What is believed of the joints, and over time.
 fn joints(trace: &Trace) -> Option<Section> {
     let last = trace.steps.last()?;
-    let pairs = pairs(trace);
-    // The pairs that are believed in are those that were seen near each other.
+    let count = trace.task.scene.objects.len();
+    let pairs: Vec<[usize; 2]> =
+        trace.pairs.iter().copied().filter(|pair| pair.iter().all(|&k| k < count)).collect();
     if pairs.is_empty() || pairs.len() != last.probabilities.len() {
         return None;
     }
