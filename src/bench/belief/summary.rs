@@ -131,9 +131,12 @@ fn step(when: When, records: &[&BeliefRecord]) -> BeliefStep {
     let by_types = methods(&|one| one.types.iter().map(|(by, _)| *by).collect());
     let by_shares = methods(&|one| one.probabilities.iter().map(|(by, _)| *by).collect());
     let by_rest = methods(&|one| one.rest.iter().map(|rest| rest.by).collect());
+    // Ascending, as percentiles need them.
     let errors = |by: JointMethod| -> Vec<f64> {
         let of = |one: &Checkpoint| one.rest.iter().find(|rest| rest.by == by).map(|r| r.error);
-        at.iter().filter_map(|(_, one)| of(one)).collect()
+        let mut errors: Vec<f64> = at.iter().filter_map(|(_, one)| of(one)).collect();
+        errors.sort_by(f64::total_cmp);
+        errors
     };
     let [none, truth] = [JointMethod::None, JointMethod::True].map(|by| mean(&errors(by)));
     let rest = by_rest.into_iter().map(|by| {
