@@ -97,7 +97,7 @@ impl Forward {
         self.half
     }
 
-    /// Adds the even half [h] of the effect of relation `k` in the last propagation step of the
+    /// Adds the even half `[h]` of the effect of relation `k` in the last propagation step of the
     /// last [`Forward::run`], which was on this batch, to `into`.
     pub fn add_effect(&self, batch: &Batch, w: &Buffers, k: usize, into: &mut [f32]) {
         let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
