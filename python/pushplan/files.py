@@ -190,6 +190,7 @@ class TaskFile(TypedDict):
     description: NotRequired[str]
     pushes: NotRequired[PushKeys]
     robustness: NotRequired[float]
+    unknown: NotRequired[Sequence[Literal["joints", "masses", "frictions", "support"]]]
 
 
 class GripKeys(TypedDict):

@@ -10,6 +10,9 @@
 //! itself, together with its geometry. What a hypothesis says then rests on how all of a group moves,
 //! so a window is looked at twice, the second time with the joints that it spoke for.
 //!
+//! A [`BeliefRegulator`] may correct what the filter finds: a recurrent network that reads what every
+//! window told of a pair (`testimony`).
+//!
 //! Beside it, where these are unknown, particles of masses, frictions and supports, weighed after
 //! every push under the joints that are likeliest then.
 
