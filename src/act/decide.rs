@@ -106,7 +106,7 @@ impl Runner<'_> {
         Ok(if helps { Decision::Do { why, plan, tool, chance } } else { Decision::Nothing })
     }
 
-    /// Plans for a situation, judged under the samples; nothing if no push is needed.
+    /// Plans for a situation, judged under the samples; `None` if no push is needed.
     fn plans(
         &self,
         task: &Task,
@@ -145,7 +145,7 @@ fn probes(steps: &[Step]) -> usize {
 }
 
 /// What is left of a plan after a step, moved by as much as the object stands beside where it was
-/// expected; nothing if that breaks a rule of the task, or nothing is left.
+/// expected; `None` if that breaks a rule of the task or no push is left.
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let left = last.plan.pushes.get(last.pushes..).filter(|left| !left.is_empty())?;
     if last.why == Why::Probe || last.plan.form == PushForm::Chained {

@@ -104,7 +104,7 @@ impl Gatherer {
         }
     }
 
-    /// What was seen while a motion went on, and at rest after it; nothing for the latter where no
+    /// What was seen while a motion went on, and at rest after it; `None` for the latter where no
     /// look is of then.
     ///
     /// # Errors

@@ -71,7 +71,7 @@ pub(super) fn pays(reach: &[Vec<Reach>]) -> bool {
     known - unknown > WORTH * samples as f64
 }
 
-/// The probe to make, chosen with the numbers of draw `index`; nothing if none can be made.
+/// The probe to make, chosen with the numbers of draw `index`; `None` if none can be made.
 pub(super) fn probe(
     model: &dyn EffectModel,
     task: &Task,

@@ -22,7 +22,7 @@ pub trait World {
     /// If the motion was not carried out as it is.
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
 
-    /// What an interrupted run needs to go on in a world that does not outlive it; nothing for a
+    /// What an interrupted run needs to go on in a world that does not outlive it; `None` for a
     /// real one.
     fn save(&self) -> Option<WorldState> {
         None

@@ -3,7 +3,7 @@
 //! In a particle every unknown number is a place on a scale on which it is standard normal before
 //! anything has moved: of masses and friction values the logarithm over the stated one, of supports
 //! the logit of where they lie between even pressure and the corners. Particles are weighed by how
-//! well a rollout under them fits what was seen; when few are left that count, they are drawn anew
+//! well a rollout under them fits what was seen; when few are left that count, they are resampled
 //! around those, with the mean and the variance that they have (Liu and West 2001,
 //! doi:10.1007/978-1-4757-3437-9_10).
 
@@ -118,7 +118,7 @@ impl Particles {
     pub fn weigh(&mut self, logs: &[f64]) {
         self.weighed += 1;
         for (particle, log) in self.all.iter_mut().zip(logs) {
-            // One whose rollout broke off says nothing for itself.
+            // A rollout that broke off is no evidence for its particle.
             particle.log += if log.is_nan() { f64::NEG_INFINITY } else { *log };
         }
         let all = log_sum(self.all.iter().map(|particle| particle.log));

@@ -19,7 +19,7 @@ use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
 pub struct ClosedRecord {
     /// What kind of task.
     pub kind: TaskKind,
-    /// How the run ended; nothing where the world could not be acted in any more.
+    /// How the run ended; `None` where the world could no longer be acted in.
     pub end: Option<End>,
     /// Where the loop left the object, really.
     pub closed: Left,

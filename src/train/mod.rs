@@ -8,6 +8,7 @@
 mod checkpoint;
 mod descent;
 mod example;
+mod gradients;
 mod log;
 mod loss;
 mod metrics;

@@ -22,7 +22,8 @@ use crate::{
 
 use super::{
     AdamW, Checkpoint, CheckpointError, Examples, HeldOutError, MetricLine, Settings,
-    example::Supervised, learning_rate, log::Log, loss::loss, rollout_error,
+    example::Supervised, gradients::gradients_of, learning_rate, log::Log, loss::loss,
+    rollout_error,
 };
 
 /// A step's graphs are split into this many parts, differentiated in parallel and added in
@@ -216,16 +217,7 @@ fn replica(run: &Checkpoint, drawn: Supervised) -> Result<(f64, Parameters), can
     let inputs = Inputs::new(&drawn.batch, &run.normaliser)?;
     let predicted = network.forward(&inputs)?;
     let loss = loss(&predicted, drawn.target, drawn.weight, run.settings.batch)?;
-    let store = loss.backward()?;
-    let mut gradients = Parameters::default();
-    for (name, variable) in network.variables() {
-        let values = match store.get(variable) {
-            Some(gradient) => gradient.flatten_all()?.to_vec1()?,
-            None => vec![0.0; variable.elem_count()],
-        };
-        gradients.values.insert(name.clone(), values);
-    }
-    Ok((f64::from(loss.to_scalar::<f32>()?), gradients))
+    gradients_of(&loss, network.variables())
 }
 
 /// The averaged weights with their card.

@@ -70,25 +70,6 @@ fn its_table_is_the_measured_one() {
     }
 }
 
-/// The shares of runs that reach the goal are those of the results.
-#[test]
-fn its_shares_of_runs_are_the_measured_ones() {
-    let results = include_str!("../../models/results.md");
-    let shares = |command: &str, row: &str| -> [String; 2] {
-        let answer = results.split(command).nth(1).expect("the command");
-        let row = answer.lines().find(|line| line.starts_with(row)).expect("its row");
-        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-        [3, 4].map(|k| cells[k].to_owned())
-    };
-    let text = README.split_whitespace().collect::<Vec<_>>().join(" ");
-    let whole = |share: String| share.replace("100.0 %", "100 %");
-    let [closed, once] = shares("bench run --count 200\n", "| all").map(whole);
-    assert!(text.contains(&format!("{closed} end at the goal")), "{closed}");
-    assert!(text.contains(&format!("never looked at again {once} do")), "{once}");
-    let [closed, once] = shares("--kind cluster --count 40\n", "| cluster").map(whole);
-    assert!(text.contains(&format!("it is {closed} against {once}")), "{closed} {once}");
-}
-
 /// Every command of the pages is one that the program takes: with `--help` behind it the command
 /// line is read up to there.
 #[test]

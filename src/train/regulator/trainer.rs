@@ -17,7 +17,7 @@ use crate::{
         fresh_regulator,
     },
     store::FolderLock,
-    train::{AdamW, TrainError, learning_rate, log::Log},
+    train::{AdamW, TrainError, gradients::gradients_of, learning_rate, log::Log},
     watch::Watch,
 };
 
@@ -164,16 +164,7 @@ fn replica(
     let (features, width) = (run.scales.mean.len(), run.settings.width);
     let network = RegulatorGraph::new(features, width, &run.optimiser.weights)?;
     let loss = Examples::new(lessons, &run.scales)?.loss(&network)?;
-    let store = loss.backward()?;
-    let mut gradients = Parameters::default();
-    for (name, variable) in network.variables() {
-        let values = match store.get(variable) {
-            Some(gradient) => gradient.flatten_all()?.to_vec1()?,
-            None => vec![0.0; variable.elem_count()],
-        };
-        gradients.values.insert(name.clone(), values);
-    }
-    Ok((f64::from(loss.to_scalar::<f32>()?), gradients))
+    gradients_of(&loss, network.variables())
 }
 
 /// The averaged weights with their card.
