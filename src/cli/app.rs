@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+#[cfg(not(feature = "train"))]
+use super::untrained;
 use super::{
     bench, check, completions,
     error::CliError,
@@ -41,6 +43,10 @@ enum Command {
     Train(train::TrainArgs),
     #[cfg(feature = "train")]
     TrainRegulator(train_regulator::TrainRegulatorArgs),
+    #[cfg(not(feature = "train"))]
+    Train(untrained::UntrainedArgs),
+    #[cfg(not(feature = "train"))]
+    TrainRegulator(untrained::UntrainedArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
@@ -86,6 +92,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Train(args) => train::run(args, &session),
         #[cfg(feature = "train")]
         Command::TrainRegulator(args) => train_regulator::run(args, &session),
+        #[cfg(not(feature = "train"))]
+        Command::Train(_) | Command::TrainRegulator(_) => Err(untrained::run()),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
         Command::Infer(args) => infer::run(args, &session),

@@ -36,6 +36,8 @@ mod tradeoff;
 mod train;
 #[cfg(feature = "train")]
 mod train_regulator;
+#[cfg(not(feature = "train"))]
+mod untrained;
 mod verify;
 mod words;
 

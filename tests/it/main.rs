@@ -1,4 +1,5 @@
-//! Tests across rooms, in one binary so that candle and rapier link once.
+//! Tests across rooms, in one binary so that rapier links once. Those of training, which are built only
+//! with candle, stand in `tests/training`.
 
 mod architecture;
 mod assets;
@@ -17,6 +18,8 @@ mod extremes;
 mod facade;
 mod fitting;
 mod fixtures;
+#[cfg(unix)]
+mod interrupted;
 mod jointed;
 mod joints_bench;
 mod models;
@@ -29,6 +32,8 @@ mod planning;
 mod prior;
 mod prisms;
 mod pruning;
+mod random_network;
+mod random_regulator;
 mod random_tasks;
 mod readme;
 mod real_pushes;
@@ -40,5 +45,4 @@ mod solving;
 mod symmetry;
 mod tool_choice;
 mod tradeoff;
-mod training;
 mod verification;

@@ -1,0 +1,27 @@
+//! `pushplan train` and `pushplan train-regulator` in builds without candle: how to get them.
+
+use std::ffi::OsString;
+
+use clap::Args;
+
+use super::error::CliError;
+
+/// Train a network; not in this build, which was made without the feature `train`
+#[derive(Args, Debug)]
+#[command(after_help = "Training needs candle, which would double the time that building takes:
+
+  cargo run --release --features train -- train ...   in a clone
+  cargo install pushplan --features train             from the registry")]
+pub struct UntrainedArgs {
+    /// What training would be told
+    #[arg(hide = true, trailing_var_arg = true, allow_hyphen_values = true)]
+    _rest: Vec<OsString>,
+}
+
+/// The error that says so.
+pub fn run() -> CliError {
+    CliError::usage(
+        "this pushplan was built without training",
+        "build it with `--features train`, as `cargo run --release --features train -- train`",
+    )
+}
