@@ -43,8 +43,10 @@ enum Command {
     Train(train::TrainArgs),
     #[cfg(feature = "train")]
     TrainRegulator(train_regulator::TrainRegulatorArgs),
+    /// Train the network, in a build with the feature `train`
     #[cfg(not(feature = "train"))]
     Train(untrained::UntrainedArgs),
+    /// Train the belief regulator, in a build with the feature `train`
     #[cfg(not(feature = "train"))]
     TrainRegulator(untrained::UntrainedArgs),
     Evaluate(evaluate::EvaluateArgs),

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::error::CliError;
 
-/// Train a network; not in this build, which was made without the feature `train`
+/// What training would be told.
 #[derive(Args, Debug)]
 #[command(after_help = "Training needs candle, which would double the time that building takes:
 

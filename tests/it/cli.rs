@@ -8,6 +8,7 @@ use tempfile::TempDir;
 
 /// The transcripts in `tests/cmd`, with what was printed and the exit codes.
 #[test]
+#[cfg_attr(feature = "train", ignore = "the help is that of a build without training")]
 fn transcripts() {
     trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan");
 }

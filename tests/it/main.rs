@@ -25,6 +25,7 @@ mod joints_bench;
 mod models;
 mod network;
 mod outside;
+mod pages;
 mod pairs;
 mod pictures;
 mod plan_page;

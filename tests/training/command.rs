@@ -1,7 +1,10 @@
 //! `pushplan train` as a user sees it.
 
+use std::process::Command;
+
 #[cfg(unix)]
 use crate::interrupted::goes_on_after_an_interruption;
+use crate::pages;
 
 #[cfg(unix)]
 #[test]
@@ -11,10 +14,25 @@ fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
+fn the_commands_of_all_pages_are_taken() {
+    let commands = pages::commands();
+    let commands: Vec<&String> = commands.iter().filter(|command| pages::trains(command)).collect();
+    for command in &commands {
+        let help = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+            .args(command.split_whitespace())
+            .arg("--help")
+            .output()
+            .expect("the command runs");
+        assert!(help.status.success(), "{command}: {}", String::from_utf8_lossy(&help.stderr));
+    }
+    assert!(commands.len() > 4, "{commands:?}");
+}
+
+#[test]
 fn a_training_never_writes_to_a_folder_that_another_command_writes_to() {
     let folder = tempfile::tempdir().expect("a folder");
     let _lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pushplan"))
+    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
         .arg("train")
         .arg(folder.path())
         .args(["--episodes", "1", "--held-out", "1", "--steps", "1"])

@@ -9,6 +9,8 @@ mod regulator;
 #[cfg(unix)]
 #[path = "../it/interrupted.rs"]
 mod interrupted;
+#[path = "../it/pages.rs"]
+mod pages;
 #[path = "../it/random_network.rs"]
 #[allow(dead_code)]
 mod random_network;
