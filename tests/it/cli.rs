@@ -300,7 +300,8 @@ fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
 #[test]
 fn two_commands_never_write_to_one_folder() {
     let folder = TempDir::new().expect("a folder");
-    let lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
+    let unwatched = &pushplan::watch::Unwatched;
+    let lock = pushplan::store::FolderLock::take(folder.path(), unwatched).expect("a free folder");
     let dir = folder.path().to_str().expect("UTF-8");
     let short = ["--episodes", "1", "--held-out", "1", "--steps", "1"];
     for command in [
@@ -310,11 +311,14 @@ fn two_commands_never_write_to_one_folder() {
     ] {
         let output = pushplan(command);
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        let wanted = format!("error: another pushplan is writing to {dir}; wait for it, or");
+        let writer = format!("(process {} on ", std::process::id());
+        let wanted = format!("error: another pushplan is writing to {dir} {writer}");
         assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
+        assert!(stderr(&output).contains("); wait for it, or"), "{}", stderr(&output));
     }
-    assert_eq!(files(folder.path()), [""; 0], "nothing is written");
+    assert_eq!(files(folder.path()), [".pushplan-lock"], "nothing else is written");
     drop(lock);
+    assert_eq!(files(folder.path()), [""; 0], "the lock is gone");
     let output = pushplan(&["generate", dir, "--episodes", "1"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -34,6 +34,7 @@ mod readme;
 mod real_pushes;
 mod regulator;
 mod seams;
+mod shards;
 mod shipped_network;
 mod simulation;
 mod solving;
