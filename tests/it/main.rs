@@ -6,6 +6,7 @@ mod baselines;
 mod belief;
 mod bench_store;
 mod benchmarks;
+mod book;
 mod cli;
 mod closed_loop;
 mod crowd_errors;
