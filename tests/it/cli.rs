@@ -296,33 +296,6 @@ fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
     goes_on_after_an_interruption("train", run);
 }
 
-#[cfg(unix)]
-#[test]
-fn two_commands_never_write_to_one_folder() {
-    let folder = TempDir::new().expect("a folder");
-    let unwatched = &pushplan::watch::Unwatched;
-    let lock = pushplan::store::FolderLock::take(folder.path(), unwatched).expect("a free folder");
-    let dir = folder.path().to_str().expect("UTF-8");
-    let short = ["--episodes", "1", "--held-out", "1", "--steps", "1"];
-    for command in [
-        &["generate", dir, "--episodes", "1"][..],
-        &[&["train", dir][..], &short].concat(),
-        &["bench", "tasks", "tasks/pull-back.yaml", "--out", dir],
-    ] {
-        let output = pushplan(command);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        let writer = format!("(process {} on ", std::process::id());
-        let wanted = format!("error: another pushplan is writing to {dir} {writer}");
-        assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
-        assert!(stderr(&output).contains("); wait for it, or"), "{}", stderr(&output));
-    }
-    assert_eq!(files(folder.path()), [".pushplan-lock"], "nothing else is written");
-    drop(lock);
-    assert_eq!(files(folder.path()), [""; 0], "the lock is gone");
-    let output = pushplan(&["generate", dir, "--episodes", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
 /// Runs a resumable command once whole and once with an interruption, and compares the files.
 #[cfg(unix)]
 fn goes_on_after_an_interruption(command: &str, options: &str) {

@@ -5,6 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use pushplan::store::FolderLock;
+use pushplan::watch::Unwatched;
 use tempfile::TempDir;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -158,6 +160,93 @@ fn wrong_shards_are_refused() {
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
         assert!(stderr(&output).contains(words), "{}", stderr(&output));
     }
+}
+
+#[test]
+fn two_commands_never_write_to_one_folder() {
+    let folder = TempDir::new().expect("a folder");
+    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
+    let dir = folder.path().to_str().expect("UTF-8");
+    let short = ["--episodes", "1", "--held-out", "1", "--steps", "1"];
+    for command in [
+        &["generate", dir, "--episodes", "1"][..],
+        &[&["train", dir][..], &short].concat(),
+        &["bench", "tasks", "tasks/pull-back.yaml", "--out", dir],
+    ] {
+        let output = pushplan(command);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        let writer = format!("(process {} on ", std::process::id());
+        let wanted = format!("error: another pushplan is writing to {dir} {writer}");
+        assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
+        assert!(stderr(&output).contains("); wait for it, or"), "{}", stderr(&output));
+    }
+    let files = || fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(files(), 1, "more than the lock is written");
+    drop(lock);
+    assert_eq!(files(), 0, "the lock is left behind");
+    let output = pushplan(&["generate", dir, "--episodes", "1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+/// What stands for Slurm: elements run at once, one after another. `cluster/test-slurm` has a real one.
+#[cfg(unix)]
+const SBATCH: &str = r#"#!/bin/sh
+array=
+while :; do
+  case $1 in --array=*) array=${1#*=} ;; --*) ;; *) break ;; esac
+  shift
+done
+echo 7
+if [ -z "$array" ]; then "$@" >/dev/null; exit; fi
+for range in $(echo "$array" | tr , ' '); do
+  for number in $(seq "${range%-*}" "${range#*-}"); do
+    SLURM_ARRAY_TASK_ID=$number "$@" >/dev/null || exit
+  done
+done
+"#;
+
+#[cfg(unix)]
+#[test]
+fn the_slurm_script_submits_what_is_missing_and_a_merge() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let home = TempDir::new().expect("a folder");
+    let sbatch = home.path().join("sbatch");
+    fs::write(&sbatch, SBATCH).expect("a script");
+    fs::set_permissions(&sbatch, fs::Permissions::from_mode(0o755)).expect("a script");
+    let path = format!("{}:{}", home.path().display(), std::env::var("PATH").unwrap_or_default());
+    let script = Path::new(ROOT).join("cluster/slurm.sh");
+    let submit = |command: &str| {
+        let output = Command::new(&script)
+            .args(command.split(' '))
+            .env("PATH", &path)
+            .env("PUSHPLAN", env!("CARGO_BIN_EXE_pushplan"))
+            .current_dir(home.path())
+            .output()
+            .expect("a shell");
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let data = "generate --episodes 5 --seed 4";
+    let (code, told) = submit(&format!("3 data {data}"));
+    assert_eq!((code, &*told), (Some(0), "array 7: shards 1-3\njob 7: merge into data\n"));
+    let (whole, merged) = (home.path().join("whole"), home.path().join("data"));
+    done(&on(data, &whole, None));
+    let records = |folder: &Path| fs::read(folder.join("records.bin")).expect("records");
+    assert!(records(&whole) == records(&merged));
+    assert_eq!(submit(&format!("3 data {data}")).0, Some(2), "a run is there already");
+
+    fs::remove_dir_all(&merged).expect("a run");
+    fs::remove_dir_all(home.path().join("data.shards/2")).expect("a shard");
+    assert!(submit(&format!("3 data {data}")).1.starts_with("array 7: shards 2\n"));
+    fs::remove_dir_all(&merged).expect("a run");
+    assert_eq!(submit(&format!("3 data {data}")).1, "job 7: merge into data\n");
+    assert!(records(&whole) == records(&merged));
+
+    let tasks = "bench tasks tasks/too-far.yaml --effort draft";
+    let tasks = tasks.replace("tasks/", &format!("{ROOT}/tasks/"));
+    assert_eq!(submit(&format!("2 runs/tasks {tasks}")).0, Some(0));
+    assert!(home.path().join("runs/tasks/report.html").exists());
+    assert_eq!(submit("2 nothing").0, Some(2));
 }
 
 /// The containers of the Kubernetes manifest run what it says with the indices that an Indexed Job
