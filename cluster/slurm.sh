@@ -28,6 +28,10 @@
 set -euo pipefail
 pushplan=${PUSHPLAN:-pushplan}
 
+# What a job does is its first word, and not in the environment, which some clusters do not hand on.
+step=submit
+case ${1:-} in --shard | --merge) step=${1#--} && shift ;; esac
+
 if [ $# -lt 3 ]; then
   sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
   exit 2
@@ -35,17 +39,21 @@ fi
 shards=$1 out=$2
 shift 2
 
-# Where the command takes the folder: data are named, everything else is put `--out`.
+# Where the command takes the folder: data are named, everything else is put `--out`. (The lists are
+# written so that an empty one is no error to an old bash.)
 place=(--out)
 [ "$1" = generate ] && place=()
 
-if [ "${PUSHPLAN_STEP:-}" = shard ]; then
+case $step in
+shard)
   number=$SLURM_ARRAY_TASK_ID
   # Instead of this shell, so that signals reach it.
-  exec "$pushplan" "$@" "${place[@]}" "$out.shards/$number" --shard "$number/$shards"
-elif [ "${PUSHPLAN_STEP:-}" = merge ]; then
+  exec "$pushplan" "$@" ${place[@]+"${place[@]}"} "$out.shards/$number" --shard "$number/$shards"
+  ;;
+merge)
   exec "$pushplan" bench merge "$out" "$out".shards/[0-9]*
-fi
+  ;;
+esac
 
 if [ -e "$out/manifest.json" ]; then
   echo "$out holds a run already" >&2
@@ -59,13 +67,13 @@ if compgen -G "$out.shards/[0-9]*" >/dev/null; then
 fi
 after=()
 if [ -n "$missing" ]; then
-  job=$(PUSHPLAN_STEP=shard sbatch --parsable --job-name=pushplan --array="$missing" \
-    --cpus-per-task="${CPUS:-4}" --requeue --open-mode=append --output="$out.shards/log/%a.txt" \
-    "$0" "$shards" "$out" "$@")
+  job=$(sbatch --parsable --job-name=pushplan --array="$missing" --cpus-per-task="${CPUS:-4}" \
+    --requeue --open-mode=append --output="$out.shards/log/%a.txt" \
+    "$0" --shard "$shards" "$out" "$@")
   job=${job%%;*}
   echo "array $job: shards $missing"
   after=(--dependency="afterok:$job" --kill-on-invalid-dep=yes)
 fi
-job=$(PUSHPLAN_STEP=merge sbatch --parsable --job-name=pushplan-merge "${after[@]}" \
-  --output="$out.shards/log/merge.txt" "$0" "$shards" "$out" "$@")
+job=$(sbatch --parsable --job-name=pushplan-merge ${after[@]+"${after[@]}"} \
+  --output="$out.shards/log/merge.txt" "$0" --merge "$shards" "$out" "$@")
 echo "job ${job%%;*}: merge into $out"
