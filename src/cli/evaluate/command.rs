@@ -34,7 +34,7 @@ use super::sources::{CrowdArgs, Sources};
 
 With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
 interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
-machine say; `pushplan bench merge OUT SHARD...` makes of the parts what one run would have left.
+machine say; `pushplan bench merge OUT SHARD...` makes of all shards what one run would have left.
 Recordings are measured anew each time.
 
 Examples:
@@ -60,7 +60,7 @@ pub struct EvaluateArgs {
     /// Seed of the pushes and scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub seed: u64,
-    /// Measure only part I of N: a kind of pushes or a set of scenes is measured in one go
+    /// Measure only shard I of N; a kind of pushes or a set of scenes is never split
     #[arg(long, value_name = "I/N", requires = "out")]
     pub shard: Option<Shard>,
     #[command(flatten)]
