@@ -8,6 +8,8 @@ use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, generate,
 };
 
+use crate::store::Shard;
+
 use super::{
     error::CliError,
     exit_code,
@@ -21,7 +23,9 @@ use super::{
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
-episodes; the same command goes on from there.
+episodes; the same command goes on from there. --shard 2/3 makes every third episode, on another
+machine say; `pushplan bench merge DIR SHARD...` makes of the parts the same files as one run, and
+`pushplan bench status SHARD...` says which are missing.
 
 A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
 for test sets such as the published ones (hand at 0.21 m/s).
@@ -56,6 +60,9 @@ pub struct GenerateArgs {
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
+    /// Make only part I of N, in a folder of its own
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
 }
 
 impl GenerateArgs {
@@ -78,12 +85,16 @@ pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     let config = args.config();
     interrupt::watch();
     let following = Following::bar(session, "episodes");
-    let made = session.compute(|| generate(&config, &args.folder, &following));
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let made = session.compute(|| generate(&config, shard, &args.folder, &following));
     following.finish()?;
-    let bytes = made.map_err(data_error)?;
+    let (episodes, bytes) = made.map_err(data_error)?;
+    let part = match shard {
+        Shard::WHOLE => String::new(),
+        shard => format!(", shard {shard}"),
+    };
     session.print(&format!(
-        "{} episodes of seed {}, {:.1} MB, in {}\n",
-        config.episodes,
+        "{episodes} episodes of seed {}{part}, {:.1} MB, in {}\n",
         config.seed,
         bytes as f64 / 1e6,
         args.folder.display()
@@ -100,7 +111,9 @@ pub fn data_error(error: DatasetError) -> CliError {
             error.to_string(),
             "`pushplan generate --help` says what each preset has",
         ),
-        DatasetError::Foreign { .. } => CliError::File(error.to_string()),
+        DatasetError::Foreign { .. } | DatasetError::Shard { .. } => {
+            CliError::File(error.to_string())
+        }
         DatasetError::Store(error) => error.into(),
     }
 }

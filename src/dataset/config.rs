@@ -11,7 +11,7 @@ use crate::store::RunManifest;
 use super::{constraints::Constraints, error::DatasetError, preset::Preset};
 
 /// The suite of a folder of episodes.
-const SUITE: &str = "episodes";
+pub const SUITE: &str = "episodes";
 
 /// What the episodes show: the 3-D engine in most of those with tools.
 const TRUTH: &str = "planar and 3d";

@@ -302,27 +302,6 @@ fn a_build_without_training_says_how_to_get_one_with_it() {
     }
 }
 
-#[cfg(unix)]
-#[test]
-fn two_commands_never_write_to_one_folder() {
-    let folder = TempDir::new().expect("a folder");
-    let lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
-    let dir = folder.path().to_str().expect("UTF-8");
-    for command in [
-        &["generate", dir, "--episodes", "1"][..],
-        &["bench", "tasks", "tasks/pull-back.yaml", "--out", dir],
-    ] {
-        let output = pushplan(command);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        let wanted = format!("error: another pushplan is writing to {dir}; wait for it, or");
-        assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
-    }
-    assert_eq!(files(folder.path()), [""; 0], "nothing is written");
-    drop(lock);
-    let output = pushplan(&["generate", dir, "--episodes", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
 fn pushplan(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_pushplan"))
         .args(arguments)

@@ -5,6 +5,7 @@ use std::process::Command;
 #[cfg(unix)]
 use crate::interrupted::goes_on_after_an_interruption;
 use crate::pages;
+use pushplan::watch::Unwatched;
 
 #[cfg(unix)]
 #[test]
@@ -31,7 +32,8 @@ fn the_commands_of_all_pages_are_taken() {
 #[test]
 fn a_training_never_writes_to_a_folder_that_another_command_writes_to() {
     let folder = tempfile::tempdir().expect("a folder");
-    let _lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
+    let _lock =
+        pushplan::store::FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
     let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
         .arg("train")
         .arg(folder.path())

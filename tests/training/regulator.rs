@@ -94,7 +94,7 @@ impl Watch for Until {
 }
 
 fn train(folder: &Path, lessons: &[Lesson], held_out: &[Lesson], watch: &dyn Watch) {
-    let lock = FolderLock::take(folder).expect("a lock");
+    let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
     train_regulator(&settings(), lessons, held_out, &lock, watch).expect("training");
 }
 

@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, joints, random, refinement, saved, tasks, tools};
+use super::{cost, joints, random, refinement, saved, status, tasks, tools};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -23,6 +23,7 @@ enum What {
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
     Merge(saved::MergeArgs),
+    Status(status::StatusArgs),
     Report(saved::ReportArgs),
 }
 
@@ -36,6 +37,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
+        What::Status(args) => status::run(args, session)?,
         What::Report(args) => saved::report(args, session)?,
     }
     Ok(exit_code::DONE)

@@ -10,8 +10,9 @@ mod random;
 mod refinement;
 mod run;
 mod saved;
+mod status;
 mod tasks;
 mod tools;
 
 pub use command::{BenchArgs, run};
-pub use keep::weights_digest;
+pub use keep::{value_digest, weights_digest};
