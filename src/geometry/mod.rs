@@ -1,7 +1,7 @@
 //! Planar geometry: poses, footprints, closest points, clearances and swept areas.
 //!
-//! Everything is in the plane of the table, in metres and radians. It knows nothing of tools,
-//! tasks or physics; the vertical extent of a body is only a height.
+//! Everything but poses in space is in the plane of the table, in metres and radians. It knows
+//! nothing of tools, tasks or physics; the vertical extent of a body is only a height.
 
 mod cast;
 mod clearance;
@@ -12,6 +12,7 @@ mod polygon;
 mod pose;
 mod rim;
 mod shape;
+mod spatial;
 mod turn;
 
 pub use cast::travel_to_contact;
@@ -22,4 +23,5 @@ pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
+pub use spatial::{Pose3, Vector3};
 pub use turn::Turn;

@@ -16,6 +16,7 @@ mod groups;
 mod guess;
 mod job;
 mod joint;
+mod lever;
 mod model;
 mod motion;
 mod near;
@@ -48,6 +49,10 @@ pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
+pub use lever::{
+    Blade, Block, Ending, LEVER_FRAMES, LeverJob, LeverScene, LeverTrajectory, LeverUp,
+    LeverWarning, Place, Plate, Slab,
+};
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,
 };

@@ -1,0 +1,17 @@
+//! What is levered, with what, how, and what came of it.
+//!
+//! A lever goes under the edge of a plate and turns about a horizontal axis. Plates move in all six
+//! degrees of freedom, so their scenes, actions and trajectories are types of their own beside the
+//! planar ones.
+
+mod action;
+mod outcome;
+mod plate;
+mod scene;
+mod trajectory;
+
+pub use action::{LeverJob, LeverUp, Place};
+pub use outcome::{Ending, LeverWarning};
+pub use plate::{Plate, Slab};
+pub use scene::{Blade, Block, LeverScene};
+pub use trajectory::{LEVER_FRAMES, LeverTrajectory};

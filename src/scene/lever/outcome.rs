@@ -1,0 +1,49 @@
+//! How a lever-up ended.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// How the levered plate lies when everything rests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// On its underside again.
+    Back,
+    /// Upside down.
+    Flipped,
+    /// Against something, or on edge.
+    Leaning,
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Back => "back on its underside",
+            Self::Flipped => "flipped",
+            Self::Leaning => "leaning",
+        })
+    }
+}
+
+/// What lowers the trust in a lever-up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LeverWarning {
+    /// The plate slid off the blade during the turn.
+    Slipped,
+    /// Forces grew as they do when something is jammed.
+    Jammed,
+    /// It did not come to rest in time.
+    Moving,
+}
+
+impl fmt::Display for LeverWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Slipped => "the plate slipped off the blade",
+            Self::Jammed => "something is jammed",
+            Self::Moving => "the plate did not come to rest",
+        })
+    }
+}

@@ -1,0 +1,32 @@
+//! How a plate moved when it was levered.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Pose3;
+
+use super::{Ending, LeverWarning};
+
+/// Frames of a turn, at even times, the last one at its end.
+pub const LEVER_FRAMES: usize = 15;
+
+/// How the levered plate moved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeverTrajectory {
+    /// The plate's frame during the turn: at the end of each of [`LEVER_FRAMES`] equal times.
+    pub lift: Vec<Pose3>,
+    /// Of each of these, whether the plate lay on the blade.
+    pub held: Vec<bool>,
+    /// The plate's frame when everything rests.
+    pub rest: Pose3,
+    /// How it lies then.
+    pub ending: Ending,
+    /// What went wrong on the way.
+    pub warnings: Vec<LeverWarning>,
+}
+
+impl LeverTrajectory {
+    /// Whether the plate slid off the blade.
+    pub fn slipped(&self) -> bool {
+        self.warnings.contains(&LeverWarning::Slipped)
+    }
+}
