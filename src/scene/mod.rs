@@ -50,8 +50,9 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, Block, Ending, LEVER_FRAMES, LeverJob, LeverScene, LeverTrajectory, LeverUp,
-    LeverWarning, Place, Plate, Slab,
+    Blade, BladeTool, Block, Ending, LEVER_FRAMES, LeverEvidence, LeverFault, LeverGoal, LeverJob,
+    LeverOutcome, LeverPlan, LeverReason, LeverRules, LeverScene, LeverTask, LeverTrajectory,
+    LeverUp, LeverVerdict, LeverWarning, Pivot, Place, Plate, Slab, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

@@ -5,13 +5,19 @@
 //! planar ones.
 
 mod action;
+mod goal;
 mod outcome;
 mod plate;
 mod scene;
+mod task;
 mod trajectory;
+mod verdict;
 
-pub use action::{LeverJob, LeverUp, Place};
+pub use action::{LeverJob, LeverUp, Place, lever_frame};
+pub use goal::{LeverGoal, LeverOutcome};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
+pub use task::{BladeTool, LeverPlan, LeverRules, LeverTask, Pivot};
 pub use trajectory::{LEVER_FRAMES, LeverTrajectory};
+pub use verdict::{LeverEvidence, LeverFault, LeverReason, LeverVerdict};
