@@ -50,8 +50,8 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, Block, Ending, LEVER_FRAMES, LeverJob, LeverScene, LeverTrajectory, LeverUp,
-    LeverWarning, Place, Plate, Slab,
+    Blade, Block, Ending, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene,
+    LeverTrajectory, LeverUp, LeverWarning, Place, Plate, Slab, Weight,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

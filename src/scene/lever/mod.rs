@@ -5,13 +5,17 @@
 //! planar ones.
 
 mod action;
+mod motion;
 mod outcome;
 mod plate;
 mod scene;
 mod trajectory;
+mod weight;
 
 pub use action::{LeverJob, LeverUp, Place};
+pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
 pub use trajectory::{LEVER_FRAMES, LeverTrajectory};
+pub use weight::Weight;
