@@ -26,6 +26,18 @@ impl Default for Pose3 {
 }
 
 impl Pose3 {
+    /// A pose of its position, metres, and the quaternion `x, y, z, w` of its turn, of any length
+    /// but zero.
+    pub fn from_quaternion(position: Vector3, [x, y, z, w]: [f64; 4]) -> Self {
+        let rotation = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+        Self { position, rotation }
+    }
+
+    /// The quaternion of its turn: `x, y, z, w`.
+    pub fn quaternion(&self) -> [f64; 4] {
+        self.rotation.coords.into()
+    }
+
     /// An upright body: a planar pose at this height, metres.
     pub fn upright(pose: Pose, height: f64) -> Self {
         Self {

@@ -16,6 +16,7 @@
 mod drive;
 mod footprints;
 mod groups;
+mod lever;
 mod parameters;
 mod planar;
 mod seams;
@@ -27,4 +28,5 @@ mod strain;
 mod support;
 mod upright;
 
+pub use lever::LeverSimulator;
 pub use simulator::Simulator;

@@ -6,18 +6,22 @@
 
 mod action;
 mod goal;
+mod motion;
 mod outcome;
 mod plate;
 mod scene;
 mod task;
 mod trajectory;
 mod verdict;
+mod weight;
 
 pub use action::{LeverJob, LeverUp, Place, lever_frame};
 pub use goal::{LeverGoal, LeverOutcome};
+pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
 pub use task::{BladeTool, LeverPlan, LeverRules, LeverTask, Pivot};
 pub use trajectory::{LEVER_FRAMES, LeverTrajectory};
 pub use verdict::{LeverEvidence, LeverFault, LeverReason, LeverVerdict};
+pub use weight::Weight;

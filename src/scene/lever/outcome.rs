@@ -4,6 +4,16 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Pose3;
+
+/// A plate that lies flat leans less than this, radians (5 degrees): a foot that stands on a wall
+/// makes more.
+const FLAT: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// An upside-down plate leans less than this off the vertical, radians (15 degrees): it may lie on
+/// parts of different height.
+const UPSIDE_DOWN: f64 = 15.0 * std::f64::consts::PI / 180.0;
+
 /// How the levered plate lies when everything rests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -14,6 +24,20 @@ pub enum Ending {
     Flipped,
     /// Against something, or on edge.
     Leaning,
+}
+
+impl Ending {
+    /// How a plate lies at rest in this pose.
+    pub fn of(rest: &Pose3) -> Self {
+        let tilt = rest.tilt();
+        if tilt < FLAT {
+            Self::Back
+        } else if tilt > std::f64::consts::PI - UPSIDE_DOWN {
+            Self::Flipped
+        } else {
+            Self::Leaning
+        }
+    }
 }
 
 impl fmt::Display for Ending {
