@@ -112,8 +112,7 @@ impl LeverGoal {
             rest,
             warnings: trajectory.warnings.clone(),
         };
-        outcome.reached =
-            score <= 1.0 && trajectory.rest.is_finite() && outcome.fault().is_none();
+        outcome.reached = score <= 1.0 && trajectory.rest.is_finite() && outcome.fault().is_none();
         outcome
     }
 }

@@ -1,0 +1,99 @@
+//! The lever-ups that a task's rules allow, on a grid.
+
+use crate::scene::{LeverRules, LeverScene, LeverTask, LeverUp, Pivot, Place};
+
+/// Lever points are so far apart along the outline, metres.
+const APART: f64 = 0.010;
+
+/// Depths and turns that are tried of the ranges that a task allows.
+const DEPTHS: usize = 3;
+const ANGLES: usize = 6;
+
+/// A lever-up and where it stands on the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeverCandidate {
+    /// Index of the tool.
+    pub tool: usize,
+    /// Which lever point along the outline, depth, axis and turn.
+    pub cell: [usize; 4],
+    /// The lever-up.
+    pub lever: LeverUp,
+}
+
+/// The lever-ups of one tool in a task.
+pub struct LeverGrid<'a> {
+    /// The task.
+    pub task: &'a LeverTask,
+    /// Its scene with the tool's blade.
+    pub scene: &'a LeverScene,
+    /// Index of the tool.
+    pub tool: usize,
+}
+
+impl LeverGrid<'_> {
+    /// All of them, in order; `auto` tells where the axis lies that follows from the plate, and
+    /// where there is none, the candidate has an axis that is no number.
+    pub fn candidates(
+        &self,
+        auto: impl Fn(&LeverScene, Place) -> Option<f64>,
+    ) -> Vec<LeverCandidate> {
+        let rules = &self.task.levers;
+        let depths = spread(rules.depth, DEPTHS);
+        let angles = spread(rules.angle, ANGLES);
+        let mut found = Vec::new();
+        for (p, place) in self.places().into_iter().enumerate() {
+            for (d, &depth) in depths.iter().enumerate() {
+                for (q, pivot) in rules.pivots.iter().enumerate() {
+                    let pivot = match *pivot {
+                        Pivot::Auto => auto(self.scene, place).unwrap_or(f64::NAN),
+                        Pivot::At(distance) => distance,
+                    };
+                    for (a, &angle) in angles.iter().enumerate() {
+                        let lever = LeverUp {
+                            plate: self.task.goal.plate,
+                            place,
+                            depth,
+                            pivot,
+                            angle,
+                            speed: rules.speed,
+                            hold: rules.hold,
+                            retreat: rules.retreat,
+                        };
+                        let cell = [p, d, q, a];
+                        found.push(LeverCandidate { tool: self.tool, cell, lever });
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Lever points along the outline, not too near to its corners and even on each edge.
+    fn places(&self) -> Vec<Place> {
+        let corners = self.task.plate().corners();
+        let mut places = Vec::new();
+        for (edge, from) in corners.iter().enumerate() {
+            let length = (corners[(edge + 1) % corners.len()] - from).norm();
+            let free = length - 2.0 * LeverRules::CORNER;
+            if free < 0.0 {
+                continue;
+            }
+            let gaps = (free / APART).floor() as usize;
+            let used = gaps as f64 * APART;
+            let first = LeverRules::CORNER + 0.5 * (free - used);
+            places.extend((0..=gaps).map(|k| {
+                let along = first + k as f64 * APART;
+                Place { edge, fraction: (along / length).clamp(0.0, 1.0) }
+            }));
+        }
+        places
+    }
+}
+
+/// So many numbers from the smallest to the largest; one if both are the same.
+fn spread([low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    if high - low < 1e-12 {
+        return vec![low];
+    }
+    (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
+}
