@@ -13,6 +13,7 @@ mod pose;
 mod rim;
 mod shape;
 mod spatial;
+mod support_edge;
 mod turn;
 
 pub use cast::travel_to_contact;
@@ -24,4 +25,5 @@ pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
 pub use spatial::{Pose3, Vector3};
+pub use support_edge::{SupportEdge, support_edge};
 pub use turn::Turn;

@@ -9,6 +9,7 @@ mod motion;
 mod outcome;
 mod plate;
 mod scene;
+mod support;
 mod trajectory;
 mod weight;
 
