@@ -14,6 +14,7 @@ mod rim;
 mod shape;
 mod solid;
 mod spatial;
+mod support_edge;
 mod turn;
 
 pub use cast::travel_to_contact;
@@ -26,4 +27,5 @@ pub use rim::Rim;
 pub use shape::{Footprint, Shape};
 pub use solid::{Solid, common_area};
 pub use spatial::{Pose3, Vector3};
+pub use support_edge::{SupportEdge, support_edge};
 pub use turn::Turn;

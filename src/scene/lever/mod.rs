@@ -10,6 +10,7 @@ mod motion;
 mod outcome;
 mod plate;
 mod scene;
+mod support;
 mod task;
 mod trajectory;
 mod verdict;
