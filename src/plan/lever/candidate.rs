@@ -1,6 +1,6 @@
 //! The lever-ups that a task's rules allow, on a grid.
 
-use crate::scene::{LeverRules, LeverScene, LeverTask, LeverUp, Pivot, Place};
+use crate::scene::{LeverRules, LeverTask, LeverUp, Pivot, Place};
 
 /// Lever points are so far apart along the outline, metres.
 const APART: f64 = 0.010;
@@ -24,20 +24,14 @@ pub struct LeverCandidate {
 pub struct LeverGrid<'a> {
     /// The task.
     pub task: &'a LeverTask,
-    /// Its scene with the tool's blade.
-    pub scene: &'a LeverScene,
     /// Index of the tool.
     pub tool: usize,
 }
 
 impl LeverGrid<'_> {
-    /// All of them, in order; `auto` tells where the axis lies that follows from the plate, and
-    /// where there is none, the candidate has an axis that is no number.
-    pub fn candidates(
-        &self,
-        auto: impl Fn(&LeverScene, Place) -> Option<f64>,
-    ) -> Vec<LeverCandidate> {
-        let rules = &self.task.levers;
+    /// All of them, in order. Where no axis follows from the plate, it is no number.
+    pub fn candidates(&self) -> Vec<LeverCandidate> {
+        let (plate, rules) = (self.task.plate(), &self.task.levers);
         let depths = spread(rules.depth, DEPTHS);
         let angles = spread(rules.angle, ANGLES);
         let mut found = Vec::new();
@@ -45,7 +39,7 @@ impl LeverGrid<'_> {
             for (d, &depth) in depths.iter().enumerate() {
                 for (q, pivot) in rules.pivots.iter().enumerate() {
                     let pivot = match *pivot {
-                        Pivot::Auto => auto(self.scene, place).unwrap_or(f64::NAN),
+                        Pivot::Auto => plate.auto_pivot(place).unwrap_or(f64::NAN),
                         Pivot::At(distance) => distance,
                     };
                     for (a, &angle) in angles.iter().enumerate() {

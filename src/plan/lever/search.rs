@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{
-    LeverFault, LeverGoal, LeverJob, LeverOutcome, LeverScene, LeverTask, LeverTrajectory, Place,
+    LeverFault, LeverGoal, LeverJob, LeverOutcome, LeverScene, LeverTask, LeverTrajectory,
 };
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};
 
-/// Jobs that are predicted together.
-const BATCH: usize = 32;
+/// Jobs that are predicted together, in parallel; between batches the search can be stopped.
+const BATCH: usize = 256;
 
 /// Tilts at the end of the turn between which plates fall either way, degrees. Measured on
 /// thousands of plates: below 75 two of a hundred turn over, above 85 all but two.
@@ -60,18 +60,18 @@ pub struct LeverSearch<'a> {
 }
 
 impl LeverSearch<'_> {
-    /// All candidates that can be made, the best first; `auto` tells where the axis lies that
-    /// follows from the plate, `predict` what comes of jobs.
+    /// All candidates that can be made, the best first; `predict` tells what comes of jobs, and
+    /// `cancelled` whether to make do with those that were predicted by now.
     pub fn run(
         &self,
-        auto: &(dyn Fn(&LeverScene, Place) -> Option<f64> + Sync),
-        predict: &(dyn Fn(&[LeverJob]) -> Vec<LeverTrajectory> + Sync),
+        predict: &dyn Fn(&[LeverJob]) -> Vec<LeverTrajectory>,
+        cancelled: &dyn Fn() -> bool,
     ) -> (Vec<ScoredLever>, LeverSearchStatistics) {
         let mut statistics = LeverSearchStatistics::default();
         let mut candidates: Vec<LeverCandidate> = Vec::new();
         for (tool, scene) in self.scenes.iter().enumerate() {
-            let grid = LeverGrid { task: self.task, scene, tool };
-            let all = grid.candidates(auto);
+            let grid = LeverGrid { task: self.task, tool };
+            let all = grid.candidates();
             statistics.considered += all.len();
             let room = LeverRoom::new(self.task, scene);
             let faults: Vec<Option<LeverFault>> =
@@ -83,25 +83,26 @@ impl LeverSearch<'_> {
                 }
             }
         }
+        let mut outcomes: Vec<(LeverOutcome, f64)> = Vec::with_capacity(candidates.len());
+        for batch in candidates.chunks(BATCH) {
+            if cancelled() {
+                break;
+            }
+            let job = |c: &LeverCandidate| LeverJob {
+                scene: Arc::clone(&self.scenes[c.tool]),
+                lever: c.lever,
+            };
+            let jobs: Vec<LeverJob> = batch.iter().map(job).collect();
+            let rolled = predict(&jobs);
+            outcomes.extend(jobs.iter().zip(rolled).map(|(job, trajectory)| {
+                let goal = &self.task.goal;
+                let outcome = goal.judge(&job.scene, &job.lever, &trajectory);
+                let merit = merit(goal, &outcome, &trajectory);
+                (outcome, merit)
+            }));
+        }
+        candidates.truncate(outcomes.len());
         statistics.rollouts = candidates.len();
-        let outcomes: Vec<(LeverOutcome, f64)> = candidates
-            .par_chunks(BATCH)
-            .flat_map_iter(|batch| {
-                let job = |c: &LeverCandidate| LeverJob {
-                    scene: Arc::clone(&self.scenes[c.tool]),
-                    lever: c.lever,
-                };
-                let jobs: Vec<LeverJob> = batch.iter().map(job).collect();
-                let rolled = predict(&jobs);
-                let judged = jobs.iter().zip(rolled).map(|(job, trajectory)| {
-                    let goal = &self.task.goal;
-                    let outcome = goal.judge(&job.scene, &job.lever, &trajectory);
-                    let merit = merit(goal, &outcome, &trajectory);
-                    (outcome, merit)
-                });
-                judged.collect::<Vec<_>>()
-            })
-            .collect();
         statistics.promising = outcomes.iter().filter(|(outcome, _)| outcome.reached).count();
         let company = company(&candidates, &outcomes);
         let scored = candidates.into_iter().zip(outcomes).zip(company);
