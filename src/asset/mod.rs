@@ -34,7 +34,9 @@ pub use lever::{AnyTask, load_any_task};
 pub use library::ToolLibrary;
 pub use printable::printable;
 pub use recording::RECORDING_FORMAT;
-pub use saved::{LeverPlanFile, LeverTrajectoryFile, PlanFile, SCHEMA_VERSION, TrajectoryFile};
+pub use saved::{
+    AnyPlanFile, LeverPlanFile, LeverTrajectoryFile, PlanFile, SCHEMA_VERSION, TrajectoryFile,
+};
 pub use schema::{
     blade_schema, lever_plan_schema, lever_task_schema, lever_trajectory_schema, plan_schema,
     recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,

@@ -29,6 +29,9 @@ pub const HELP: &str = help!("");
 /// The same where the effort decides unless a model is named.
 pub const HELP_WITH_EFFORT: &str = help!(" [default: that of the effort]");
 
+/// The same where it is the network unless a model is named; for lever-ups their own.
+pub const HELP_WITH_NETWORK: &str = help!(" [default: network]");
+
 /// The model that is used unless another is asked for.
 pub const DEFAULT: &str = "network";
 

@@ -15,6 +15,7 @@ mod html;
 mod joints;
 mod keyframes;
 mod labels;
+mod lever;
 mod number;
 mod page;
 mod picture;
@@ -46,6 +47,10 @@ pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
+pub use lever::{
+    PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
+    lever_solution_document, lever_verdict_document, lever_verdict_line,
+};
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};

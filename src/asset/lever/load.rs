@@ -22,16 +22,20 @@ pub enum AnyTask {
     Levers(LeverTask),
 }
 
-/// Reads a task file of either kind and checks the tools it names against `library`.
+/// Reads a task file of either kind and checks the tools it names against `library`, if one is
+/// given.
 ///
 /// # Errors
 /// All faults of the file, each with its place.
-pub fn load_any_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<AnyTask, Faults> {
+pub fn load_any_task(
+    path: impl AsRef<Path>,
+    library: Option<&ToolLibrary>,
+) -> Result<AnyTask, Faults> {
     let (file, text) = crate::asset::read_text(path.as_ref())?;
     if is_lever_task(&Node::parse(Source::yaml(&file, &text))?) {
-        parse_lever_task(&text, &file, Some(library)).map(AnyTask::Levers)
+        parse_lever_task(&text, &file, library).map(AnyTask::Levers)
     } else {
-        task::parse_with(&text, &file, Some(library)).map(AnyTask::Pushes)
+        task::parse_with(&text, &file, library).map(AnyTask::Pushes)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::scene::{
 };
 
 use super::lever_spec::{LEVER_PLAN_FILE, LEVER_TRAJECTORY_FILE};
-use super::{SCHEMA_VERSION, read};
+use super::{PlanFile, SCHEMA_VERSION, read};
 
 /// A lever-up with everything that is needed to carry it out, and what is known of its effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +36,32 @@ pub struct LeverPlanFile {
     pub predicted: Option<LeverOutcome>,
     /// Whether simulation confirms it.
     pub verdict: Option<LeverVerdict>,
+}
+
+/// What a plan file may be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnyPlanFile {
+    /// A plan of pushes.
+    Pushes(Box<PlanFile>),
+    /// A lever-up.
+    Levers(Box<LeverPlanFile>),
+}
+
+impl AnyPlanFile {
+    /// Reads a plan file of either kind.
+    ///
+    /// # Errors
+    /// All faults of the file, each with its place.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        let (file, text) = read_text(path.as_ref())?;
+        let kind = Node::parse(Source::json(&file, &text))?;
+        match kind.get("kind").and_then(Node::text) {
+            Some("lever_plan") => {
+                LeverPlanFile::parse(&text, &file).map(|file| Self::Levers(Box::new(file)))
+            }
+            _ => PlanFile::parse(&text, &file).map(|file| Self::Pushes(Box::new(file))),
+        }
+    }
 }
 
 /// What happened when a lever-up was simulated.

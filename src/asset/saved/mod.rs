@@ -11,7 +11,7 @@ mod read;
 mod spec;
 mod trajectory;
 
-pub use lever::{LeverPlanFile, LeverTrajectoryFile};
+pub use lever::{AnyPlanFile, LeverPlanFile, LeverTrajectoryFile};
 pub use plan::PlanFile;
 pub use spec::SCHEMA_VERSION;
 pub use trajectory::TrajectoryFile;
