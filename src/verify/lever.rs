@@ -52,10 +52,10 @@ impl LeverVerifier {
     /// The replay as written; `tool` is the one that the plan names.
     pub fn nominal(&self, task: &LeverTask, tool: &BladeTool, plan: &LeverPlan) -> LeverVerdict {
         let scene = Arc::new(task.scene(tool.blade));
-        let forbidden = broken_rules(task, &scene, tool, plan);
-        if forbidden.contains(&nowhere()) {
-            return LeverVerdict::judge(forbidden, Vec::new(), task.robustness);
+        if let Some(fault) = unplayable(&scene, plan) {
+            return LeverVerdict::judge(vec![fault], Vec::new(), task.robustness);
         }
+        let forbidden = broken_rules(task, &scene, tool, plan);
         let job = LeverJob { scene, lever: plan.lever };
         let trajectory = self.engine.run(&job);
         let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
@@ -127,9 +127,21 @@ fn disturbed(scene: &LeverScene, plate: usize, seed: u64, draw: usize) -> LeverS
     scene
 }
 
-/// A plan that names what is not there, so that nothing can be replayed.
-fn nowhere() -> LeverFault {
-    LeverFault::ForbiddenLever { what: "place".to_owned() }
+/// Why a plan cannot even be replayed: it names what is not there, or takes too long.
+fn unplayable(scene: &LeverScene, plan: &LeverPlan) -> Option<LeverFault> {
+    let lever = &plan.lever;
+    let what = |what: &str| Some(LeverFault::ForbiddenLever { what: what.to_owned() });
+    let Some(plate) = scene.plates.get(lever.plate) else { return what("object") };
+    let on_edge = (0.0..=1.0).contains(&lever.place.fraction);
+    if lever.place.edge >= plate.corners().len() || !on_edge {
+        return what("place");
+    }
+    let numbers = [lever.depth, lever.pivot, lever.angle, lever.speed, lever.hold, lever.retreat];
+    let moves = lever.speed > 0.0 && lever.angle > 0.0 && lever.hold >= 0.0 && lever.retreat >= 0.0;
+    if !moves || !numbers.iter().all(|v| v.is_finite()) {
+        return what("motion");
+    }
+    (lever.duration() > LeverUp::LONGEST).then_some(LeverFault::TooLong)
 }
 
 /// Everything that is wrong with a plan before anything moves.
@@ -140,19 +152,8 @@ fn broken_rules(
     plan: &LeverPlan,
 ) -> Vec<LeverFault> {
     let (lever, rules) = (&plan.lever, &task.levers);
-    let Some(plate) = scene.plates.get(lever.plate) else { return vec![nowhere()] };
+    let plate = &scene.plates[lever.plate];
     let corners = plate.corners();
-    let numbers = [lever.depth, lever.pivot, lever.angle, lever.speed, lever.hold, lever.retreat];
-    let share = (0.0..=1.0).contains(&lever.place.fraction);
-    let moves = lever.speed > 0.0 && lever.angle > 0.0 && lever.hold >= 0.0 && lever.retreat >= 0.0;
-    if lever.place.edge >= corners.len()
-        || !share
-        || !numbers.iter().all(|v| v.is_finite())
-        || !moves
-        || lever.duration() > 120.0
-    {
-        return vec![nowhere()];
-    }
     let mut found = Vec::new();
     if let ToolChoice::Named(names) = &task.tools
         && !names.contains(&tool.name)

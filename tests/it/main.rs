@@ -19,6 +19,7 @@ mod fitting;
 mod fixtures;
 mod jointed;
 mod joints_bench;
+mod levers;
 mod models;
 mod network;
 mod outside;

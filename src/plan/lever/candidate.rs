@@ -2,8 +2,10 @@
 
 use crate::scene::{LeverRules, LeverTask, LeverUp, Pivot, Place};
 
-/// Lever points are so far apart along the outline, metres.
+/// Lever points are so far apart along the outline, metres, and farther where there would be more
+/// than so many.
 const APART: f64 = 0.010;
+const MOST: f64 = 96.0;
 
 /// Depths and turns that are tried of the ranges that a task allows.
 const DEPTHS: usize = 3;
@@ -65,18 +67,21 @@ impl LeverGrid<'_> {
     /// Lever points along the outline, not too near to its corners and even on each edge.
     fn places(&self) -> Vec<Place> {
         let corners = self.task.plate().corners();
+        let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).norm();
+        let around: f64 = (0..corners.len()).map(side).sum();
+        let apart = APART.max(around / MOST);
         let mut places = Vec::new();
-        for (edge, from) in corners.iter().enumerate() {
-            let length = (corners[(edge + 1) % corners.len()] - from).norm();
+        for edge in 0..corners.len() {
+            let length = side(edge);
             let free = length - 2.0 * LeverRules::CORNER;
             if free < 0.0 {
                 continue;
             }
-            let gaps = (free / APART).floor() as usize;
-            let used = gaps as f64 * APART;
+            let gaps = (free / apart).floor() as usize;
+            let used = gaps as f64 * apart;
             let first = LeverRules::CORNER + 0.5 * (free - used);
             places.extend((0..=gaps).map(|k| {
-                let along = first + k as f64 * APART;
+                let along = first + k as f64 * apart;
                 Place { edge, fraction: (along / length).clamp(0.0, 1.0) }
             }));
         }

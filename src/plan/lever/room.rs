@@ -69,6 +69,9 @@ impl<'a> LeverRoom<'a> {
         if over || ![lever.pivot, lever.angle, lever.depth].iter().all(|v| v.is_finite()) {
             return Some(LeverFault::NoSupport);
         }
+        if lever.duration() > LeverUp::LONGEST {
+            return Some(LeverFault::TooLong);
+        }
         self.way(lever)
     }
 

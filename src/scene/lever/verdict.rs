@@ -39,6 +39,8 @@ pub enum LeverFault {
     OutOfReach,
     /// There is no support line that the axis could lie on.
     NoSupport,
+    /// It takes longer than [`LeverUp::LONGEST`](super::LeverUp::LONGEST).
+    TooLong,
 }
 
 impl fmt::Display for LeverFault {
@@ -52,6 +54,7 @@ impl fmt::Display for LeverFault {
             Self::Meets { body } => write!(f, "the blade would go through {body}"),
             Self::BelowTable => f.write_str("the shaft would go through the table"),
             Self::OutOfReach => f.write_str("the end effector would leave its reach"),
+            Self::TooLong => f.write_str("it would take more than two minutes"),
             Self::NoSupport => f.write_str("no support line to turn about"),
         }
     }
