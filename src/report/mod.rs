@@ -49,7 +49,7 @@ pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
 pub use lever::{
     PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
-    lever_solution_document, lever_verdict_document, lever_verdict_line,
+    lever_solution_document, lever_verdict_document, lever_verdict_line, levers_document,
 };
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};

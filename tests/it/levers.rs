@@ -122,9 +122,10 @@ fn faults(changes: &[(&str, &str)]) -> String {
     std::fs::write(&path, text).expect("a file");
     match load_any_task(&path, Some(&library())) {
         Ok(_) => String::new(),
-        Err(found) => {
-            found.to_string().replace(&folder.path().display().to_string(), "").replace("/task", "task")
-        }
+        Err(found) => found
+            .to_string()
+            .replace(&folder.path().display().to_string(), "")
+            .replace("/task", "task"),
     }
 }
 
@@ -190,7 +191,10 @@ fn what_no_robot_can_do_is_refused_in_words() {
     let along = AskedLever { place: AskedPlace::Along(0.16), ..asked(0.5) };
     let place = asked_lever(&task, &tool, &along).expect("a lever-up").plan.lever.place;
     assert!(place.edge == 1 && (place.fraction - 0.5).abs() < 1e-9, "{place:?}");
-    assert!(asked_lever(&task, &tool, &AskedLever { place: AskedPlace::Edge(9, 0.5), ..along }).is_err());
+    assert!(
+        asked_lever(&task, &tool, &AskedLever { place: AskedPlace::Edge(9, 0.5), ..along })
+            .is_err()
+    );
 }
 
 #[test]

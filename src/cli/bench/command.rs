@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, joints, random, refinement, saved, tasks, tools};
+use super::{cost, joints, levers, random, refinement, saved, tasks, tools};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -22,6 +22,7 @@ enum What {
     Cost(cost::CostArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
+    Levers(levers::LeversArgs),
     Merge(saved::MergeArgs),
     Report(saved::ReportArgs),
 }
@@ -35,6 +36,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Cost(args) => cost::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
+        What::Levers(args) => levers::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
         What::Report(args) => saved::report(args, session)?,
     }

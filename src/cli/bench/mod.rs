@@ -5,6 +5,7 @@ mod common;
 mod cost;
 mod joints;
 mod keep;
+mod levers;
 mod page;
 mod random;
 mod refinement;

@@ -4,16 +4,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{BeliefCase, BeliefRecord, ClosedRecord, RandomRecord, SolvedTask, ToolRecord};
+use crate::bench::{
+    BeliefCase, BeliefRecord, ClosedRecord, LeverRecord, RandomRecord, SolvedTask, ToolRecord,
+};
 use crate::cli::{error::CliError, form::Form, output, session::Session};
 use crate::report::{
-    ClosedRun, Document, RandomRun, closed_document, random_document, solved_document,
-    tools_document,
+    ClosedRun, Document, RandomRun, closed_document, levers_document, random_document,
+    solved_document, tools_document,
 };
 use crate::store::{Finished, RunManifest, Store, StoreError, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, random, tasks, tools};
+use super::{joints, keep, levers, random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -97,6 +99,10 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
+        (levers::SUITE, [dir]) => {
+            let store = Store::<LeverRecord>::load(dir)?;
+            Ok(levers_document(store.manifest(), store.finished()))
+        }
         (super::run::SUITE, runs) => {
             let runs: Vec<ClosedRun> = runs
                 .iter()
@@ -105,7 +111,7 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             same_tasks(&runs)?;
             Ok(closed_document(&runs))
         }
-        (tasks::SUITE | tools::SUITE | joints::SUITE, _) => Err(CliError::usage(
+        (tasks::SUITE | tools::SUITE | joints::SUITE | levers::SUITE, _) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),
