@@ -51,7 +51,7 @@ pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
     Blade, Block, Ending, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene,
-    LeverTrajectory, LeverUp, LeverWarning, Place, Plate, Slab, Weight,
+    LeverTrajectory, LeverUp, LeverWarning, Place, Plate, Slab, Weight, has_slipped, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

@@ -13,10 +13,10 @@ mod support;
 mod trajectory;
 mod weight;
 
-pub use action::{LeverJob, LeverUp, Place};
+pub use action::{LeverJob, LeverUp, Place, lever_frame};
 pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
-pub use trajectory::{LEVER_FRAMES, LeverTrajectory};
+pub use trajectory::{LEVER_FRAMES, LeverTrajectory, has_slipped};
 pub use weight::Weight;
