@@ -23,6 +23,7 @@ mod seams;
 mod simulator;
 mod slowing;
 mod solids;
+mod solved;
 mod spatial;
 mod strain;
 mod support;

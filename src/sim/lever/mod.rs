@@ -5,6 +5,7 @@
 //! The blade is kinematic and goes exactly where [`LeverUp::blade`](crate::scene::LeverUp::blade)
 //! says. Whatever is planned or judged, is so elsewhere.
 
+mod fresh;
 mod play;
 mod simulator;
 mod solids;

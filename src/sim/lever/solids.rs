@@ -14,6 +14,9 @@ const TABLE: (f64, f64) = (2.0, 0.25);
 /// Largest radius of a foot, metres. From 0.5 to 2 mm it makes no difference.
 const FOOT: f64 = 1e-3;
 
+/// Outlines of more corners are cut about their middle: from a corner they give needles.
+const MANY: usize = 12;
+
 /// How far from a right angle a rectangle's corners may be: the sine.
 const SQUARE: f64 = 1e-9;
 
@@ -65,7 +68,19 @@ fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
     let raised = Vector::Z * middle;
     let part =
         |corners: Vec<Planar>| rubbing(prism(&corners, slab.height), friction).translation(raised);
-    cut(&slab.corners).into_iter().map(part).collect()
+    let parts = if slab.corners.len() > MANY { kites } else { cut };
+    parts(&slab.corners).into_iter().map(part).collect()
+}
+
+/// A convex polygon cut into parts that meet in its middle.
+fn kites(corners: &[Planar]) -> Vec<Vec<Planar>> {
+    let count = corners.len();
+    let middle = corners.iter().sum::<Planar>() / count as f64;
+    let kite = |k: usize| {
+        let rim = (k..=(k + 2).min(count)).map(|k| corners[k % count]);
+        std::iter::once(middle).chain(rim).collect()
+    };
+    (0..count).step_by(2).map(kite).collect()
 }
 
 /// Balls at the corners of a plate that stands on them, in its frame.

@@ -2,18 +2,27 @@
 
 use rapier3d_f64::prelude::{
     ColliderHandle, ContactPair, FrictionModel, PhysicsWorld, Pose3 as RapierPose,
-    RigidBodyBuilder, RigidBodyHandle, Rotation, Vector as RapierVector,
+    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose3, Vector, Vector3};
 use crate::scene::{GRAVITY, LeverJob, LeverScene};
 
 use super::super::parameters::ALLOWED_ERROR;
+use super::super::solved::solved;
 use super::super::strain::force;
+use super::fresh::fresh_contacts;
 use super::solids;
 
 /// A plate this near to the blade lies on it, metres; contacts flicker by less.
 const NEAR: f64 = 5e-4;
+
+/// Contact spring: natural frequency (Hz) and damping ratio.
+///
+/// With rapier's own (30 Hz, 5) a plate on three feet sags by 0.6 to 0.9 mm, which takes tenths of a
+/// second and other ones at every rate, so runs at 1/240 and 1/1920 s are twice as far apart. Stiffer
+/// springs throw boards that stand on edge in a drive.
+const CONTACT: (f64, f64) = (100.0, 5.0);
 
 /// Plates, blocks, table and blade.
 pub(super) struct LeverWorld {
@@ -32,13 +41,18 @@ impl LeverWorld {
     pub fn new(job: &LeverJob, step: f64) -> Self {
         let LeverJob { scene, lever } = job;
         let origin = scene.plates[lever.plate].pose.position;
-        let mut world =
-            PhysicsWorld { gravity: RapierVector::Z * -GRAVITY, ..PhysicsWorld::default() };
+        let mut world = PhysicsWorld {
+            gravity: RapierVector::Z * -GRAVITY,
+            narrow_phase: fresh_contacts(),
+            ..PhysicsWorld::default()
+        };
         let settings = &mut world.integration_parameters;
         settings.dt = step;
-        // The simplified model makes other plates flip; rapier's allowed error lets feet sink.
+        // The simplified model makes other plates flip.
         settings.friction_model = FrictionModel::Coulomb;
         settings.normalized_allowed_linear_error = ALLOWED_ERROR;
+        let (frequency, damping) = CONTACT;
+        settings.contact_softness = SpringCoefficients::new(frequency, damping);
         world.insert_collider(solids::table(scene.table_friction), None);
         let at = to_rapier(&lever.blade(scene, 0.0), origin);
         let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
@@ -88,8 +102,8 @@ impl LeverWorld {
     pub fn is_held(&self, index: usize) -> bool {
         let plate = self.plates[index];
         let touches = |pair: &ContactPair| {
-            let solved = pair.manifolds.iter().flat_map(|manifold| &manifold.points);
-            solved.into_iter().any(|point| point.data.impulse > 0.0 || point.dist <= NEAR)
+            let mut points = pair.manifolds.iter().flat_map(solved);
+            points.any(|(_, point)| point.data.impulse > 0.0 || point.dist <= NEAR)
         };
         self.on_blade().any(|(other, _, pair)| other == plate && touches(pair))
     }
@@ -98,9 +112,8 @@ impl LeverWorld {
     pub fn force_on_blade(&self) -> f64 {
         let mut impulse = RapierVector::ZERO;
         for (_, sign, pair) in self.on_blade() {
-            for manifold in &pair.manifolds {
-                let normal: f64 = manifold.points.iter().map(|point| point.data.impulse).sum();
-                impulse += manifold.data.normal * (sign * normal);
+            for (manifold, point) in pair.manifolds.iter().flat_map(solved) {
+                impulse += manifold.data.normal * (sign * point.data.impulse);
             }
         }
         let settings = &self.world.integration_parameters;
