@@ -26,6 +26,6 @@ pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
 pub use solid::{Solid, common_area};
-pub use spatial::{Pose3, Vector3};
+pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
 pub use turn::Turn;

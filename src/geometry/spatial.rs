@@ -10,6 +10,12 @@ use super::Pose;
 /// A vector or position in space, metres.
 pub type Vector3 = nalgebra::Vector3<f64>;
 
+/// A linear map of vectors in space.
+pub type Matrix3 = nalgebra::Matrix3<f64>;
+
+/// A turn in space.
+pub type Turn3 = UnitQuaternion<f64>;
+
 /// A rigid pose in space: turn by `rotation`, then shift by `position`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose3 {

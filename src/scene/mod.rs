@@ -53,7 +53,7 @@ pub use lever::{
     Blade, BladeTool, Block, Ending, LEVER_FRAMES, LeverEvidence, LeverFault, LeverFrame,
     LeverGoal, LeverJob, LeverMotion, LeverOutcome, LeverPlan, LeverReason, LeverRules, LeverScene,
     LeverTask, LeverTrajectory, LeverUp, LeverVerdict, LeverWarning, Pivot, Place, Plate, Slab,
-    Weight, lever_frame,
+    Weight, has_slipped, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

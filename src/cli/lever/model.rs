@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::cli::error::CliError;
-use crate::effect::{LeverModel, SimulatedLevers};
+use crate::effect::{LeverModel, LeverPrior, SimulatedLevers};
 use crate::scene::{Engine, ModelKind, ModelSpec};
 use crate::sim::LeverSimulator;
 
@@ -12,13 +12,9 @@ use crate::sim::LeverSimulator;
 /// # Errors
 /// [`CliError::Usage`] for models that know nothing of lever-ups.
 pub fn lever_model(spec: Option<&ModelSpec>) -> Result<Arc<dyn LeverModel>, CliError> {
-    let Some(spec) = spec else {
-        return Ok(Arc::new(SimulatedLevers { simulator: LeverSimulator::COARSE }));
-    };
+    let Some(spec) = spec else { return Ok(Arc::new(LeverPrior::default())) };
     match spec.first().kind {
-        _ if *spec == ModelSpec::of(ModelKind::PRIOR) => {
-            Ok(Arc::new(SimulatedLevers { simulator: LeverSimulator::COARSE }))
-        }
+        _ if *spec == ModelSpec::of(ModelKind::PRIOR) => Ok(Arc::new(LeverPrior::default())),
         ModelKind::Simulated { engine: Engine::Spatial, rate } if spec.others().is_empty() => {
             Ok(Arc::new(SimulatedLevers { simulator: LeverSimulator { rate } }))
         }

@@ -4,7 +4,9 @@
 //! of speed and accuracy stands behind it. Nothing is searched here.
 
 mod model;
+mod prior;
 mod simulated;
 
 pub use model::{LeverModel, LeverTrust};
+pub use prior::{LeverPrior, PriorSettings};
 pub use simulated::SimulatedLevers;

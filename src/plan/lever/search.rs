@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{
-    LeverFault, LeverGoal, LeverJob, LeverOutcome, LeverScene, LeverTask, LeverTrajectory,
+    Ending, LeverFault, LeverGoal, LeverJob, LeverOutcome, LeverScene, LeverTask, LeverTrajectory,
 };
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};
@@ -24,6 +24,10 @@ const UNDECIDED_DEG: [f64; 2] = [70.0, 90.0];
 const UNDECIDED: f64 = 1.0;
 const SLIPPED: f64 = 0.5;
 const ALONE: f64 = 1.0;
+
+/// What it costs to end against something, where the goal leaves that open: a little push would
+/// change it.
+const LEANING: f64 = 0.3;
 
 /// A candidate with what is predicted of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,8 +122,8 @@ impl LeverSearch<'_> {
     }
 }
 
-/// By what a lever-up is ranked, its neighbours aside: the score, more where the plate slips, jams
-/// or is left undecided.
+/// By what a lever-up is ranked, its neighbours aside: the score, more where the plate slips, leans,
+/// jams or is left undecided.
 pub fn merit(goal: &LeverGoal, outcome: &LeverOutcome, trajectory: &LeverTrajectory) -> f64 {
     let tilt = trajectory.lift.last().map_or(0.0, |pose| pose.tilt().to_degrees());
     let [low, high] = UNDECIDED_DEG;
@@ -127,9 +131,10 @@ pub fn merit(goal: &LeverGoal, outcome: &LeverOutcome, trajectory: &LeverTraject
     let matters = goal.turns() || goal.outside.is_some();
     let undecided = if matters { UNDECIDED * middle.max(0.0) } else { 0.0 };
     let slipped = if trajectory.slipped() { SLIPPED } else { 0.0 };
+    let leaning = if outcome.ending == Ending::Leaning { LEANING } else { 0.0 };
     let wrong = if outcome.reached || outcome.score > 1.0 { 0.0 } else { 2.0 };
     // Among those that are well within the goal the others decide.
-    outcome.score.max(0.5).min(1e6) + undecided + slipped + wrong
+    outcome.score.max(0.5).min(1e6) + undecided + slipped + leaning + wrong
 }
 
 /// Of each candidate the share of its neighbours (one step along the outline, in depth or in turn)

@@ -23,6 +23,6 @@ pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
 pub use task::{BladeTool, LeverPlan, LeverRules, LeverTask, Pivot};
-pub use trajectory::{LEVER_FRAMES, LeverTrajectory};
+pub use trajectory::{LEVER_FRAMES, LeverTrajectory, has_slipped};
 pub use verdict::{LeverEvidence, LeverFault, LeverReason, LeverVerdict};
 pub use weight::Weight;

@@ -30,3 +30,14 @@ impl LeverTrajectory {
         self.warnings.contains(&LeverWarning::Slipped)
     }
 }
+
+/// Whether the plate was off the blade at the end of the turn and had fallen back since it left
+/// it; one that tips over the far side leaves the blade too, and leans on.
+pub fn has_slipped(start: &Pose3, lift: &[Pose3], held: &[bool]) -> bool {
+    let last_held = held.iter().rposition(|held| *held);
+    match last_held {
+        Some(frame) if frame + 1 == held.len() => false,
+        Some(frame) => lift[lift.len() - 1].tilt() < lift[frame].tilt(),
+        None => lift[lift.len() - 1].tilt() <= start.tilt() + lift[0].tilt(),
+    }
+}

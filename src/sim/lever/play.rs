@@ -3,7 +3,7 @@
 use crate::geometry::Pose3;
 use crate::scene::{
     Ending, GRAVITY, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene, LeverTrajectory,
-    LeverWarning, REST_SPEED,
+    LeverWarning, REST_SPEED, has_slipped,
 };
 
 use super::world::LeverWorld;
@@ -53,17 +53,6 @@ pub(super) fn play(
     }
     warnings.extend(game.trouble);
     LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings }
-}
-
-/// Whether the plate was off the blade at the end of the turn and had fallen back since it left
-/// it; one that tips over the far side leaves the blade too, and leans on.
-fn has_slipped(start: &Pose3, lift: &[Pose3], held: &[bool]) -> bool {
-    let last_held = held.iter().rposition(|held| *held);
-    match last_held {
-        Some(frame) if frame + 1 == held.len() => false,
-        Some(frame) => lift[lift.len() - 1].tilt() < lift[frame].tilt(),
-        None => lift[lift.len() - 1].tilt() <= start.tilt() + lift[0].tilt(),
-    }
 }
 
 /// A lever-up on its way.

@@ -1,0 +1,168 @@
+//! Where the plate touches table and blade, or soon will.
+
+use crate::geometry::{Vector, Vector3};
+
+use super::body::Body;
+use super::setup::{BladePose, Setup};
+
+/// The blade stays below the underside's plane; it is lost once it is farther above, metres.
+const INSIDE: f64 = 3e-3;
+
+/// Something that the plate touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    /// Which of the possible ones, the same from step to step.
+    pub id: usize,
+    /// From the centre of mass, metres.
+    pub arm: Vector3,
+    /// Unit normal, towards the plate.
+    pub normal: Vector3,
+    /// Distance along it, metres.
+    pub gap: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// How what is touched moves there, m/s.
+    pub surface: Vector3,
+}
+
+/// Numbers of contacts with the blade: at each of its two long edges the tip, and where the outline
+/// crosses.
+pub(super) const ON_BLADE: usize = 6;
+
+/// Finds the contacts that a step of `step` seconds may close. Those with the blade come first.
+pub(super) fn find(
+    setup: &Setup,
+    body: &Body,
+    (now, next): (&BladePose, &BladePose),
+    step: f64,
+    found: &mut Vec<Contact>,
+) {
+    found.clear();
+    on_blade(setup, body, (now, next), step, found);
+    on_table(setup, body, step, found);
+}
+
+fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
+    // How far a point can fall: by its speed and by its weight.
+    let reach = 9.81 * step * step + 1e-3;
+    let up = body.axes.row(2);
+    for (k, tip) in setup.tips.iter().enumerate() {
+        let gap =
+            body.centre.z + up[0] * tip.at.x + up[1] * tip.at.y + up[2] * tip.at.z - tip.radius;
+        if gap > reach + body.fastest(setup.reach) * step {
+            continue;
+        }
+        let mut arm = body.axes * tip.at;
+        arm.z -= tip.radius;
+        let falling = body.speed.z + body.spin.x * arm.y - body.spin.y * arm.x;
+        if gap + falling * step > reach {
+            continue;
+        }
+        found.push(Contact {
+            id: ON_BLADE + k,
+            arm,
+            normal: Vector3::z(),
+            gap,
+            friction: setup.friction[0],
+            surface: Vector3::zeros(),
+        });
+    }
+}
+
+fn on_blade(
+    setup: &Setup,
+    body: &Body,
+    (now, next): (&BladePose, &BladePose),
+    step: f64,
+    found: &mut Vec<Contact>,
+) {
+    let normal: Vector3 = body.axes.column(2).into();
+    // Face to face only: an upside-down plate or one beyond the vertical rests otherwise.
+    if normal.dot(&now.up) <= 0.1 {
+        return;
+    }
+    let [half, length] = setup.blade;
+    let reach = 9.81 * step * step + 2e-3;
+    let moved = |at: &Vector3| {
+        let local = at - now.tip;
+        let (a, b) = (local.dot(&now.along), local.dot(&now.up));
+        (next.tip + next.along * a + next.up * b - now.tip - now.along * a - now.up * b) / step
+    };
+    let mut push = |id: usize, at: Vector3, normal: Vector3, gap: f64| {
+        let arm = at - body.centre;
+        if gap < -INSIDE {
+            return;
+        }
+        let surface = moved(&at);
+        let speed = body.speed + body.spin.cross(&arm) - surface;
+        if gap + speed.dot(&normal) * step > reach {
+            return;
+        }
+        found.push(Contact { id, arm, normal, gap, friction: setup.friction[1], surface });
+    };
+    for (k, y) in [half, -half].into_iter().enumerate() {
+        // The long edge in body axes, from the tip backwards.
+        let tip = Vector3::new(now.tip.x, y, now.tip.z);
+        let from = body.axes.tr_mul(&(tip - body.centre));
+        let way = body.axes.tr_mul(&(-now.along));
+        let Some(over) = clip(&setup.outline, from, way, length) else { continue };
+        let crossing = |(at, edge): (f64, usize)| {
+            let (a, b) = (setup.outline[edge], setup.outline[(edge + 1) % setup.outline.len()]);
+            let rim = body.axes * Vector3::new(b.x - a.x, b.y - a.y, 0.0);
+            let across = rim.cross(&now.along);
+            let length = across.norm();
+            // Along each other they are face to face.
+            let (mut across, parallel) = (across / length, length < 1e-6 * rim.norm());
+            if parallel {
+                across = normal;
+            } else if across.dot(&normal) < 0.0 {
+                across = -across;
+            }
+            let local = from + way * at;
+            let rise = setup.frame.z - local.z;
+            (body.centre + body.axes * local, across, rise * normal.dot(&across))
+        };
+        match over.enter.map(crossing) {
+            Some((at, across, gap)) => push(2 + k, at, across, gap),
+            None => push(k, tip, normal, setup.frame.z - from.z),
+        }
+        if let Some((at, across, gap)) = over.leave.map(crossing) {
+            push(4 + k, at, across, gap);
+        }
+    }
+}
+
+/// The part of a ray that lies over an outline.
+struct Over {
+    /// Where it comes in, and over which side; nowhere if it begins inside.
+    enter: Option<(f64, usize)>,
+    /// Where it goes out.
+    leave: Option<(f64, usize)>,
+}
+
+/// The part of the ray `from + s way`, 0 <= s <= `length`, that lies over the outline as seen along
+/// the body's vertical.
+fn clip(outline: &[Vector], from: Vector3, way: Vector3, length: f64) -> Option<Over> {
+    let (mut first, mut last) = (0.0, length);
+    let mut over = Over { enter: None, leave: None };
+    for (k, a) in outline.iter().enumerate() {
+        let b = outline[(k + 1) % outline.len()];
+        let (x, y) = (b.x - a.x, b.y - a.y);
+        // Positive inside.
+        let side = x * (from.y - a.y) - y * (from.x - a.x);
+        let rate = x * way.y - y * way.x;
+        if rate.abs() < 1e-15 {
+            if side < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let at = -side / rate;
+        if rate > 0.0 && at > first {
+            (first, over.enter) = (at, Some((at, k)));
+        } else if rate < 0.0 && at < last {
+            (last, over.leave) = (at, Some((at, k)));
+        }
+    }
+    (first < last).then_some(over)
+}

@@ -1,0 +1,23 @@
+//! How finely the prior computes.
+
+/// Step and iterations of [`LeverPrior`](super::LeverPrior).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PriorSettings {
+    /// Longest step while the blade moves and the plate with it, seconds.
+    pub step: f64,
+    /// Farthest that a point of the plate may move in a step, metres, before steps get shorter: a
+    /// plate that falls is as fast as ten blades.
+    pub travel: f64,
+    /// Shortest step, seconds.
+    pub shortest: f64,
+    /// Sweeps over the contacts in a step.
+    pub sweeps: usize,
+    /// Whether the plate keeps its speed. Without it every step begins at rest.
+    pub inertia: bool,
+}
+
+impl Default for PriorSettings {
+    fn default() -> Self {
+        Self { step: 1.0 / 30.0, travel: 0.01, shortest: 1.0 / 120.0, sweeps: 8, inertia: true }
+    }
+}
