@@ -144,7 +144,7 @@ const LEVERS: Value = Value::Map(&[
     Key::optional(
         "angle_deg",
         Value::List { of: &TURN, items: "angles in degrees", min: 2, max: 2 },
-        "Smallest and largest turn of the blade, degrees; default 30 and 120.",
+        "Smallest and largest turn of the blade, degrees; default 30 and 150.",
     ),
     Key::optional(
         "pivot",

@@ -2,10 +2,13 @@
 
 use crate::scene::{LeverRules, LeverTask, LeverUp, Pivot, Place};
 
-/// Lever points are so far apart along the outline, metres, and farther where there would be more
-/// than so many.
-const APART: f64 = 0.010;
-const MOST: f64 = 96.0;
+/// Most lever points along the outline.
+const MOST: f64 = 256.0;
+
+/// The axes that are tried where it follows from the plate, in distances of its support line: at
+/// the line itself slips are fewest, a little behind or before it boards come out of pockets that
+/// hold their far edge.
+const AUTO: [f64; 3] = [1.0, 0.85, 1.2];
 
 /// Depths and turns that are tried of the ranges that a task allows.
 const DEPTHS: usize = 3;
@@ -28,6 +31,8 @@ pub struct LeverGrid<'a> {
     pub task: &'a LeverTask,
     /// Index of the tool.
     pub tool: usize,
+    /// How far apart lever points are, metres.
+    pub apart: f64,
 }
 
 impl LeverGrid<'_> {
@@ -36,14 +41,19 @@ impl LeverGrid<'_> {
         let (plate, rules) = (self.task.plate(), &self.task.levers);
         let depths = spread(rules.depth, DEPTHS);
         let angles = spread(rules.angle, ANGLES);
+        let axes = |place: Place| {
+            rules.pivots.iter().flat_map(move |pivot| match *pivot {
+                Pivot::Auto => {
+                    let line = plate.auto_pivot(place).unwrap_or(f64::NAN);
+                    AUTO.map(|factor| factor * line).to_vec()
+                }
+                Pivot::At(distance) => vec![distance],
+            })
+        };
         let mut found = Vec::new();
         for (p, place) in self.places().into_iter().enumerate() {
             for (d, &depth) in depths.iter().enumerate() {
-                for (q, pivot) in rules.pivots.iter().enumerate() {
-                    let pivot = match *pivot {
-                        Pivot::Auto => plate.auto_pivot(place).unwrap_or(f64::NAN),
-                        Pivot::At(distance) => distance,
-                    };
+                for (q, pivot) in axes(place).enumerate() {
                     for (a, &angle) in angles.iter().enumerate() {
                         let lever = LeverUp {
                             plate: self.task.goal.plate,
@@ -69,7 +79,7 @@ impl LeverGrid<'_> {
         let corners = self.task.plate().corners();
         let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).norm();
         let around: f64 = (0..corners.len()).map(side).sum();
-        let apart = APART.max(around / MOST);
+        let apart = self.apart.max(around / MOST);
         let mut places = Vec::new();
         for edge in 0..corners.len() {
             let length = side(edge);

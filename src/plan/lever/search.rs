@@ -15,6 +15,11 @@ use super::{LeverCandidate, LeverGrid, LeverRoom};
 /// Jobs that are predicted together, in parallel; between batches the search can be stopped.
 const BATCH: usize = 256;
 
+/// How far apart lever points are along the outline, metres: less where that leaves fewer than so
+/// many lever-ups that can be made, as in a notch that is little wider than the blade.
+const APART: [f64; 3] = [0.010, 0.005, 0.0025];
+const ENOUGH: usize = 300;
+
 /// Tilts at the end of the turn between which plates fall either way, degrees. Measured on
 /// thousands of plates: below 75 two of a hundred turn over, above 85 all but two.
 const UNDECIDED_DEG: [f64; 2] = [70.0, 90.0];
@@ -64,18 +69,12 @@ pub struct LeverSearch<'a> {
 }
 
 impl LeverSearch<'_> {
-    /// All candidates that can be made, the best first; `predict` tells what comes of jobs, and
-    /// `cancelled` whether to make do with those that were predicted by now.
-    pub fn run(
-        &self,
-        predict: &dyn Fn(&[LeverJob]) -> Vec<LeverTrajectory>,
-        cancelled: &dyn Fn() -> bool,
-    ) -> (Vec<ScoredLever>, LeverSearchStatistics) {
+    /// The candidates that can be made, with lever points so far `apart`, metres.
+    fn feasible(&self, apart: f64) -> (LeverSearchStatistics, Vec<LeverCandidate>) {
         let mut statistics = LeverSearchStatistics::default();
-        let mut candidates: Vec<LeverCandidate> = Vec::new();
+        let mut candidates = Vec::new();
         for (tool, scene) in self.scenes.iter().enumerate() {
-            let grid = LeverGrid { task: self.task, tool };
-            let all = grid.candidates();
+            let all = LeverGrid { task: self.task, tool, apart }.candidates();
             statistics.considered += all.len();
             let room = LeverRoom::new(self.task, scene);
             let faults: Vec<Option<LeverFault>> =
@@ -85,6 +84,24 @@ impl LeverSearch<'_> {
                     Some(fault) => *statistics.refused.entry(fault.to_string()).or_default() += 1,
                     None => candidates.push(candidate),
                 }
+            }
+        }
+        (statistics, candidates)
+    }
+
+    /// All candidates that can be made, the best first; `predict` tells what comes of jobs, and
+    /// `cancelled` whether to make do with those that were predicted by now.
+    pub fn run(
+        &self,
+        predict: &dyn Fn(&[LeverJob]) -> Vec<LeverTrajectory>,
+        cancelled: &dyn Fn() -> bool,
+    ) -> (Vec<ScoredLever>, LeverSearchStatistics) {
+        let mut statistics = LeverSearchStatistics::default();
+        let mut candidates: Vec<LeverCandidate> = Vec::new();
+        for apart in APART {
+            (statistics, candidates) = self.feasible(apart);
+            if candidates.len() >= ENOUGH {
+                break;
             }
         }
         let mut outcomes: Vec<(LeverOutcome, f64)> = Vec::with_capacity(candidates.len());

@@ -21,8 +21,9 @@ pub fn levers_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) -> Do
     let mean_of = |of: &dyn Fn(&LeverRecord) -> f64| {
         mean(&tasks.iter().map(|task| of(&task.record)).collect::<Vec<_>>())
     };
-    let spent: Vec<f64> =
+    let mut spent: Vec<f64> =
         tasks.iter().filter_map(|task| task.seconds.get("total").copied()).collect();
+    spent.sort_by(f64::total_cmp);
     let further = mean_of(&|record| record.further);
     let candidates = mean_of(&|record| record.candidates as f64);
     let rows = [

@@ -52,8 +52,8 @@ pub struct LeverRules {
 impl LeverRules {
     /// Usual depths, metres; slips become frequent below.
     pub const DEPTH: [f64; 2] = [0.008, 0.02];
-    /// Usual turns, degrees.
-    pub const ANGLE_DEG: [f64; 2] = [30.0, 120.0];
+    /// Usual turns, degrees: beyond a right angle a blade pushes over what a wall holds upright.
+    pub const ANGLE_DEG: [f64; 2] = [30.0, 150.0];
     /// How near to a corner a blade is still set, metres.
     pub const CORNER: f64 = 0.012;
     /// A long arc that suits plates of the size of a hand, metres.
