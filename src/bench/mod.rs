@@ -13,7 +13,7 @@ mod equations;
 mod far;
 mod heldout;
 mod inference;
-mod levers;
+mod lever;
 mod random;
 mod refinement;
 mod solved;
@@ -37,7 +37,9 @@ pub use equations::{EquationCost, equation_costs};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
-pub use levers::{LeverRecord, LeverSuite};
+pub use lever::{
+    ConvergenceReport, ConvergenceRow, LeverRecord, LeverSuite, Setting, convergence,
+};
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,
