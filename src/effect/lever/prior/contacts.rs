@@ -27,7 +27,7 @@ pub(super) struct Contact {
 
 /// Numbers of contacts with the blade: at each of its two long edges the tip, and where the outline
 /// crosses.
-pub(super) const ON_BLADE: usize = 6;
+pub(super) const ON_BLADE: usize = 136;
 
 /// Finds the contacts that a step of `step` seconds may close. Those with the blade come first.
 pub(super) fn find(
@@ -76,11 +76,15 @@ fn on_blade(
     step: f64,
     found: &mut Vec<Contact>,
 ) {
-    let normal: Vector3 = body.axes.column(2).into();
+    let vertical: Vector3 = body.axes.column(2).into();
+    let facing = vertical.dot(&now.up);
+    // Of the two large faces the one that looks at the blade, and its normal into the plate.
+    let (normal, level) = if facing > 0.0 {
+        (vertical, setup.frame.z)
+    } else {
+        (-vertical, setup.frame.z + setup.thickness)
+    };
     // Face to face only: an upside-down plate or one beyond the vertical rests otherwise.
-    if normal.dot(&now.up) <= 0.1 {
-        return;
-    }
     let [half, length] = setup.blade;
     let reach = 9.81 * step * step + 2e-3;
     let moved = |at: &Vector3| {
@@ -100,7 +104,9 @@ fn on_blade(
         }
         found.push(Contact { id, arm, normal, gap, friction: setup.friction[1], surface });
     };
-    for (k, y) in [half, -half].into_iter().enumerate() {
+    // A plate across the blade touches it otherwise.
+    let faces = facing.abs() > 0.1;
+    for (k, y) in [half, -half].into_iter().enumerate().filter(|_| faces) {
         // The long edge in body axes, from the tip backwards.
         let tip = Vector3::new(now.tip.x, y, now.tip.z);
         let from = body.axes.tr_mul(&(tip - body.centre));
@@ -119,16 +125,44 @@ fn on_blade(
                 across = -across;
             }
             let local = from + way * at;
-            let rise = setup.frame.z - local.z;
+            let rise = (level - local.z) * facing.signum();
             (body.centre + body.axes * local, across, rise * normal.dot(&across))
         };
         match over.enter.map(crossing) {
             Some((at, across, gap)) => push(2 + k, at, across, gap),
-            None => push(k, tip, normal, setup.frame.z - from.z),
+            None => push(k, tip, normal, (level - from.z) * facing.signum()),
         }
         if let Some((at, across, gap)) = over.leave.map(crossing) {
             push(4 + k, at, across, gap);
         }
+    }
+    feet_on_blade(setup, body, now, &mut push);
+}
+
+/// The balls of the feet beside the blade or on it: a plate that slides along the blade is caught
+/// by them.
+fn feet_on_blade(
+    setup: &Setup,
+    body: &Body,
+    now: &BladePose,
+    push: &mut impl FnMut(usize, Vector3, Vector3, f64),
+) {
+    let [half, length] = setup.blade;
+    for (k, tip) in setup.tips[..setup.outline.len()].iter().enumerate() {
+        let at = body.centre + body.axes * tip.at;
+        let away = at - now.tip;
+        let local = [away.dot(&now.along), at.y, away.dot(&now.up)];
+        let low = [-length, -half, -setup.blade_height];
+        let high = [0.0, half, 0.0];
+        let near = |k: usize| local[k].clamp(low[k], high[k]);
+        let nearest = [near(0), near(1), near(2)];
+        let apart = [0, 1, 2].map(|k| local[k] - nearest[k]);
+        let distance = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if distance > 0.02 || distance < 1e-9 {
+            continue;
+        }
+        let normal = (now.along * apart[0] + Vector3::y() * apart[1] + now.up * apart[2]) / distance;
+        push(ON_BLADE - setup.outline.len() + k, at - normal * distance, normal, distance - tip.radius);
     }
 }
 
