@@ -77,14 +77,12 @@ fn on_blade(
     found: &mut Vec<Contact>,
 ) {
     let vertical: Vector3 = body.axes.column(2).into();
-    let facing = vertical.dot(&now.up);
-    // Of the two large faces the one that looks at the blade, and its normal into the plate.
-    let (normal, level) = if facing > 0.0 {
-        (vertical, setup.frame.z)
-    } else {
-        (-vertical, setup.frame.z + setup.thickness)
-    };
-    // Face to face only: an upside-down plate or one beyond the vertical rests otherwise.
+    // Of the two large faces the one on whose side the tip is.
+    let depth = vertical.dot(&(now.tip - now.up * (0.5 * setup.blade_height) - body.centre));
+    let under = depth < setup.frame.z + 0.5 * setup.thickness;
+    let level = setup.frame.z + if under { 0.0 } else { setup.thickness };
+    let side = if under { 1.0 } else { -1.0 };
+    let normal = vertical * side;
     let [half, length] = setup.blade;
     let reach = 9.81 * step * step + 2e-3;
     let moved = |at: &Vector3| {
@@ -104,11 +102,17 @@ fn on_blade(
         }
         found.push(Contact { id, arm, normal, gap, friction: setup.friction[1], surface });
     };
-    // A plate across the blade touches it otherwise.
-    let faces = facing.abs() > 0.1;
-    for (k, y) in [half, -half].into_iter().enumerate().filter(|_| faces) {
-        // The long edge in body axes, from the tip backwards.
-        let tip = Vector3::new(now.tip.x, y, now.tip.z);
+    let low = -setup.blade_height;
+    let edges = [(half, 0.0), (-half, 0.0), (half, low), (-half, low)];
+    // How far each of the long edges reaches into the plate; the two that reach farthest may touch.
+    let into = edges.map(|(y, z)| y * normal.y + z * now.up.dot(&normal));
+    for (k, (y, z)) in edges.into_iter().enumerate() {
+        let before = (0..4).filter(|other| into[*other] > into[k]).count();
+        if before > 1 {
+            continue;
+        }
+        // In body axes, from the tip backwards.
+        let tip = Vector3::new(0.0, y, 0.0) + now.tip + now.up * z;
         let from = body.axes.tr_mul(&(tip - body.centre));
         let way = body.axes.tr_mul(&(-now.along));
         let Some(over) = clip(&setup.outline, from, way, length) else { continue };
@@ -125,15 +129,15 @@ fn on_blade(
                 across = -across;
             }
             let local = from + way * at;
-            let rise = (level - local.z) * facing.signum();
+            let rise = (level - local.z) * side;
             (body.centre + body.axes * local, across, rise * normal.dot(&across))
         };
         match over.enter.map(crossing) {
-            Some((at, across, gap)) => push(2 + k, at, across, gap),
-            None => push(k, tip, normal, (level - from.z) * facing.signum()),
+            Some((at, across, gap)) => push(4 + k, at, across, gap),
+            None => push(k, tip, normal, (level - from.z) * side),
         }
         if let Some((at, across, gap)) = over.leave.map(crossing) {
-            push(4 + k, at, across, gap);
+            push(8 + k, at, across, gap);
         }
     }
     feet_on_blade(setup, body, now, &mut push);
