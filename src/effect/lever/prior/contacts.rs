@@ -1,12 +1,13 @@
 //! Where the plate touches table and blade, or soon will.
 
 use crate::geometry::{Vector, Vector3};
+use crate::scene::GRAVITY;
 
 use super::body::Body;
 use super::setup::{BladePose, Setup};
 
 /// The blade stays below the underside's plane; it is lost once it is farther above, metres.
-const INSIDE: f64 = 3e-3;
+const INSIDE: f64 = 6e-3;
 
 /// Something that the plate touches.
 #[derive(Clone, Copy, Debug)]
@@ -44,12 +45,13 @@ pub(super) fn find(
 
 fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
     // How far a point can fall: by its speed and by its weight.
-    let reach = 9.81 * step * step + 1e-3;
+    let reach = GRAVITY * step * step + 1e-3;
     let up = body.axes.row(2);
+    let reach_of_any = reach + body.fastest(setup.reach) * step;
     for (k, tip) in setup.tips.iter().enumerate() {
         let gap =
             body.centre.z + up[0] * tip.at.x + up[1] * tip.at.y + up[2] * tip.at.z - tip.radius;
-        if gap > reach + body.fastest(setup.reach) * step {
+        if gap > reach_of_any {
             continue;
         }
         let mut arm = body.axes * tip.at;
@@ -84,7 +86,7 @@ fn on_blade(
     let side = if under { 1.0 } else { -1.0 };
     let normal = vertical * side;
     let [half, length] = setup.blade;
-    let reach = 9.81 * step * step + 2e-3;
+    let reach = GRAVITY * step * step + 2e-3;
     let moved = |at: &Vector3| {
         let local = at - now.tip;
         let (a, b) = (local.dot(&now.along), local.dot(&now.up));
