@@ -13,6 +13,7 @@ mod equations;
 mod far;
 mod heldout;
 mod inference;
+mod lever;
 mod random;
 mod refinement;
 mod solved;
@@ -36,6 +37,7 @@ pub use equations::{EquationCost, equation_costs};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
+pub use lever::{ConvergenceReport, ConvergenceRow, Setting, convergence};
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,

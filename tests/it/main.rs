@@ -19,6 +19,8 @@ mod fitting;
 mod fixtures;
 mod jointed;
 mod joints_bench;
+mod lever_data;
+mod lever_engine;
 mod models;
 mod network;
 mod outside;

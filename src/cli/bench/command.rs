@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, joints, random, refinement, saved, tasks, tools};
+use super::{convergence, cost, joints, random, refinement, saved, tasks, tools};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -20,6 +20,7 @@ enum What {
     Run(super::run::RunArgs),
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
+    Convergence(convergence::ConvergenceArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
     Merge(saved::MergeArgs),
@@ -33,6 +34,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Run(args) => super::run::run(args, session)?,
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
+        What::Convergence(args) => convergence::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,

@@ -2,6 +2,7 @@
 
 mod command;
 mod common;
+mod convergence;
 mod cost;
 mod joints;
 mod keep;

@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose3;
 use crate::scene::{
-    Ending, GRAVITY, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverTrajectory,
+    Ending, GRAVITY, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene, LeverTrajectory,
     LeverWarning, REST_SPEED, has_slipped,
 };
 
@@ -27,9 +27,15 @@ pub(super) enum Watcher<'a> {
     Recorder { motion: &'a mut LeverMotion, interval: f64 },
 }
 
-/// Plays `job` in steps of at most `longest` seconds.
-pub(super) fn play(job: &LeverJob, longest: f64, watcher: &mut Watcher) -> LeverTrajectory {
-    let mut game = Game::new(job, longest, watcher);
+/// Plays `job` in steps of at most `longest` seconds, the blade going where it would in the scene
+/// as `planned`.
+pub(super) fn play(
+    job: &LeverJob,
+    planned: &LeverScene,
+    longest: f64,
+    watcher: &mut Watcher,
+) -> LeverTrajectory {
+    let mut game = Game::new(job, planned, longest, watcher);
     let plate = job.lever.plate;
     let mut lift = Vec::with_capacity(LEVER_FRAMES);
     let mut held = Vec::with_capacity(LEVER_FRAMES);
@@ -52,6 +58,7 @@ pub(super) fn play(job: &LeverJob, longest: f64, watcher: &mut Watcher) -> Lever
 /// A lever-up on its way.
 struct Game<'a, 'b> {
     job: &'a LeverJob,
+    planned: &'a LeverScene,
     world: LeverWorld,
     longest: f64,
     time: f64,
@@ -66,11 +73,17 @@ struct Game<'a, 'b> {
 }
 
 impl<'a, 'b> Game<'a, 'b> {
-    fn new(job: &'a LeverJob, longest: f64, watcher: &'a mut Watcher<'b>) -> Self {
+    fn new(
+        job: &'a LeverJob,
+        planned: &'a LeverScene,
+        longest: f64,
+        watcher: &'a mut Watcher<'b>,
+    ) -> Self {
         let mass: f64 = job.scene.plates.iter().map(|plate| plate.mass).sum();
         let mut game = Self {
             job,
-            world: LeverWorld::new(job, longest),
+            planned,
+            world: LeverWorld::new(job, &job.lever.blade(planned, 0.0), longest),
             longest,
             time: 0.0,
             trouble: None,
@@ -122,7 +135,7 @@ impl<'a, 'b> Game<'a, 'b> {
     }
 
     fn step(&mut self, to: f64) {
-        let blade = self.job.lever.blade(&self.job.scene, to);
+        let blade = self.job.lever.blade(self.planned, to);
         self.world.step(&blade);
         self.time = to;
         let found = self.world.plates();
@@ -153,7 +166,7 @@ impl<'a, 'b> Game<'a, 'b> {
             if motion.frames.last().is_some_and(|last| last.time >= time) {
                 return;
             }
-            let blade = self.job.lever.blade(&self.job.scene, time);
+            let blade = self.job.lever.blade(self.planned, time);
             let force = self.world.force_on_blade();
             motion.frames.push(LeverFrame { time, blade, plates: self.last.clone(), force });
         }

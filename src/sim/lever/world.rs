@@ -37,8 +37,8 @@ pub(super) struct LeverWorld {
 }
 
 impl LeverWorld {
-    /// Everything at the start, the blade below the edge; steps last `step` seconds.
-    pub fn new(job: &LeverJob, step: f64) -> Self {
+    /// Everything at the start, the blade's centre at `blade`; steps last `step` seconds.
+    pub fn new(job: &LeverJob, blade: &Pose3, step: f64) -> Self {
         let LeverJob { scene, lever } = job;
         let origin = scene.plates[lever.plate].pose.position;
         let mut world = PhysicsWorld {
@@ -54,7 +54,7 @@ impl LeverWorld {
         let (frequency, damping) = CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
         world.insert_collider(solids::table(scene.table_friction), None);
-        let at = to_rapier(&lever.blade(scene, 0.0), origin);
+        let at = to_rapier(blade, origin);
         let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
         let blade = world.insert_body(body);
         let blade_solid = world.insert_collider(solids::blade(&scene.blade), Some(blade));

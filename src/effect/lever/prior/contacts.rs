@@ -167,8 +167,14 @@ fn feet_on_blade(
         if distance > 0.02 || distance < 1e-9 {
             continue;
         }
-        let normal = (now.along * apart[0] + Vector3::y() * apart[1] + now.up * apart[2]) / distance;
-        push(ON_BLADE - setup.outline.len() + k, at - normal * distance, normal, distance - tip.radius);
+        let normal =
+            (now.along * apart[0] + Vector3::y() * apart[1] + now.up * apart[2]) / distance;
+        push(
+            ON_BLADE - setup.outline.len() + k,
+            at - normal * distance,
+            normal,
+            distance - tip.radius,
+        );
     }
 }
 

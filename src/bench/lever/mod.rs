@@ -1,0 +1,5 @@
+//! What is measured of lever-ups.
+
+mod convergence;
+
+pub use convergence::{ConvergenceReport, ConvergenceRow, Setting, convergence};
