@@ -1,12 +1,13 @@
 //! Where the plate touches table and blade, or soon will.
 
 use crate::geometry::{Vector, Vector3};
+use crate::scene::GRAVITY;
 
 use super::body::Body;
 use super::setup::{BladePose, Setup};
 
 /// The blade stays below the underside's plane; it is lost once it is farther above, metres.
-const INSIDE: f64 = 3e-3;
+const INSIDE: f64 = 6e-3;
 
 /// Something that the plate touches.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +28,7 @@ pub(super) struct Contact {
 
 /// Numbers of contacts with the blade: at each of its two long edges the tip, and where the outline
 /// crosses.
-pub(super) const ON_BLADE: usize = 6;
+pub(super) const ON_BLADE: usize = 136;
 
 /// Finds the contacts that a step of `step` seconds may close. Those with the blade come first.
 pub(super) fn find(
@@ -44,12 +45,13 @@ pub(super) fn find(
 
 fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
     // How far a point can fall: by its speed and by its weight.
-    let reach = 9.81 * step * step + 1e-3;
+    let reach = GRAVITY * step * step + 1e-3;
     let up = body.axes.row(2);
+    let reach_of_any = reach + body.fastest(setup.reach) * step;
     for (k, tip) in setup.tips.iter().enumerate() {
         let gap =
             body.centre.z + up[0] * tip.at.x + up[1] * tip.at.y + up[2] * tip.at.z - tip.radius;
-        if gap > reach + body.fastest(setup.reach) * step {
+        if gap > reach_of_any {
             continue;
         }
         let mut arm = body.axes * tip.at;
@@ -76,13 +78,15 @@ fn on_blade(
     step: f64,
     found: &mut Vec<Contact>,
 ) {
-    let normal: Vector3 = body.axes.column(2).into();
-    // Face to face only: an upside-down plate or one beyond the vertical rests otherwise.
-    if normal.dot(&now.up) <= 0.1 {
-        return;
-    }
+    let vertical: Vector3 = body.axes.column(2).into();
+    // Of the two large faces the one on whose side the tip is.
+    let depth = vertical.dot(&(now.tip - now.up * (0.5 * setup.blade_height) - body.centre));
+    let under = depth < setup.frame.z + 0.5 * setup.thickness;
+    let level = setup.frame.z + if under { 0.0 } else { setup.thickness };
+    let side = if under { 1.0 } else { -1.0 };
+    let normal = vertical * side;
     let [half, length] = setup.blade;
-    let reach = 9.81 * step * step + 2e-3;
+    let reach = GRAVITY * step * step + 2e-3;
     let moved = |at: &Vector3| {
         let local = at - now.tip;
         let (a, b) = (local.dot(&now.along), local.dot(&now.up));
@@ -100,9 +104,17 @@ fn on_blade(
         }
         found.push(Contact { id, arm, normal, gap, friction: setup.friction[1], surface });
     };
-    for (k, y) in [half, -half].into_iter().enumerate() {
-        // The long edge in body axes, from the tip backwards.
-        let tip = Vector3::new(now.tip.x, y, now.tip.z);
+    let low = -setup.blade_height;
+    let edges = [(half, 0.0), (-half, 0.0), (half, low), (-half, low)];
+    // How far each of the long edges reaches into the plate; the two that reach farthest may touch.
+    let into = edges.map(|(y, z)| y * normal.y + z * now.up.dot(&normal));
+    for (k, (y, z)) in edges.into_iter().enumerate() {
+        let before = (0..4).filter(|other| into[*other] > into[k]).count();
+        if before > 1 {
+            continue;
+        }
+        // In body axes, from the tip backwards.
+        let tip = Vector3::new(0.0, y, 0.0) + now.tip + now.up * z;
         let from = body.axes.tr_mul(&(tip - body.centre));
         let way = body.axes.tr_mul(&(-now.along));
         let Some(over) = clip(&setup.outline, from, way, length) else { continue };
@@ -119,16 +131,50 @@ fn on_blade(
                 across = -across;
             }
             let local = from + way * at;
-            let rise = setup.frame.z - local.z;
+            let rise = (level - local.z) * side;
             (body.centre + body.axes * local, across, rise * normal.dot(&across))
         };
         match over.enter.map(crossing) {
-            Some((at, across, gap)) => push(2 + k, at, across, gap),
-            None => push(k, tip, normal, setup.frame.z - from.z),
+            Some((at, across, gap)) => push(4 + k, at, across, gap),
+            None => push(k, tip, normal, (level - from.z) * side),
         }
         if let Some((at, across, gap)) = over.leave.map(crossing) {
-            push(4 + k, at, across, gap);
+            push(8 + k, at, across, gap);
         }
+    }
+    feet_on_blade(setup, body, now, &mut push);
+}
+
+/// The balls of the feet beside the blade or on it: a plate that slides along the blade is caught
+/// by them.
+fn feet_on_blade(
+    setup: &Setup,
+    body: &Body,
+    now: &BladePose,
+    push: &mut impl FnMut(usize, Vector3, Vector3, f64),
+) {
+    let [half, length] = setup.blade;
+    for (k, tip) in setup.tips[..setup.outline.len()].iter().enumerate() {
+        let at = body.centre + body.axes * tip.at;
+        let away = at - now.tip;
+        let local = [away.dot(&now.along), at.y, away.dot(&now.up)];
+        let low = [-length, -half, -setup.blade_height];
+        let high = [0.0, half, 0.0];
+        let near = |k: usize| local[k].clamp(low[k], high[k]);
+        let nearest = [near(0), near(1), near(2)];
+        let apart = [0, 1, 2].map(|k| local[k] - nearest[k]);
+        let distance = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if distance > 0.02 || distance < 1e-9 {
+            continue;
+        }
+        let normal =
+            (now.along * apart[0] + Vector3::y() * apart[1] + now.up * apart[2]) / distance;
+        push(
+            ON_BLADE - setup.outline.len() + k,
+            at - normal * distance,
+            normal,
+            distance - tip.radius,
+        );
     }
 }
 

@@ -46,8 +46,7 @@ impl Marcher {
             lift.push(setup.pose(&way.body));
             held.push(way.is_held());
         }
-        way.go_on_until(setup.lever.duration());
-        let rests = way.rest();
+        let rests = way.settle(setup.lever.duration());
         let rest = setup.pose(&way.body);
         let mut warnings = Vec::new();
         if has_slipped(&setup.start(), &lift, &held) {
@@ -82,19 +81,28 @@ impl Way<'_> {
         }
     }
 
-    /// Whether it came to rest in time.
-    fn rest(&mut self) -> bool {
-        let (start, mut moved) = (self.time, self.time);
-        while self.time - moved < STILL {
+    /// Goes on until everything rests with the blade gone, which takes until `end` at the latest;
+    /// says whether it came to rest in time.
+    fn settle(&mut self, end: f64) -> bool {
+        let mut moved = self.time;
+        let mut free = false;
+        while self.time - moved < STILL || !(free || self.time >= end) {
             self.step(self.longest());
+            // What lies still off the blade stays there while the blade is drawn back.
+            free = self.time >= self.setup.lever.turn_time() && !self.is_near_blade();
             if self.body.fastest(self.setup.reach) > REST_SPEED {
                 moved = self.time;
             }
-            if self.time - start > PATIENCE {
+            if self.time - end > PATIENCE {
                 return false;
             }
         }
         true
+    }
+
+    /// Whether the blade may touch the plate in the next step.
+    fn is_near_blade(&self) -> bool {
+        self.marcher.contacts.first().is_some_and(|contact| contact.id < ON_BLADE)
     }
 
     /// How long the next step may be, seconds.
@@ -120,26 +128,6 @@ impl Way<'_> {
             &marcher.contacts,
             (step, ratio, settings.sweeps),
         );
-        if std::env::var("LV").is_ok() {
-            eprint!(
-                "t {:.3} h {:.4} spin {:.3?} speed {:.3?} |",
-                self.time,
-                step,
-                body.spin.as_slice(),
-                body.speed.as_slice()
-            );
-            for (c, i) in marcher.contacts.iter().zip(marcher.solver.impulses()) {
-                eprint!(
-                    " {}: gap {:.2} F {:.3} {:.3} {:.3};",
-                    c.id,
-                    c.gap * 1e3,
-                    i[0] / step,
-                    i[1] / step,
-                    i[2] / step
-                );
-            }
-            eprintln!();
-        }
         body.advance(step);
         self.time += step;
         self.last = step;

@@ -42,6 +42,7 @@ pub(super) struct Setup {
     pub friction: [f64; 2],
     /// Half the width of the blade, and its length, metres.
     pub blade: [f64; 2],
+    pub blade_height: f64,
     /// What it does.
     pub lever: LeverUp,
     mirrored: bool,
@@ -97,6 +98,7 @@ impl Setup {
             thickness: plate.slabs[0].height,
             friction: [mean(scene.table_friction), mean(scene.blade.friction)],
             blade: [0.5 * scene.blade.width, scene.blade.length],
+            blade_height: scene.blade.thickness,
             lever: *lever,
             mirrored,
             world: Pose3 { position: Vector3::zeros(), ..lever.frame(scene) },

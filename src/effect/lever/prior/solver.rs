@@ -1,13 +1,17 @@
 //! Speeds after a step: contacts that neither sink in nor slide without friction.
 
 use crate::geometry::{Matrix3, Vector3};
+use crate::scene::GRAVITY;
 
 use super::body::{Body, Spread};
 use super::contacts::Contact;
 
 /// Contacts give way like overdamped springs, those of the engine: angular frequency, rad/s, and
 /// damping ratio. Rigid ones let plates rock on the narrow blade that the engine's keep still.
-const SPRING: (f64, f64) = (30.0 * std::f64::consts::TAU, 5.0);
+const SPRING: (f64, f64) = (100.0 * std::f64::consts::TAU, 5.0);
+
+/// Sweeps end when no impulse changes by more than this share of the weight's.
+const ENOUGH: f64 = 1e-3;
 
 /// One direction of a contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -93,17 +97,30 @@ impl Solver {
             }
             self.rows.push((rows, contact.friction, start));
         }
+        // What is left to gain once impulses change by less than this matters no more.
+        let small = ENOUGH * GRAVITY * step / spread.mass;
         for _ in 0..sweeps {
+            let mut change = 0.0f64;
             for ([normal, aside, other], friction, impulses) in &mut self.rows {
                 let pressed = (firm * (impulses[0] + normal.lacking(body))).max(0.0);
+                // Nothing presses, nothing rubs.
+                if pressed == 0.0 && impulses[0] == 0.0 {
+                    continue;
+                }
+                change = change.max((pressed - impulses[0]).abs());
                 normal.push(body, pressed - impulses[0]);
                 impulses[0] = pressed;
                 let (a, b) = (impulses[1] + aside.lacking(body), impulses[2] + other.lacking(body));
-                let (most, wanted) = (*friction * pressed, a.hypot(b));
-                let share = if wanted > most { most / wanted } else { 1.0 };
-                aside.push(body, a * share - impulses[1]);
-                other.push(body, b * share - impulses[2]);
-                (impulses[1], impulses[2]) = (a * share, b * share);
+                let (most, wanted) = (*friction * pressed, a * a + b * b);
+                let share = if wanted > most * most { most / wanted.sqrt() } else { 1.0 };
+                let (a, b) = (a * share, b * share);
+                change = change.max((a - impulses[1]).abs()).max((b - impulses[2]).abs());
+                aside.push(body, a - impulses[1]);
+                other.push(body, b - impulses[2]);
+                (impulses[1], impulses[2]) = (a, b);
+            }
+            if change < small {
+                break;
             }
         }
         for (contact, (_, _, impulses)) in contacts.iter().zip(&self.rows) {
