@@ -78,7 +78,11 @@ impl ActionArgs {
     pub fn lever(&self) -> Result<(Option<&str>, &AskedLever), CliError> {
         let lever = self.lever.as_ref().ok_or_else(|| {
             let advice = "add --lever point=0:0.5,depth=0.012,angle=90, see --help";
-            CliError::usage("this is a task of levering, and no lever-up is given", advice)
+            let message = match self.pushes.is_empty() {
+                true => "this is a task of levering, and no lever-up is given",
+                false => "this is a task of levering, not one of pushes",
+            };
+            CliError::usage(message, advice)
         })?;
         Ok((self.tool.as_deref(), lever))
     }

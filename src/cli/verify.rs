@@ -47,7 +47,7 @@ pub struct VerifyArgs {
     pub robustness: Option<f64>,
     /// Stop after this time, whatever is done by then
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
-    time_limit: Option<Duration>,
+    pub time_limit: Option<Duration>,
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,

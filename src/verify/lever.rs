@@ -15,6 +15,7 @@ use crate::scene::{
     LeverTask, LeverUp, LeverVerdict, Pivot, ToolChoice,
 };
 use crate::sim::LeverSimulator;
+use crate::watch::{Unwatched, Watch};
 
 use super::VerifySettings;
 
@@ -37,16 +38,23 @@ const SCRATCH: f64 = 3e-4;
 const LOOKS: usize = 48;
 
 /// Replays lever-ups with the engine at its default step.
-#[derive(Clone, Copy, Debug)]
-pub struct LeverVerifier {
+#[derive(Clone, Copy)]
+pub struct LeverVerifier<'a> {
     settings: VerifySettings,
     engine: LeverSimulator,
+    watch: &'a dyn Watch,
 }
 
-impl LeverVerifier {
+impl<'a> LeverVerifier<'a> {
     /// A verifier with so many disturbed replays.
     pub fn new(settings: VerifySettings) -> Self {
-        Self { settings, engine: LeverSimulator::default() }
+        Self { settings, engine: LeverSimulator::default(), watch: &Unwatched }
+    }
+
+    /// The same, which `watch` can stop; a plan whose replays were not all made does not pass.
+    #[must_use]
+    pub fn watched(self, watch: &'a dyn Watch) -> Self {
+        Self { watch, ..self }
     }
 
     /// The replay as written; `tool` is the one that the plan names.
@@ -82,6 +90,7 @@ impl LeverVerifier {
         let planned = task.scene(tool.blade);
         let replays: Vec<LeverEvidence> = (0..self.settings.disturbed)
             .into_par_iter()
+            .filter(|_| !self.watch.cancelled())
             .map(|draw| {
                 let scene =
                     Arc::new(disturbed(&planned, plan.lever.plate, self.settings.seed, draw));
@@ -92,8 +101,10 @@ impl LeverVerifier {
                 LeverEvidence { disturbance, outcome, trajectory: None }
             })
             .collect();
+        let whole = replays.len() == self.settings.disturbed;
         evidence.extend(replays);
-        LeverVerdict::judge(forbidden, evidence, task.robustness)
+        let verdict = LeverVerdict::judge(forbidden, evidence, task.robustness);
+        if whole { verdict } else { verdict.stopped() }
     }
 
     /// All replays of a plan: nominal, then disturbed.

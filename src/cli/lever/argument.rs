@@ -98,7 +98,9 @@ pub fn lever_plan(
         None => task.blades(library)?.remove(0),
     };
     let asked = asked_lever(task, &tool, lever).map_err(|error| {
-        CliError::usage(error.to_string(), "`pushplan check` and the picture of `solve` help")
+        let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
+                      cuboid it is that at the smallest y";
+        CliError::usage(error.to_string(), advice)
     })?;
     if let Some(rule) = &asked.broken {
         session.warn(&format!("{rule}; a plan would not contain it"));

@@ -1,6 +1,7 @@
 //! `pushplan solve` for a task of levering.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::asset::{LeverPlanFile, ToolLibrary};
 use crate::cli::{
@@ -16,7 +17,6 @@ use crate::scene::{LeverJob, LeverTask};
 use crate::sim::LeverSimulator;
 use crate::solve::PlanStatus;
 use crate::solve::lever::{LeverPlanner, RankedLever};
-use std::sync::Arc;
 
 use super::model::lever_model;
 

@@ -1,12 +1,16 @@
 //! `pushplan verify` for a plan of levering.
 
+use std::sync::Arc;
+
 use crate::asset::LeverPlanFile;
-use crate::cli::{error::CliError, exit_code, output, session::Session, verify::VerifyArgs};
+use crate::cli::{
+    error::CliError, exit_code, follow::Following, output, session::Session, verify::VerifyArgs,
+};
 use crate::report::{lever_figure, lever_verdict_document, lever_verdict_line};
 use crate::scene::LeverJob;
 use crate::sim::LeverSimulator;
 use crate::verify::{LeverVerifier, VerifySettings};
-use std::sync::Arc;
+use crate::watch::Until;
 
 use super::solve::FRAME;
 
@@ -21,9 +25,12 @@ pub fn verify(
 ) -> Result<u8, CliError> {
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
-    let verifier = LeverVerifier::new(settings);
+    let following = Following::spinner(session, "replaying");
+    let until = Until::new(&following, args.time_limit);
+    let verifier = LeverVerifier::new(settings).watched(&until);
     let (task, tool, plan) = (&file.task, &file.tool, &file.plan);
     let verdict = session.compute(|| verifier.verify(task, tool, plan));
+    following.finish()?;
     let mut document = lever_verdict_document(&file, &verdict);
     let mut written = Ok(());
     // A plan that names what is not there has nothing to be drawn.

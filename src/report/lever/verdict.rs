@@ -44,6 +44,7 @@ pub fn lever_verdict_line(verdict: Option<&LeverVerdict>) -> String {
         None => format!("passed: reaches the goal, as do {reached} of {count} disturbed replays"),
         Some(LeverReason::Forbidden(fault)) => format!("failed: {fault}"),
         Some(LeverReason::GoesWrong(warning)) => format!("failed: {warning}"),
+        Some(LeverReason::Stopped) => format!("stopped after {count} disturbed replays"),
         Some(LeverReason::Misses) => "failed: misses the goal".to_owned(),
         Some(LeverReason::Fragile { reached, replays, wanted }) => format!(
             "fragile: works as written, but with small errors of place and friction {reached} of \

@@ -91,6 +91,8 @@ pub enum LeverReason {
         /// Share that was asked for.
         wanted: f64,
     },
+    /// Verification was stopped before all replays were made.
+    Stopped,
 }
 
 /// Whether a lever-up works, with what shows it.
@@ -134,6 +136,14 @@ impl LeverVerdict {
         };
         verdict.passed = verdict.reason.is_none();
         verdict
+    }
+
+    /// The verdict if not all replays were made: it does not pass.
+    #[must_use]
+    pub fn stopped(mut self) -> Self {
+        self.reason = self.reason.or(Some(LeverReason::Stopped));
+        self.passed = false;
+        self
     }
 
     /// Whether it works as written; too seldom under disturbances, perhaps.
