@@ -17,7 +17,7 @@ const SUITE: &str = "levers";
 const TRUTH: &str = "3d";
 
 /// Version of the sampler: another one draws other episodes for the same settings.
-const SAMPLER: u32 = 1;
+const SAMPLER: u32 = 2;
 
 /// The settings in a manifest.
 #[derive(Serialize, Deserialize)]
