@@ -37,7 +37,10 @@ pub use equations::{EquationCost, equation_costs};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
-pub use lever::{ConvergenceReport, ConvergenceRow, Setting, convergence};
+pub use lever::{
+    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverReport, LeverRow, Neighbour, Setting,
+    SupportRow, convergence, lever_report, support_rows,
+};
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,

@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{convergence, cost, joints, random, refinement, saved, tasks, tools};
+use super::{convergence, cost, joints, levers, random, refinement, saved, tasks, tools};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -21,6 +21,7 @@ enum What {
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
     Convergence(convergence::ConvergenceArgs),
+    Levers(levers::LeversArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
     Merge(saved::MergeArgs),
@@ -35,6 +36,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
         What::Convergence(args) => convergence::run(args, session)?,
+        What::Levers(args) => levers::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
