@@ -38,7 +38,8 @@ pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
-    ConvergenceReport, ConvergenceRow, LeverRecord, LeverSuite, Setting, convergence,
+    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
+    LeverSuite, Neighbour, Setting, SupportRow, convergence, lever_report, support_rows,
 };
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,

@@ -39,6 +39,17 @@ impl Pose3 {
         Self { position, rotation }
     }
 
+    /// A pose of its position, metres, and about where its x- and z-axes point; the z-axis is kept.
+    /// Axes of no length, or along each other, leave it unturned.
+    pub fn from_axes(position: Vector3, x: Vector3, z: Vector3) -> Self {
+        let unit = |v: Vector3| v.try_normalize(1e-9);
+        let axes = unit(z).and_then(|z| unit(x - z * z.dot(&x)).map(|x| [x, z.cross(&x), z]));
+        let rotation = axes.map_or_else(UnitQuaternion::identity, |axes| {
+            UnitQuaternion::from_basis_unchecked(&axes)
+        });
+        Self { position, rotation }
+    }
+
     /// The quaternion of its turn: `x, y, z, w`.
     pub fn quaternion(&self) -> [f64; 4] {
         self.rotation.coords.into()

@@ -17,6 +17,7 @@ mod joints;
 mod keyframes;
 mod labels;
 mod lever;
+mod levers;
 mod number;
 mod page;
 mod picture;
@@ -51,8 +52,9 @@ pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
 pub use lever::{
     PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
-    lever_solution_document, lever_verdict_document, lever_verdict_line, levers_document,
+    lever_solution_document, lever_tasks_document, lever_verdict_document, lever_verdict_line,
 };
+pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};

@@ -4,7 +4,9 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{convergence, cost, joints, levers, random, refinement, saved, tasks, tools};
+use super::{
+    convergence, cost, joints, lever_tasks, levers, random, refinement, saved, tasks, tools,
+};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -21,9 +23,10 @@ enum What {
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
     Convergence(convergence::ConvergenceArgs),
+    Levers(levers::LeversArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
-    Levers(levers::LeversArgs),
+    LeverTasks(lever_tasks::LeverTasksArgs),
     Merge(saved::MergeArgs),
     Report(saved::ReportArgs),
 }
@@ -36,9 +39,10 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
         What::Convergence(args) => convergence::run(args, session)?,
+        What::Levers(args) => levers::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
-        What::Levers(args) => levers::run(args, session)?,
+        What::LeverTasks(args) => lever_tasks::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
         What::Report(args) => saved::report(args, session)?,
     }

@@ -1,102 +1,91 @@
-//! `pushplan bench levers`: generated tasks of levering.
-
-use std::path::{Path, PathBuf};
+//! `pushplan bench levers`: errors of models of lever-ups.
 
 use clap::Args;
-use serde_json::json;
 
-use crate::bench::LeverSuite;
+use crate::bench::{LeverBaseline, Neighbour, lever_report};
 use crate::cli::{
-    action::LibraryArgs,
     error::CliError,
+    follow::Following,
     form::Form,
-    interrupt, lever, model, output,
+    generate::data_error,
+    interrupt,
     session::Session,
-    solve::solve_error,
-    words::{EFFORTS, words},
+    words::{LEVER_PRESETS, words},
 };
+use crate::dataset::{LeverConfig, LeverDataset, LeverPreset};
+use crate::effect::{LeverFeatures, LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
 use crate::report::levers_document;
-use crate::scene::ModelSpec;
-use crate::solve::Effort;
-use crate::solve::lever::LeverPlanner;
-use crate::store::RunManifest;
+use crate::sim::LeverSimulator;
 
-use super::keep::{self, KeepArgs, value_digest};
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "lever-tasks";
-
-/// Solve generated tasks of levering: take the board out of a drive
+/// Models of lever-ups against the 3-D engine, on plates that none has seen
 #[derive(Args, Debug)]
-#[command(after_help = format!("Examples:
-  pushplan bench levers --count 50
-  pushplan bench levers --count 5 --save-tasks my-tasks
-
-{}", keep::HELP))]
 pub struct LeversArgs {
-    /// Number of tasks
-    #[arg(long, value_name = "N", default_value_t = 50,
-          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    count: u32,
-    /// Seed of the tasks
+    /// Families of lever-ups [default: levers and levers-varied]
+    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    families: Vec<LeverPreset>,
+    /// Number of lever-ups of each family
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    cases: u64,
+    /// Seed of the lever-ups
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// How hard to try
-    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
-    effort: Effort,
-    #[arg(long, value_name = "MODEL", help = model::HELP_FOR_LEVERS)]
-    model: Option<ModelSpec>,
-    #[command(flatten)]
-    library: LibraryArgs,
-    /// Also write the tasks to this folder, for `pushplan solve`
-    #[arg(long, value_name = "DIR")]
-    save_tasks: Option<PathBuf>,
-    #[command(flatten)]
-    keep: KeepArgs,
+    /// Number of lever-ups that models without physics remember
+    #[arg(long, value_name = "N", default_value_t = 1600,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    known: u64,
+    /// Their seed; must differ from that of the others
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    known_seed: u64,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
-    let library = args.library.load()?;
-    let count = args.count as usize;
-    let suite = LeverSuite::new(args.seed, count);
-    let planner = LeverPlanner::new(lever::lever_model(args.model.as_ref())?, args.effort);
-    let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
-    let settings = json!({
-        "effort": args.effort,
-        "budget": planner.settings(),
-        "tasks_version": LeverSuite::VERSION,
-        "tools": value_digest(&tools)?,
-    });
-    let manifest =
-        RunManifest::new(SUITE, count, args.seed, &planner.model().name()).with_settings(settings);
-    if let Some(folder) = &args.save_tasks {
-        save_tasks(folder, &suite, args.keep.indices(count))?;
+    if args.seed == args.known_seed {
+        let message = "the lever-ups that are remembered have the seed of the others";
+        return Err(CliError::usage(message, "choose another --known-seed"));
     }
-    let store = args.keep.measure(session, manifest, |index| {
-        session.compute(|| suite.measure(&planner, &library, index)).map_err(solve_error)
-    })?;
-    let (manifest, finished) = store.into_parts();
-    let document = levers_document(&manifest, &finished);
-    keep::show(args.form, session, &document, args.keep.out.as_deref())
+    interrupt::watch();
+    let usual = [LeverPreset::Fixed, LeverPreset::Varied];
+    let families = if args.families.is_empty() { &usual[..] } else { &args.families };
+    let mut reports = Vec::new();
+    for preset in families {
+        let draw = |(seed, episodes)| {
+            let config = LeverConfig { seed, episodes, preset: *preset };
+            let following = Following::bar(session, "simulating");
+            let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
+            following.finish()?;
+            drawn.map_err(data_error)
+        };
+        let known = draw((args.known_seed, args.known))?;
+        let asked = draw((args.seed, args.cases))?;
+        let spinner = session.spinner("predicting");
+        reports.push(session.compute(|| {
+            let models = models(&known);
+            let models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            lever_report((*preset, args.seed), asked.episodes(), &models)
+        }));
+        spinner.finish_and_clear();
+    }
+    args.form.show(session, &levers_document(&reports))
 }
 
-/// Writes the tasks of a run as files.
-fn save_tasks(
-    folder: &Path,
-    suite: &LeverSuite,
-    indices: impl Iterator<Item = usize>,
-) -> Result<(), CliError> {
-    output::prepare(folder)?;
-    interrupt::watch();
-    for index in indices {
-        if interrupt::requested() {
-            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
-        }
-        let task = suite.task(index);
-        let text = task.to_yaml().map_err(CliError::Output)?;
-        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
-    }
-    Ok(())
+/// From the simplest on.
+fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
+    let known = known.episodes();
+    let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
+    let nearest = |features| like(Neighbour::Nearest(features));
+    vec![
+        Box::new(LeverBaseline::still()),
+        Box::new(LeverBaseline::mean(known)),
+        Box::new(like(Neighbour::Random)),
+        Box::new(nearest(LeverFeatures::ShapeContext)),
+        Box::new(nearest(LeverFeatures::Corners)),
+        Box::new(nearest(LeverFeatures::Support)),
+        Box::new(LeverPrior { settings: PriorSettings::FROM_REST }),
+        Box::new(LeverPrior::default()),
+        Box::new(LeverPrior { settings: PriorSettings::FINE }),
+        Box::new(SimulatedLevers { simulator: LeverSimulator::COARSE }),
+    ]
 }

@@ -9,13 +9,13 @@ use crate::bench::{
 };
 use crate::cli::{error::CliError, form::Form, output, session::Session};
 use crate::report::{
-    ClosedRun, Document, RandomRun, closed_document, levers_document, random_document,
+    ClosedRun, Document, RandomRun, closed_document, lever_tasks_document, random_document,
     solved_document, tools_document,
 };
 use crate::store::{Finished, RunManifest, Store, StoreError, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, levers, random, tasks, tools};
+use super::{joints, keep, lever_tasks, random, tasks, tools};
 
 /// Put the shards of a run together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -99,9 +99,9 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
-        (levers::SUITE, [dir]) => {
+        (lever_tasks::SUITE, [dir]) => {
             let store = Store::<LeverRecord>::load(dir)?;
-            Ok(levers_document(store.manifest(), store.finished()))
+            Ok(lever_tasks_document(store.manifest(), store.finished()))
         }
         (super::run::SUITE, runs) => {
             let runs: Vec<ClosedRun> = runs
@@ -111,10 +111,12 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             same_tasks(&runs)?;
             Ok(closed_document(&runs))
         }
-        (tasks::SUITE | tools::SUITE | joints::SUITE | levers::SUITE, _) => Err(CliError::usage(
-            format!("runs of the suite `{suite}` are not shown side by side"),
-            "name one folder",
-        )),
+        (tasks::SUITE | tools::SUITE | joints::SUITE | lever_tasks::SUITE, _) => {
+            Err(CliError::usage(
+                format!("runs of the suite `{suite}` are not shown side by side"),
+                "name one folder",
+            ))
+        }
         (random::SUITE, runs) => {
             let runs: Vec<RandomRun> = runs
                 .iter()

@@ -12,5 +12,5 @@ pub use figure::lever_figure;
 pub use prediction::{PredictedLever, lever_prediction_document};
 pub use simulation::lever_simulation_document;
 pub use solution::lever_solution_document;
-pub use suite::levers_document;
+pub use suite::lever_tasks_document;
 pub use verdict::{lever_verdict_document, lever_verdict_line};

@@ -12,7 +12,7 @@ use crate::solve::PlanStatus;
 use crate::store::{Finished, RunManifest};
 
 /// The results of a run.
-pub fn levers_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) -> Document {
+pub fn lever_tasks_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) -> Document {
     let count = tasks.len().max(1) as f64;
     let share = |has: &dyn Fn(&LeverRecord) -> bool| {
         let found = tasks.iter().filter(|task| has(&task.record)).count();

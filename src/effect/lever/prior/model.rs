@@ -18,7 +18,12 @@ pub struct LeverPrior {
 
 impl LeverModel for LeverPrior {
     fn name(&self) -> String {
-        "prior".to_owned()
+        let PriorSettings { step, inertia, .. } = self.settings;
+        match (inertia, self.settings == PriorSettings::default()) {
+            (_, true) => "prior".to_owned(),
+            (true, _) => format!("prior,step=1/{:.0}", 1.0 / step),
+            (false, _) => format!("prior from rest,step=1/{:.0}", 1.0 / step),
+        }
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {

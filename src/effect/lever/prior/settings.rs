@@ -16,8 +16,20 @@ pub struct PriorSettings {
     pub inertia: bool,
 }
 
+impl PriorSettings {
+    /// Every step from rest: what a plate would do that has no inertia.
+    pub const FROM_REST: Self =
+        Self { step: 1.0 / 15.0, travel: 0.01, shortest: 1.0 / 15.0, sweeps: 10, inertia: false };
+    /// For search.
+    pub const USUAL: Self =
+        Self { step: 1.0 / 30.0, travel: 0.01, shortest: 1.0 / 120.0, sweeps: 40, inertia: true };
+    /// Steps beyond which finer ones bring nothing.
+    pub const FINE: Self =
+        Self { step: 1.0 / 240.0, travel: 0.002, shortest: 1.0 / 480.0, sweeps: 40, inertia: true };
+}
+
 impl Default for PriorSettings {
     fn default() -> Self {
-        Self { step: 1.0 / 30.0, travel: 0.01, shortest: 1.0 / 120.0, sweeps: 40, inertia: true }
+        Self::USUAL
     }
 }
