@@ -1,7 +1,7 @@
 //! A collection of tools: those shipped with the program, those of folders, those made in code.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::scene::{BladeTool, Tool};
@@ -62,7 +62,7 @@ impl AnyTool {
         }
     }
 
-    fn load(path: &PathBuf) -> Result<Self, Faults> {
+    fn load(path: &Path) -> Result<Self, Faults> {
         let (file, text) = super::read_text(path)?;
         Self::parse(&text, &file)
     }
@@ -136,7 +136,7 @@ impl ToolLibrary {
             return Err(Fault::of_file(&path.display().to_string(), message, advice).into());
         }
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        self.and(names.iter().map(String::as_str).zip(files.iter().map(AnyTool::load)))
+        self.and(names.iter().map(String::as_str).zip(files.iter().map(|file| AnyTool::load(file))))
     }
 
     /// The tool that pushes called `name`.

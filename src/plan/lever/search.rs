@@ -151,7 +151,7 @@ pub fn merit(goal: &LeverGoal, outcome: &LeverOutcome, trajectory: &LeverTraject
     let leaning = if outcome.ending == Ending::Leaning { LEANING } else { 0.0 };
     let wrong = if outcome.reached || outcome.score > 1.0 { 0.0 } else { 2.0 };
     // Among those that are well within the goal the others decide.
-    outcome.score.max(0.5).min(1e6) + undecided + slipped + leaning + wrong
+    outcome.score.clamp(0.5, 1e6) + undecided + slipped + leaning + wrong
 }
 
 /// Of each candidate the share of its neighbours (one step along the outline, in depth or in turn)

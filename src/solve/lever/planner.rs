@@ -1,5 +1,6 @@
 //! The planner of lever-ups.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -7,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::asset::ToolLibrary;
 use crate::effect::{LeverModel, LeverTrust, SimulatedLevers};
-use crate::plan::lever::{LeverSearch, ScoredLever, merit};
+use crate::plan::lever::{LeverCandidate, LeverSearch, ScoredLever, merit};
 use crate::scene::{
     BladeTool, LeverJob, LeverOutcome, LeverPlan, LeverScene, LeverTask, LeverTrajectory,
 };
@@ -144,28 +145,14 @@ impl LeverPlanner {
         }
     }
 
-    /// The best of different kinds: no more than an eighth of the same tool, edge and axis while
-    /// there are others.
+    /// The best of different kinds: no more than an eighth of one while there are others.
     fn choose(&self, scored: Vec<ScoredLever>) -> Vec<ScoredLever> {
         let wanted = self.settings.simulated;
-        let most = wanted.div_ceil(8);
-        let mut kinds: Vec<((usize, usize, usize), usize)> = Vec::new();
-        let (mut first, mut later) = (Vec::new(), Vec::new());
-        for found in scored {
-            let candidate = &found.candidate;
-            let kind = (candidate.tool, candidate.lever.place.edge, candidate.cell[2]);
-            let known = kinds.iter().position(|(known, _)| *known == kind);
-            let known = known.unwrap_or_else(|| {
-                kinds.push((kind, 0));
-                kinds.len() - 1
-            });
-            kinds[known].1 += 1;
-            if kinds[known].1 <= most { first.push(found) } else { later.push(found) }
-        }
-        first.truncate(wanted);
-        let left = wanted - first.len();
-        first.extend(later.into_iter().take(left));
-        first
+        let kinds: Vec<Kind> = scored.iter().map(|found| kind(&found.candidate)).collect();
+        let all: Vec<usize> = (0..scored.len()).collect();
+        let chosen = mixed(&all, &kinds, &[], wanted.div_ceil(8), wanted);
+        let mut scored: Vec<Option<ScoredLever>> = scored.into_iter().map(Some).collect();
+        chosen.into_iter().filter_map(|k| scored[k].take()).collect()
     }
 
     /// Coarse simulation, as planned and with small errors, and the ranking that follows.
@@ -213,6 +200,8 @@ impl LeverPlanner {
         watch: &dyn Watch,
     ) -> Vec<RankedLever> {
         let by = SimulatedLevers { simulator: LeverSimulator::COARSE }.name();
+        let kinds: Vec<Kind> =
+            simulated.iter().map(|found| kind(&found.scored.candidate)).collect();
         let mut plans: Vec<RankedLever> = simulated
             .into_iter()
             .map(|Simulated { scored, outcome, merit }| {
@@ -223,13 +212,18 @@ impl LeverPlanner {
             .collect();
         let settings = VerifySettings { disturbed: self.settings.disturbed, seed: self.seed };
         let verifier = LeverVerifier::new(settings);
-        let hopeful: Vec<usize> =
+        let mut hopeful: Vec<usize> =
             (0..plans.len()).filter(|&k| plans[k].predicted.reached).collect();
-        let batches = hopeful.chunks(self.settings.verified_at_once.max(1));
-        for batch in batches.take(self.settings.verify_batches) {
-            if watch.cancelled() {
+        let mut tried: Vec<usize> = Vec::new();
+        let at_once = self.settings.verified_at_once.max(1);
+        for round in 1..=self.settings.verify_batches {
+            // What failed does so for a reason that its kind shares.
+            let batch = mixed(&hopeful, &kinds, &tried, 2 * round, at_once);
+            if batch.is_empty() || watch.cancelled() {
                 break;
             }
+            hopeful.retain(|k| !batch.contains(k));
+            tried.extend(&batch);
             let verdicts: Vec<_> = batch
                 .par_iter()
                 .map(|&k| {
@@ -257,5 +251,51 @@ impl LeverPlanner {
         };
         plans.sort_by(|a, b| grade(b).total_cmp(&grade(a)));
         plans
+    }
+}
+
+/// What candidates that are likely to fail together have in common: tool, edge, axis and turn.
+type Kind = (usize, usize, usize, usize);
+
+fn kind(candidate: &LeverCandidate) -> Kind {
+    let [_, _, axis, turn] = candidate.cell;
+    (candidate.tool, candidate.lever.place.edge, axis, turn)
+}
+
+/// The first `wanted` of `from`, with at most so many of a kind, those `tried` included, while there
+/// are others.
+fn mixed(
+    from: &[usize],
+    kinds: &[Kind],
+    tried: &[usize],
+    most: usize,
+    wanted: usize,
+) -> Vec<usize> {
+    let mut counts: HashMap<Kind, usize> = HashMap::new();
+    for &k in tried {
+        *counts.entry(kinds[k]).or_default() += 1;
+    }
+    let (mut first, mut later) = (Vec::new(), Vec::new());
+    for &k in from {
+        let count = counts.entry(kinds[k]).or_default();
+        *count += 1;
+        if *count <= most { first.push(k) } else { later.push(k) }
+    }
+    first.extend(later);
+    first.truncate(wanted);
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_are_of_different_kinds_while_there_are_some() {
+        let kinds = [0, 0, 0, 1, 0, 2].map(|turn| (0, 0, 0, turn));
+        let all = [0, 1, 2, 3, 4, 5];
+        assert_eq!(mixed(&all, &kinds, &[], 2, 4), [0, 1, 3, 5]);
+        assert_eq!(mixed(&[2, 4, 5], &kinds, &[0, 1, 3], 2, 2), [5, 2]);
+        assert_eq!(mixed(&all, &kinds, &[], 1, 9), [0, 3, 5, 1, 2, 4]);
     }
 }
