@@ -11,6 +11,7 @@ use pushplan::scene::{Job, Outcome, Plan, Push, Record, Task};
 use serde_json::Value as Json;
 
 use crate::bytes::damaged;
+use crate::levers;
 use crate::random::Random;
 use crate::targets::Target;
 use crate::tree::Tree;
@@ -28,6 +29,9 @@ impl Corpus {
             Target::Task => folder("tasks"),
             Target::Plan => made(plan),
             Target::Trajectory => made(trajectory),
+            Target::Blade => folder("tools"),
+            Target::LeverTask => folder("tasks/levers"),
+            Target::LeverPlan => levers::plans(),
             // Written in `corpus`.
             Target::Recording => Vec::new(),
             Target::Weights => vec![("small".into(), weights())],

@@ -5,6 +5,7 @@
 
 mod bytes;
 mod corpus;
+mod levers;
 mod random;
 mod snippets;
 mod survive;

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
+use pushplan::asset::{Faults, LeverPlanFile, PlanFile, TrajectoryFile, check};
 use pushplan::network::{Weights, WeightsError};
 use pushplan::recording::Recording;
-use pushplan::scene::{Task, Tool};
+use pushplan::scene::{BladeTool, LeverTask, Task, Tool};
 
-use crate::survive;
+use crate::{levers, survive};
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -19,11 +19,23 @@ pub enum Target {
     Trajectory,
     Recording,
     Weights,
+    Blade,
+    LeverTask,
+    LeverPlan,
 }
 
 impl Target {
-    pub const ALL: [Self; 6] =
-        [Self::Tool, Self::Task, Self::Plan, Self::Trajectory, Self::Recording, Self::Weights];
+    pub const ALL: [Self; 9] = [
+        Self::Tool,
+        Self::Task,
+        Self::Plan,
+        Self::Trajectory,
+        Self::Recording,
+        Self::Weights,
+        Self::Blade,
+        Self::LeverTask,
+        Self::LeverPlan,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -33,14 +45,17 @@ impl Target {
             Self::Trajectory => "trajectory",
             Self::Recording => "recording",
             Self::Weights => "weights",
+            Self::Blade => "blade",
+            Self::LeverTask => "lever-task",
+            Self::LeverPlan => "lever-plan",
         }
     }
 
     /// The ending that such files have.
     pub fn ending(self) -> &'static str {
         match self {
-            Self::Tool | Self::Task => ".yaml",
-            Self::Plan | Self::Trajectory | Self::Recording => ".json",
+            Self::Tool | Self::Task | Self::Blade | Self::LeverTask => ".yaml",
+            Self::LeverPlan | Self::Plan | Self::Trajectory | Self::Recording => ".json",
             Self::Weights => ".safetensors",
         }
     }
@@ -70,6 +85,9 @@ impl Target {
             Self::Plan => read(PlanFile::parse(text, &file), text, survive::plan),
             Self::Trajectory => read(TrajectoryFile::parse(text, &file), text, survive::trajectory),
             Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
+            Self::Blade => read(BladeTool::parse(text, &file), text, levers::blade),
+            Self::LeverTask => read(LeverTask::parse(text, &file), text, levers::task),
+            Self::LeverPlan => read(LeverPlanFile::parse(text, &file), text, levers::plan),
             Self::Weights => false,
         }
     }

@@ -14,6 +14,7 @@ mod evaluation;
 mod far;
 mod heldout;
 mod inference;
+mod lever;
 mod random;
 mod refinement;
 mod solved;
@@ -38,6 +39,10 @@ pub use evaluation::{Evaluated, by_kind};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
+pub use lever::{
+    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
+    LeverSuite, Neighbour, Setting, SupportRow, convergence, lever_report, support_rows,
+};
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,

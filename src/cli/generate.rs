@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::dataset::{
-    Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, generate,
+    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, Solids, generate,
+    generate_levers,
 };
 
 use crate::store::Shard;
@@ -16,10 +17,10 @@ use super::{
     follow::Following,
     interrupt,
     session::Session,
-    words::{JOINTS, PRESETS, SOLIDS, words},
+    words::{DATA, Data, JOINTS, SOLIDS, words},
 };
 
-/// Make training data: random scenes, tools and pushes, simulated
+/// Make training data: random scenes with pushes or lever-ups, simulated
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
@@ -28,26 +29,28 @@ machine say; `pushplan bench merge DIR SHARD...` makes of the parts the same fil
 `pushplan bench status SHARD...` says which are missing.
 
 A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
-for test sets such as the published ones (hand at 0.21 m/s).
+for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one seed have no random
+shape in common with those of another.
 
 Examples:
   pushplan generate data/train --preset mixed --episodes 20000 --seed 1
   pushplan generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
-      --objects 9 --joints mixed --solids cylinders --speed 0.21"
+      --objects 9 --joints mixed --solids cylinders --speed 0.21
+  pushplan generate data/levers --preset levers --episodes 1600 --seed 1"
 )]
 pub struct GenerateArgs {
     /// Folder for the data
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Number of episodes: one scene and one sequence of pushes each
+    /// Number of episodes: one scene and one sequence of pushes, or one lever-up, each
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
     episodes: u64,
     /// Decides every episode; train and held-out data need different ones
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     seed: u64,
     /// Family of scenes
-    #[arg(long, value_parser = words(&PRESETS), default_value = "tools")]
-    preset: Preset,
+    #[arg(long, value_parser = words(&DATA), default_value = "tools")]
+    preset: Data,
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
@@ -66,36 +69,55 @@ pub struct GenerateArgs {
 }
 
 impl GenerateArgs {
-    fn config(&self) -> DatasetConfig {
-        DatasetConfig {
-            seed: self.seed,
-            episodes: self.episodes,
-            preset: self.preset,
-            constraints: Constraints {
-                objects: self.objects,
-                joints: self.joints,
-                solids: self.solids,
-                speed: self.speed,
-            },
+    fn constraints(&self) -> Constraints {
+        Constraints {
+            objects: self.objects,
+            joints: self.joints,
+            solids: self.solids,
+            speed: self.speed,
+        }
+    }
+
+    /// Which of the episodes are made.
+    fn shard(&self) -> Shard {
+        self.shard.unwrap_or(Shard::WHOLE)
+    }
+
+    /// Makes the data; the number of episodes and their size in bytes.
+    fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
+        let &Self { seed, episodes, .. } = self;
+        let shard = self.shard();
+        let constraints = self.constraints();
+        match self.preset {
+            Data::Pushes(preset) => {
+                let config = DatasetConfig { seed, episodes, preset, constraints };
+                generate(&config, shard, &self.folder, following)
+            }
+            Data::Levers(_) if constraints != Constraints::default() => {
+                let why = "objects, joints, solids and speed can be fixed for crowds only";
+                Err(DatasetError::Constraint(why.to_owned()))
+            }
+            Data::Levers(preset) => {
+                let config = LeverConfig { seed, episodes, preset };
+                generate_levers(&config, shard, &self.folder, following)
+            }
         }
     }
 }
 
 pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
-    let config = args.config();
     interrupt::watch();
     let following = Following::bar(session, "episodes");
-    let shard = args.shard.unwrap_or(Shard::WHOLE);
-    let made = session.compute(|| generate(&config, shard, &args.folder, &following));
+    let made = session.compute(|| args.make(&following));
     following.finish()?;
     let (episodes, bytes) = made.map_err(data_error)?;
-    let part = match shard {
+    let part = match args.shard() {
         Shard::WHOLE => String::new(),
         shard => format!(", shard {shard}"),
     };
     session.print(&format!(
         "{episodes} episodes of seed {}{part}, {:.1} MB, in {}\n",
-        config.seed,
+        args.seed,
         bytes as f64 / 1e6,
         args.folder.display()
     ))?;

@@ -17,6 +17,7 @@ mod form;
 mod generate;
 mod infer;
 mod interrupt;
+mod lever;
 mod model;
 mod noise;
 mod output;

@@ -10,6 +10,7 @@ use crate::watch::{Count, Watch};
 use super::config::DatasetConfig;
 use super::episode::Episode;
 use super::error::DatasetError;
+use super::lever::{LEVER_SUITE, LeverConfig};
 use super::set::{Dataset, draw};
 
 /// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about a
@@ -56,16 +57,20 @@ pub fn generate(
 }
 
 /// Merges the finished shards of a data set, given in any order, into one in the folder `out`: the
-/// same bytes as making it in one go.
+/// same bytes as making it in one go. Gives the number of episodes and their seed.
 ///
 /// # Errors
 /// Those of [`merge_runs`]; folders of something else than episodes.
-pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<DatasetConfig, DatasetError> {
+pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<(usize, u64), DatasetError> {
     for dir in shards {
-        DatasetConfig::of(&RunManifest::expect(dir)?, dir)?;
+        let manifest = RunManifest::expect(dir)?;
+        match manifest.suite.as_str() {
+            LEVER_SUITE => LeverConfig::of(&manifest, dir).map(drop)?,
+            _ => DatasetConfig::of(&manifest, dir).map(drop)?,
+        }
     }
     let merged = merge_runs(out, shards, Form::Frames, &mut |record| index(record))?;
-    DatasetConfig::of(&merged, out)
+    Ok((merged.tasks, merged.seed))
 }
 
 impl Dataset {
@@ -107,7 +112,7 @@ fn decode(record: &[u8]) -> Result<Episode, String> {
     Ok(Episode { index, scene, motion, frames })
 }
 
-/// The index of the episode that a record holds.
+/// The index of the episode that a record holds, of pushes or of lever-ups: its first number.
 fn index(record: &[u8]) -> Result<usize, String> {
     match postcard::take_from_bytes::<u64>(record) {
         Ok((index, _)) => Ok(index as usize),

@@ -5,7 +5,7 @@
 //! never committed but made again, in memory or in a folder, resumable, with the same
 //! bits for any number of threads. Either tools on tables with few objects (`tools`), or crowds of
 //! objects, some joined, pushed by a round hand (`sparse`, `dense`). The shipped tools never occur
-//! in it. Trains nothing.
+//! in it. Lever-ups are sets of their own (`lever`). Trains nothing.
 
 mod aim;
 mod assembly;
@@ -23,6 +23,7 @@ mod jam;
 mod joints;
 mod lesson;
 mod lessons;
+mod lever;
 mod novelty;
 mod observed;
 mod obstacle;
@@ -44,6 +45,10 @@ pub use generate::{generate, merge_data};
 pub use hand::HAND_RADIUS;
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
+pub use lever::{
+    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode,
+    LeverPreset, generate_levers, lever_job,
+};
 pub use novelty::is_shipped;
 pub use observed::Seeing;
 pub use preset::Preset;

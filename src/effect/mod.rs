@@ -6,6 +6,7 @@
 
 mod assuming;
 mod build;
+mod lever;
 mod measured;
 mod model;
 mod network;
@@ -19,6 +20,10 @@ mod up_to;
 pub use crate::scene::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
+pub use lever::{
+    LeverFeatures, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, SimulatedLevers,
+    lever_action, lever_features,
+};
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;
 pub use network::Network;

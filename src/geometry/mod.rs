@@ -1,7 +1,7 @@
 //! Planar geometry: poses, footprints, closest points, clearances and swept areas.
 //!
-//! Everything is in the plane of the table, in metres and radians. It knows nothing of tools,
-//! tasks or physics; the vertical extent of a body is only a height.
+//! Everything but poses and solids in space is in the plane of the table, in metres and radians. It knows
+//! nothing of tools, tasks or physics; the vertical extent of a body is only a height.
 
 mod cast;
 mod clearance;
@@ -12,6 +12,9 @@ mod polygon;
 mod pose;
 mod rim;
 mod shape;
+mod solid;
+mod spatial;
+mod support_edge;
 mod turn;
 
 pub use cast::travel_to_contact;
@@ -22,4 +25,7 @@ pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
+pub use solid::{Solid, common_area};
+pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
+pub use support_edge::{SupportEdge, support_edge};
 pub use turn::Turn;

@@ -9,12 +9,14 @@
 
 mod comparison;
 mod error;
+mod lever;
 mod physical;
 mod statistics;
 mod trial;
 
 pub use comparison::Comparison;
 pub use error::{MOVED, ObjectError, object_errors};
+pub use lever::{LeverError, lever_error};
 pub use physical::{Drift, DriftSums};
 pub use statistics::{RelativeErrors, Summary, mean, percentile};
 pub use trial::{Moment, Trial, When};

@@ -6,6 +6,7 @@ mod bars;
 mod belief;
 mod chart;
 mod closed;
+mod convergence;
 mod cost;
 mod crowd;
 mod document;
@@ -15,6 +16,8 @@ mod html;
 mod joints;
 mod keyframes;
 mod labels;
+mod lever;
+mod levers;
 mod number;
 mod page;
 mod picture;
@@ -40,12 +43,18 @@ pub use bars::{BarChart, Bars};
 pub use belief::belief_document;
 pub use chart::{Axis, Chart, Mark, Series};
 pub use closed::{ClosedRun, closed_document};
+pub use convergence::convergence_document;
 pub use cost::{cost_document, crowd_cost_document, equation_document, far_document};
 pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
+pub use lever::{
+    PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
+    lever_solution_document, lever_tasks_document, lever_verdict_document, lever_verdict_line,
+};
+pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};

@@ -16,6 +16,7 @@ mod groups;
 mod guess;
 mod job;
 mod joint;
+mod lever;
 mod model;
 mod motion;
 mod near;
@@ -48,6 +49,12 @@ pub use groups::RigidGroups;
 pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
+pub use lever::{
+    Blade, BladeTool, Block, Ending, LEVER_FRAMES, LeverEvidence, LeverFault, LeverFrame,
+    LeverGoal, LeverJob, LeverMotion, LeverOutcome, LeverPlan, LeverReason, LeverRules, LeverScene,
+    LeverTask, LeverTrajectory, LeverUp, LeverVerdict, LeverWarning, Pivot, Place, Plate, Slab,
+    Weight, has_slipped, lever_frame,
+};
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,
 };

@@ -16,15 +16,18 @@
 mod drive;
 mod footprints;
 mod groups;
+mod lever;
 mod parameters;
 mod planar;
 mod seams;
 mod simulator;
 mod slowing;
 mod solids;
+mod solved;
 mod spatial;
 mod strain;
 mod support;
 mod upright;
 
+pub use lever::LeverSimulator;
 pub use simulator::Simulator;

@@ -98,21 +98,24 @@ pub(super) fn weighing(collider: ColliderBuilder, shape: &Shape, mass: f64) -> C
 /// Parts of a prism's base with at most four corners each; none where it has no more itself.
 fn slabs(shape: &Shape) -> Vec<Vec<Planar>> {
     match shape {
-        Shape::Prism { base, .. } if base.corners().len() > 4 => {
-            let (first, others) = (base.corners()[0], &base.corners()[1..]);
-            let cut = (0..others.len() - 1).step_by(2);
-            cut.map(|k| {
-                let end = (k + 3).min(others.len());
-                [&[first], &others[k..end]].concat()
-            })
-            .collect()
-        }
+        Shape::Prism { base, .. } if base.corners().len() > 4 => cut(base.corners()),
         _ => Vec::new(),
     }
 }
 
+/// A convex polygon cut into parts with at most four corners each.
+pub(super) fn cut(corners: &[Planar]) -> Vec<Vec<Planar>> {
+    let (first, others) = (corners[0], &corners[1..]);
+    let cut = (0..others.len() - 1).step_by(2);
+    cut.map(|k| {
+        let end = (k + 3).min(others.len());
+        [&[first], &others[k..end]].concat()
+    })
+    .collect()
+}
+
 /// An upright prism about the origin.
-fn prism(base: &[Planar], height: f64) -> ColliderBuilder {
+pub(super) fn prism(base: &[Planar], height: f64) -> ColliderBuilder {
     let count = base.len() as u32;
     let ring = |z: f64| base.iter().map(move |corner| Vector::new(corner.x, corner.y, z));
     let corners: Vec<Vector> = ring(-height / 2.0).chain(ring(height / 2.0)).collect();
@@ -142,7 +145,8 @@ fn half_space() -> ColliderBuilder {
     ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
 }
 
-fn rubbing(collider: ColliderBuilder, friction: f64) -> ColliderBuilder {
+/// The coefficient of a pair is the mean of the two values.
+pub(super) fn rubbing(collider: ColliderBuilder, friction: f64) -> ColliderBuilder {
     collider.friction(friction).friction_combine_rule(CoefficientCombineRule::Average)
 }
 

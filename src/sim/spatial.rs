@@ -9,10 +9,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use rapier3d_f64::prelude::{
-    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
-    FrictionModel, GenericJointBuilder, JointAxesMask, JointAxis, MassProperties, PhysicsWorld,
-    Pose3, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, TrackedContact,
-    Vector as RapierVector,
+    ActiveHooks, Collider, ColliderBuilder, ColliderHandle, FrictionModel, GenericJointBuilder,
+    JointAxesMask, JointAxis, MassProperties, PhysicsWorld, Pose3, RigidBodyBuilder,
+    RigidBodyHandle, Rotation, SpringCoefficients, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Vector, wrap_angle};
@@ -28,6 +27,7 @@ use super::parameters::{
 };
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
+use super::solved::solved;
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 use super::upright::{Standing, Upright};
@@ -377,14 +377,6 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }
     world
-}
-
-/// The points of a manifold that were solved, and not taken away as those of a seam.
-fn solved(
-    manifold: &ContactManifold,
-) -> impl Iterator<Item = (&ContactManifold, &TrackedContact<ContactData>)> {
-    let contacts = manifold.data.solver_contacts.iter();
-    contacts.map(move |contact| (manifold, &manifold.points[contact.contact_id[0] as usize]))
 }
 
 fn to_rapier(pose: &Pose, origin: Vector, height: f64) -> Pose3 {

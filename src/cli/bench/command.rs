@@ -4,7 +4,9 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
-use super::{cost, joints, random, refinement, saved, status, tasks, tools};
+use super::{
+    convergence, cost, joints, lever_tasks, levers, random, refinement, saved, status, tasks, tools,
+};
 
 /// Measure what solving brings and what pushes and searches cost
 #[derive(Args, Debug)]
@@ -20,8 +22,11 @@ enum What {
     Run(super::run::RunArgs),
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
+    Convergence(convergence::ConvergenceArgs),
+    Levers(levers::LeversArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
+    LeverTasks(lever_tasks::LeverTasksArgs),
     Merge(saved::MergeArgs),
     Status(status::StatusArgs),
     Report(saved::ReportArgs),
@@ -34,8 +39,11 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Run(args) => super::run::run(args, session)?,
         What::Refinement(args) => refinement::run(args, session)?,
         What::Cost(args) => cost::run(args, session)?,
+        What::Convergence(args) => convergence::run(args, session)?,
+        What::Levers(args) => levers::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
+        What::LeverTasks(args) => lever_tasks::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,
         What::Status(args) => status::run(args, session)?,
         What::Report(args) => saved::report(args, session)?,

@@ -2,9 +2,12 @@
 
 mod command;
 mod common;
+mod convergence;
 mod cost;
 mod joints;
 mod keep;
+mod lever_tasks;
+mod levers;
 mod page;
 mod random;
 mod refinement;

@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::bench::{
-    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, RandomRecord, RefinedTask, SolvedTask,
-    ToolRecord, TradeOff, by_kind,
+    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, RandomRecord, RefinedTask,
+    SolvedTask, ToolRecord, TradeOff, by_kind,
 };
 use crate::cli::{
     error::CliError, evaluate, form::Form, generate::data_error, output, session::Session,
 };
 use crate::dataset::{self, merge_data};
 use crate::report::{
-    ClosedRun, Document, RandomRun, closed_document, evaluation_document, random_document,
-    solved_document, tools_document,
+    ClosedRun, Document, RandomRun, closed_document, evaluation_document, lever_tasks_document,
+    random_document, solved_document, tools_document,
 };
 use crate::store::{self, Finished, RunManifest, Store, StoreError, line_index, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, random, refinement, tasks, tools};
+use super::{joints, keep, lever_tasks, random, refinement, tasks, tools};
 
 /// Put the shards of a benchmark or of training data together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -57,9 +57,8 @@ pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
     let (out, shards) = (&args.out, &args.shards);
     let suite = shards.first().map(|dir| RunManifest::expect(dir)).transpose()?;
     let suite = suite.map(|manifest| manifest.suite).unwrap_or_default();
-    if suite == dataset::SUITE {
-        let config = merge_data(out, shards).map_err(data_error)?;
-        let (episodes, seed) = (config.episodes, config.seed);
+    if [dataset::SUITE, dataset::LEVER_SUITE].contains(&suite.as_str()) {
+        let (episodes, seed) = merge_data(out, shards).map_err(data_error)?;
         return session
             .print(&format!("{episodes} episodes of seed {seed} in {}\n", out.display()));
     }
@@ -121,6 +120,10 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
+        (lever_tasks::SUITE, [dir]) => {
+            let store = Store::<LeverRecord>::load(dir)?;
+            Ok(lever_tasks_document(store.manifest(), store.finished()))
+        }
         (super::run::SUITE, runs) => {
             let runs: Vec<ClosedRun> = runs
                 .iter()
@@ -142,12 +145,18 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             "the report of a trade-off needs the networks that were measured",
             "give the command of the run again, with its --out: it measures only what is missing",
         )),
-        (tasks::SUITE | tools::SUITE | joints::SUITE | refinement::SUITE | evaluate::SUITE, _) => {
-            Err(CliError::usage(
-                format!("runs of the suite `{suite}` are not shown side by side"),
-                "name one folder",
-            ))
-        }
+        (
+            tasks::SUITE
+            | tools::SUITE
+            | joints::SUITE
+            | refinement::SUITE
+            | evaluate::SUITE
+            | lever_tasks::SUITE,
+            _,
+        ) => Err(CliError::usage(
+            format!("runs of the suite `{suite}` are not shown side by side"),
+            "name one folder",
+        )),
         (random::SUITE, runs) => {
             let runs: Vec<RandomRun> = runs
                 .iter()

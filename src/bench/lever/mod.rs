@@ -1,0 +1,13 @@
+//! What is measured of lever-ups.
+
+mod accuracy;
+mod baselines;
+mod convergence;
+mod suite;
+mod supports;
+
+pub use accuracy::{LeverReport, LeverRow, lever_report};
+pub use baselines::{LeverBaseline, Neighbour};
+pub use convergence::{ConvergenceReport, ConvergenceRow, Setting, convergence};
+pub use suite::{LeverRecord, LeverSuite};
+pub use supports::{SupportRow, support_rows};

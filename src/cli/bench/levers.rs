@@ -1,0 +1,91 @@
+//! `pushplan bench levers`: errors of models of lever-ups.
+
+use clap::Args;
+
+use crate::bench::{LeverBaseline, Neighbour, lever_report};
+use crate::cli::{
+    error::CliError,
+    follow::Following,
+    form::Form,
+    generate::data_error,
+    interrupt,
+    session::Session,
+    words::{LEVER_PRESETS, words},
+};
+use crate::dataset::{LeverConfig, LeverDataset, LeverPreset};
+use crate::effect::{LeverFeatures, LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
+use crate::report::levers_document;
+use crate::sim::LeverSimulator;
+
+/// Models of lever-ups against the 3-D engine, on plates that none has seen
+#[derive(Args, Debug)]
+pub struct LeversArgs {
+    /// Families of lever-ups [default: levers and levers-varied]
+    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    families: Vec<LeverPreset>,
+    /// Number of lever-ups of each family
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    cases: u64,
+    /// Seed of the lever-ups
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Number of lever-ups that models without physics remember
+    #[arg(long, value_name = "N", default_value_t = 1600,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    known: u64,
+    /// Their seed; must differ from that of the others
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    known_seed: u64,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
+    if args.seed == args.known_seed {
+        let message = "the lever-ups that are remembered have the seed of the others";
+        return Err(CliError::usage(message, "choose another --known-seed"));
+    }
+    interrupt::watch();
+    let usual = [LeverPreset::Fixed, LeverPreset::Varied];
+    let families = if args.families.is_empty() { &usual[..] } else { &args.families };
+    let mut reports = Vec::new();
+    for preset in families {
+        let draw = |(seed, episodes)| {
+            let config = LeverConfig { seed, episodes, preset: *preset };
+            let following = Following::bar(session, "simulating");
+            let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
+            following.finish()?;
+            drawn.map_err(data_error)
+        };
+        let known = draw((args.known_seed, args.known))?;
+        let asked = draw((args.seed, args.cases))?;
+        let spinner = session.spinner("predicting");
+        reports.push(session.compute(|| {
+            let models = models(&known);
+            let models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            lever_report((*preset, args.seed), asked.episodes(), &models)
+        }));
+        spinner.finish_and_clear();
+    }
+    args.form.show(session, &levers_document(&reports))
+}
+
+/// From the simplest on.
+fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
+    let known = known.episodes();
+    let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
+    let nearest = |features| like(Neighbour::Nearest(features));
+    vec![
+        Box::new(LeverBaseline::still()),
+        Box::new(LeverBaseline::mean(known)),
+        Box::new(like(Neighbour::Random)),
+        Box::new(nearest(LeverFeatures::ShapeContext)),
+        Box::new(nearest(LeverFeatures::Corners)),
+        Box::new(nearest(LeverFeatures::Support)),
+        Box::new(LeverPrior { settings: PriorSettings::FROM_REST }),
+        Box::new(LeverPrior::default()),
+        Box::new(LeverPrior { settings: PriorSettings::FINE }),
+        Box::new(SimulatedLevers { simulator: LeverSimulator::COARSE }),
+    ]
+}

@@ -1,0 +1,214 @@
+//! Where the plate touches table and blade, or soon will.
+
+use crate::geometry::{Vector, Vector3};
+use crate::scene::GRAVITY;
+
+use super::body::Body;
+use super::setup::{BladePose, Setup};
+
+/// The blade stays below the underside's plane; it is lost once it is farther above, metres.
+const INSIDE: f64 = 6e-3;
+
+/// Something that the plate touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact {
+    /// Which of the possible ones, the same from step to step.
+    pub id: usize,
+    /// From the centre of mass, metres.
+    pub arm: Vector3,
+    /// Unit normal, towards the plate.
+    pub normal: Vector3,
+    /// Distance along it, metres.
+    pub gap: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// How what is touched moves there, m/s.
+    pub surface: Vector3,
+}
+
+/// Numbers of contacts with the blade: at each of its two long edges the tip, and where the outline
+/// crosses.
+pub(super) const ON_BLADE: usize = 136;
+
+/// Finds the contacts that a step of `step` seconds may close. Those with the blade come first.
+pub(super) fn find(
+    setup: &Setup,
+    body: &Body,
+    (now, next): (&BladePose, &BladePose),
+    step: f64,
+    found: &mut Vec<Contact>,
+) {
+    found.clear();
+    on_blade(setup, body, (now, next), step, found);
+    on_table(setup, body, step, found);
+}
+
+fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
+    // How far a point can fall: by its speed and by its weight.
+    let reach = GRAVITY * step * step + 1e-3;
+    let up = body.axes.row(2);
+    let reach_of_any = reach + body.fastest(setup.reach) * step;
+    for (k, tip) in setup.tips.iter().enumerate() {
+        let gap =
+            body.centre.z + up[0] * tip.at.x + up[1] * tip.at.y + up[2] * tip.at.z - tip.radius;
+        if gap > reach_of_any {
+            continue;
+        }
+        let mut arm = body.axes * tip.at;
+        arm.z -= tip.radius;
+        let falling = body.speed.z + body.spin.x * arm.y - body.spin.y * arm.x;
+        if gap + falling * step > reach {
+            continue;
+        }
+        found.push(Contact {
+            id: ON_BLADE + k,
+            arm,
+            normal: Vector3::z(),
+            gap,
+            friction: setup.friction[0],
+            surface: Vector3::zeros(),
+        });
+    }
+}
+
+fn on_blade(
+    setup: &Setup,
+    body: &Body,
+    (now, next): (&BladePose, &BladePose),
+    step: f64,
+    found: &mut Vec<Contact>,
+) {
+    let vertical: Vector3 = body.axes.column(2).into();
+    // Of the two large faces the one on whose side the tip is.
+    let depth = vertical.dot(&(now.tip - now.up * (0.5 * setup.blade_height) - body.centre));
+    let under = depth < setup.frame.z + 0.5 * setup.thickness;
+    let level = setup.frame.z + if under { 0.0 } else { setup.thickness };
+    let side = if under { 1.0 } else { -1.0 };
+    let normal = vertical * side;
+    let [half, length] = setup.blade;
+    let reach = GRAVITY * step * step + 2e-3;
+    let moved = |at: &Vector3| {
+        let local = at - now.tip;
+        let (a, b) = (local.dot(&now.along), local.dot(&now.up));
+        (next.tip + next.along * a + next.up * b - now.tip - now.along * a - now.up * b) / step
+    };
+    let mut push = |id: usize, at: Vector3, normal: Vector3, gap: f64| {
+        let arm = at - body.centre;
+        if gap < -INSIDE {
+            return;
+        }
+        let surface = moved(&at);
+        let speed = body.speed + body.spin.cross(&arm) - surface;
+        if gap + speed.dot(&normal) * step > reach {
+            return;
+        }
+        found.push(Contact { id, arm, normal, gap, friction: setup.friction[1], surface });
+    };
+    let low = -setup.blade_height;
+    let edges = [(half, 0.0), (-half, 0.0), (half, low), (-half, low)];
+    // How far each of the long edges reaches into the plate; the two that reach farthest may touch.
+    let into = edges.map(|(y, z)| y * normal.y + z * now.up.dot(&normal));
+    for (k, (y, z)) in edges.into_iter().enumerate() {
+        let before = (0..4).filter(|other| into[*other] > into[k]).count();
+        if before > 1 {
+            continue;
+        }
+        // In body axes, from the tip backwards.
+        let tip = Vector3::new(0.0, y, 0.0) + now.tip + now.up * z;
+        let from = body.axes.tr_mul(&(tip - body.centre));
+        let way = body.axes.tr_mul(&(-now.along));
+        let Some(over) = clip(&setup.outline, from, way, length) else { continue };
+        let crossing = |(at, edge): (f64, usize)| {
+            let (a, b) = (setup.outline[edge], setup.outline[(edge + 1) % setup.outline.len()]);
+            let rim = body.axes * Vector3::new(b.x - a.x, b.y - a.y, 0.0);
+            let across = rim.cross(&now.along);
+            let length = across.norm();
+            // Along each other they are face to face.
+            let (mut across, parallel) = (across / length, length < 1e-6 * rim.norm());
+            if parallel {
+                across = normal;
+            } else if across.dot(&normal) < 0.0 {
+                across = -across;
+            }
+            let local = from + way * at;
+            let rise = (level - local.z) * side;
+            (body.centre + body.axes * local, across, rise * normal.dot(&across))
+        };
+        match over.enter.map(crossing) {
+            Some((at, across, gap)) => push(4 + k, at, across, gap),
+            None => push(k, tip, normal, (level - from.z) * side),
+        }
+        if let Some((at, across, gap)) = over.leave.map(crossing) {
+            push(8 + k, at, across, gap);
+        }
+    }
+    feet_on_blade(setup, body, now, &mut push);
+}
+
+/// The balls of the feet beside the blade or on it: a plate that slides along the blade is caught
+/// by them.
+fn feet_on_blade(
+    setup: &Setup,
+    body: &Body,
+    now: &BladePose,
+    push: &mut impl FnMut(usize, Vector3, Vector3, f64),
+) {
+    let [half, length] = setup.blade;
+    for (k, tip) in setup.tips[..setup.outline.len()].iter().enumerate() {
+        let at = body.centre + body.axes * tip.at;
+        let away = at - now.tip;
+        let local = [away.dot(&now.along), at.y, away.dot(&now.up)];
+        let low = [-length, -half, -setup.blade_height];
+        let high = [0.0, half, 0.0];
+        let near = |k: usize| local[k].clamp(low[k], high[k]);
+        let nearest = [near(0), near(1), near(2)];
+        let apart = [0, 1, 2].map(|k| local[k] - nearest[k]);
+        let distance = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if distance > 0.02 || distance < 1e-9 {
+            continue;
+        }
+        let normal =
+            (now.along * apart[0] + Vector3::y() * apart[1] + now.up * apart[2]) / distance;
+        push(
+            ON_BLADE - setup.outline.len() + k,
+            at - normal * distance,
+            normal,
+            distance - tip.radius,
+        );
+    }
+}
+
+/// The part of a ray that lies over an outline.
+struct Over {
+    /// Where it comes in, and over which side; nowhere if it begins inside.
+    enter: Option<(f64, usize)>,
+    /// Where it goes out.
+    leave: Option<(f64, usize)>,
+}
+
+/// The part of the ray `from + s way`, 0 <= s <= `length`, that lies over the outline as seen along
+/// the body's vertical.
+fn clip(outline: &[Vector], from: Vector3, way: Vector3, length: f64) -> Option<Over> {
+    let (mut first, mut last) = (0.0, length);
+    let mut over = Over { enter: None, leave: None };
+    for (k, a) in outline.iter().enumerate() {
+        let b = outline[(k + 1) % outline.len()];
+        let (x, y) = (b.x - a.x, b.y - a.y);
+        // Positive inside.
+        let side = x * (from.y - a.y) - y * (from.x - a.x);
+        let rate = x * way.y - y * way.x;
+        if rate.abs() < 1e-15 {
+            if side < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let at = -side / rate;
+        if rate > 0.0 && at > first {
+            (first, over.enter) = (at, Some((at, k)));
+        } else if rate < 0.0 && at < last {
+            (last, over.leave) = (at, Some((at, k)));
+        }
+    }
+    (first < last).then_some(over)
+}

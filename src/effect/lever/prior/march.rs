@@ -1,0 +1,144 @@
+//! The turn in frames, the wait, the way back, and until everything rests.
+
+use crate::geometry::Vector3;
+use crate::scene::{
+    Ending, GRAVITY, LEVER_FRAMES, LeverTrajectory, LeverWarning, REST_SPEED, has_slipped,
+};
+
+use super::body::Body;
+use super::contacts::{self, Contact, ON_BLADE};
+use super::settings::PriorSettings;
+use super::setup::{BladePose, Setup};
+use super::solver::Solver;
+
+/// A plate this near to the blade lies on it, metres.
+const NEAR: f64 = 5e-4;
+
+/// Waits no longer for rest, seconds.
+const PATIENCE: f64 = 4.0;
+
+/// It rests when it was slow for so long, seconds.
+const STILL: f64 = 0.1;
+
+/// Buffers that are used again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Marcher {
+    solver: Solver,
+    contacts: Vec<Contact>,
+}
+
+impl Marcher {
+    pub fn march(&mut self, setup: &Setup, settings: &PriorSettings) -> LeverTrajectory {
+        self.solver.reset(ON_BLADE + setup.tips.len());
+        let mut way = Way {
+            marcher: self,
+            setup,
+            settings,
+            body: Body::at(setup.centre),
+            time: 0.0,
+            last: settings.step,
+            blade: setup.blade_at(0.0),
+        };
+        let (mut lift, mut held) = (Vec::new(), Vec::new());
+        let turn = setup.lever.turn_time();
+        for k in 1..=LEVER_FRAMES {
+            way.go_on_until(turn * k as f64 / LEVER_FRAMES as f64);
+            lift.push(setup.pose(&way.body));
+            held.push(way.is_held());
+        }
+        let rests = way.settle(setup.lever.duration());
+        let rest = setup.pose(&way.body);
+        let mut warnings = Vec::new();
+        if has_slipped(&setup.start(), &lift, &held) {
+            warnings.push(LeverWarning::Slipped);
+        }
+        if !rests {
+            warnings.push(LeverWarning::Moving);
+        }
+        LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings }
+    }
+}
+
+/// A lever-up on its way.
+struct Way<'a> {
+    marcher: &'a mut Marcher,
+    setup: &'a Setup,
+    settings: &'a PriorSettings,
+    body: Body,
+    time: f64,
+    /// Length of the last step, seconds.
+    last: f64,
+    blade: BladePose,
+}
+
+impl Way<'_> {
+    fn go_on_until(&mut self, end: f64) {
+        while end - self.time > 1e-9 {
+            let left = end - self.time;
+            // In equal steps, as far as the speed allows.
+            let steps = (left / self.longest() - 1e-6).ceil().max(1.0);
+            self.step(if steps > 1.0 { left / steps } else { left });
+        }
+    }
+
+    /// Goes on until everything rests with the blade gone, which takes until `end` at the latest;
+    /// says whether it came to rest in time.
+    fn settle(&mut self, end: f64) -> bool {
+        let mut moved = self.time;
+        let mut free = false;
+        while self.time - moved < STILL || !(free || self.time >= end) {
+            self.step(self.longest());
+            // What lies still off the blade stays there while the blade is drawn back.
+            free = self.time >= self.setup.lever.turn_time() && !self.is_near_blade();
+            if self.body.fastest(self.setup.reach) > REST_SPEED {
+                moved = self.time;
+            }
+            if self.time - end > PATIENCE {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether the blade may touch the plate in the next step.
+    fn is_near_blade(&self) -> bool {
+        self.marcher.contacts.first().is_some_and(|contact| contact.id < ON_BLADE)
+    }
+
+    /// How long the next step may be, seconds.
+    fn longest(&self) -> f64 {
+        let PriorSettings { step, travel, shortest, inertia, .. } = *self.settings;
+        if !inertia {
+            return step;
+        }
+        (travel / self.body.fastest(self.setup.reach)).clamp(shortest.min(step), step)
+    }
+
+    fn step(&mut self, step: f64) {
+        let Self { marcher, setup, settings, body, .. } = self;
+        let next = setup.blade_at(self.time + step);
+        if !settings.inertia {
+            (body.speed, body.spin) = (Vector3::zeros(), Vector3::zeros());
+        }
+        contacts::find(setup, body, (&self.blade, &next), step, &mut marcher.contacts);
+        body.speed.z -= GRAVITY * step;
+        let ratio = step / self.last;
+        marcher.solver.solve(
+            (&setup.spread, body),
+            &marcher.contacts,
+            (step, ratio, settings.sweeps),
+        );
+        body.advance(step);
+        self.time += step;
+        self.last = step;
+        self.blade = next;
+    }
+
+    /// Whether the plate lies on the blade.
+    fn is_held(&self) -> bool {
+        let contacts = self.marcher.contacts.iter().zip(self.marcher.solver.impulses());
+        contacts
+            .take_while(|(contact, _)| contact.id < ON_BLADE)
+            .any(|(contact, impulse)| impulse[0] > 0.0 || contact.gap <= NEAR)
+    }
+}

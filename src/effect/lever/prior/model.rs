@@ -1,0 +1,41 @@
+//! The prior as a model of lever-ups.
+
+use rayon::prelude::*;
+
+use crate::effect::{LeverModel, LeverTrust};
+use crate::scene::{LeverJob, LeverTrajectory};
+
+use super::march::Marcher;
+use super::settings::PriorSettings;
+use super::setup::Setup;
+
+/// The prior alone: the cheapest level with physics in it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LeverPrior {
+    /// How finely it computes.
+    pub settings: PriorSettings,
+}
+
+impl LeverModel for LeverPrior {
+    fn name(&self) -> String {
+        let PriorSettings { step, inertia, .. } = self.settings;
+        match (inertia, self.settings == PriorSettings::default()) {
+            (_, true) => "prior".to_owned(),
+            (true, _) => format!("prior,step=1/{:.0}", 1.0 / step),
+            (false, _) => format!("prior from rest,step=1/{:.0}", 1.0 / step),
+        }
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
+        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        jobs.par_iter()
+            .map_init(Marcher::default, |marcher, job| {
+                marcher.march(&Setup::new(job), &self.settings)
+            })
+            .collect()
+    }
+}

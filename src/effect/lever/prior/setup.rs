@@ -1,0 +1,159 @@
+//! A lever-up in its own frame: x inward, z up from the table, the lever point above the origin,
+//! and the centre of mass never to the right.
+
+use crate::geometry::{Pose3, Vector, Vector3};
+use crate::scene::{LeverJob, LeverUp, lever_frame};
+
+use super::body::{Body, Spread};
+
+/// Largest radius of a foot, metres, as the engine has it.
+const FOOT: f64 = 1e-3;
+
+/// A point of the plate that may touch the table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tip {
+    /// From the centre of mass, body axes, metres.
+    pub at: Vector3,
+    /// Of the ball about it, metres.
+    pub radius: f64,
+}
+
+/// A lever-up with everything that does not change in it.
+#[derive(Clone, Debug)]
+pub(super) struct Setup {
+    /// Mass and inertia.
+    pub spread: Spread,
+    /// Centre of mass at the start, metres.
+    pub centre: Vector3,
+    /// The plate's frame from the centre of mass, body axes, metres.
+    pub frame: Vector3,
+    /// Corners of the underside from the centre of mass, counter-clockwise from the end of the
+    /// levered edge, body axes, metres.
+    pub outline: Vec<Vector>,
+    /// What may touch the table.
+    pub tips: Vec<Tip>,
+    /// Largest distance of a tip from the centre of mass, metres.
+    pub reach: f64,
+    /// Height of the underside at the start, metres.
+    pub height: f64,
+    /// Thickness of the plate itself, metres.
+    pub thickness: f64,
+    /// Friction coefficients with table and blade.
+    pub friction: [f64; 2],
+    /// Half the width of the blade, and its length, metres.
+    pub blade: [f64; 2],
+    pub blade_height: f64,
+    /// What it does.
+    pub lever: LeverUp,
+    mirrored: bool,
+    world: Pose3,
+    start: Pose3,
+}
+
+impl Setup {
+    pub fn new(job: &LeverJob) -> Self {
+        let LeverJob { scene, lever } = job;
+        let plate = &scene.plates[lever.plate];
+        let weight = plate.weight();
+        let own = lever_frame(plate.corners(), lever.place).inverse();
+        let seen = own.point(Vector::new(weight.centre.x, weight.centre.y));
+        let mirrored = seen.y < 0.0;
+        let side = if mirrored { -1.0 } else { 1.0 };
+        let view = |at: Vector| {
+            let at = own.point(at) - seen;
+            Vector::new(at.x, side * at.y)
+        };
+        // Read backwards, a mirrored outline is counter-clockwise again.
+        let ring = |corners: &[Vector], first: usize| -> Vec<Vector> {
+            let count = corners.len();
+            let nth = |k: usize| if mirrored { first + count - k } else { first + k };
+            (0..count).map(|k| view(corners[nth(k) % count])).collect()
+        };
+        let first = lever.place.edge + usize::from(!mirrored);
+        let outline = ring(plate.corners(), first);
+        let above = weight.centre.z;
+        let feet = if plate.has_feet() { plate.z } else { 0.0 };
+        let radius = FOOT.min(0.5 * feet);
+        let point = |at: &Vector, z: f64| Vector3::new(at.x, at.y, z - above);
+        let mut tips: Vec<Tip> =
+            outline.iter().map(|at| Tip { at: point(at, radius - feet), radius }).collect();
+        for (k, slab) in plate.slabs.iter().enumerate() {
+            let ring = ring(&slab.corners, if k == 0 { first } else { 0 });
+            // The corners of the plate's own underside are above its feet.
+            let levels = [slab.bottom, slab.bottom + slab.height];
+            for level in &levels[usize::from(k == 0)..] {
+                tips.extend(ring.iter().map(|at| Tip { at: point(at, *level), radius: 0.0 }));
+            }
+        }
+        let frame = view(Vector::zeros());
+        let mean = |other: f64| 0.5 * (plate.friction + other);
+        Self {
+            spread: Spread::new(&weight, &own, side),
+            centre: Vector3::new(seen.x, side * seen.y, plate.z + above),
+            frame: Vector3::new(frame.x, frame.y, -above),
+            outline,
+            reach: tips.iter().map(|tip| tip.at.norm()).fold(0.0, f64::max),
+            tips,
+            height: plate.z,
+            thickness: plate.slabs[0].height,
+            friction: [mean(scene.table_friction), mean(scene.blade.friction)],
+            blade: [0.5 * scene.blade.width, scene.blade.length],
+            blade_height: scene.blade.thickness,
+            lever: *lever,
+            mirrored,
+            world: Pose3 { position: Vector3::zeros(), ..lever.frame(scene) },
+            start: plate.start(),
+        }
+        .above(lever.frame(scene).position)
+    }
+
+    /// The plate's frame in the world.
+    pub fn pose(&self, body: &Body) -> Pose3 {
+        let mut at = body.centre + body.axes * self.frame;
+        let [mut x, y, mut z, w] = body.turn.coords.into();
+        if self.mirrored {
+            (at.y, x, z) = (-at.y, -x, -z);
+        }
+        let moved = Pose3::from_quaternion(at, [x, y, z, w]);
+        let turned = self.world.rotation * moved.rotation * self.world.rotation.inverse();
+        Pose3 { position: self.world.point(at), rotation: turned * self.start.rotation }
+    }
+
+    /// The plate's frame at the start, in the world.
+    pub fn start(&self) -> Pose3 {
+        self.start
+    }
+
+    /// With the frame's origin on the table below the lever point.
+    fn above(mut self, point: Vector3) -> Self {
+        self.world.position = Vector3::new(point.x, point.y, 0.0);
+        self
+    }
+}
+
+/// The blade at some time: the middle of its tip's upper edge, and its directions. It moves in the
+/// plane y = 0.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BladePose {
+    /// Metres.
+    pub tip: Vector3,
+    /// Towards the tip.
+    pub along: Vector3,
+    /// Out of its upper face.
+    pub up: Vector3,
+}
+
+impl Setup {
+    /// The blade `time` seconds from the start of the turn, as [`LeverUp::blade`] has it.
+    pub fn blade_at(&self, time: f64) -> BladePose {
+        let lever = &self.lever;
+        let turn = lever.turn_time();
+        let angle = lever.angle * (time / turn).clamp(0.0, 1.0);
+        let back = ((time - turn - lever.hold) * lever.speed).clamp(0.0, lever.retreat);
+        let (sin, cos) = if lever.pivot < 0.0 { -angle } else { angle }.sin_cos();
+        let along = Vector3::new(cos, 0.0, -sin);
+        let up = Vector3::new(sin, 0.0, cos);
+        let pivot = Vector3::new(lever.pivot, 0.0, self.height);
+        BladePose { tip: pivot + along * (lever.depth - lever.pivot - back), along, up }
+    }
+}

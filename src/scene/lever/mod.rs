@@ -1,0 +1,28 @@
+//! What is levered, with what, how, and what came of it.
+//!
+//! A lever goes under the edge of a plate and turns about a horizontal axis. Plates move in all six
+//! degrees of freedom, so their scenes, actions and trajectories are types of their own beside the
+//! planar ones.
+
+mod action;
+mod goal;
+mod motion;
+mod outcome;
+mod plate;
+mod scene;
+mod support;
+mod task;
+mod trajectory;
+mod verdict;
+mod weight;
+
+pub use action::{LeverJob, LeverUp, Place, lever_frame};
+pub use goal::{LeverGoal, LeverOutcome};
+pub use motion::{LeverFrame, LeverMotion};
+pub use outcome::{Ending, LeverWarning};
+pub use plate::{Plate, Slab};
+pub use scene::{Blade, Block, LeverScene};
+pub use task::{BladeTool, LeverPlan, LeverRules, LeverTask, Pivot};
+pub use trajectory::{LEVER_FRAMES, LeverTrajectory, has_slipped};
+pub use verdict::{LeverEvidence, LeverFault, LeverReason, LeverVerdict};
+pub use weight::Weight;

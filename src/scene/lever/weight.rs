@@ -1,0 +1,142 @@
+//! Where a plate's mass lies: its solids have one density, and its feet weigh nothing.
+
+use crate::geometry::{Vector, Vector3, cross};
+
+use super::{Plate, Slab};
+
+/// Mass of a body and how it is spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight {
+    /// Kilograms.
+    pub mass: f64,
+    /// Centre of mass in the plate's frame, metres.
+    pub centre: Vector3,
+    /// Inertia about the centre of mass on the plate's axes, kg m^2: `xx, yy, zz, xy, xz, yz`, the
+    /// last three as they stand in the matrix (`-m x y`).
+    pub inertia: [f64; 6],
+}
+
+impl Slab {
+    /// Volume, cubic metres.
+    pub fn volume(&self) -> f64 {
+        moments(&self.corners).0 * self.height
+    }
+
+    /// Its middle, plate frame, metres.
+    pub fn centre(&self) -> Vector3 {
+        let (_, centre, _) = moments(&self.corners);
+        Vector3::new(centre.x, centre.y, self.bottom + 0.5 * self.height)
+    }
+}
+
+impl Plate {
+    /// Where its mass lies.
+    pub fn weight(&self) -> Weight {
+        let volume: f64 = self.slabs.iter().map(Slab::volume).sum();
+        let density = self.mass / volume;
+        let weighted = |slab: &Slab| slab.centre() * (slab.volume() / volume);
+        let centre: Vector3 = self.slabs.iter().map(weighted).sum();
+        let mut inertia = [0.0; 6];
+        for slab in &self.slabs {
+            let (area, _, [xx, xy, yy]) = moments(&slab.corners);
+            let (mass, away) = (density * slab.volume(), slab.centre() - centre);
+            // Mean squares about the slab's own middle, then about the plate's.
+            let x = xx / area + away.x * away.x;
+            let y = yy / area + away.y * away.y;
+            let z = slab.height * slab.height / 12.0 + away.z * away.z;
+            let product = xy / area + away.x * away.y;
+            let own = [y + z, x + z, x + y, -product, -away.x * away.z, -away.y * away.z];
+            inertia.iter_mut().zip(own).for_each(|(sum, own)| *sum += mass * own);
+        }
+        Weight { mass: self.mass, centre, inertia }
+    }
+
+    /// The plate of these solids, moved so that the frame lies below their centre of mass while
+    /// all stays where it is: how plates are made from outlines drawn about any origin.
+    #[must_use]
+    pub fn balanced(mut self) -> Self {
+        let centre = self.weight().centre;
+        let shift = Vector::new(centre.x, centre.y);
+        for slab in &mut self.slabs {
+            slab.corners.iter_mut().for_each(|corner| *corner -= shift);
+        }
+        self.pose.position = self.pose.point(shift);
+        self
+    }
+}
+
+/// Area (m^2), centroid (m) and second moments `xx, xy, yy` about it (m^4) of a polygon whose
+/// corners run counter-clockwise: sums over the triangles that its sides make with the first corner.
+fn moments(corners: &[Vector]) -> (f64, Vector, [f64; 3]) {
+    let origin = corners[0];
+    let (mut area, mut first, mut second) = (0.0, Vector::zeros(), [0.0; 3]);
+    for pair in corners[1..].windows(2) {
+        let (a, b) = (pair[0] - origin, pair[1] - origin);
+        let own = 0.5 * cross(a, b);
+        area += own;
+        first += (a + b) * (own / 3.0);
+        second[0] += own / 6.0 * (a.x * a.x + a.x * b.x + b.x * b.x);
+        second[1] += own / 12.0 * (2.0 * a.x * a.y + a.x * b.y + b.x * a.y + 2.0 * b.x * b.y);
+        second[2] += own / 6.0 * (a.y * a.y + a.y * b.y + b.y * b.y);
+    }
+    let centre = first / area;
+    second[0] -= area * centre.x * centre.x;
+    second[1] -= area * centre.x * centre.y;
+    second[2] -= area * centre.y * centre.y;
+    (area, origin + centre, second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+
+    fn box_slab(x: [f64; 2], y: [f64; 2], z: [f64; 2]) -> Slab {
+        let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]];
+        let corners = corners.map(|[x, y]| Vector::new(x, y)).to_vec();
+        Slab { corners, bottom: z[0], height: z[1] - z[0] }
+    }
+
+    fn plate(slabs: Vec<Slab>) -> Plate {
+        let pose = Pose::new(0.5, -0.1, 0.7);
+        Plate {
+            name: "plate".to_owned(),
+            slabs,
+            mass: 0.3,
+            friction: 0.4,
+            clearance: 0.0,
+            pose,
+            z: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_cuboid_in_three_pieces_weighs_as_one() {
+        let whole = plate(vec![box_slab([0.0, 0.08], [0.0, 0.05], [0.0, 0.02])]).balanced();
+        let pieces = plate(vec![
+            box_slab([0.0, 0.08], [0.0, 0.05], [0.0, 0.005]),
+            box_slab([0.0, 0.03], [0.0, 0.05], [0.005, 0.02]),
+            box_slab([0.03, 0.08], [0.0, 0.05], [0.005, 0.02]),
+        ])
+        .balanced();
+        let (whole, pieces) = (whole.weight(), pieces.weight());
+        let [x, y, z] = [0.08f64, 0.05, 0.02].map(|v| v * v);
+        let known = [y + z, x + z, x + y].map(|sum| 0.3 / 12.0 * sum);
+        for k in 0..6 {
+            let known = known.get(k).copied().unwrap_or(0.0);
+            assert!((whole.inertia[k] - known).abs() < 1e-15, "{k}");
+            assert!((pieces.inertia[k] - known).abs() < 1e-15, "{k}");
+        }
+        assert!((whole.centre - pieces.centre).norm() < 1e-15);
+        assert!((whole.centre - Vector3::new(0.0, 0.0, 0.01)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn balancing_moves_the_frame_and_nothing_else() {
+        let before = plate(vec![box_slab([0.01, 0.08], [0.02, 0.05], [0.0, 0.02])]);
+        let after = before.clone().balanced();
+        for (a, b) in before.corners().iter().zip(after.corners()) {
+            assert!((before.pose.point(*a) - after.pose.point(*b)).norm() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The colliders of a lever scene.
+
+use rapier3d_f64::math::Matrix;
+use rapier3d_f64::prelude::{ColliderBuilder, MassProperties, Pose3, Rotation, Vector};
+
+use crate::geometry::{Vector as Planar, cross};
+use crate::scene::{Blade, Plate, Slab};
+
+use super::super::solids::{cut, prism, rubbing};
+
+/// Half the width of the table, metres, and half its thickness.
+const TABLE: (f64, f64) = (2.0, 0.25);
+
+/// Largest radius of a foot, metres. From 0.5 to 2 mm it makes no difference.
+const FOOT: f64 = 1e-3;
+
+/// Outlines of more corners are cut about their middle: from a corner they give needles.
+const MANY: usize = 12;
+
+/// How far from a right angle a rectangle's corners may be: the sine.
+const SQUARE: f64 = 1e-9;
+
+/// The table with its top at z = 0. On a half-space parry looks at four corners of a face, which
+/// need not be those that carry.
+pub(super) fn table(friction: f64) -> ColliderBuilder {
+    let (half, depth) = TABLE;
+    rubbing(ColliderBuilder::cuboid(half, half, depth), friction)
+        .translation(Vector::new(0.0, 0.0, -depth))
+}
+
+/// The blade about its centre.
+pub(super) fn blade(blade: &Blade) -> ColliderBuilder {
+    cuboid([blade.length, blade.width, blade.thickness], blade.friction)
+}
+
+/// A cuboid of these extents, metres, about its centre.
+pub(super) fn cuboid(size: [f64; 3], friction: f64) -> ColliderBuilder {
+    let [x, y, z] = size.map(|extent| 0.5 * extent);
+    rubbing(ColliderBuilder::cuboid(x, y, z), friction)
+}
+
+/// The solids of a plate in its frame, feet included; without mass.
+pub(super) fn parts(plate: &Plate) -> Vec<ColliderBuilder> {
+    let slabs = plate.slabs.iter().flat_map(|slab| slab_parts(slab, plate.friction));
+    slabs.chain(feet(plate)).map(|part| part.density(0.0)).collect()
+}
+
+/// Mass and inertia of a plate in its frame.
+pub(super) fn weight(plate: &Plate) -> MassProperties {
+    let weight = plate.weight();
+    let [xx, yy, zz, xy, xz, yz] = weight.inertia;
+    let inertia = Matrix::from_cols(
+        Vector::new(xx, xy, xz),
+        Vector::new(xy, yy, yz),
+        Vector::new(xz, yz, zz),
+    );
+    let [x, y, z] = weight.centre.into();
+    MassProperties::with_inertia_matrix(Vector::new(x, y, z), weight.mass, inertia)
+}
+
+fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
+    let middle = slab.bottom + 0.5 * slab.height;
+    if let Some((centre, turn, [x, y])) = rectangle(&slab.corners) {
+        let at = Vector::new(centre.x, centre.y, middle);
+        let pose = Pose3::from_parts(at, Rotation::from_rotation_z(turn));
+        return vec![cuboid([x, y, slab.height], friction).position(pose)];
+    }
+    let raised = Vector::Z * middle;
+    let part =
+        |corners: Vec<Planar>| rubbing(prism(&corners, slab.height), friction).translation(raised);
+    let parts = if slab.corners.len() > MANY { kites } else { cut };
+    parts(&slab.corners).into_iter().map(part).collect()
+}
+
+/// A convex polygon cut into parts that meet in its middle.
+fn kites(corners: &[Planar]) -> Vec<Vec<Planar>> {
+    let count = corners.len();
+    let middle = corners.iter().sum::<Planar>() / count as f64;
+    let kite = |k: usize| {
+        let rim = (k..=(k + 2).min(count)).map(|k| corners[k % count]);
+        std::iter::once(middle).chain(rim).collect()
+    };
+    (0..count).step_by(2).map(kite).collect()
+}
+
+/// Balls at the corners of a plate that stands on them, in its frame.
+fn feet(plate: &Plate) -> Vec<ColliderBuilder> {
+    let height = if plate.has_feet() { plate.z } else { 0.0 };
+    // A plate that lies on the table has none.
+    if height <= 0.0 {
+        return Vec::new();
+    }
+    let radius = FOOT.min(0.5 * height);
+    let foot = |corner: &Planar| {
+        let at = Vector::new(corner.x, corner.y, radius - height);
+        rubbing(ColliderBuilder::ball(radius), plate.friction).translation(at)
+    };
+    plate.corners().iter().map(foot).collect()
+}
+
+/// Centre, heading and extents of a rectangle; of other outlines none.
+fn rectangle(corners: &[Planar]) -> Option<(Planar, f64, [f64; 2])> {
+    let [a, b, c, d] = *corners else { return None };
+    let (x, y) = (b - a, d - a);
+    let (length, width) = (x.norm(), y.norm());
+    let square = x.dot(&y).abs() <= SQUARE * length * width;
+    let closed = (c - b - y).norm() <= SQUARE * (length + width);
+    (square && closed && cross(x, y) > 0.0)
+        .then(|| (0.5 * (a + c), x.y.atan2(x.x), [length, width]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_rectangles_are_cuboids() {
+        let corner = |x: f64, y: f64| {
+            let turn: f64 = 0.4;
+            Planar::new(1.0 + turn.cos() * x - turn.sin() * y, turn.sin() * x + turn.cos() * y)
+        };
+        let rectangle_at = [(0.0, 0.0), (0.06, 0.0), (0.06, 0.03), (0.0, 0.03)];
+        let corners = rectangle_at.map(|(x, y)| corner(x, y));
+        let (centre, turn, [x, y]) = rectangle(&corners).expect("a rectangle");
+        assert!((centre - corner(0.03, 0.015)).norm() < 1e-12);
+        assert!((turn - 0.4).abs() < 1e-12 && (x - 0.06).abs() < 1e-12 && (y - 0.03).abs() < 1e-12);
+        let mut skew = corners;
+        skew[2].x += 1e-4;
+        assert!(rectangle(&skew).is_none() && rectangle(&corners[..3]).is_none());
+    }
+}

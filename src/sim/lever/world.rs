@@ -1,0 +1,191 @@
+//! A lever scene in rapier.
+
+use rapier3d_f64::prelude::{
+    ColliderHandle, ContactPair, FrictionModel, PhysicsWorld, Pose3 as RapierPose,
+    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, Vector as RapierVector,
+};
+
+use crate::geometry::{Pose3, Vector, Vector3};
+use crate::scene::{GRAVITY, LeverJob, LeverScene};
+
+use super::super::parameters::ALLOWED_ERROR;
+use super::super::solved::solved;
+use super::super::strain::force;
+use super::fresh::fresh_contacts;
+use super::solids;
+
+/// A plate this near to the blade lies on it, metres; contacts flicker by less.
+const NEAR: f64 = 5e-4;
+
+/// Contact spring: natural frequency (Hz) and damping ratio.
+///
+/// With rapier's own (30 Hz, 5) a plate on three feet sags by 0.6 to 0.9 mm, which takes tenths of a
+/// second and other ones at every rate, so runs at 1/240 and 1/1920 s are twice as far apart. Stiffer
+/// springs throw boards that stand on edge in a drive.
+const CONTACT: (f64, f64) = (100.0, 5.0);
+
+/// Plates, blocks, table and blade.
+pub(super) struct LeverWorld {
+    world: PhysicsWorld,
+    /// Where rapier's origin lies on the table: a scene far from the world's loses no digits.
+    origin: Vector,
+    blade: RigidBodyHandle,
+    blade_solid: ColliderHandle,
+    plates: Vec<RigidBodyHandle>,
+    /// Largest distance of a plate's points from its centre of mass, metres.
+    reaches: Vec<f64>,
+}
+
+impl LeverWorld {
+    /// Everything at the start, the blade's centre at `blade`; steps last `step` seconds.
+    pub fn new(job: &LeverJob, blade: &Pose3, step: f64) -> Self {
+        let LeverJob { scene, lever } = job;
+        let origin = scene.plates[lever.plate].pose.position;
+        let mut world = PhysicsWorld {
+            gravity: RapierVector::Z * -GRAVITY,
+            narrow_phase: fresh_contacts(),
+            ..PhysicsWorld::default()
+        };
+        let settings = &mut world.integration_parameters;
+        settings.dt = step;
+        // The simplified model makes other plates flip.
+        settings.friction_model = FrictionModel::Coulomb;
+        settings.normalized_allowed_linear_error = ALLOWED_ERROR;
+        let (frequency, damping) = CONTACT;
+        settings.contact_softness = SpringCoefficients::new(frequency, damping);
+        world.insert_collider(solids::table(scene.table_friction), None);
+        let at = to_rapier(blade, origin);
+        let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
+        let blade = world.insert_body(body);
+        let blade_solid = world.insert_collider(solids::blade(&scene.blade), Some(blade));
+        let mut this =
+            Self { world, origin, blade, blade_solid, plates: Vec::new(), reaches: Vec::new() };
+        this.add_plates(scene);
+        this.add_blocks(scene);
+        this
+    }
+
+    /// Lets steps last so long from now on, seconds.
+    pub fn set_step(&mut self, step: f64) {
+        self.world.integration_parameters.dt = step;
+    }
+
+    /// One step, in which the blade moves to this pose.
+    pub fn step(&mut self, blade: &Pose3) {
+        let body = &mut self.world.bodies[self.blade];
+        let mut target = to_rapier(blade, self.origin);
+        target.rotation = in_one_hemisphere(*body.rotation(), target.rotation);
+        body.set_next_kinematic_position(target);
+        self.world.step();
+    }
+
+    /// The frame of a plate.
+    pub fn plate(&self, index: usize) -> Pose3 {
+        from_rapier(self.world.bodies[self.plates[index]].position(), self.origin)
+    }
+
+    /// The frames of all plates.
+    pub fn plates(&self) -> Vec<Pose3> {
+        (0..self.plates.len()).map(|index| self.plate(index)).collect()
+    }
+
+    /// Speed of the fastest point of any plate, m/s.
+    pub fn speed(&self) -> f64 {
+        let speed = |(handle, reach): (&RigidBodyHandle, &f64)| {
+            let body = &self.world.bodies[*handle];
+            body.linvel().length() + body.angvel().length() * reach
+        };
+        self.plates.iter().zip(&self.reaches).map(speed).fold(0.0, f64::max)
+    }
+
+    /// Whether a plate touches the blade.
+    pub fn is_held(&self, index: usize) -> bool {
+        let plate = self.plates[index];
+        let touches = |pair: &ContactPair| {
+            let mut points = pair.manifolds.iter().flat_map(solved);
+            points.any(|(_, point)| point.data.impulse > 0.0 || point.dist <= NEAR)
+        };
+        self.on_blade().any(|(other, _, pair)| other == plate && touches(pair))
+    }
+
+    /// Force of the plates on the blade during the last step, newtons.
+    pub fn force_on_blade(&self) -> f64 {
+        let mut impulse = RapierVector::ZERO;
+        for (_, sign, pair) in self.on_blade() {
+            for (manifold, point) in pair.manifolds.iter().flat_map(solved) {
+                impulse += manifold.data.normal * (sign * point.data.impulse);
+            }
+        }
+        let settings = &self.world.integration_parameters;
+        force(impulse.length(), settings.dt, settings.num_solver_iterations)
+    }
+
+    /// Contacts of the blade: with which body, and whether their normals point into it (1) or out.
+    fn on_blade(&self) -> impl Iterator<Item = (RigidBodyHandle, f64, &ContactPair)> {
+        let pairs = self.world.narrow_phase.contact_pairs_with(self.blade_solid);
+        pairs.filter_map(|pair| {
+            let (other, sign) = if pair.collider1 == self.blade_solid {
+                (pair.collider2, -1.0)
+            } else {
+                (pair.collider1, 1.0)
+            };
+            Some((self.world.colliders[other].parent()?, sign, pair))
+        })
+    }
+
+    fn add_plates(&mut self, scene: &LeverScene) {
+        for plate in &scene.plates {
+            let body = RigidBodyBuilder::dynamic()
+                .pose(to_rapier(&plate.start(), self.origin))
+                .additional_mass_properties(solids::weight(plate))
+                .can_sleep(false);
+            let handle = self.world.insert_body(body);
+            for part in solids::parts(plate) {
+                self.world.insert_collider(part, Some(handle));
+            }
+            self.plates.push(handle);
+            let far = plate.slabs.iter().flat_map(|slab| &slab.corners).map(|corner| corner.norm());
+            self.reaches.push(far.fold(0.0, f64::max));
+        }
+    }
+
+    fn add_blocks(&mut self, scene: &LeverScene) {
+        for block in &scene.blocks {
+            let middle = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
+            let collider = solids::cuboid(block.size, block.friction);
+            self.world.insert_collider(collider.position(to_rapier(&middle, self.origin)), None);
+        }
+    }
+}
+
+/// The same turn, written with the sign that lies nearer to `last`: between opposite signs rapier
+/// sees a full turn within a step, which throws the plate off at tens of metres a second.
+fn in_one_hemisphere(last: Rotation, next: Rotation) -> Rotation {
+    if last.dot(next) < 0.0 { -next } else { next }
+}
+
+fn to_rapier(pose: &Pose3, origin: Vector) -> RapierPose {
+    let ([x, y, z], [i, j, k, w]) = (pose.position.into(), pose.quaternion());
+    let position = RapierVector::new(x - origin.x, y - origin.y, z);
+    RapierPose::from_parts(position, Rotation::from_xyzw(i, j, k, w))
+}
+
+fn from_rapier(pose: &RapierPose, origin: Vector) -> Pose3 {
+    let (p, q) = (pose.translation, pose.rotation);
+    let position = Vector3::new(p.x + origin.x, p.y + origin.y, p.z);
+    Pose3::from_quaternion(position, q.to_array())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_keep_their_sign() {
+        let turn = Rotation::from_rotation_y(0.3);
+        let next = Rotation::from_rotation_y(0.31);
+        assert_eq!(in_one_hemisphere(turn, -next), next);
+        assert_eq!(in_one_hemisphere(turn, next), next);
+        assert_eq!(in_one_hemisphere(-turn, next), -next);
+    }
+}
