@@ -13,6 +13,8 @@ use super::{
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
+#[cfg(feature = "formats")]
+use super::import;
 #[cfg(feature = "train")]
 use super::{train, train_regulator};
 
@@ -35,6 +37,8 @@ enum Command {
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
     Export(export::ExportArgs),
+    #[cfg(feature = "formats")]
+    Import(import::ImportArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
     #[cfg(feature = "train")]
@@ -80,6 +84,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
+        #[cfg(feature = "formats")]
+        Command::Import(args) => import::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
         #[cfg(feature = "train")]

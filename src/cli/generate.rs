@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
+#[cfg(feature = "formats")]
+use crate::dataset::generate_npz;
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, Preset, Solids, generate,
 };
@@ -29,7 +31,12 @@ for test sets such as the published ones (hand at 0.21 m/s).
 Examples:
   pushplan generate data/train --preset mixed --episodes 20000 --seed 1
   pushplan generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
-      --objects 9 --joints mixed --solids cylinders --speed 0.21"
+      --objects 9 --joints mixed --solids cylinders --speed 0.21
+  pushplan generate data/arrays --episodes 2000 --format npz
+
+npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
+statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
+of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, seconds, radians."
 )]
 pub struct GenerateArgs {
     /// Folder for the data
@@ -53,9 +60,21 @@ pub struct GenerateArgs {
     /// Solids of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
     solids: Option<Solids>,
+    /// Files for whom
+    #[arg(long, value_enum, default_value_t = Format::Records)]
+    format: Format,
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Our own training
+    Records,
+    /// NumPy: arrays of 128 episodes a file, and their statistics
+    #[cfg(feature = "formats")]
+    Npz,
 }
 
 impl GenerateArgs {
@@ -78,7 +97,11 @@ pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     let config = args.config();
     interrupt::watch();
     let following = Following::bar(session, "episodes");
-    let made = session.compute(|| generate(&config, &args.folder, &following));
+    let made = session.compute(|| match args.format {
+        Format::Records => generate(&config, &args.folder, &following),
+        #[cfg(feature = "formats")]
+        Format::Npz => generate_npz(&config, &args.folder, &following),
+    });
     following.finish()?;
     let bytes = made.map_err(data_error)?;
     session.print(&format!(

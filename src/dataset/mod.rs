@@ -24,6 +24,8 @@ mod joints;
 mod lesson;
 mod lessons;
 mod novelty;
+#[cfg(feature = "formats")]
+mod npz;
 mod observed;
 mod obstacle;
 mod preset;
@@ -45,6 +47,8 @@ pub use hand::HAND_RADIUS;
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
 pub use novelty::is_shipped;
+#[cfg(feature = "formats")]
+pub use npz::{A_FILE, FORMAT as NPZ_FORMAT, generate_npz};
 pub use observed::Seeing;
 pub use preset::Preset;
 pub use set::Dataset;

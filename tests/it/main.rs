@@ -17,6 +17,7 @@ mod extremes;
 mod facade;
 mod fitting;
 mod fixtures;
+mod formats;
 mod jointed;
 mod joints_bench;
 mod models;

@@ -81,6 +81,11 @@ fn of_group<'a>(
         .collect();
     let (owner, place) = (&model.bodies[group], model.bodies[group].place);
     if solids.is_empty() {
+        let ball = bodies.iter().flat_map(|body| touching(&model.bodies[*body])).next();
+        if let Some(ball) = ball {
+            Upright::of(ball, &format!("`{}`", owner.name), ledger);
+            return Vec::new();
+        }
         let message = format!("`{}` has nothing that touches", owner.name);
         ledger.fault(place, message, "give it a box, a cylinder or a prism that touches others");
         return Vec::new();
