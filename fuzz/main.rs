@@ -5,6 +5,7 @@
 
 mod bytes;
 mod corpus;
+mod markup;
 mod random;
 mod snippets;
 mod survive;

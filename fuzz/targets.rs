@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
+use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{Weights, WeightsError};
 use pushplan::recording::Recording;
 use pushplan::scene::{Task, Tool};
@@ -19,11 +20,20 @@ pub enum Target {
     Trajectory,
     Recording,
     Weights,
+    /// Of other programs: MJCF and URDF.
+    Foreign,
 }
 
 impl Target {
-    pub const ALL: [Self; 6] =
-        [Self::Tool, Self::Task, Self::Plan, Self::Trajectory, Self::Recording, Self::Weights];
+    pub const ALL: [Self; 7] = [
+        Self::Tool,
+        Self::Task,
+        Self::Plan,
+        Self::Trajectory,
+        Self::Recording,
+        Self::Weights,
+        Self::Foreign,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -33,6 +43,7 @@ impl Target {
             Self::Trajectory => "trajectory",
             Self::Recording => "recording",
             Self::Weights => "weights",
+            Self::Foreign => "foreign",
         }
     }
 
@@ -42,6 +53,7 @@ impl Target {
             Self::Tool | Self::Task => ".yaml",
             Self::Plan | Self::Trajectory | Self::Recording => ".json",
             Self::Weights => ".safetensors",
+            Self::Foreign => ".xml",
         }
     }
 
@@ -70,9 +82,29 @@ impl Target {
             Self::Plan => read(PlanFile::parse(text, &file), text, survive::plan),
             Self::Trajectory => read(TrajectoryFile::parse(text, &file), text, survive::trajectory),
             Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
+            Self::Foreign => foreign(text, &file),
             Self::Weights => false,
         }
     }
+}
+
+/// Reads a file of another program as a tool and as a scene; what comes of it is used like any other.
+fn foreign(text: &str, file: &str) -> bool {
+    let wanted = Wanted::default();
+    let spoken = |faults: Faults| {
+        assert!(!faults.0.is_empty(), "refused without a fault");
+        assert!(faults.0.iter().all(|fault| !fault.message.trim().is_empty()));
+    };
+    let model = match parse(text, file) {
+        Ok((model, ..)) => model,
+        Err(faults) => {
+            explained(&faults, text);
+            return false;
+        }
+    };
+    let tool = tool(&model, file, &wanted).map(|made| survive::tool(made.value)).map_err(spoken);
+    let scene = objects(&model, file, &wanted).map(|made| survive::task(made.value.task));
+    tool.is_ok() | scene.map_err(spoken).is_ok()
 }
 
 /// Weights from `input`, with a checksum that fits: damage must not hide behind it.

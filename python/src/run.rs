@@ -229,11 +229,13 @@ impl Place {
         let Place::Theirs { object, raised } = self else {
             return Err(WorldError("nobody acts here".to_owned()));
         };
-        Python::attach(|py| ask(py, object.bind(py)).map_err(|error| {
-            let words = WorldError(error.to_string());
-            *raised = Some(error);
-            words
-        }))
+        Python::attach(|py| {
+            ask(py, object.bind(py)).map_err(|error| {
+                let words = WorldError(error.to_string());
+                *raised = Some(error);
+                words
+            })
+        })
     }
 }
 

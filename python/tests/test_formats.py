@@ -13,6 +13,7 @@ import pytest
 import pushplan
 
 mujoco = pytest.importorskip("mujoco")
+jsonschema = pytest.importorskip("jsonschema")
 
 KITCHEN = "tests/cmd/import.in/kitchen.xml"
 
@@ -95,7 +96,9 @@ def recorded(path: Path) -> dict[str, list[tuple[int, Any]]]:
             assert schema is not None and schema.encoding == "jsonschema"
             assert json.loads(schema.data)["title"] == schema.name
             assert channel.message_encoding == "json"
-            found.setdefault(channel.topic, []).append((message.log_time, json.loads(message.data)))
+            held = json.loads(message.data)
+            jsonschema.validate(held, json.loads(schema.data))
+            found.setdefault(channel.topic, []).append((message.log_time, held))
     return found
 
 

@@ -40,4 +40,3 @@ pub use task::load_task;
 pub use text::{named_after, read_text};
 pub use world::load_world;
 pub use write::write_atomic;
-

@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "formats")]
+use super::import;
 use super::{
     bench, check, completions,
     error::CliError,
@@ -13,8 +15,6 @@ use super::{
     session::{GlobalArgs, Session, shown},
     simulate, solve, tradeoff, verify,
 };
-#[cfg(feature = "formats")]
-use super::import;
 #[cfg(feature = "train")]
 use super::{train, train_regulator};
 

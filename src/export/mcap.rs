@@ -46,8 +46,7 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
     let options = WriteOptions::new().compression(None).library(library);
     let mut file = File { writer: options.create(Cursor::new(Vec::new()))?, sequence: 0 };
     let scene = file.channel("/scene", "foxglove.SceneUpdate", &foxglove::scene_schema())?;
-    let frames =
-        file.channel("/tf", "foxglove.FrameTransforms", &foxglove::transforms_schema())?;
+    let frames = file.channel("/tf", "foxglove.FrameTransforms", &foxglove::transforms_schema())?;
     let state = file.channel("/state", "pushplan.State", &state_schema())?;
     file.message(scene, 0, &json!({"deletions": [], "entities": entities(plan)}))?;
     for frame in &trajectory.frames {
@@ -140,9 +139,8 @@ fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
 
 /// The same as plain numbers.
 fn numbers(plan: &PlanFile, frame: &Frame) -> Json {
-    let place = |pose: &Pose| {
-        json!({"x": pose.position.x, "y": pose.position.y, "heading": pose.heading})
-    };
+    let place =
+        |pose: &Pose| json!({"x": pose.position.x, "y": pose.position.y, "heading": pose.heading});
     let objects = plan.task.scene.objects.iter().zip(&frame.state.poses).map(|(object, pose)| {
         let mut numbers = place(pose);
         numbers["name"] = json!(object.name);

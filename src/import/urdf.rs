@@ -161,7 +161,11 @@ fn take<'a>(
     })
 }
 
-fn motion<'a>(source: &mut Source<'a>, joint: Node<'a, 'a>, pose: Isometry3<f64>) -> Option<Motion> {
+fn motion<'a>(
+    source: &mut Source<'a>,
+    joint: Node<'a, 'a>,
+    pose: Isometry3<f64>,
+) -> Option<Motion> {
     let axis = match element(joint, "axis").and_then(|axis| axis.attribute_node("xyz")) {
         Some(axis) => source.numbers::<3>(axis)?,
         None => [1.0, 0.0, 0.0],
@@ -183,7 +187,9 @@ fn motion<'a>(source: &mut Source<'a>, joint: Node<'a, 'a>, pose: Isometry3<f64>
     Some(match joint.attribute("type").unwrap_or_default() {
         "fixed" => Motion::Fixed,
         "floating" => Motion::Free,
-        "revolute" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: Some(limits) },
+        "revolute" => {
+            Motion::Hinge { axis, at: pose.translation.vector.into(), limits: Some(limits) }
+        }
         "continuous" => Motion::Hinge { axis, at: pose.translation.vector.into(), limits: None },
         "prismatic" => Motion::Slide { axis, limits: Some(limits) },
         "planar" => Motion::Other("a planar joint".to_owned()),

@@ -41,7 +41,9 @@ impl Array {
             Numbers::Integers(all) => {
                 ("<i8".to_owned(), all.iter().flat_map(|one| one.to_le_bytes()).collect())
             }
-            Numbers::Flags(all) => ("|b1".to_owned(), all.iter().map(|one| u8::from(*one)).collect()),
+            Numbers::Flags(all) => {
+                ("|b1".to_owned(), all.iter().map(|one| u8::from(*one)).collect())
+            }
             Numbers::Texts(all) => {
                 let longest = all.iter().map(String::len).max().unwrap_or(0).max(1);
                 let padded = |text: &String| {

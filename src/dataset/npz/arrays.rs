@@ -12,9 +12,8 @@ pub(super) fn arrays(episodes: &[Episode], most: usize) -> Vec<Array> {
     let strokes = || episodes.iter().flat_map(|episode| &episode.motion.strokes);
     let frames = || episodes.iter().flat_map(|episode| &episode.frames);
     let (all_strokes, all_frames) = (strokes().count(), frames().count());
-    let per_episode = |value: &dyn Fn(&Episode) -> f64| {
-        Numbers::Floats(episodes.iter().map(value).collect())
-    };
+    let per_episode =
+        |value: &dyn Fn(&Episode) -> f64| Numbers::Floats(episodes.iter().map(value).collect());
     // Rows of `width` numbers for objects, NaN for those that an episode does not have.
     let per_object = |width: usize, value: &dyn Fn(&Object) -> Vec<f64>| {
         let mut numbers = Vec::with_capacity(count * most * width);

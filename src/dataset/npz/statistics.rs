@@ -55,9 +55,7 @@ impl Moments {
         Self {
             count,
             mean: self.mean + apart * share,
-            squares: self.squares
-                + other.squares
-                + apart * apart * share * self.count as f64,
+            squares: self.squares + other.squares + apart * apart * share * self.count as f64,
             min: self.min.min(other.min),
             max: self.max.max(other.max),
         }

@@ -64,7 +64,8 @@ fn coefficient(
 ) -> Option<f64> {
     let is = |name: &str, side: usize| solids[side].iter().any(|solid| solid.name == name);
     let of_them = |[a, b]: &[String; 2]| is(a, 0) && is(b, 1) || is(b, 0) && is(a, 1);
-    let mut stated = model.pairs.iter().filter(|(names, _)| of_them(names)).map(|(_, value)| *value);
+    let mut stated =
+        model.pairs.iter().filter(|(names, _)| of_them(names)).map(|(_, value)| *value);
     if let Some(first) = stated.next() {
         if stated.any(|other| (other - first).abs() > SAME) {
             let message = format!("pairs of `{}` state different frictions", draft.object.name);

@@ -47,7 +47,8 @@ mod tests {
     #[test]
     fn names_differ_and_hold_nothing_strange() {
         let mut names = Names::default();
-        let taken = ["object/red can", "red can", "table", "Stra\u{df}e", ""].map(|name| names.take(name));
+        let taken =
+            ["object/red can", "red can", "table", "Stra\u{df}e", ""].map(|name| names.take(name));
         assert_eq!(taken, ["red-can", "red-can-2", "table-2", "Stra\u{df}e", "unnamed"]);
         assert!(same("red-can", "object/red can") && same("red can", "red can") && !same("a", "b"));
     }

@@ -96,7 +96,9 @@ fn of_group<'a>(
         let alone = solids.iter().filter(|(other, _)| other == body).count() == 1;
         let name = match (alone, solid.name.is_empty()) {
             (true, _) => of.name.clone(),
-            (false, false) => format!("{}-{}", super::names::bare(&of.name), super::names::bare(&solid.name)),
+            (false, false) => {
+                format!("{}-{}", super::names::bare(&of.name), super::names::bare(&solid.name))
+            }
             (false, true) => of.name.clone(),
         };
         let name = names.take(&name);
@@ -201,9 +203,9 @@ fn together(model: &Model, bodies: &[usize], ledger: &mut Ledger) -> Option<Weig
         [(mass, centre, _, moment)] => Some((mass, centre, moment)),
         _ => {
             let mass: f64 = weighed.iter().map(|(mass, ..)| mass).sum();
-            let parts = weighed.iter().map(|(mass, centre, middle, _)| {
-                centre.unwrap_or(*middle).coords * *mass
-            });
+            let parts = weighed
+                .iter()
+                .map(|(mass, centre, middle, _)| centre.unwrap_or(*middle).coords * *mass);
             Some((mass, Some(Point3::from(parts.sum::<nalgebra::Vector3<f64>>() / mass)), None))
         }
     }
@@ -247,7 +249,8 @@ fn draft<'a>(
         ledger.fault(foot.place, message, "spheres are the points that a body stands on");
         return None;
     }
-    let height = upright.high - low;
+    // What stands on feet is as high as these and it together; what does not keeps its digits.
+    let height = if low < upright.low { upright.top() - low } else { upright.height };
     let middle = upright.middle();
     let seen = |point: Point3<f64>| upright.pose.local_point(Vector::new(point.x, point.y));
     let centre = centre.map(|centre| (seen(centre), centre.z));

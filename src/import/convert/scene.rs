@@ -58,7 +58,9 @@ pub fn objects(
     let joints = joints(model, &found, &hung, &mut ledger);
     let mut ledger = ledger.sound()?;
     let statics = statics(model, &found, wanted, &mut names, &mut ledger);
-    let Some(statics) = statics else { return Err(ledger.finish(None::<()>).err().unwrap_or_default()) };
+    let Some(statics) = statics else {
+        return Err(ledger.finish(None::<()>).err().unwrap_or_default());
+    };
     let frictions = frictions(model, &found, &statics, &mut ledger);
     let moved = |mut object: crate::scene::Object| {
         object.pose.position += wanted.shift;
@@ -77,7 +79,8 @@ pub fn objects(
     let has_goal = goal.is_some();
     let first = scene.objects.first().map_or(Vector::zeros(), |object| object.pose.position);
     let goal = goal.unwrap_or_else(|| Goal::new(0, [first.x, first.y], TOLERANCE));
-    let farthest = scene.objects.iter().map(|object| object.pose.position.norm()).fold(0.0, f64::max);
+    let farthest =
+        scene.objects.iter().map(|object| object.pose.position.norm()).fold(0.0, f64::max);
     let most = REACH[1].max(((farthest + 0.3) * 10.0).ceil() / 10.0);
     let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
     let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
@@ -105,7 +108,9 @@ fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<
         [heading, within, alike, ..] => {
             Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
         }
-        [heading, within] => goal.facing(*heading, *within).looking_like(&scene.objects[object].shape),
+        [heading, within] => {
+            goal.facing(*heading, *within).looking_like(&scene.objects[object].shape)
+        }
         _ => goal,
     })
 }

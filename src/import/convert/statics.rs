@@ -68,9 +68,9 @@ pub(super) fn statics<'a>(
             continue;
         }
         let Some(upright) = Upright::of(solid, &format!("`{what}`"), ledger) else { continue };
-        if upright.high <= floor + STAND {
+        if upright.top() <= floor + STAND {
             let over = |draft: &Draft<'_>| upright.covers(draft.object.pose.position);
-            if upright.high >= floor - STAND && drafts.iter().any(over) {
+            if upright.top() >= floor - STAND && drafts.iter().any(over) {
                 found.stand_on(solid, &upright, drafts, ledger)?;
             } else {
                 ledger.note(solid.place, format!("`{what}` lies below the table and is left out"));
@@ -127,7 +127,9 @@ impl<'a> Statics<'a> {
                 let size = if quarters.round() as i64 % 2 == 0 { [x, y] } else { [y, x] };
                 self.table_top = Some(TableTop { size, middle: upright.pose.position });
             }
-            _ => ledger.note(solid.place, "the table is turned or round: where it ends is left out"),
+            _ => {
+                ledger.note(solid.place, "the table is turned or round: where it ends is left out")
+            }
         }
         Some(())
     }
@@ -166,7 +168,7 @@ fn obstacle<'a>(
     };
     let pose = Pose { position: upright.pose.position, ..upright.pose };
     // What of it is below the table, or a little above, nobody meets.
-    let size = [x, y, upright.high - floor];
+    let size = [x, y, upright.top() - floor];
     let friction = solid.material.friction.unwrap_or(wanted.friction);
     Some((Obstacle { name: names.take(what), size, pose, friction }, solid))
 }

@@ -66,12 +66,14 @@ fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> 
                 Some(asked) => format!("no body is called `{asked}`"),
                 None => "no body of the file touches anything".to_owned(),
             };
-            let names: Vec<&str> = model.children(0).map(|body| bare(model.name_of(body))).collect();
+            let names: Vec<&str> =
+                model.children(0).map(|body| bare(model.name_of(body))).collect();
             ledger.fault_of_file(message, format!("bodies are {}", names.join(", ")));
             None
         }
         _ => {
-            let names: Vec<&str> = candidates.iter().map(|body| bare(model.name_of(*body))).collect();
+            let names: Vec<&str> =
+                candidates.iter().map(|body| bare(model.name_of(*body))).collect();
             let message = format!("there are {} bodies, and a tool is one", candidates.len());
             ledger.fault_of_file(message, format!("choose with --body: {}", names.join(", ")));
             None
@@ -107,7 +109,7 @@ fn assemble(
     for (of, solid) in solids {
         let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
         let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };
-        let height = upright.high - upright.low;
+        let height = upright.height;
         let mut pose = frame * upright.pose;
         let shape = match &upright.base {
             Base::Rectangle([x, y]) => Shape::Cuboid { size: [*x, *y, height] },

@@ -36,8 +36,8 @@ pub(super) struct Upright {
     pub pose: Pose,
     /// Height of its underside, metres.
     pub low: f64,
-    /// Height of its top, metres.
-    pub high: f64,
+    /// From there to its top, metres.
+    pub height: f64,
 }
 
 impl Upright {
@@ -55,7 +55,7 @@ impl Upright {
                 }
                 let (pose, z) = (flat(&solid.pose), solid.pose.translation.z);
                 let base = Base::Disc(*radius);
-                Some(Self { base, pose, low: z - half, high: z + half })
+                Some(Self { base, pose, low: z - half, height: 2.0 * half })
             }
             Outline::Hull(points) => {
                 let found = prism(&solid.pose, points);
@@ -79,6 +79,11 @@ impl Upright {
                 None
             }
         }
+    }
+
+    /// Height of its top above the origin, metres.
+    pub fn top(&self) -> f64 {
+        self.low + self.height
     }
 
     /// Area of the base, square metres.
@@ -124,7 +129,7 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
         Outline::Plane(_) => Some(0.0),
         Outline::Hull(points) => {
             let upright = prism(&solid.pose, points).ok()?;
-            Some(upright.area() * (upright.high - upright.low))
+            Some(upright.area() * upright.height)
         }
         Outline::Other(_) => None,
     }
@@ -163,7 +168,7 @@ fn standing_box(pose: &Isometry3<f64>, half: [f64; 3]) -> Option<Upright> {
         base: Base::Rectangle([2.0 * half[ahead], 2.0 * half[aside]]),
         pose: Pose::new(pose.translation.x, pose.translation.y, heading),
         low: z - half[up],
-        high: z + half[up],
+        height: 2.0 * half[up],
     })
 }
 
@@ -187,11 +192,15 @@ fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, Strin
         });
         let worst = off.fold(0.0, f64::max);
         if worst > PRISM {
-            let by = if worst.is_finite() { format!(" by {:.1} mm", 1e3 * worst) } else { String::new() };
+            let by = if worst.is_finite() {
+                format!(" by {:.1} mm", 1e3 * worst)
+            } else {
+                String::new()
+            };
             return Err(format!("its {end} misses corners of its outline{by}"));
         }
     }
-    Ok(Upright { base: Base::Polygon(corners), pose: frame, low, high })
+    Ok(Upright { base: Base::Polygon(corners), pose: frame, low, height: high - low })
 }
 
 #[cfg(test)]
@@ -213,7 +222,7 @@ mod tests {
         let size = |pose: &Isometry3<f64>| {
             let found = standing_box(pose, half).expect("it stands");
             let Base::Rectangle(size) = found.base else { panic!("{found:?}") };
-            (size.map(|extent| (1e6 * extent).round()), (1e6 * (found.high - found.low)).round())
+            (size.map(|extent| (1e6 * extent).round()), (1e6 * found.height).round())
         };
         assert_eq!(size(&placed(0.0, 0.0, 0.4)), ([2e4, 4e4], 6e4));
         assert_eq!(size(&placed(FRAC_PI_2, 0.0, 0.4)), ([2e4, 6e4], 4e4));
@@ -231,7 +240,7 @@ mod tests {
         };
         let pose = placed(0.0, 0.0, 0.0);
         let whole = prism(&pose, &[ring(0.0, 1.0), ring(0.05, 1.0)].concat()).expect("a prism");
-        assert!((whole.area() - 0.0012).abs() < 1e-12 && (whole.high - 0.55).abs() < 1e-12);
+        assert!((whole.area() - 0.0012).abs() < 1e-12 && (whole.top() - 0.55).abs() < 1e-12);
         let narrow = prism(&pose, &[ring(0.0, 1.0), ring(0.05, 0.9)].concat());
         assert!(narrow.unwrap_err().contains("its top misses corners of its outline by 6.0 mm"));
     }

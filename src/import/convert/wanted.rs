@@ -27,12 +27,7 @@ impl Wanted {
 
 impl Default for Wanted {
     fn default() -> Self {
-        Self {
-            bodies: Vec::new(),
-            name: None,
-            friction: Self::FRICTION,
-            shift: Vector::zeros(),
-        }
+        Self { bodies: Vec::new(), name: None, friction: Self::FRICTION, shift: Vector::zeros() }
     }
 }
 

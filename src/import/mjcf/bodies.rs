@@ -20,7 +20,12 @@ struct Within<'a> {
     body: usize,
     pose: Isometry3<f64>,
     class: Option<&'a str>,
+    /// Bodies and frames around it.
+    depth: usize,
 }
+
+/// Bodies and frames in each other: more than any robot has joints, and less than a stack holds.
+const DEEPEST: usize = 200;
 
 /// Takes in an element `worldbody`.
 pub(super) fn world<'a>(
@@ -30,7 +35,13 @@ pub(super) fn world<'a>(
     model: &mut Model,
 ) {
     let class = node.attribute("childclass");
-    inside(source, context, node, Within { body: 0, pose: Isometry3::identity(), class }, model);
+    inside(
+        source,
+        context,
+        node,
+        Within { body: 0, pose: Isometry3::identity(), class, depth: 0 },
+        model,
+    );
 }
 
 /// Takes in what is in a body or frame.
@@ -41,6 +52,11 @@ fn inside<'a>(
     within: Within<'a>,
     model: &mut Model,
 ) {
+    if within.depth > DEEPEST {
+        let message = format!("more than {DEEPEST} bodies and frames are in each other");
+        source.fault(node, message, "is this the right file?");
+        return;
+    }
     for child in elements(node) {
         let tag = child.tag_name().name();
         let element = Lookup { node: child, class: within.class };
@@ -55,8 +71,8 @@ fn inside<'a>(
                 context.defaults.check(source, child, "childclass");
                 let Some(pose) = context.pose(source, element) else { continue };
                 let class = child.attribute("childclass").or(within.class);
-                let pose = within.pose * pose;
-                inside(source, context, child, Within { pose, class, ..within }, model);
+                let (pose, depth) = (within.pose * pose, within.depth + 1);
+                inside(source, context, child, Within { pose, class, depth, ..within }, model);
             }
             "inertial" => inertial(source, context, element, within, model),
             "joint" | "freejoint" => {
@@ -88,10 +104,7 @@ fn body<'a>(
     within: Within<'a>,
     model: &mut Model,
 ) {
-    source.only(
-        node,
-        &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]],
-    );
+    source.only(node, &[&TURNS, &["childclass", "gravcomp", "mocap", "name", "sleep", "user"]]);
     context.defaults.check(source, node, "childclass");
     let class = node.attribute("childclass").or(within.class);
     let Some(pose) = context.pose(source, Lookup { node, class }) else { return };
@@ -114,7 +127,8 @@ fn body<'a>(
         inertial: None,
     });
     let pose = within.pose * pose;
-    inside(source, context, node, Within { body: index, pose, class }, model);
+    let depth = within.depth + 1;
+    inside(source, context, node, Within { body: index, pose, class, depth }, model);
     // What is stated counts only where the compiler says so.
     match (context.compiler.from_geoms, &model.bodies[index].inertial) {
         (Some(true), _) => model.bodies[index].inertial = None,
@@ -215,7 +229,9 @@ fn joint<'a>(
             let at = within.pose * Point3::from(at);
             Some(Motion::Hinge { axis, at, limits })
         }
-        "slide" => Some(Motion::Slide { axis, limits: range.map(|ends| ends.map(|end| end - start)) }),
+        "slide" => {
+            Some(Motion::Slide { axis, limits: range.map(|ends| ends.map(|end| end - start)) })
+        }
         _ => Some(Motion::Other(format!("a {kind} joint"))),
     }
 }

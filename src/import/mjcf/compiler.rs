@@ -21,9 +21,24 @@ pub(super) struct Compiler {
 
 /// Attributes of the compiler that change nothing that is read here.
 const HARMLESS: [&str; 18] = [
-    "alignfree", "assetdir", "autolimits", "balanceinertia", "boundinertia", "conflict",
-    "convexhull", "discardvisual", "exactmeshinertia", "fitaabb", "fusestatic", "lengthrange",
-    "meshdir", "saveinertial", "strippath", "texturedir", "usethread", "meshfiles",
+    "alignfree",
+    "assetdir",
+    "autolimits",
+    "balanceinertia",
+    "boundinertia",
+    "conflict",
+    "convexhull",
+    "discardvisual",
+    "exactmeshinertia",
+    "fitaabb",
+    "fusestatic",
+    "lengthrange",
+    "meshdir",
+    "saveinertial",
+    "strippath",
+    "texturedir",
+    "usethread",
+    "meshfiles",
 ];
 
 impl Default for Compiler {

@@ -9,6 +9,9 @@ use crate::import::xml::{Source, elements};
 /// The class of what names none.
 const MAIN: &str = "main";
 
+/// Classes in each other, less than a stack holds.
+const DEEPEST: usize = 200;
+
 /// An element whose attributes are looked for, with the class that its body gives to what names
 /// none.
 #[derive(Clone, Copy)]
@@ -48,6 +51,10 @@ impl<'a> Defaults<'a> {
             return;
         }
         self.classes.entry(name).or_default().parent = parent;
+        if node.ancestors().count() > DEEPEST {
+            source.fault(node, "classes are in each other too often", "is this the right file?");
+            return;
+        }
         for child in elements(node) {
             let tag = child.tag_name().name();
             if tag == "default" {

@@ -20,15 +20,43 @@ const FRICTION: f64 = 1.0;
 
 /// Attributes that are read.
 const READ: [&str; 20] = [
-    "axisangle", "class", "conaffinity", "contype", "density", "euler", "friction", "fromto",
-    "mass", "mesh", "name", "pos", "priority", "quat", "shellinertia", "size", "type", "xyaxes",
-    "zaxis", "hfield",
+    "axisangle",
+    "class",
+    "conaffinity",
+    "contype",
+    "density",
+    "euler",
+    "friction",
+    "fromto",
+    "mass",
+    "mesh",
+    "name",
+    "pos",
+    "priority",
+    "quat",
+    "shellinertia",
+    "size",
+    "type",
+    "xyaxes",
+    "zaxis",
+    "hfield",
 ];
 
 /// Attributes that change only how contacts give way, or what is seen.
 const HARMLESS: [&str; 13] = [
-    "condim", "fitscale", "fluidcoef", "fluidshape", "gap", "group", "margin", "material", "rgba",
-    "solimp", "solmix", "solref", "user",
+    "condim",
+    "fitscale",
+    "fluidcoef",
+    "fluidshape",
+    "gap",
+    "group",
+    "margin",
+    "material",
+    "rgba",
+    "solimp",
+    "solmix",
+    "solref",
+    "user",
 ];
 
 /// What is needed besides a geom's element to read it.
@@ -43,11 +71,7 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     /// The pose of an element in its parent's frame; none, with a fault, if it cannot be one.
-    pub fn pose(
-        &self,
-        source: &mut Source<'a>,
-        element: Lookup<'a, '_>,
-    ) -> Option<Isometry3<f64>> {
+    pub fn pose(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Isometry3<f64>> {
         let position = match self.defaults.find(element, "pos") {
             Some(position) => source.numbers::<3>(position)?,
             None => [0.0; 3],

@@ -79,7 +79,8 @@ fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
     let Some(stated) = option.attribute_node("gravity") else { return };
     let Some([x, y, z]) = source.numbers(stated) else { return };
     if x.hypot(y) > 1e-3 * GRAVITY || (z + GRAVITY).abs() > 0.02 * GRAVITY {
-        let message = format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
+        let message =
+            format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
         source.fault_of(stated, message, "turn the scene, so that gravity is `0 0 -9.81`");
     }
 }

@@ -4,7 +4,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::{fs, io::Read};
 
-use pushplan::dataset::{A_FILE, Dataset, DatasetConfig, DatasetError, NPZ_FORMAT, Preset, generate_npz};
+use pushplan::dataset::{
+    A_FILE, Dataset, DatasetConfig, DatasetError, NPZ_FORMAT, Preset, generate_npz,
+};
 use pushplan::watch::{Unwatched, Watch};
 use tempfile::TempDir;
 
@@ -50,8 +52,12 @@ fn floats(path: &Path, name: &str) -> (String, Vec<f64>) {
 
 #[test]
 fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
-    let config =
-        DatasetConfig { seed: 5, episodes: A_FILE + 3, preset: Preset::Tools, ..Default::default() };
+    let config = DatasetConfig {
+        seed: 5,
+        episodes: A_FILE + 3,
+        preset: Preset::Tools,
+        ..Default::default()
+    };
     let [whole, stopped] = [(); 2].map(|()| TempDir::new().unwrap());
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let bytes = pool(3).install(|| generate_npz(&config, whole.path(), &Unwatched)).unwrap();
@@ -66,7 +72,11 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
     assert!(files(whole.path()) == files(stopped.path()));
     let expected = ["README.md", "episodes-00000.npz", "episodes-00001.npz"];
     assert_eq!(names(&whole)[..3], expected);
-    let sizes = files(whole.path()).iter().filter(|(name, _)| name.ends_with("npz")).map(|(_, b)| b.len()).sum::<usize>();
+    let sizes = files(whole.path())
+        .iter()
+        .filter(|(name, _)| name.ends_with("npz"))
+        .map(|(_, b)| b.len())
+        .sum::<usize>();
     assert_eq!([bytes, again], [sizes as u64; 2]);
 
     // What they hold is what the sampler draws.
@@ -98,12 +108,15 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
 #[test]
 fn the_page_describes_every_array() {
     let folder = TempDir::new().unwrap();
-    let config = DatasetConfig { seed: 1, episodes: 2, preset: Preset::Dense, ..Default::default() };
+    let config =
+        DatasetConfig { seed: 1, episodes: 2, preset: Preset::Dense, ..Default::default() };
     generate_npz(&config, folder.path(), &Unwatched).unwrap();
     let file = fs::File::open(folder.path().join("episodes-00000.npz")).unwrap();
     let archive = zip::ZipArchive::new(file).unwrap();
-    let held: Vec<String> =
-        archive.file_names().map(|name| name.trim_end_matches(".npy").to_owned()).collect();
+    let held: Vec<String> = archive
+        .file_names()
+        .map(|name| name.unwrap().trim_end_matches(".npy").to_owned())
+        .collect();
     let described: Vec<String> = NPZ_FORMAT
         .lines()
         .filter_map(|line| Some(line.strip_prefix("| `")?.split_once('`')?.0.to_owned()))

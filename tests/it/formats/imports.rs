@@ -37,9 +37,10 @@ fn a_scene_of_mujoco_becomes_a_task() {
     // The larger of 0.6 and 0.6 is their mean; that of 0.3 and 0.6 is not.
     let pair = |name: &str| {
         let object = task.scene.objects.iter().position(|object| object.name == name);
-        task.scene.frictions.iter().find(|pair| {
-            Some(pair.object) == object && pair.with == Surface::Table
-        })
+        task.scene
+            .frictions
+            .iter()
+            .find(|pair| Some(pair.object) == object && pair.with == Surface::Table)
     };
     assert!(pair("can").is_none());
     assert_eq!(pair("lying-box").map(|pair| pair.coefficient), Some(0.6));
@@ -72,7 +73,10 @@ fn a_robot_of_fixed_links_becomes_a_tool() {
     let made = tool(&model, "hook.urdf", &Wanted::default());
     // Gazebo's friction is of the handle alone.
     let text = made.expect_err("two frictions").to_string();
-    assert!(text.contains("hook.urdf:10:5: error: parts have different frictions, 0.4 and 0.5"), "{text}");
+    assert!(
+        text.contains("hook.urdf:10:5: error: parts have different frictions, 0.4 and 0.5"),
+        "{text}"
+    );
     let wanted = Wanted { friction: 0.4, name: Some("my-hook".into()), ..Wanted::default() };
     assert_snapshot!(tool(&model, "hook.urdf", &wanted).unwrap().value.to_yaml().unwrap());
 }
@@ -150,6 +154,7 @@ fn each_thing_that_cannot_be_said_is_refused() {
         ("<robot name='r'><link name='a'><collision><geometry><box size='1 2'/></geometry></collision></link></robot>".into(), "has 2 numbers instead of 3"),
         ("<robot><link name='a'/><link name='a'/></robot>".into(), "two links are called `a`"),
         ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "go in a circle"),
+        (mjcf(&format!("{}{}", "<body>".repeat(20_000), "</body>".repeat(20_000))), "more than 200 bodies"),
         ("<sdf/>".into(), "<sdf> is neither"),
         ("<mujoco".into(), "this is not XML"),
     ] {
@@ -162,9 +167,20 @@ fn each_thing_that_cannot_be_said_is_refused() {
 fn tools_that_are_no_tools_are_refused() {
     let box_ = "<geom type='box' size='.05 .05 .05'/>";
     for (text, expected) in [
-        (mjcf(&format!("<body name='a'>{box_}</body><body name='b'>{box_}</body>")), "there are 2 bodies, and a tool is one"),
-        (mjcf(&format!("<body name='a'>{box_}<body name='jaw'><joint/>{box_}</body></body>")), "`jaw` moves against the tool, by a hinge"),
-        (mjcf(&format!("<body name='a'>{box_}<geom type='box' size='.05 .05 .05' pos='0 0 .02'/></body>")), "begins 20.0 mm above the lowest part"),
+        (
+            mjcf(&format!("<body name='a'>{box_}</body><body name='b'>{box_}</body>")),
+            "there are 2 bodies, and a tool is one",
+        ),
+        (
+            mjcf(&format!("<body name='a'>{box_}<body name='jaw'><joint/>{box_}</body></body>")),
+            "`jaw` moves against the tool, by a hinge",
+        ),
+        (
+            mjcf(&format!(
+                "<body name='a'>{box_}<geom type='box' size='.05 .05 .05' pos='0 0 .02'/></body>"
+            )),
+            "begins 20.0 mm above the lowest part",
+        ),
         (mjcf("<body name='a'/>"), "no body of the file touches anything"),
     ] {
         let found = faults(&text, true);

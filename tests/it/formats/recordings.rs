@@ -17,7 +17,8 @@ fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let task = task.unwrap();
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.1, length: 0.1, speed: 0.1 };
     let form = PushForm::Placed;
-    let plan = Plan { tool: tool.name.clone(), grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
+    let plan =
+        Plan { tool: tool.name.clone(), grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let model = Simulated::new(Simulator::planar());
     let trajectory = model.rollout(&task.scene, &[job], Record::Frames).remove(0);
@@ -27,7 +28,8 @@ fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let messages: Vec<_> = MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();
     let of = |topic: &str| -> Vec<(u64, Json)> {
         let on = messages.iter().filter(|message| message.channel.topic == topic);
-        on.map(|message| (message.log_time, serde_json::from_slice(&message.data).unwrap())).collect()
+        on.map(|message| (message.log_time, serde_json::from_slice(&message.data).unwrap()))
+            .collect()
     };
     let (states, frames) = (of("/state"), of("/tf"));
     assert_eq!((states.len(), frames.len()), (trajectory.frames.len(), trajectory.frames.len()));

@@ -39,7 +39,9 @@ fn same_shape(a: &Shape, b: &Shape, what: &str) {
         (Shape::Cuboid { size: a }, Shape::Cuboid { size: b }) => {
             (0..3).for_each(|axis| near(a[axis], b[axis], what));
         }
-        (Shape::Cylinder { radius: a, .. }, Shape::Cylinder { radius: b, .. }) => near(*a, *b, what),
+        (Shape::Cylinder { radius: a, .. }, Shape::Cylinder { radius: b, .. }) => {
+            near(*a, *b, what)
+        }
         (Shape::Prism { base: a, .. }, Shape::Prism { base: b, .. }) => {
             assert_eq!(a.corners().len(), b.corners().len(), "{what}");
             for corner in a.corners() {
@@ -53,7 +55,11 @@ fn same_shape(a: &Shape, b: &Shape, what: &str) {
 
 fn same_scene(a: &Scene, b: &Scene, what: &str) {
     near(a.table_friction, b.table_friction, what);
-    assert_eq!((a.objects.len(), a.obstacles.len()), (b.objects.len(), b.obstacles.len()), "{what}");
+    assert_eq!(
+        (a.objects.len(), a.obstacles.len()),
+        (b.objects.len(), b.obstacles.len()),
+        "{what}"
+    );
     for object in &a.objects {
         let what = format!("{what}, {}", object.name);
         let other = b.objects.iter().find(|other| other.name == object.name);
@@ -106,15 +112,18 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
     assert!(tasks.len() > 10);
     for task in tasks {
         let text = mjcf(&plan(task.clone(), stick)).unwrap();
-        let (model, _, notes) = parse(&text, "scene.xml").unwrap_or_else(|faults| panic!("{faults}"));
+        let (model, _, notes) =
+            parse(&text, "scene.xml").unwrap_or_else(|faults| panic!("{faults}"));
         assert_eq!(notes, Vec::<String>::new());
         let made = objects(&model, "scene.xml", &Wanted::default());
-        let Imported { value, .. } = made.unwrap_or_else(|faults| panic!("{}: {faults}", task.name));
+        let Imported { value, .. } =
+            made.unwrap_or_else(|faults| panic!("{}: {faults}", task.name));
         let ImportedScene { task: found, has_goal } = value;
         // Where a table ends, and what presses how high, MJCF has no word for.
         same_scene(&task.scene, &found.scene, &task.name);
         assert!(has_goal && found.name == task.name);
-        let goals = [&task, &found].map(|task| (&task.scene.objects[task.goal.object].name, task.goal));
+        let goals =
+            [&task, &found].map(|task| (&task.scene.objects[task.goal.object].name, task.goal));
         assert_eq!(goals[0].0, goals[1].0);
         near((goals[0].1.position - goals[1].1.position).norm(), 0.0, "goal");
         near(goals[0].1.tolerance, goals[1].1.tolerance, "tolerance");
@@ -153,11 +162,14 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
         // Seen from the other one, a turn goes the other way, and so does a shift.
         let swapped = joint.between != other.between;
         let along = match (joint.kind, other.kind) {
-            (JointKind::Prismatic { axis: a, .. }, JointKind::Prismatic { axis: b, .. }) => a.dot(&b),
+            (JointKind::Prismatic { axis: a, .. }, JointKind::Prismatic { axis: b, .. }) => {
+                a.dot(&b)
+            }
             _ => 1.0,
         };
         let turned = swapped != (along < 0.0);
-        let [low, high] = if turned { [-theirs.high, -theirs.low] } else { [theirs.low, theirs.high] };
+        let [low, high] =
+            if turned { [-theirs.high, -theirs.low] } else { [theirs.low, theirs.high] };
         near(limits.low, low, "low");
         near(limits.high, high, "high");
     }
@@ -171,7 +183,8 @@ fn every_shipped_tool_comes_back_as_wide_as_it_was() {
         let text = mjcf(&plan(task.clone(), shipped)).unwrap();
         let (model, ..) = parse(&text, "scene.xml").unwrap();
         let found = tool(&model, "scene.xml", &Wanted::default());
-        let Imported { value, .. } = found.unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
+        let Imported { value, .. } =
+            found.unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
         near(value.friction, shipped.friction, &shipped.name);
         // Covered faces are moved back in the export; together the parts cover the same.
         for k in 0..72 {
