@@ -182,9 +182,8 @@ pub fn run(
     let mut place = match world.extract::<u64>() {
         Ok(number) => {
             let truth = hidden(&task.task, &library, number);
-            Place::Drawn(SimulatedWorld::new(
-                truth.map_err(|faults| errors::files(py, &faults, None))?,
-            ))
+            let truth = truth.map_err(|faults| errors::files(py, &faults, None))?;
+            Place::Drawn(Box::new(SimulatedWorld::new(truth)))
         }
         Err(_) if world.hasattr("look")? && world.hasattr("act")? => {
             Place::Theirs { object: world.unbind(), raised: None }
@@ -215,7 +214,7 @@ pub fn run(
 /// What is acted in.
 enum Place {
     /// One of ours.
-    Drawn(SimulatedWorld),
+    Drawn(Box<SimulatedWorld>),
     /// An object of Python, and what it raised.
     Theirs { object: Py<PyAny>, raised: Option<PyErr> },
 }

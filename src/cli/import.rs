@@ -28,7 +28,7 @@ Without --out the file is printed. `pushplan import --help` says what becomes of
              stands on. Boxes that do not move are obstacles. Robot and tools, and the goal where the
              file has none, stand for yours.
   tool       One body with all that is fixed to it, undersides level. Its frame is that of the body.
-             What it weighs, and what holds it, does not matter.
+             What it weighs, and what holds or moves it, does not matter.
   mass       <inertial> if it is there, else MuJoCo's rule: mass, or density (1000 kg/m^3) times volume.
              A centre of mass off the middle makes a box a prism.
   friction   The first number of `friction` in MJCF (1 by default); in URDF <lateral_friction> or

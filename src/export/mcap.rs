@@ -1,14 +1,4 @@
 //! A plan and what it does as MCAP, the recordings of robots that Foxglove, Rerun and others play.
-//!
-//! | topic | schema | when | what |
-//! |---|---|---|---|
-//! | `/scene` | `foxglove.SceneUpdate` | at the start | solids of objects, obstacles, tool and goal, each in its frame |
-//! | `/tf` | `foxglove.FrameTransforms` | every frame | frames `object/NAME` and `tool` in `table` |
-//! | `/state` | `pushplan.State` | every frame | the same as x, y (metres) and heading (radians, turns counted), the push, and the distance from the goal (metres) |
-//!
-//! Messages are JSON with JSON schemas; times count from the start, in nanoseconds. The attachment
-//! `plan.json` is the plan file, complete; the metadata `pushplan` say tool, model and outcome. Nothing
-//! is compressed. The same plan gives the same bytes.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -33,7 +23,17 @@ const GOAL: Colour = [0.90, 0.55, 0.20, 0.25];
 /// Height of the goal's disc, metres: it is seen and stands in nobody's way.
 const DISC: f64 = 1e-3;
 
-/// `plan` and what it does according to `trajectory` as the bytes of an MCAP file; see the module.
+/// `plan` and what it does according to `trajectory` as the bytes of an MCAP file.
+///
+/// | topic | schema | when | what |
+/// |---|---|---|---|
+/// | `/scene` | `foxglove.SceneUpdate` | at the start | solids of objects, obstacles, tool and goal, each in its frame |
+/// | `/tf` | `foxglove.FrameTransforms` | every frame | frames `object/NAME` and `tool` in `table` |
+/// | `/state` | `pushplan.State` | every frame | the same as x, y (metres) and heading (radians, turns counted), the push, and the distance from the goal (metres) |
+///
+/// Messages are JSON with JSON schemas; times count from the start, in nanoseconds. The attachment
+/// `plan.json` is the plan file, complete; the metadata `pushplan` say tool, model and outcome. Nothing
+/// is compressed. The same plan gives the same bytes.
 ///
 /// # Errors
 /// [`ExportError::Mcap`] if the trajectory holds what no such file can.

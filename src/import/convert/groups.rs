@@ -3,7 +3,7 @@
 use crate::import::fault::Ledger;
 use crate::import::model::{Model, Motion};
 
-use super::names::bare;
+use super::names::{bare, same};
 use super::wanted::Wanted;
 
 /// The body that `pushplan export` makes the tool.
@@ -14,16 +14,17 @@ const TOOL: &str = "tool";
 pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<usize> {
     let fixed = model.rigid(0);
     let mut found = Vec::new();
-    let mut others = Vec::new();
+    let (mut asked_for, mut others) = (Vec::new(), Vec::new());
     for (index, body) in model.bodies.iter().enumerate() {
         let hangs = body.parent.is_some_and(|parent| fixed.contains(&parent));
         if !hangs || body.motion == Motion::Fixed {
             continue;
         }
         if !wanted.takes(&body.name) {
-            others.push(body.name.as_str());
+            others.push(bare(&body.name));
             continue;
         }
+        asked_for.push(body.name.as_str());
         match &body.motion {
             Motion::Free => found.push(index),
             _ if model.ours && body.name == TOOL && wanted.bodies.is_empty() => {
@@ -39,12 +40,10 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
         }
     }
     for asked in &wanted.bodies {
-        let known = |index: &&usize| super::names::same(asked, model.name_of(**index));
-        if !found.iter().any(|index| known(&index)) && !others.is_empty() | found.is_empty() {
-            let names: Vec<&str> = others.iter().map(|name| bare(name)).collect();
-            let advice = match names.is_empty() {
-                true => "no body of the file moves freely".to_owned(),
-                false => format!("others are {}", names.join(", ")),
+        if !asked_for.iter().any(|name| same(asked, name)) {
+            let advice = match others[..] {
+                [] => "no body of the file moves freely".to_owned(),
+                _ => format!("others are {}", others.join(", ")),
             };
             ledger.fault_of_file(format!("no movable body is called `{asked}`"), advice);
         }
@@ -56,7 +55,7 @@ pub(super) fn free(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Vec<u
 pub(super) fn held_by(motion: &Motion) -> String {
     match motion {
         Motion::Fixed => "being fixed".to_owned(),
-        Motion::Free => "nothing".to_owned(),
+        Motion::Free => "a free joint".to_owned(),
         Motion::Hinge { .. } => "a hinge".to_owned(),
         Motion::Slide { .. } => "a slide".to_owned(),
         Motion::Other(words) => words.clone(),

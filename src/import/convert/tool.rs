@@ -8,7 +8,7 @@ use crate::import::fault::Ledger;
 use crate::import::model::{Model, Motion};
 use crate::scene::{Part, Tool, ToolError};
 
-use super::groups::{beyond, held_by};
+use super::groups::held_by;
 use super::names::{Names, bare, same};
 use super::upright::{Base, Upright, flat};
 use super::wanted::{Imported, Wanted};
@@ -17,15 +17,12 @@ use super::wanted::{Imported, Wanted};
 const LEVEL: f64 = 1e-3;
 
 /// The tool that one body of a model is, with everything that is fixed to it. Its frame, and its
-/// grip, are those of the body; what it weighs and how it is held does not matter.
+/// grip, are those of the body; what it weighs and what holds or moves it does not matter.
 ///
 /// # Errors
 /// Everything that pushplan has no word for, each with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file);
-    if !model.ours {
-        beyond(model, wanted, &mut ledger);
-    }
     let body = chosen(model, wanted, &mut ledger);
     let made = body.and_then(|body| assemble(model, file, body, wanted, &mut ledger));
     if let Some(tool) = &made

@@ -118,6 +118,11 @@ impl<'a> Context<'a> {
         };
         let (kinds, with) = (flag(source, "contype")?, flag(source, "conaffinity")?);
         let name = node.attribute("name").unwrap_or_default();
+        if [(1.0, 1.0), (0.0, 0.0)].iter().all(|usual| *usual != (kinds, with)) {
+            let place = source.place(node);
+            let note = "`contype` and `conaffinity` are left out: everything touches everything";
+            source.ledger.note(place, note);
+        }
         let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
         Some(Solid {
             name: name.to_owned(),
