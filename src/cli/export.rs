@@ -11,7 +11,7 @@ use crate::scene::{ModelSpec, Trajectory};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
-/// Write plans for other programs: a second opinion from an engine that is not ours, or a recording
+/// Write plans for other programs: scenes of MuJoCo, recordings for Foxglove and Rerun
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan export plans/pull-back.plan.json --out mjcf
