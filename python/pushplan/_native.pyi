@@ -453,7 +453,7 @@ def import_task(
     bodies: Sequence[str] | None = None,
     name: str | None = None,
     friction: float = 0.5,
-    shift: tuple[float, float] = (0.0, 0.0),
+    shift: tuple[float, float] = ...,
 ) -> Task: ...
 def export_mjcf(plan: Plan, path: _Path) -> None: ...
 def export_mcap(

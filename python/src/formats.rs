@@ -18,13 +18,16 @@ use crate::tool::PyTool;
 use crate::trajectory::PyTrajectory;
 use crate::{errors, words, work};
 
+// Defaults are literals, which Python shows; that of the frictions is `Wanted::FRICTION`.
+const _: () = assert!(Wanted::FRICTION == 0.5);
+
 /// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
 /// with all that is fixed to it.
 ///
 /// `friction` is the value of what states none. `pushplan import --help` says what becomes of what.
 /// Raises `FileError` for what pushplan has no word for; what is said a little otherwise is a warning.
 #[pyfunction]
-#[pyo3(signature = (path, *, body = None, name = None, friction = Wanted::FRICTION))]
+#[pyo3(signature = (path, *, body = None, name = None, friction = 0.5))]
 pub fn import_tool(
     py: Python<'_>,
     path: PathBuf,
@@ -46,7 +49,7 @@ pub fn import_tool(
 /// table (metres). Raises `FileError` for what pushplan has no word for; what is said a little
 /// otherwise is a warning.
 #[pyfunction]
-#[pyo3(signature = (path, *, bodies = None, name = None, friction = Wanted::FRICTION,
+#[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5,
                     shift = (0.0, 0.0)))]
 pub fn import_task(
     py: Python<'_>,
