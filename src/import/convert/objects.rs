@@ -102,6 +102,11 @@ fn of_group<'a>(
             (false, true) => of.name.clone(),
         };
         let name = names.take(&name);
+        if let Outline::Other(_) = solid.outline {
+            // That it is none of ours matters more than what it weighs.
+            Upright::of(solid, &format!("`{name}`"), ledger);
+            continue;
+        }
         // With a single solid it carries everything that is fixed to it.
         let (mass, centre, moment) = match (solids.len(), alone) {
             (1, _) => match together(model, bodies, ledger) {
