@@ -6,6 +6,7 @@
 mod bytes;
 mod corpus;
 mod levers;
+mod markup;
 mod random;
 mod snippets;
 mod survive;

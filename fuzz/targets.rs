@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use pushplan::asset::{Faults, LeverPlanFile, PlanFile, TrajectoryFile, check};
+use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{Weights, WeightsError};
 use pushplan::recording::Recording;
 use pushplan::scene::{BladeTool, LeverTask, Task, Tool};
@@ -22,10 +23,12 @@ pub enum Target {
     Blade,
     LeverTask,
     LeverPlan,
+    /// Of other programs: MJCF and URDF.
+    Foreign,
 }
 
 impl Target {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Tool,
         Self::Task,
         Self::Plan,
@@ -35,6 +38,7 @@ impl Target {
         Self::Blade,
         Self::LeverTask,
         Self::LeverPlan,
+        Self::Foreign,
     ];
 
     pub fn name(self) -> &'static str {
@@ -48,6 +52,7 @@ impl Target {
             Self::Blade => "blade",
             Self::LeverTask => "lever-task",
             Self::LeverPlan => "lever-plan",
+            Self::Foreign => "foreign",
         }
     }
 
@@ -57,6 +62,7 @@ impl Target {
             Self::Tool | Self::Task | Self::Blade | Self::LeverTask => ".yaml",
             Self::LeverPlan | Self::Plan | Self::Trajectory | Self::Recording => ".json",
             Self::Weights => ".safetensors",
+            Self::Foreign => ".xml",
         }
     }
 
@@ -88,9 +94,29 @@ impl Target {
             Self::Blade => read(BladeTool::parse(text, &file), text, levers::blade),
             Self::LeverTask => read(LeverTask::parse(text, &file), text, levers::task),
             Self::LeverPlan => read(LeverPlanFile::parse(text, &file), text, levers::plan),
+            Self::Foreign => foreign(text, &file),
             Self::Weights => false,
         }
     }
+}
+
+/// Reads a file of another program as a tool and as a scene; what comes of it is used like any other.
+fn foreign(text: &str, file: &str) -> bool {
+    let wanted = Wanted::default();
+    let spoken = |faults: Faults| {
+        assert!(!faults.0.is_empty(), "refused without a fault");
+        assert!(faults.0.iter().all(|fault| !fault.message.trim().is_empty()));
+    };
+    let model = match parse(text, file) {
+        Ok((model, ..)) => model,
+        Err(faults) => {
+            explained(&faults, text);
+            return false;
+        }
+    };
+    let tool = tool(&model, file, &wanted).map(|made| survive::tool(made.value)).map_err(spoken);
+    let scene = objects(&model, file, &wanted).map(|made| survive::task(made.value.task));
+    tool.is_ok() | scene.map_err(spoken).is_ok()
 }
 
 /// Weights from `input`, with a checksum that fits: damage must not hide behind it.

@@ -57,6 +57,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `cli` | the command `pushplan` |
+//! | `formats` | MJCF and URDF in, MCAP and NPZ out |
 //! | `train` | training of the networks, on candle, whose crates double the time of the first build |
 //! | `mimalloc` | a faster allocator for the command, written in C |
 //!
@@ -96,6 +97,9 @@ pub mod fit;
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;
+#[cfg(feature = "formats")]
+#[doc(hidden)]
+pub mod import;
 #[doc(hidden)]
 pub mod judge;
 #[doc(hidden)]

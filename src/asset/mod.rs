@@ -42,7 +42,6 @@ pub use schema::{
     recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
 };
 pub use task::load_task;
+pub use text::{named_after, read_text};
 pub use world::load_world;
 pub use write::write_atomic;
-
-use text::read_text;

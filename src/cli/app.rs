@@ -6,6 +6,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "formats")]
+use super::import;
 #[cfg(not(feature = "train"))]
 use super::untrained;
 use super::{
@@ -37,6 +39,8 @@ enum Command {
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
     Export(export::ExportArgs),
+    #[cfg(feature = "formats")]
+    Import(import::ImportArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
     #[cfg(feature = "train")]
@@ -88,6 +92,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
+        #[cfg(feature = "formats")]
+        Command::Import(args) => import::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
         #[cfg(feature = "train")]

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
+#[cfg(feature = "formats")]
+use crate::dataset::generate_npz;
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, Solids, generate,
     generate_levers,
@@ -36,7 +38,12 @@ Examples:
   pushplan generate data/train --preset mixed --episodes 20000 --seed 1
   pushplan generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
       --objects 9 --joints mixed --solids cylinders --speed 0.21
-  pushplan generate data/levers --preset levers --episodes 1600 --seed 1"
+  pushplan generate data/levers --preset levers --episodes 1600 --seed 1
+  pushplan generate data/arrays --episodes 2000 --format npz
+
+npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
+statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
+of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, seconds, radians."
 )]
 pub struct GenerateArgs {
     /// Folder for the data
@@ -60,12 +67,24 @@ pub struct GenerateArgs {
     /// Solids of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
     solids: Option<Solids>,
+    /// Files for whom
+    #[arg(long, value_enum, default_value_t = Format::Records)]
+    format: Format,
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
     /// Make only part I of N, in a folder of its own
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Our own training
+    Records,
+    /// NumPy: arrays of 128 episodes a file, and their statistics
+    #[cfg(feature = "formats")]
+    Npz,
 }
 
 impl GenerateArgs {
@@ -91,7 +110,21 @@ impl GenerateArgs {
         match self.preset {
             Data::Pushes(preset) => {
                 let config = DatasetConfig { seed, episodes, preset, constraints };
-                generate(&config, shard, &self.folder, following)
+                match self.format {
+                    Format::Records => generate(&config, shard, &self.folder, following),
+                    #[cfg(feature = "formats")]
+                    Format::Npz if shard != Shard::WHOLE => {
+                        Err(DatasetError::Constraint("npz files cannot be sharded".to_owned()))
+                    }
+                    #[cfg(feature = "formats")]
+                    Format::Npz => {
+                        let bytes = generate_npz(&config, &self.folder, following)?;
+                        Ok((episodes as usize, bytes))
+                    }
+                }
+            }
+            Data::Levers(_) if self.format != Format::Records => {
+                Err(DatasetError::Constraint("only pushes can be written as npz".to_owned()))
             }
             Data::Levers(_) if constraints != Constraints::default() => {
                 let why = "objects, joints, solids and speed can be fixed for crowds only";

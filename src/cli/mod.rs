@@ -15,6 +15,8 @@ mod fit;
 mod follow;
 mod form;
 mod generate;
+#[cfg(feature = "formats")]
+mod import;
 mod infer;
 mod interrupt;
 mod lever;

@@ -25,6 +25,8 @@ mod lesson;
 mod lessons;
 mod lever;
 mod novelty;
+#[cfg(feature = "formats")]
+mod npz;
 mod observed;
 mod obstacle;
 mod preset;
@@ -50,6 +52,8 @@ pub use lever::{
     LeverPreset, generate_levers, lever_job,
 };
 pub use novelty::is_shipped;
+#[cfg(feature = "formats")]
+pub use npz::{A_FILE, FORMAT as NPZ_FORMAT, generate_npz};
 pub use observed::Seeing;
 pub use preset::Preset;
 pub use set::Dataset;
