@@ -114,7 +114,8 @@ impl<'a> Statics<'a> {
             ledger.fault(solid.place, message, "make the table one box, or a plane");
             return None;
         }
-        for draft in drafts.iter().filter(|draft| !upright.covers(draft.object.pose.position)) {
+        let off = |draft: &&Draft<'_>| !upright.covers(draft.object.pose.position);
+        if let Some(draft) = drafts.iter().find(off) {
             let message = format!("`{}` does not stand on the table", draft.object.name);
             ledger.fault(draft.place, message, "set it down on the box that the others stand on");
             return None;
