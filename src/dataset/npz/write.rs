@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::asset::write_atomic;
 use crate::dataset::config::DatasetConfig;
 use crate::dataset::error::DatasetError;
-use crate::dataset::set::draw_range;
+use crate::dataset::set::draw;
 use crate::store::{Form, Journal, StoreError, digest};
 use crate::watch::{Count, Watch};
 
@@ -62,7 +62,8 @@ pub fn generate_npz(
     for index in journal.done()..files {
         let first = index as u64 * A_FILE;
         let range = first..(first + A_FILE).min(config.episodes);
-        let drawn = draw_range(config, range.clone(), &count, watch);
+        let indices: Vec<u64> = range.clone().collect();
+        let drawn = draw(config, &indices, &count, watch);
         let Some(episodes) = drawn.into_iter().collect::<Option<Vec<_>>>() else {
             return Err(DatasetError::Cancelled);
         };
