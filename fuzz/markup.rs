@@ -32,7 +32,7 @@ pub fn spoiled(input: &[u8], random: &mut Random) -> Vec<u8> {
         match (piece.starts_with('<'), random.below(3)) {
             (true, 0) => text.replace_range(from..to, ""),
             (true, _) => text.insert_str(from, &piece),
-            (false, _) => text.replace_range(from..to, random.pick(&VALUES)),
+            (false, _) => text.replace_range(from..to, random.pick::<&str>(&VALUES)),
         }
     }
     text.into_bytes()

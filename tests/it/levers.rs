@@ -133,36 +133,36 @@ fn faults(changes: &[(&str, &str)]) -> String {
 fn faults_of_files_say_what_and_where() {
     assert_eq!(faults(&[]), "");
     insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.001")]), @r"
-    task.yaml:5:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but only 1 mm are free below `plate`
+    task.yaml:6:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but only 1 mm are free below `plate`
       help: name a thinner tool, or mind the clearance
     ");
     insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.006, z: 0.02")]), @r"
-    task.yaml:4:117: error: nothing holds `plate` at 0.02 m
+    task.yaml:4:114: error: nothing holds `plate` at 0.02 m
       help: obstacles below it must end at `z` on both sides of its centre of mass; or let it stand on feet: leave `z` out
     ");
     insta::assert_snapshot!(faults(&[("[screwdriver]", "[stick]"), ("flipped: true", "raised: 30")]), @r"
-    task.yaml:5:9: error: `stick` has no blade, so it cannot lever
+    task.yaml:6:9: error: `stick` has no blade, so it cannot lever
       help: use `scraper` or `screwdriver`
-    task.yaml:7:31: error: expected a height in metres from 0.001 to 1, found the number 30
+    task.yaml:8:31: error: expected a height in metres from 0.001 to 1, found the number 30
       help: 2 cm is 0.02
     ");
     insta::assert_snapshot!(faults(&[("flipped: true", "position: [0.4, 0]")]), @r"
-    task.yaml:7:33: error: a position without a tolerance
+    task.yaml:8:33: error: a position without a tolerance
       help: add `tolerance`, in metres
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", ", outside: tray")]), @r"
-    task.yaml:7:32: error: no obstacle is called `tray`
+    task.yaml:8:32: error: no obstacle is called `tray`
     ");
     insta::assert_snapshot!(faults(&[(", flipped: true", "")]), @r"
-    task.yaml:7:7: error: the goal asks for nothing
+    task.yaml:8:7: error: the goal asks for nothing
       help: add `outside`, `raised`, `flipped`, or `position` with `tolerance`
     ");
-    insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r"
-    task.yaml:6:17: error: expected `auto`, a distance in metres from -0.2 to 1 or a list of 1 to 8 pivots, found the text 'front'
-      help: did you mean `auto`?
-    task.yaml:6:31: error: the smallest, 0.02, is above the largest, 0.01
+    insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r#"
+    task.yaml:7:17: error: expected `auto`, a distance in metres from -0.2 to 1 or a list of 1 to 8 pivots, found the text "front"
+      help: use `auto`
+    task.yaml:7:31: error: the smallest, 0.02, is above the largest, 0.01
       help: swap them
-    ");
+    "#);
 }
 
 #[test]
