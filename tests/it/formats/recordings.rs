@@ -34,7 +34,7 @@ fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let (states, frames) = (of("/state"), of("/tf"));
     assert_eq!((states.len(), frames.len()), (trajectory.frames.len(), trajectory.frames.len()));
     for ((frame, (at, state)), (_, tf)) in trajectory.frames.iter().zip(&states).zip(&frames) {
-        assert_eq!((*at as f64 / 1e9 - frame.time).abs() < 1e-9, true);
+        assert!((*at as f64 / 1e9 - frame.time).abs() < 1e-9);
         let pose = frame.state.poses[0];
         assert_eq!(state["objects"][0]["x"], pose.position.x);
         assert_eq!(state["objects"][0]["heading"], pose.heading);
