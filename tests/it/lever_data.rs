@@ -85,7 +85,9 @@ fn every_family_plays_without_jams_and_almost_always_comes_to_rest() {
             let warnings = &episode.trajectory.warnings;
             assert!(!warnings.contains(&LeverWarning::Jammed), "{name}: {warnings:?}");
             let held = &episode.trajectory.held;
-            assert!(held[..2].contains(&true), "{name}: not on the blade at first: {held:?}");
+            // Below what is round the blade has a way to go.
+            let soon = if preset == LeverPreset::Lying { held.len() } else { 1 };
+            assert!(held[..soon].contains(&true), "{name}: not on the blade at first: {held:?}");
             let rest = episode.trajectory.rest;
             assert!(rest.is_finite() && rest.position.z > -0.001, "{name}: {rest:?}");
             let away = rest.position - episode.scene.plates[0].start().position;
