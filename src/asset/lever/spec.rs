@@ -106,7 +106,8 @@ const PART: Value = Value::Map(&[
         "position",
         PLACE,
         "Its centre from the origin of the plate's corners, or from the centre of a cuboid, metres; \
-         a third number is the height of its underside above the plate's, by default on top of it.",
+         a third number is the height of its underside above the plate's; without one it lies on \
+         top.",
     ),
     Key::optional("yaw_deg", ANGLE, "Turn of the part on the plate, degrees; default 0."),
 ]);
@@ -117,8 +118,8 @@ const OBSTACLE: Value = Value::Map(&[
     Key::required(
         "position",
         PLACE,
-        "Centre, [x, y] in metres; a third number is the height of its underside above the table, \
-         by default 0.",
+        "Centre, [x, y] in metres; a third number is the height of its underside above the table; \
+         without one it stands there.",
     ),
     Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
     Key::optional("friction", FRICTION, "Friction value; default 0.5."),
