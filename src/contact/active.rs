@@ -224,7 +224,9 @@ mod tests {
         let mut unknowns = vec![Unknown::default(); 4];
         for unknown in &mut unknowns {
             let soft = 1.5 + noise(seed);
-            unknown.inverse = Matrix3::from_diagonal(&Vector3::new(soft, soft, 900.0 * soft));
+            let soft = Vector3::new(soft, soft, 900.0 * soft);
+            unknown.inverse = Matrix3::from_diagonal(&soft);
+            unknown.resistance = Matrix3::from_diagonal(&soft.map(f64::recip));
             unknown.free = 1e-3 * Vector3::new(noise(seed), noise(seed), 10.0 * noise(seed));
         }
         let mut rows = |turn: f64| {
@@ -252,6 +254,7 @@ mod tests {
 
     fn joints(unknowns: &[Unknown], constraints: &mut [Constraint], ties: &[Tie]) -> Eliminated {
         let mut joints = Eliminated::default();
+        joints.hang(unknowns.len(), ties);
         joints.prepare(unknowns, ties);
         constraints.iter_mut().for_each(|constraint| constraint.own = joints.own(constraint));
         joints

@@ -188,25 +188,10 @@ pub(super) struct Tie {
 }
 
 impl Tie {
-    /// The part of this tie's equations that acts on `group`.
-    pub fn side(&self, group: GroupIndex) -> Option<[Vector3<f64>; 2]> {
-        if group == self.b {
-            Some(self.to)
-        } else if group == self.a {
-            Some(self.from.map(|from| -from))
-        } else {
-            None
-        }
-    }
-
     /// Adds its forces to what presses on its groups.
     pub fn press(&self, unknowns: &mut [Unknown]) {
         unknowns[self.b.0].pressed += self.to[0] * self.force.x + self.to[1] * self.force.y;
         unknowns[self.a.0].pressed -= self.from[0] * self.force.x + self.from[1] * self.force.y;
-    }
-
-    pub fn values(&self, unknowns: &[Unknown]) -> Vector2<f64> {
-        apply(&self.to, &unknowns[self.b.0].twist) - apply(&self.from, &unknowns[self.a.0].twist)
     }
 }
 
@@ -215,6 +200,7 @@ pub(super) fn product(j: &[Vector3<f64>; 2], w: &[Vector3<f64>; 2]) -> Matrix2<f
     Matrix2::new(j[0].dot(&w[0]), j[0].dot(&w[1]), j[1].dot(&w[0]), j[1].dot(&w[1]))
 }
 
-fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
+/// J twist.
+pub(super) fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
     Vector2::new(j[0].dot(twist), j[1].dot(twist))
 }

@@ -1,20 +1,23 @@
 //! Joints eliminated: how groups that hang together answer forces at fixed weights.
 //!
-//! With the resistance A of the groups and the rows J of the joints, whatever presses, twists that
-//! keep the joints follow from
+//! Joints close no loop, so every mechanism is a tree of groups, and a group that nothing hangs from
+//! can be eliminated by what its parent feels of it (as articulated bodies are: Featherstone 1983,
+//! doi:10.1177/027836498300200102, here of first order). With the resistance A of the child, its
+//! rows C of the joint and those P of its parent,
 //!
 //! ```text
-//! M = A^-1 - A^-1 J^T (J A^-1 J^T)^-1 J A^-1
+//! A x = f + C^T force,  C x - P x_parent = target
+//! S = (C A^-1 C^T)^-1,  W = A^-1 C^T,  G = W S P
+//! x = (A^-1 - W S W^T) f + W S target + G x_parent
+//! A_parent + P^T S P  and  f_parent + G^T f - P^T S target  are the parent's then
 //! ```
 //!
-//! which has blocks between all groups of a mechanism, and none between mechanisms.
+//! from the leaves to the root, and back for the twists: as many steps as there are joints.
 
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
-
-use crate::scene::DisjointSets;
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::{
-    constraint::{Constraint, Tie, product},
+    constraint::{Constraint, Tie, apply, product},
     index::GroupIndex,
     unknown::Unknown,
 };
@@ -22,29 +25,155 @@ use super::{
 /// Memory that is reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Eliminated {
-    /// (J A^-1 J^T)^-1 of all ties.
-    tied: DMatrix<f64>,
-    asked: DVector<f64>,
-    /// Which groups hang together by ties: the number of the mechanism of each.
+    /// The ties, each with the groups that it joins, from the roots of all mechanisms to their
+    /// leaves.
+    limbs: Vec<Limb>,
+    /// Which groups are roots, or hang from one, as far as the tree has grown.
+    reached: Vec<bool>,
+    /// Which groups hang together by ties: the root of the mechanism of each.
     mechanism: Vec<usize>,
-    sets: DisjointSets,
-    /// The blocks of M, row by row; empty without ties.
+    /// Of every group with all that hangs from it: the resistance, and what presses.
+    resistance: Vec<Matrix3<f64>>,
+    load: Vec<Vector3<f64>>,
+    /// How the groups' twists differ from those without what presses.
+    moved: Vec<Vector3<f64>>,
+    /// The twist of every group by forces on every other, row by row; empty without ties.
     blocks: Vec<Matrix3<f64>>,
 }
 
+/// A tie, and how the group that hangs from it answers.
+#[derive(Clone, Copy, Debug)]
+struct Limb {
+    tie: usize,
+    parent: usize,
+    child: usize,
+    /// Whether the child is the tie's first group, which turns its equations' sign.
+    turned: bool,
+    /// P.
+    on_parent: [Vector3<f64>; 2],
+    /// C.
+    on_child: [Vector3<f64>; 2],
+    /// S.
+    stiffness: Matrix2<f64>,
+    /// The columns of W, and of W S.
+    answer: [Vector3<f64>; 2],
+    drawn: [Vector3<f64>; 2],
+    /// Twists by forces while the parent stays where it is.
+    held: Matrix3<f64>,
+    /// G: the child's twist by its parent's.
+    carried: Matrix3<f64>,
+    /// What is left to ask of the joint where all groups move freely, metres.
+    left: Vector2<f64>,
+}
+
+impl Limb {
+    fn new(tie: usize, [parent, child]: [usize; 2], turned: bool) -> Self {
+        let (rows, none) = ([Vector3::zeros(); 2], Matrix3::zeros());
+        Self {
+            tie,
+            parent,
+            child,
+            turned,
+            on_parent: rows,
+            on_child: rows,
+            stiffness: Matrix2::zeros(),
+            answer: rows,
+            drawn: rows,
+            held: none,
+            carried: none,
+            left: Vector2::zeros(),
+        }
+    }
+
+    /// Takes how the child answers, whose resistance with all that hangs from it has this inverse;
+    /// returns what the parent feels of that as a resistance of its own.
+    fn weigh(&mut self, tie: &Tie, inverse: &Matrix3<f64>) -> Matrix3<f64> {
+        (self.on_parent, self.on_child) =
+            if self.turned { (tie.to, tie.from) } else { (tie.from, tie.to) };
+        self.answer = self.on_child.map(|row| inverse * row);
+        let k = product(&self.on_child, &self.answer);
+        let det = k.m11 * k.m22 - k.m12 * k.m12;
+        self.stiffness = Matrix2::new(k.m22, -k.m12, -k.m12, k.m11) / det;
+        self.drawn = times(&self.answer, &self.stiffness);
+        self.held = inverse - outer(&self.drawn, &self.answer);
+        self.carried = outer(&self.drawn, &self.on_parent);
+        outer(&times(&self.on_parent, &self.stiffness), &self.on_parent)
+    }
+
+    /// Takes what is left to ask of its tie where all groups move freely.
+    fn ask(&mut self, tie: &Tie, unknowns: &[Unknown]) {
+        let target = Vector2::from(tie.target) * if self.turned { -1.0 } else { 1.0 };
+        self.left = target - apply(&self.on_child, &unknowns[self.child].free)
+            + apply(&self.on_parent, &unknowns[self.parent].free);
+    }
+}
+
 impl Eliminated {
+    /// Finds which of the groups `ties` join. One that closed a loop would be left out; nothing
+    /// makes such.
+    pub fn hang(&mut self, groups: usize, ties: &[Tie]) {
+        let Self { limbs, reached, mechanism, .. } = self;
+        limbs.clear();
+        mechanism.clear();
+        mechanism.extend(0..groups);
+        if ties.is_empty() {
+            return;
+        }
+        reached.clear();
+        reached.resize(groups, false);
+        for root in 0..groups {
+            if std::mem::replace(&mut reached[root], true) {
+                continue;
+            }
+            let mut first = limbs.len();
+            let mut parent = root;
+            loop {
+                for (index, tie) in ties.iter().enumerate() {
+                    let turned = tie.b.0 == parent;
+                    let child = if turned { tie.a.0 } else { tie.b.0 };
+                    if (turned || tie.a.0 == parent) && !reached[child] {
+                        reached[child] = true;
+                        mechanism[child] = root;
+                        limbs.push(Limb::new(index, [parent, child], turned));
+                    }
+                }
+                let Some(limb) = limbs.get(first) else { break };
+                parent = limb.child;
+                first += 1;
+            }
+        }
+    }
+
     /// Takes the present weights.
     pub fn prepare(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
-        self.sets.reset(unknowns.len());
-        for tie in ties {
-            self.sets.join([tie.a.0, tie.b.0]);
+        let Self { limbs, mechanism, resistance, blocks, .. } = self;
+        blocks.clear();
+        if limbs.is_empty() {
+            return;
         }
-        self.mechanism.clear();
-        self.mechanism.extend_from_slice(self.sets.names());
-        self.blocks.clear();
-        if !ties.is_empty() {
-            self.tie(unknowns, ties);
-            self.find_blocks(unknowns, ties);
+        resistance.clear();
+        resistance.extend(unknowns.iter().map(|unknown| unknown.resistance));
+        for limb in limbs.iter_mut().rev() {
+            let felt = limb.weigh(&ties[limb.tie], &inverse(&resistance[limb.child]));
+            resistance[limb.parent] += felt;
+        }
+        let count = unknowns.len();
+        blocks.resize(count * count, Matrix3::zeros());
+        for root in (0..count).filter(|&group| mechanism[group] == group) {
+            blocks[root * count + root] = inverse(&resistance[root]);
+        }
+        for (k, limb) in limbs.iter().enumerate() {
+            let Limb { parent, child, carried, held, .. } = limb;
+            let root = mechanism[*child];
+            // All that hang from the same root stand together, those above the child before it.
+            let above = limbs[..k].iter().rev().take_while(|other| mechanism[other.child] == root);
+            for other in above.map(|other| other.child).chain([root]) {
+                let block = carried * blocks[parent * count + other];
+                blocks[child * count + other] = block;
+                blocks[other * count + child] = block.transpose();
+            }
+            let own = held + blocks[child * count + parent] * carried.transpose();
+            blocks[child * count + child] = own;
         }
     }
 
@@ -83,8 +212,8 @@ impl Eliminated {
         &self.blocks[one.0 * self.mechanism.len() + other.0]
     }
 
-    /// J M J^T of either side of a constraint; all of it on the first side where both belong to one
-    /// mechanism.
+    /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
+    /// side where both belong to one mechanism.
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
         if self.blocks.is_empty() {
             return constraint.own;
@@ -112,83 +241,184 @@ impl Eliminated {
         constraints: &[Constraint],
         ties: &mut [Tie],
     ) {
-        let Self { tied, asked, .. } = self;
+        let Self { limbs, mechanism, load, moved, blocks, .. } = self;
         unknowns.iter_mut().for_each(|unknown| unknown.pressed = Vector3::zeros());
         constraints.iter().for_each(|constraint| constraint.press(unknowns));
-        unknowns.iter_mut().for_each(Unknown::settle);
-        if ties.is_empty() {
+        if limbs.is_empty() {
+            unknowns.iter_mut().for_each(Unknown::settle);
             return;
         }
-        if asked.len() != 2 * ties.len() {
-            *asked = DVector::zeros(2 * ties.len());
+        load.clear();
+        load.extend(unknowns.iter().map(|unknown| unknown.pressed));
+        for limb in limbs.iter_mut().rev() {
+            limb.ask(&ties[limb.tie], unknowns);
+            let felt = limb.carried.tr_mul(&load[limb.child])
+                - pull(&limb.on_parent, &(limb.stiffness * limb.left));
+            load[limb.parent] += felt;
         }
-        for (k, tie) in ties.iter().enumerate() {
-            let left = Vector2::from(tie.target) - tie.values(unknowns);
-            (asked[2 * k], asked[2 * k + 1]) = (left.x, left.y);
-        }
-        for (k, tie) in ties.iter_mut().enumerate() {
-            let force = |row: usize| tied.column(row).dot(asked);
-            tie.force = Vector2::new(force(2 * k), force(2 * k + 1));
-            tie.press(unknowns);
-        }
-        unknowns.iter_mut().for_each(Unknown::settle);
-    }
-
-    fn tie(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
-        let count = ties.len();
-        let mut whole = DMatrix::zeros(2 * count, 2 * count);
-        for (p, first) in ties.iter().enumerate() {
-            for (q, second) in ties.iter().enumerate() {
-                for group in [first.a, first.b] {
-                    let (Some(j), Some(k)) = (first.side(group), second.side(group)) else {
-                        continue;
-                    };
-                    let inverse = &unknowns[group.0].inverse;
-                    let mut place = whole.fixed_view_mut::<2, 2>(2 * p, 2 * q);
-                    place += product(&j, &k.map(|row| inverse * row));
-                }
-            }
-        }
-        for k in 0..2 * count {
-            whole[(k, k)] *= 1.0 + 1e-9;
-        }
-        // Joints form no loops, so their equations are independent and this always succeeds;
-        // were they not, going without them is what a reader would see.
-        self.tied = match whole.cholesky() {
-            Some(factor) => factor.inverse(),
-            None => DMatrix::zeros(2 * count, 2 * count),
-        };
-    }
-
-    fn find_blocks(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
-        let Self { tied, mechanism, blocks, .. } = self;
         let count = unknowns.len();
-        blocks.resize(count * count, Matrix3::zeros());
-        for (k, unknown) in unknowns.iter().enumerate() {
-            blocks[k * count + k] = unknown.inverse;
+        moved.clear();
+        moved.extend((0..count).map(|group| match mechanism[group] == group {
+            true => blocks[group * count + group] * load[group],
+            false => Vector3::zeros(),
+        }));
+        for limb in limbs.iter() {
+            let (load, above) = (&load[limb.child], moved[limb.parent]);
+            let gap = limb.left + apply(&limb.on_parent, &above) - apply(&limb.answer, load);
+            let force = limb.stiffness * gap;
+            let tie = &mut ties[limb.tie];
+            tie.force = if limb.turned { -force } else { force };
+            tie.press(unknowns);
+            moved[limb.child] =
+                limb.held * load + pull(&limb.drawn, &limb.left) + limb.carried * above;
         }
-        // What every tie does to its two groups.
-        let moved = ties.iter().map(|tie| {
-            [tie.a, tie.b].map(|group| {
-                let side = tie.side(group).unwrap_or_default();
-                (group.0, side.map(|row| unknowns[group.0].inverse * row))
-            })
+        for (unknown, moved) in unknowns.iter_mut().zip(moved) {
+            unknown.twist = unknown.free + *moved;
+        }
+    }
+}
+
+/// The inverse of a resistance to shifts and turns.
+fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
+    let det = weight.m11 * weight.m22 - weight.m12 * weight.m12;
+    let shifts = Matrix2::new(weight.m22, -weight.m12, -weight.m12, weight.m11) / det;
+    let coupled = Vector2::new(weight.m13, weight.m23);
+    // Turning about the point that turning alone leaves in place.
+    let about = -shifts * coupled;
+    let turn = 1.0 / (weight.m33 + coupled.dot(&about));
+    let shifts = shifts + about * about.transpose() * turn;
+    let about = about * turn;
+    Matrix3::new(
+        shifts.m11, shifts.m12, about.x, shifts.m21, shifts.m22, about.y, about.x, about.y, turn,
+    )
+}
+
+/// J^T force.
+fn pull(j: &[Vector3<f64>; 2], force: &Vector2<f64>) -> Vector3<f64> {
+    j[0] * force.x + j[1] * force.y
+}
+
+/// The columns of J^T S.
+fn times(j: &[Vector3<f64>; 2], s: &Matrix2<f64>) -> [Vector3<f64>; 2] {
+    [pull(j, &s.column(0).into_owned()), pull(j, &s.column(1).into_owned())]
+}
+
+/// The sum of u v^T over two columns of each.
+fn outer(u: &[Vector3<f64>; 2], v: &[Vector3<f64>; 2]) -> Matrix3<f64> {
+    u[0] * v[0].transpose() + u[1] * v[1].transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    use nalgebra::{DMatrix, DVector};
+
+    use crate::geometry::{Vector, perpendicular};
+
+    use super::super::twist::along;
+
+    /// Numbers from -1 to 1 that look random.
+    fn noise(seed: &mut u64) -> f64 {
+        *seed =
+            seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Seven groups: a tree of five, in no order, one by itself, and one more.
+    fn forest(seed: &mut u64) -> (Vec<Unknown>, Vec<Tie>) {
+        let unknowns = (0..7).map(|_| {
+            let root = Matrix3::from_fn(|_, _| noise(seed));
+            let size = Vector3::new(100.0, 100.0, 3.0);
+            let resistance =
+                Matrix3::from_diagonal(&size) * (root * root.transpose() + Matrix3::identity());
+            let resistance = resistance * Matrix3::from_diagonal(&size);
+            let mut unknown = Unknown::default();
+            unknown.inverse = resistance.try_inverse().expect("positive definite");
+            unknown.resistance = resistance;
+            unknown.free = 1e-3 * Vector3::new(noise(seed), noise(seed), 20.0 * noise(seed));
+            unknown
         });
-        let moved: Vec<[(usize, [Vector3<f64>; 2]); 2]> = moved.collect();
-        for (k, first) in moved.iter().enumerate() {
-            for (l, second) in moved.iter().enumerate() {
-                if mechanism[first[0].0] != mechanism[second[0].0] {
-                    continue;
-                }
-                let between = tied.fixed_view::<2, 2>(2 * k, 2 * l);
-                for (g, [u0, u1]) in first {
-                    for (h, [v0, v1]) in second {
-                        let w0 = v0 * between[(0, 0)] + v1 * between[(0, 1)];
-                        let w1 = v0 * between[(1, 0)] + v1 * between[(1, 1)];
-                        blocks[g * count + h] -= u0 * w0.transpose() + u1 * w1.transpose();
+        let unknowns = unknowns.collect();
+        let pairs = [[4, 2], [6, 4], [2, 0], [2, 5]];
+        let ties = pairs.map(|[a, b]| {
+            let mut rows = || {
+                let (sin, cos) = (2.0 * noise(seed)).sin_cos();
+                let (normal, arm) =
+                    (Vector::new(cos, sin), 0.03 * Vector::new(noise(seed), noise(seed)));
+                [normal, perpendicular(normal)].map(|direction| along(direction, arm))
+            };
+            let (to, from) = (rows(), rows());
+            let target = [1e-3 * noise(seed), 1e-3 * noise(seed)];
+            let [a, b] = [a, b].map(GroupIndex);
+            Tie { a, b, to, from, target, force: Vector2::zeros() }
+        });
+        (unknowns, ties.to_vec())
+    }
+
+    /// Against all equations at once: [A J^T; J 0].
+    #[test]
+    fn the_tree_answers_as_all_equations_at_once_do() {
+        for seed in 1..20 {
+            let seed = &mut (seed * 7919);
+            let (mut unknowns, mut ties) = forest(seed);
+            let groups = unknowns.len();
+            let (wide, all) = (3 * groups, 3 * groups + 2 * ties.len());
+            let mut whole = DMatrix::zeros(all, all);
+            let mut asked = DVector::zeros(all);
+            for (k, unknown) in unknowns.iter().enumerate() {
+                whole.fixed_view_mut::<3, 3>(3 * k, 3 * k).copy_from(&unknown.resistance);
+                let pull = unknown.resistance * unknown.free;
+                asked.fixed_rows_mut::<3>(3 * k).copy_from(&pull);
+            }
+            for (n, tie) in ties.iter().enumerate() {
+                for (row, (to, from)) in tie.to.iter().zip(&tie.from).enumerate() {
+                    let line = wide + 2 * n + row;
+                    for (group, side) in [(tie.b, *to), (tie.a, -from)] {
+                        for axis in 0..3 {
+                            whole[(line, 3 * group.0 + axis)] = side[axis];
+                            whole[(3 * group.0 + axis, line)] = -side[axis];
+                        }
                     }
+                    asked[line] = tie.target[row];
                 }
             }
+            let inverse = whole.clone().try_inverse().expect("independent");
+            let mut joints = Eliminated::default();
+            joints.hang(groups, &ties);
+            joints.prepare(&unknowns, &ties);
+            joints.spread(&mut unknowns, &[], &mut ties);
+            let answer = &inverse * asked;
+            for (k, unknown) in unknowns.iter().enumerate() {
+                let off = unknown.twist - answer.fixed_rows::<3>(3 * k);
+                assert!(off.amax() < 1e-12, "{k}: {off}");
+                let settled = unknown.free + unknown.inverse * unknown.pressed;
+                assert!((settled - unknown.twist).amax() < 1e-12);
+            }
+            for (n, tie) in ties.iter().enumerate() {
+                let off = tie.force - answer.fixed_rows::<2>(wide + 2 * n);
+                assert!(off.amax() < 1e-9 * tie.force.amax().max(1.0), "{n}: {off}");
+            }
+            for (one, other) in (0..groups * groups).map(|k| (k / groups, k % groups)) {
+                let mut felt = vec![Vector3::zeros(); groups];
+                let value = Vector3::new(1.0, -2.0, 0.03);
+                joints.feel((GroupIndex(one), &value), &unknowns, &mut felt);
+                let block = inverse.fixed_view::<3, 3>(3 * one, 3 * other);
+                let off = felt[other] - block.tr_mul(&value);
+                assert!(off.amax() < 1e-9 * block.amax().max(1e-6), "{one} {other}: {off}");
+            }
         }
+    }
+
+    #[test]
+    fn what_closes_a_loop_is_left_out() {
+        let (unknowns, mut ties) = forest(&mut 5);
+        let mut last = ties[0];
+        (last.a, last.b) = (GroupIndex(0), GroupIndex(6));
+        ties.push(last);
+        let mut joints = Eliminated::default();
+        joints.hang(unknowns.len(), &ties);
+        assert_eq!(joints.limbs.len(), 4);
+        assert_eq!(joints.mechanism, [0, 1, 0, 3, 0, 0, 0]);
     }
 }

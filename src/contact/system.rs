@@ -127,6 +127,7 @@ impl System {
     ) {
         self.tally.systems += 1;
         self.tally.constraints += self.constraints.len() as u64;
+        self.joints.hang(self.unknowns.len(), &self.ties);
         for update in 0..UPDATES {
             if update > 0 {
                 self.weigh(bodies, state, duration);

@@ -76,6 +76,8 @@ pub(super) struct Unknown {
     pub centre: Vector,
     /// Where the own x axis of every member points then, unit vectors.
     axes: Vec<Vector>,
+    /// Force and torque per displacement.
+    pub resistance: Matrix3<f64>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
     /// What pulls it without contacts and joints, force and torque.
@@ -210,6 +212,7 @@ impl Unknown {
             rub.second += turn;
             weight += rub.about(arm);
         }
+        self.resistance = weight;
         self.inverse = inverse(&weight);
         self.free = self.inverse * self.pull;
     }
