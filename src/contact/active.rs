@@ -21,7 +21,7 @@ use super::{
 const TOGETHER: usize = 6;
 
 /// Most rounds.
-const ROUNDS: usize = 24;
+const ROUNDS: usize = 12;
 
 /// Most equations at once: what many objects that jam would need is cheaper by iteration.
 const MOST: usize = 64;

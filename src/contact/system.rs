@@ -34,6 +34,13 @@ const UPDATES: usize = 8;
 /// A change by an update below this is the last, metres.
 const SETTLED: f64 = 1e-5;
 
+/// The same for displacements of more than [`FEW`] groups, of which a seventh of the time is saved
+/// so: no mean error of 320 sparse and dense trajectories of nine objects changes by more than
+/// chance. With few objects it would be 3 % larger, and velocities are what errors grow from: with
+/// 5e-5 for them, too, it is a quarter larger.
+const SETTLED_IN_A_CROWD: f64 = 5e-5;
+const FEW: usize = 3;
+
 /// Unknowns and rows of one frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
@@ -56,9 +63,11 @@ pub(super) struct System {
 
 impl System {
     /// The groups of `bodies`, without contacts and joints yet. They begin as they ended the last
-    /// time if the equations are those of a frame that `follows` it, else coasting; `reach` is
-    /// how far they are then first assumed to move (metres). All that only decides where the
-    /// iteration begins.
+    /// time if the equations are those of a frame that `follows` it, else as they move already, and
+    /// what rests coasts; `reach` is how far that is first assumed to move (metres). All that only
+    /// decides where the iteration begins. One group alone begins at rest, as its load then has time
+    /// to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and 0.69 mm
+    /// otherwise, and of several objects it is not larger.
     pub fn begin(
         &mut self,
         bodies: &Bodies,
@@ -75,14 +84,16 @@ impl System {
         self.unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
         let of = (self.quantity, duration);
         let Self { unknowns, tally, .. } = self;
+        let several = unknowns.len() > 1;
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
             unknown.place(members, state);
-            if !follows {
-                unknown.forget();
-            }
             unknown.pull((bodies, members), state, of, coasts);
-            unknown.weigh((bodies, members), state, of, (!follows).then_some(reach), tally);
-            if !follows {
+            let goes_on = follows || {
+                unknown.forget();
+                several && unknown.carry_on(members[0], state, duration)
+            };
+            unknown.weigh((bodies, members), state, of, (!goes_on).then_some(reach), tally);
+            if !goes_on {
                 unknown.twist = unknown.free;
             }
         }
@@ -105,6 +116,7 @@ impl System {
         coasts: &[Motion],
         duration: f64,
     ) {
+        self.follows = true;
         self.unknowns.clone_from(&other.unknowns);
         self.constraints.clear();
         self.constraints.extend(other.constraints.iter().filter(|c| c.presses() || c.is_limit()));
@@ -128,6 +140,10 @@ impl System {
         self.tally.systems += 1;
         self.tally.constraints += self.constraints.len() as u64;
         self.joints.hang(self.unknowns.len(), &self.ties);
+        let settled = match self.quantity {
+            Quantity::Displacement if self.unknowns.len() > FEW => SETTLED_IN_A_CROWD,
+            _ => SETTLED,
+        };
         for update in 0..UPDATES {
             if update > 0 {
                 self.weigh(bodies, state, duration);
@@ -138,7 +154,7 @@ impl System {
             self.settle();
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
-                change.xy().norm().max(change.z.abs() * JOINT_ARM) > SETTLED
+                change.xy().norm().max(change.z.abs() * JOINT_ARM) > settled
             });
             if !changed && (update > 0 || self.follows) {
                 return;

@@ -19,7 +19,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    geometry::{Turn, Vector},
+    geometry::{Turn, Vector, perpendicular},
     scene::{Drag, State},
 };
 
@@ -129,6 +129,16 @@ impl Unknown {
     pub fn forget(&mut self) {
         self.pressed = Vector3::zeros();
         self.pressing = Vector::zeros();
+    }
+
+    /// Goes on as its `member` moves; returns whether that does.
+    pub fn carry_on(&mut self, member: usize, state: &State, duration: f64) -> bool {
+        let velocity = &state.velocities[member];
+        let turn = duration * velocity.angular;
+        let arm = state.poses[member].position - self.centre;
+        let moved = duration * velocity.linear - turn * perpendicular(arm);
+        self.twist = Vector3::new(moved.x, moved.y, turn);
+        self.twist != Vector3::zeros()
     }
 
     /// Moves as what presses makes it.
