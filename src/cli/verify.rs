@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::AnyPlanFile;
-use crate::report::{quoted, replay_warnings, verdict_document};
+use crate::report::{Recipe, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
@@ -85,8 +85,8 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     }
     let mut document = verdict_document(&file, &verdict);
     let written = args.out.as_deref().map(|out| {
-        let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
-        page::write(out, session, &file, &verdict, &command)
+        let recipe = Recipe::of_plan_file(&args.plan.display().to_string());
+        page::write(out, session, &file, &verdict, recipe)
     });
     if let Some(Ok(path)) = &written {
         document.wrote(std::slice::from_ref(path));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::report::{predict_command, solution_page};
+use pushplan::report::{Origin, solution_page};
 use pushplan::scene::{Engine, Situation, Trajectory};
 use pushplan::solve::RankedPlan;
 use pushplan::{
@@ -301,11 +301,12 @@ fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> Pa
     let situation = Situation::stated(&task.scene);
     let best = solution.best().expect("a plan");
     let replays = best.replays(task, &situation);
-    let command = |ranked: &RankedPlan| {
-        let options = ["--model".to_owned(), ranked.predicted.by.to_string()];
-        predict_command(&format!("tasks/{name}.yaml"), &options, &ranked.plan)
+    let recipe = |ranked: &RankedPlan| {
+        let model = Some(ranked.predicted.by.clone());
+        let task = format!("tasks/{name}.yaml");
+        Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };
-    let page = solution_page(task, solution, &replays, &command);
+    let page = solution_page(task, solution, &replays, &recipe);
     assert!(page.len() <= LARGEST, "{name}: {} bytes", page.len());
     let path = folder.path().join(format!("{name}.html"));
     std::fs::write(&path, page).expect("a file");

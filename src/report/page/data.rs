@@ -134,6 +134,8 @@ pub struct Plan {
     pub ends: Vec<End>,
     /// The command that makes these replays again.
     pub command: String,
+    /// The script that does; empty where none can.
+    pub python: String,
     /// As in its file.
     pub file: Json,
 }

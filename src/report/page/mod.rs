@@ -5,14 +5,14 @@
 //! beside it; the other files fill the data from what there is to show.
 
 mod candidates;
-mod command;
 mod data;
 mod html;
+mod recipe;
 mod replay;
 mod replayed;
 mod solution;
 mod stage;
 
-pub use command::{predict_command, quoted};
+pub use recipe::{Origin, Recipe};
 pub use replayed::{prediction_page, verdict_page};
 pub use solution::solution_page;

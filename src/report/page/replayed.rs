@@ -12,19 +12,20 @@ use crate::scene::{Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
 use super::data::{self, Data, File, Layer, Standing, Stroke, pose};
 use super::replay::{ends, layer_of, replay, replays};
+use super::recipe::Recipe;
 use super::{html, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
-/// asked; `command` makes the replays again.
+/// asked; `recipe` makes the replays again.
 pub fn verdict_page(
     file: &PlanFile,
     predicted: Option<&Trajectory>,
     verdict: &Verdict,
-    command: &str,
+    recipe: Recipe,
 ) -> String {
     let task = &file.task;
     let mut making = Making::of(task, plan_line(&file.plan));
-    let plan = making.plan(&file.tool, &file.plan, command.to_owned());
+    let plan = making.plan(&file.tool, &file.plan, recipe);
     plan.standing = standing(verdict);
     plan.verdict = verdict_line(task, Some(verdict));
     plan.replays.extend(predicted.and_then(|trajectory| {
@@ -36,16 +37,16 @@ pub fn verdict_page(
     html::page(&making.data)
 }
 
-/// The page of pushes as several models see them, each frame by frame; `command` makes it again.
+/// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
 pub fn prediction_page(
     task: &Task,
     tool: &Arc<Tool>,
     plan: &Plan,
     trajectories: &[Trajectory],
-    command: &str,
+    recipe: Recipe,
 ) -> String {
     let mut making = Making::of(task, plan_line(plan));
-    let page = making.plan(tool, plan, command.to_owned());
+    let page = making.plan(tool, plan, recipe);
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
         let outcome = Outcome::judge(&task.goal, trajectory);
@@ -100,7 +101,7 @@ impl<'a> Making<'a> {
     }
 
     /// Adds a plan, whose replays and verdict are to be filled in.
-    pub fn plan(&mut self, tool: &Arc<Tool>, plan: &Plan, command: String) -> &mut data::Plan {
+    pub fn plan(&mut self, tool: &Arc<Tool>, plan: &Plan, recipe: Recipe) -> &mut data::Plan {
         let file = PlanFile {
             task: self.task.clone(),
             tool: Arc::clone(tool),
@@ -126,7 +127,8 @@ impl<'a> Making<'a> {
             strokes: strokes(&plan.motion(tool)),
             replays: Vec::new(),
             ends: Vec::new(),
-            command,
+            command: recipe.command,
+            python: recipe.python,
             file: part("plan"),
         });
         let last = self.data.plans.len() - 1;

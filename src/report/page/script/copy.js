@@ -1,4 +1,4 @@
-// What can be taken along: a command, a plan file, a link.
+// What can be taken along: a command, a script, a plan file, a link.
 
 (() => {
   const file = () => {
@@ -13,6 +13,8 @@
 
   whenPlanChanges.push(() => {
     byId('command').textContent = plan().command;
+    byId('python').textContent = plan().python;
+    byId('python-details').hidden = !plan().python;
     byId('file').textContent = file();
   });
   whenTimeChanges.push(() => {
