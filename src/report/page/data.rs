@@ -47,6 +47,8 @@ pub struct Data {
     /// The tools that were offered, the chosen one first.
     pub choice: Vec<Choice>,
     pub candidates: Option<Candidates>,
+    /// Of a run: its pushes, and what was believed meanwhile.
+    pub run: Option<Run>,
     /// What lowers the trust in all this, a line each.
     pub warnings: Vec<String>,
     pub file: File,
@@ -115,6 +117,10 @@ pub enum Standing {
     Failed,
     /// Not replayed, or nobody asked.
     Open,
+    /// Of a run: reached as far as can be seen.
+    Reached,
+    /// Of a run: given up.
+    GivenUp,
 }
 
 #[derive(Serialize)]
@@ -142,6 +148,8 @@ pub struct Plan {
 
 #[derive(Serialize)]
 pub struct Stroke {
+    /// Index of the tool.
+    pub tool: usize,
     /// Pose of the tool frame at the start and at the end.
     pub from: [i64; 3],
     pub to: [i64; 3],
@@ -156,6 +164,10 @@ pub enum Layer {
     Predicted,
     Planar,
     Spatial,
+    /// What was seen of a world.
+    Seen,
+    /// What really happened in a simulated one.
+    Real,
 }
 
 /// A trajectory, column by column. A column holds its first value and then differences; one that
@@ -234,6 +246,49 @@ impl Grid {
     pub const BLOCKED: i64 = -2;
     /// Of a cell that cannot be made for the first reason; those of the others follow downwards.
     pub const REFUSED: i64 = -10;
+}
+
+/// The pushes of a run, and what was believed meanwhile.
+#[derive(Serialize)]
+pub struct Run {
+    /// Names of the columns of [`Made::cells`].
+    pub columns: Vec<String>,
+    pub made: Vec<Made>,
+    /// When what is believed changes: at the start, and whenever a push is over.
+    pub times: Vec<i64>,
+    /// Names of the types of joints.
+    pub types: Vec<String>,
+    pub joints: Vec<Joined>,
+    pub numbers: Vec<Believed>,
+}
+
+/// What was pushed in one go.
+#[derive(Serialize)]
+pub struct Made {
+    /// When it begins.
+    pub at: i64,
+    pub cells: Vec<String>,
+}
+
+/// What is believed of how two objects hang together.
+#[derive(Serialize)]
+pub struct Joined {
+    pub name: String,
+    /// At each of [`Run::times`] the probabilities of the types, in thousandths.
+    pub shares: Vec<[i64; 4]>,
+    /// Index of the type that it really is, where that is known.
+    pub really: Option<usize>,
+}
+
+/// What is believed of a number.
+#[derive(Serialize)]
+pub struct Believed {
+    pub name: String,
+    pub unit: &'static str,
+    /// At each of [`Run::times`] mean and standard deviation, in thousandths.
+    pub values: Vec<[i64; 2]>,
+    /// What it really is, where that is known.
+    pub really: Option<i64>,
 }
 
 /// What plan files on the page share.

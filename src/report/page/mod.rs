@@ -4,15 +4,18 @@
 //! `data` says what goes into the file, `html` puts it together with the script and the style
 //! beside it; the other files fill the data from what there is to show.
 
+mod believed;
 mod candidates;
 mod data;
 mod html;
 mod recipe;
 mod replay;
 mod replayed;
+mod run;
 mod solution;
 mod stage;
 
-pub use recipe::{Origin, Recipe};
+pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};
+pub use run::run_page;
 pub use solution::solution_page;

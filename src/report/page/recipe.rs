@@ -15,6 +15,17 @@ pub struct Origin {
     pub model: Option<ModelSpec>,
 }
 
+/// A setting of a run.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The option of the command.
+    pub option: &'static str,
+    /// The keyword in Python, if there is one.
+    pub keyword: Option<&'static str>,
+    /// What it is set to.
+    pub value: String,
+}
+
 /// How the replays are made again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recipe {
@@ -32,6 +43,41 @@ impl Origin {
         Recipe { command: self.command(plan), python: self.script(plan) }
     }
 
+    /// Of a run in a world, which is a file or a number; `settings` are those that were not as
+    /// usual.
+    pub fn run(&self, world: &str, settings: &[Setting]) -> Recipe {
+        let mut words = ["pushplan", "run", &quoted(&self.task)].map(str::to_owned).to_vec();
+        words.extend(["--world".to_owned(), quoted(world)]);
+        words.extend(self.options());
+        for setting in settings {
+            words.extend([setting.option.to_owned(), quoted(&setting.value)]);
+        }
+        // Python takes a world of its own or a number.
+        let (mut lines, tools) = self.loads();
+        let mut given = vec!["task".to_owned(), world.to_owned()];
+        given.extend(tools.map(str::to_owned));
+        given.extend(
+            self.model.as_ref().map(|model| format!("model={}", literal(&model.to_string()))),
+        );
+        let keywords = settings.iter().map(|setting| {
+            let value = match setting.value.parse::<f64>() {
+                Ok(_) => setting.value.clone(),
+                Err(_) => literal(&setting.value),
+            };
+            Some(format!("{}={value}", setting.keyword?))
+        });
+        let keywords: Option<Vec<String>> = keywords.collect();
+        let python = match (world.parse::<u64>(), keywords) {
+            (Ok(_), Some(keywords)) => {
+                given.extend(keywords);
+                lines.push(format!("print(pushplan.run({}))", given.join(", ")));
+                lines.join("\n")
+            }
+            _ => String::new(),
+        };
+        Recipe { command: words.join(" "), python }
+    }
+
     fn command(&self, plan: &Plan) -> String {
         let verb = if plan.pushes.is_empty() { "solve" } else { "predict" };
         let mut words = vec!["pushplan".to_owned(), verb.to_owned(), quoted(&self.task)];
@@ -45,8 +91,7 @@ impl Origin {
                 true => String::new(),
                 false => format!("start={},{} ", push.start.x, push.start.y),
             };
-            let (direction, length, speed) =
-                (push.direction.to_degrees(), push.length, push.speed);
+            let (direction, length, speed) = (push.direction.to_degrees(), push.length, push.speed);
             let push = format!("{start}direction_deg={direction} length={length} speed={speed}");
             words.extend(["--push".to_owned(), quoted(&push)]);
         }
@@ -55,11 +100,8 @@ impl Origin {
 
     fn options(&self) -> Vec<String> {
         let model = self.model.as_ref().map(ToString::to_string);
-        let given = [
-            ("--model", &model),
-            ("--tools", &self.tools),
-            ("--more-tools", &self.more_tools),
-        ];
+        let given =
+            [("--model", &model), ("--tools", &self.tools), ("--more-tools", &self.more_tools)];
         let given = given.into_iter().filter_map(|(name, value)| Some((name, value.as_ref()?)));
         given.flat_map(|(name, value)| [name.to_owned(), quoted(value)]).collect()
     }
@@ -75,7 +117,9 @@ impl Origin {
         }
         lines.push("pushes = [".to_owned());
         let pushes = plan.pushes.iter().enumerate();
-        lines.extend(pushes.map(|(k, push)| format!("    {},", python_push(push, goes_on(plan, k)))));
+        lines.extend(
+            pushes.map(|(k, push)| format!("    {},", python_push(push, goes_on(plan, k)))),
+        );
         lines.push("]".to_owned());
         lines.push(format!(
             "plan = pushplan.Plan.of(task, {}, pushes, grip_yaw={}{})",
@@ -183,6 +227,22 @@ mod tests {
         let nothing = Plan { pushes: Vec::new(), ..plan() };
         let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
         assert_eq!(origin.plan(&nothing).command, "pushplan solve a.yaml");
+    }
+
+    #[test]
+    fn a_run_becomes_a_script_where_python_can_do_the_same() {
+        let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
+        let setting = |option, keyword, value: &str| {
+            let value = value.to_owned();
+            Setting { option, keyword, value }
+        };
+        let usual =
+            [setting("--effort", Some("effort"), "standard"), setting("--seed", Some("seed"), "3")];
+        let Recipe { command, python } = origin.run("2", &usual);
+        assert_eq!(command, "pushplan run a.yaml --world 2 --effort standard --seed 3");
+        assert!(python.ends_with("print(pushplan.run(task, 2, effort=\"standard\", seed=3))"));
+        assert_eq!(origin.run("hidden.yaml", &usual).python, "");
+        assert_eq!(origin.run("2", &[setting("--rule", None, "random")]).python, "");
     }
 
     #[test]

@@ -7,8 +7,13 @@ use super::data::{End, Layer, Replay, fine, length, point};
 
 /// The trajectory of `by`, judged as `reached` or not; nothing without a finite frame.
 pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {
+    replay_of(layer, trajectory.by.to_string(), &trajectory.frames, reached)
+}
+
+/// The same of frames that `by` stands for.
+pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> Option<Replay> {
     let sound = |frame: &&Frame| frame.state.is_finite() && frame.tool.is_finite();
-    let frames: Vec<&Frame> = trajectory.frames.iter().filter(sound).collect();
+    let frames: Vec<&Frame> = frames.iter().filter(sound).collect();
     let objects = frames.first()?.state.poses.len();
     let mut strokes = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
@@ -26,7 +31,7 @@ pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Re
     };
     Some(Replay {
         layer,
-        by: trajectory.by.to_string(),
+        by,
         reached,
         time: differences(frames.iter().map(|frame| fine(frame.time))),
         strokes,

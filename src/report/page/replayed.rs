@@ -11,8 +11,8 @@ use crate::report::verdict::{replay_warnings, verdict_line};
 use crate::scene::{Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
 use super::data::{self, Data, File, Layer, Standing, Stroke, pose};
-use super::replay::{ends, layer_of, replay, replays};
 use super::recipe::Recipe;
+use super::replay::{ends, layer_of, replay, replays};
 use super::{html, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
@@ -94,10 +94,20 @@ impl<'a> Making<'a> {
             columns: Vec::new(),
             choice: Vec::new(),
             candidates: None,
+            run: None,
             warnings: Vec::new(),
             file: File { schema_version: SCHEMA_VERSION, task: Json::Null },
         };
         Self { task, data }
+    }
+
+    /// Index of a tool, whose file this is; it is added if it is new.
+    pub fn tool(&mut self, tool: &Tool, file: Json) -> usize {
+        let known = self.data.tools.iter().position(|known| known.name == tool.name);
+        known.unwrap_or_else(|| {
+            self.data.tools.push(stage::tool(tool, file));
+            self.data.tools.len() - 1
+        })
     }
 
     /// Adds a plan, whose replays and verdict are to be filled in.
@@ -113,18 +123,14 @@ impl<'a> Making<'a> {
         let mut file = serde_json::to_value(&file).unwrap_or_default();
         let mut part = |key: &str| file.get_mut(key).map_or(Json::Null, Json::take);
         self.data.file.task = part("task");
-        let known = self.data.tools.iter().position(|known| known.name == tool.name);
-        let index = known.unwrap_or_else(|| {
-            self.data.tools.push(stage::tool(tool, part("tool")));
-            self.data.tools.len() - 1
-        });
+        let index = self.tool(tool, part("tool"));
         self.data.plans.push(data::Plan {
             tool: index,
             name: plan_line(plan),
             standing: Standing::Open,
             verdict: String::new(),
             cells: Vec::new(),
-            strokes: strokes(&plan.motion(tool)),
+            strokes: strokes(&plan.motion(tool), index),
             replays: Vec::new(),
             ends: Vec::new(),
             command: recipe.command,
@@ -136,9 +142,11 @@ impl<'a> Making<'a> {
     }
 }
 
-fn strokes(motion: &ToolMotion) -> Vec<Stroke> {
+/// The strokes of a motion with the tool of this index.
+pub fn strokes(motion: &ToolMotion, tool: usize) -> Vec<Stroke> {
     let mut lowered = true;
     let stroke = |stroke: &crate::scene::Stroke| Stroke {
+        tool,
         from: pose(&stroke.from),
         to: pose(&stroke.to),
         lowered: std::mem::replace(&mut lowered, stroke.settle),
