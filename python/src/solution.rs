@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pushplan::report::{Origin, solution_document, solution_page};
+use pushplan::report::{Origin, PageView, solution_document, solution_page};
 use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, Task};
@@ -92,7 +92,7 @@ impl PySolution {
             let task = task_file.clone();
             Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };
-        Ok(solution_page(task, solution, &replays, &recipe))
+        Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
     }
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::report::{Origin, replay_warnings, verdict_document, verdict_page};
+use pushplan::report::{Origin, PageView, replay_warnings, verdict_document, verdict_page};
 use pushplan::scene::{Disturbance, Evidence, Warning};
 use pushplan::{Task, Verdict};
 use pyo3::prelude::*;
@@ -74,7 +74,7 @@ impl PyVerdict {
     fn page(&self) -> String {
         let task_file = format!("{}.yaml", self.file.task.name);
         let recipe = Origin { task: task_file, ..Origin::default() }.plan(&self.file.plan);
-        verdict_page(&self.file, None, &self.verdict, recipe)
+        verdict_page(&self.file, None, &self.verdict, recipe, PageView::Above)
     }
 
     fn _repr_html_(&self) -> String {

@@ -9,7 +9,7 @@ use crate::act::{
 };
 use crate::asset::{ToolLibrary, load_task, load_world};
 use crate::effect::Outside;
-use crate::report::{Recipe, Setting, run_document, run_page};
+use crate::report::{PageView, Recipe, Setting, run_document, run_page};
 use crate::scene::{ModelSpec, Task, Truth};
 use crate::solve::{Effort, Planner};
 
@@ -24,7 +24,7 @@ use super::{
     output,
     session::Session,
     solve::{share, solve_error},
-    words::{EFFORTS, PROBES, words},
+    words::{EFFORTS, PROBES, VIEWS, words},
 };
 
 /// Carry a task out in a world that is not quite known: push, look, learn, plan again
@@ -85,6 +85,9 @@ pub struct RunArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
@@ -132,7 +135,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let mut written = vec![path];
     written.extend(output::write_figures(&args.out, document.figures())?);
     let real = session.compute(|| really(&trace));
-    let page = run_page(&trace, &real, recipe(args));
+    let page = run_page(&trace, &real, recipe(args), args.page);
     let name = format!("{}.html", trace.task.name);
     written.push(output::write(&args.out, &name, page.as_bytes())?);
     document.wrote(&written);

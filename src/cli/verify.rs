@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::AnyPlanFile;
-use crate::report::{Recipe, replay_warnings, verdict_document};
+use crate::report::{PageView, Recipe, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
@@ -19,6 +19,7 @@ use super::{
     lever, output, page,
     session::Session,
     solve::{share, time_limit},
+    words::{VIEWS, words},
 };
 
 /// What takes longer is announced, seconds.
@@ -54,6 +55,9 @@ pub struct VerifyArgs {
     /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    pub page: PageView,
     #[command(flatten)]
     pub form: Form,
 }
@@ -86,7 +90,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let mut document = verdict_document(&file, &verdict);
     let written = args.out.as_deref().map(|out| {
         let recipe = Recipe::of_plan_file(&args.plan.display().to_string());
-        page::write(out, session, &file, &verdict, recipe)
+        page::write(out, session, &file, &verdict, (recipe, args.page))
     });
     if let Some(Ok(path)) = &written {
         document.wrote(std::slice::from_ref(path));

@@ -56,7 +56,9 @@ pub use lever::{
 };
 pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
-pub use page::{Origin, Recipe, Setting, prediction_page, run_page, solution_page, verdict_page};
+pub use page::{
+    Origin, PageView, Recipe, Setting, prediction_page, run_page, solution_page, verdict_page,
+};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;
 pub use poses::{PoseRow, RECORDED, poses_document};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::report::{Origin, solution_page};
+use pushplan::report::{Origin, PageView, solution_page};
 use pushplan::scene::{Engine, Situation, Trajectory};
 use pushplan::solve::RankedPlan;
 use pushplan::{
@@ -306,7 +306,7 @@ fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> Pa
         let task = format!("tasks/{name}.yaml");
         Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };
-    let page = solution_page(task, solution, &replays, &recipe);
+    let page = solution_page(task, solution, &replays, &recipe, view);
     assert!(page.len() <= LARGEST, "{name}: {} bytes", page.len());
     let path = folder.path().join(format!("{name}.html"));
     std::fs::write(&path, page).expect("a file");

@@ -8,6 +8,7 @@ use clap::Args;
 use crate::asset::{PlanFile, load_task};
 use crate::bench::{End, SolvedTask};
 use crate::cli::{action::LibraryArgs, error::CliError, output, page, session::Session};
+use crate::report::PageView;
 use crate::scene::{Engine, ModelSpec, Situation};
 use crate::store::RunManifest;
 use crate::verify::{Verifier, VerifySettings};
@@ -74,6 +75,6 @@ impl PageArgs {
         let recipe = self.library.origin(path, model.clone()).plan(&plan);
         let file =
             PlanFile { task, tool: Arc::clone(tool), plan, model, predicted: None, verdict: None };
-        page::write(out, session, &file, &verdict, recipe)
+        page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }
 }

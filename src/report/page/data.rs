@@ -70,6 +70,7 @@ pub struct Stage {
 pub struct Body {
     pub name: String,
     pub shape: Outline,
+    pub height: i64,
     /// Where it stands at the start.
     pub at: [i64; 3],
 }
@@ -135,6 +136,8 @@ pub struct Plan {
     /// Its row in the table of plans.
     pub cells: Vec<String>,
     pub strokes: Vec<Stroke>,
+    /// Height of the tool's underside.
+    pub lift: i64,
     pub replays: Vec<Replay>,
     /// Where the goal's object ended in the disturbed replays.
     pub ends: Vec<End>,
@@ -253,6 +256,8 @@ impl Grid {
 pub struct Run {
     /// Names of the columns of [`Made::cells`].
     pub columns: Vec<String>,
+    /// Which of them hold numbers.
+    pub numeric: Vec<bool>,
     pub made: Vec<Made>,
     /// When what is believed changes: at the start, and whenever a push is over.
     pub times: Vec<i64>,

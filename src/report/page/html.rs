@@ -20,29 +20,62 @@ const SCRIPT: &str = concat!(
     include_str!("script/ends.js"),
     include_str!("script/tables.js"),
     include_str!("script/candidates.js"),
+    include_str!("script/run.js"),
+    include_str!("script/belief.js"),
     include_str!("script/copy.js"),
     include_str!("script/controls.js"),
 );
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "IbV9iHUyw0j0cyoqWYBTbd+BvpZNHv7Bx4xhdjQsp3s=";
-const STYLE_HASH: &str = "1Q5I4+VfUzTaxpNFFbEduVwcBQCejbTrwoWOsvTageM=";
+const SCRIPT_HASH: &str = "q69iyAXzScLsY9KAZ+9qpbUINjOjnNEXQrRtMZOwUQI=";
+const STYLE_HASH: &str = "tYQDyimN8XsQ+CxdEb4hBesL82muDXx8h5RGXv7+hf0=";
+
+/// The 3-D view, which three.js draws.
+const SOLID: &str = include_str!("script/solid.js");
+
+/// three.js, minified, gzipped and in base 64; the browser unpacks it. See three/README.md.
+const THREE: &str = include_str!("three/three.min.js.gz.base64");
+
+/// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
+const SOLID_HASH: &str = "/E7I2QcxSlhzthXofEQbF8lg+KU5iAmZDTJ9CTCZg+o=";
+const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
+
+/// What a page shows of the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PageView {
+    /// A drawing from above.
+    #[default]
+    Above,
+    /// The same, and a scene in 3-D that can be looked at from all sides. It makes a page 200 KB
+    /// larger.
+    Solid,
+}
 
 /// The page.
-pub fn page(data: &Data) -> String {
+pub fn page(data: &Data, view: PageView) -> String {
     // Data cannot fail to be written: it holds no maps with odd keys.
     let json = serde_json::to_string(data).unwrap_or_default();
     let title = escape(&format!("{}: {}", data.task, data.headline));
+    let (allowed, solid) = match view {
+        PageView::Above => (String::new(), String::new()),
+        PageView::Solid => (
+            format!(" 'sha256-{SOLID_HASH}' 'sha256-{THREE_HASH}'"),
+            format!(
+                "<script type=\"text/plain\" id=\"three\">{THREE}</script>\n\
+                 <script>{SOLID}</script>\n"
+            ),
+        ),
+    };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-         script-src 'sha256-{SCRIPT_HASH}'; style-src 'sha256-{STYLE_HASH}'; base-uri 'none'; \
+         script-src 'sha256-{SCRIPT_HASH}'{allowed}; style-src 'sha256-{STYLE_HASH}'; base-uri 'none'; \
          form-action 'none'\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{BODY}\
          <script type=\"application/json\" id=\"data\">{}</script>\n\
-         <script>{SCRIPT}</script>\n</body>\n</html>\n",
+         <script>{SCRIPT}</script>\n{solid}</body>\n</html>\n",
         inert(&json)
     )
 }
@@ -68,9 +101,11 @@ mod tests {
     #[test]
     fn the_hashes_are_those_of_script_and_style() {
         use base64::{Engine as _, engine::general_purpose::STANDARD};
-        for (name, text, hash) in
-            [("SCRIPT_HASH", SCRIPT, SCRIPT_HASH), ("STYLE_HASH", STYLE, STYLE_HASH)]
-        {
+        for (name, text, hash) in [
+            ("SCRIPT_HASH", SCRIPT, SCRIPT_HASH),
+            ("STYLE_HASH", STYLE, STYLE_HASH),
+            ("SOLID_HASH", SOLID, SOLID_HASH),
+        ] {
             let found = STANDARD.encode(hmac_sha256::Hash::hash(text.as_bytes()));
             assert_eq!(found, hash, "write `const {name}: &str = \"{found}\";`");
         }

@@ -15,6 +15,7 @@ mod run;
 mod solution;
 mod stage;
 
+pub use html::PageView;
 pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};
 pub use run::run_page;

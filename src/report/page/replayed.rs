@@ -10,10 +10,11 @@ use crate::report::plan_text::plan_line;
 use crate::report::verdict::{replay_warnings, verdict_line};
 use crate::scene::{Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
-use super::data::{self, Data, File, Layer, Standing, Stroke, pose};
+use super::data::{self, Data, File, Layer, Standing, Stroke, length, pose};
+use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::{ends, layer_of, replay, replays};
-use super::{html, stage};
+use super::stage;
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
 /// asked; `recipe` makes the replays again.
@@ -22,6 +23,7 @@ pub fn verdict_page(
     predicted: Option<&Trajectory>,
     verdict: &Verdict,
     recipe: Recipe,
+    view: PageView,
 ) -> String {
     let task = &file.task;
     let mut making = Making::of(task, plan_line(&file.plan));
@@ -34,7 +36,7 @@ pub fn verdict_page(
     plan.replays.extend(replays(verdict));
     plan.ends = ends(task, verdict);
     making.data.warnings = replay_warnings(verdict);
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 /// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
@@ -44,6 +46,7 @@ pub fn prediction_page(
     plan: &Plan,
     trajectories: &[Trajectory],
     recipe: Recipe,
+    view: PageView,
 ) -> String {
     let mut making = Making::of(task, plan_line(plan));
     let page = making.plan(tool, plan, recipe);
@@ -63,7 +66,7 @@ pub fn prediction_page(
         let line = |warning| format!("{}: {warning}", trajectory.by);
         making.data.warnings.extend(trajectory.warnings.iter().map(line));
     }
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 /// How good a plan is by its verdict.
@@ -133,6 +136,7 @@ impl<'a> Making<'a> {
             strokes: strokes(&plan.motion(tool), index),
             replays: Vec::new(),
             ends: Vec::new(),
+            lift: length(plan.lift),
             command: recipe.command,
             python: recipe.python,
             file: part("plan"),

@@ -7,18 +7,19 @@ use crate::act::{End, Look, Step, Trace, Why};
 use crate::geometry::{Pose, wrap_angle};
 use crate::report::plan_text::engine_name;
 use crate::report::run::{headline, notes, steps};
+use crate::report::table::Align;
 use crate::scene::{Frame, Sight, State, Stroke, ToolMotion, Trajectory};
 
 use super::believed::{joints, numbers};
-use super::data::{self, Layer, Made, Run, Standing, fine};
-use super::html;
+use super::data::{self, Layer, Made, Run, Standing, fine, length};
+use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::replay_of;
 use super::replayed::{Making, strokes};
 
 /// The page of a run. `real` is what really happened in every step, where the world was simulated;
 /// otherwise what was seen is shown. `recipe` makes the run again.
-pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe) -> String {
+pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageView) -> String {
     let mut making = Making::of(&trace.task, headline(trace));
     let motions: Vec<ToolMotion> = trace.steps.iter().map(Step::motion).collect();
     let mut drawn = Vec::new();
@@ -42,11 +43,12 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe) -> String {
         ends: Vec::new(),
         command: recipe.command,
         python: recipe.python,
+        lift: trace.steps.first().map_or(0, |step| length(step.plan.lift)),
         file: Json::Null,
     });
     making.data.run = Some(run(trace, &clock.starts));
     making.data.warnings = notes(trace);
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 fn run(trace: &Trace, starts: &[f64]) -> Run {
@@ -54,7 +56,8 @@ fn run(trace: &Trace, starts: &[f64]) -> Run {
     let rows = table.rows().iter().zip(starts);
     let (types, joints) = joints(trace);
     Run {
-        columns: table.names().map(str::to_owned).collect(),
+        columns: table.columns().iter().map(|(name, _)| name.clone()).collect(),
+        numeric: table.columns().iter().map(|(_, side)| *side == Align::Right).collect(),
         made: rows.map(|(cells, at)| Made { at: fine(*at), cells: cells.clone() }).collect(),
         times: starts.iter().map(|at| fine(*at)).collect(),
         types,

@@ -11,7 +11,7 @@ use crate::solve::{PlanStatus, RankedPlan, Solution};
 
 use super::candidates::{candidates, frequent};
 use super::data::{Choice, Layer, Standing};
-use super::html;
+use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::{ends, replay, replays};
 use super::replayed::{Making, standing};
@@ -26,6 +26,7 @@ pub fn solution_page(
     solution: &Solution,
     nominal: &Verdict,
     recipe: &dyn Fn(&RankedPlan) -> Recipe,
+    view: PageView,
 ) -> String {
     let mut making = Making::of(task, headline(solution));
     for (k, ranked) in solution.plans.iter().enumerate() {
@@ -46,7 +47,7 @@ pub fn solution_page(
     making.data.choice = choice(solution);
     making.data.candidates = candidates(solution);
     making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {

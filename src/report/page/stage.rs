@@ -14,11 +14,13 @@ pub fn stage(task: &Task) -> Stage {
     let objects = scene.objects.iter().map(|object| Body {
         name: object.name.clone(),
         shape: outline(&object.shape),
+        height: length(object.shape.height()),
         at: pose(&object.pose),
     });
     let obstacles = scene.obstacles.iter().map(|obstacle| Body {
         name: obstacle.name.clone(),
         shape: outline(&obstacle.shape()),
+        height: length(obstacle.size[2]),
         at: pose(&obstacle.pose),
     });
     Stage {
@@ -42,6 +44,7 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
     let parts = tool.parts().iter().map(|part| Body {
         name: part.name.clone(),
         shape: outline(&part.shape),
+        height: length(part.shape.height()),
         at: pose(&part.pose),
     });
     Tool { name: tool.name.clone(), parts: parts.collect(), grip: pose(&tool.grip), file }

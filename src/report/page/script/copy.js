@@ -15,7 +15,8 @@
     byId('command').textContent = plan().command;
     byId('python').textContent = plan().python;
     byId('python-details').hidden = !plan().python;
-    byId('file').textContent = file();
+    byId('file-details').hidden = !plan().file;
+    byId('file').textContent = plan().file ? file() : '';
   });
   whenTimeChanges.push(() => {
     byId('link').textContent = `${location.href.split('#')[0]}#${linkPart()}`;

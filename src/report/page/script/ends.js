@@ -3,6 +3,9 @@
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
+  // Of a run nothing was disturbed.
+  byId('ends-card').hidden = Boolean(page.run);
+  if (page.run) return;
 
   function draw() {
     const { goal } = page.stage;
@@ -47,7 +50,7 @@
     const counts = ['planar', 'spatial'].map((layer) => {
       const own = ends.filter((end) => end.layer === layer);
       const count = own.filter((end) => end.reached).length;
-      return own.length ? `${count} of ${own.length} ${LAYERS[layer].name}` : '';
+      return own.length ? `${count} of ${own.length} ${LAYERS[layer]}` : '';
     }).filter(Boolean);
     byId('ends-words').textContent = counts.length
       ? `Crosses: as planned. Dots: with starts and frictions slightly off, ${counts.join(' and ')} replays reach the goal.`

@@ -50,6 +50,12 @@ class Replay {
     return this.pose(this.objects[index], this.place(time));
   }
 
+  /** The stroke under way at `time`. */
+  stroke(time) {
+    const [frame] = this.place(time);
+    return this.strokes[Math.max(0, this.firsts.findLastIndex((first) => first <= frame))];
+  }
+
   /** Pose of the tool frame at `time`. It is set down for a stroke in no time. */
   toolPose(time) {
     const [frame, share] = this.place(time);
