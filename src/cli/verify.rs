@@ -37,7 +37,7 @@ Example:
 )]
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
-    plan: PathBuf,
+    pub plan: PathBuf,
     /// Disturbed replays in each simulation
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]

@@ -2,6 +2,8 @@
 //! neither complains nor asks anybody for anything.
 
 mod browser;
+mod run;
+mod solid;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,6 +22,9 @@ use browser::Browser;
 
 /// Largest page of a usual task, bytes.
 const LARGEST: usize = 200_000;
+
+/// What the 3-D view adds to a page at most, bytes.
+const PACKED: usize = 230_000;
 
 /// Half of the last digit shown, and as much again for the rounding of positions, millimetres.
 const SHOWN: f64 = 0.06;
@@ -298,6 +303,16 @@ fn data(page: &Path) -> Json {
 
 /// The page of a solution in a file, as `solve` writes it.
 fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> PathBuf {
+    written_with(PageView::Above, folder, name, (task, solution))
+}
+
+/// The same with this view.
+fn written_with(
+    view: PageView,
+    folder: &TempDir,
+    name: &str,
+    (task, solution): (&Task, &Solution),
+) -> PathBuf {
     let situation = Situation::stated(&task.scene);
     let best = solution.best().expect("a plan");
     let replays = best.replays(task, &situation);
@@ -307,7 +322,8 @@ fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> Pa
         Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, view);
-    assert!(page.len() <= LARGEST, "{name}: {} bytes", page.len());
+    let largest = if view == PageView::Solid { LARGEST + PACKED } else { LARGEST };
+    assert!(page.len() <= largest, "{name}: {} bytes", page.len());
     let path = folder.path().join(format!("{name}.html"));
     std::fs::write(&path, page).expect("a file");
     path

@@ -39,6 +39,8 @@ pub struct Data {
     #[serde(skip)]
     pub headline: String,
     pub stage: Stage,
+    /// What is measured over time, where that is not the distance from the goal.
+    pub measure: Option<Measure>,
     pub tools: Vec<Tool>,
     /// Best first; at least one.
     pub plans: Vec<Plan>,
@@ -52,6 +54,9 @@ pub struct Data {
     /// What lowers the trust in all this, a line each.
     pub warnings: Vec<String>,
     pub file: File,
+    /// A drawing as SVG, in place of the table from above.
+    #[serde(skip)]
+    pub drawing: Option<String>,
 }
 
 /// What stands on the table, and what must come where.
@@ -62,8 +67,16 @@ pub struct Stage {
     /// Middle and full extents of a table that ends.
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest.
-    pub reach: [i64; 2],
+    pub reach: Vec<i64>,
     pub goal: Goal,
+}
+
+/// What is measured over time.
+#[derive(Serialize)]
+pub struct Measure {
+    pub name: &'static str,
+    /// The same with its unit.
+    pub axis: &'static str,
 }
 
 #[derive(Serialize)]
@@ -71,8 +84,18 @@ pub struct Body {
     pub name: String,
     pub shape: Outline,
     pub height: i64,
+    /// Height of the underside above where it stands.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub under: i64,
+    /// What is fixed on it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub more: Vec<Body>,
     /// Where it stands at the start.
     pub at: [i64; 3],
+}
+
+fn is_zero(value: &i64) -> bool {
+    *value == 0
 }
 
 /// What a body covers on the table, in its own frame.
@@ -141,7 +164,7 @@ pub struct Plan {
     pub replays: Vec<Replay>,
     /// Where the goal's object ended in the disturbed replays.
     pub ends: Vec<End>,
-    /// The command that makes these replays again.
+    /// The command that makes these replays again; empty where none can.
     pub command: String,
     /// The script that does; empty where none can.
     pub python: String,
@@ -174,7 +197,8 @@ pub enum Layer {
 }
 
 /// A trajectory, column by column. A column holds its first value and then differences; one that
-/// never changes holds one value.
+/// never changes holds one value. Poses have three: x, y and heading; those in space eight: z and the
+/// quaternion x, y, z, w of the turn, too.
 #[derive(Serialize)]
 pub struct Replay {
     pub layer: Layer,
@@ -185,8 +209,11 @@ pub struct Replay {
     pub time: Vec<i64>,
     /// Index of the first frame of every stroke.
     pub strokes: Vec<usize>,
-    pub tool: [Vec<i64>; 3],
-    pub objects: Vec<[Vec<i64>; 3]>,
+    pub tool: Vec<Vec<i64>>,
+    pub objects: Vec<Vec<Vec<i64>>>,
+    /// What is measured, frame by frame, see [`Data::measure`].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub measure: Vec<i64>,
 }
 
 #[derive(Serialize)]

@@ -10,6 +10,9 @@ const STYLE: &str = include_str!("page.css");
 /// What stands on the page before the script fills it.
 const BODY: &str = include_str!("page.html");
 
+/// Where the table from above is drawn.
+const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
+
 /// What the page does. One script, so that one hash allows it and nothing else.
 const SCRIPT: &str = concat!(
     include_str!("script/elements.js"),
@@ -28,8 +31,8 @@ const SCRIPT: &str = concat!(
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "q69iyAXzScLsY9KAZ+9qpbUINjOjnNEXQrRtMZOwUQI=";
-const STYLE_HASH: &str = "tYQDyimN8XsQ+CxdEb4hBesL82muDXx8h5RGXv7+hf0=";
+const SCRIPT_HASH: &str = "61rzAURenAECpTkUlwP/6fuxYAMi1/e0lJBIu2DSHW8=";
+const STYLE_HASH: &str = "vFAM2fdGnvbInUWN1X9GFrZfBFNGPvopuJyNBvpmNAQ=";
 
 /// The 3-D view, which three.js draws.
 const SOLID: &str = include_str!("script/solid.js");
@@ -38,7 +41,7 @@ const SOLID: &str = include_str!("script/solid.js");
 const THREE: &str = include_str!("three/three.min.js.gz.base64");
 
 /// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
-const SOLID_HASH: &str = "/E7I2QcxSlhzthXofEQbF8lg+KU5iAmZDTJ9CTCZg+o=";
+const SOLID_HASH: &str = "ksjzpSaVy8mVHy0QTXsvTaDoDNFt9HuprcCigsNC1Dk=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// What a page shows of the table.
@@ -57,6 +60,16 @@ pub fn page(data: &Data, view: PageView) -> String {
     // Data cannot fail to be written: it holds no maps with odd keys.
     let json = serde_json::to_string(data).unwrap_or_default();
     let title = escape(&format!("{}: {}", data.task, data.headline));
+    // As a picture of its own, which the page's style does not reach.
+    let drawing = data
+        .drawing
+        .as_ref()
+        .map(|svg| format!("<img alt=\"{title}\" src=\"data:image/svg+xml,{}\">", in_address(svg)));
+    let pictures = if drawing.is_some() { "img-src data:; " } else { "" };
+    let body = match drawing {
+        Some(drawing) => BODY.replace(STAGE, &format!("{STAGE}{drawing}")),
+        None => BODY.to_owned(),
+    };
     let (allowed, solid) = match view {
         PageView::Above => (String::new(), String::new()),
         PageView::Solid => (
@@ -70,14 +83,32 @@ pub fn page(data: &Data, view: PageView) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-         script-src 'sha256-{SCRIPT_HASH}'{allowed}; style-src 'sha256-{STYLE_HASH}'; base-uri 'none'; \
+         script-src 'sha256-{SCRIPT_HASH}'{allowed}; style-src 'sha256-{STYLE_HASH}'; {pictures}base-uri 'none'; \
          form-action 'none'\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{BODY}\
+         <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{body}\
          <script type=\"application/json\" id=\"data\">{}</script>\n\
          <script>{SCRIPT}</script>\n{solid}</body>\n</html>\n",
         inert(&json)
     )
+}
+
+/// SVG as it may stand in an address within an attribute.
+fn in_address(svg: &str) -> String {
+    let mut written = String::with_capacity(svg.len() + svg.len() / 4);
+    for letter in svg.chars() {
+        match letter {
+            '%' => written.push_str("%25"),
+            '#' => written.push_str("%23"),
+            '"' => written.push_str("%22"),
+            '<' => written.push_str("%3C"),
+            '>' => written.push_str("%3E"),
+            '&' => written.push_str("%26"),
+            '\n' => written.push_str("%0A"),
+            other => written.push(other),
+        }
+    }
+    written
 }
 
 /// JSON in which nothing ends a script or begins a comment.

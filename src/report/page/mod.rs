@@ -8,6 +8,7 @@ mod believed;
 mod candidates;
 mod data;
 mod html;
+mod lever;
 mod recipe;
 mod replay;
 mod replayed;
@@ -16,6 +17,7 @@ mod solution;
 mod stage;
 
 pub use html::PageView;
+pub use lever::{ReplayedLever, lever_page};
 pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};
 pub use run::run_page;

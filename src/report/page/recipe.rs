@@ -27,9 +27,9 @@ pub struct Setting {
 }
 
 /// How the replays are made again.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Recipe {
-    /// For a shell.
+    /// For a shell; empty where it cannot do the same.
     pub command: String,
     /// For Python with the package `pushplan`; empty where it cannot do the same.
     pub python: String,
@@ -165,6 +165,11 @@ impl Recipe {
             command: format!("pushplan verify {}", quoted(path)),
             python: ["import pushplan", "", &load, "print(pushplan.verify(plan))"].join("\n"),
         }
+    }
+
+    /// Of the replays of a file of a lever-up, which Python does not read.
+    pub fn of_lever_file(path: &str) -> Self {
+        Self { python: String::new(), ..Self::of_plan_file(path) }
     }
 }
 

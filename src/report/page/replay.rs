@@ -23,7 +23,7 @@ pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> O
     }
     let column = |value: &dyn Fn(&Frame) -> i64| packed(frames.iter().map(|frame| value(frame)));
     let pose = |of: &dyn Fn(&Frame) -> Pose| {
-        [
+        vec![
             column(&|frame| length(of(frame).position.x)),
             column(&|frame| length(of(frame).position.y)),
             column(&|frame| fine(of(frame).heading)),
@@ -37,6 +37,7 @@ pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> O
         strokes,
         tool: pose(&|frame| frame.tool),
         objects: (0..objects).map(|k| pose(&|frame| frame.state.poses[k])).collect(),
+        measure: Vec::new(),
     })
 }
 
@@ -79,7 +80,7 @@ fn layer(engine: Engine) -> Layer {
 }
 
 /// The first value and then differences; one value if there is no other.
-fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
+pub fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut packed = differences(values);
     if packed.iter().skip(1).all(|step| *step == 0) {
         packed.truncate(1);
@@ -87,7 +88,8 @@ fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     packed
 }
 
-fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
+/// The first value and then differences.
+pub fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut before = 0;
     let step = |value: i64| value.wrapping_sub(std::mem::replace(&mut before, value));
     values.map(step).collect()

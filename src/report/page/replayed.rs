@@ -92,6 +92,7 @@ impl<'a> Making<'a> {
             description: task.description.clone(),
             headline,
             stage: stage::stage(task),
+            measure: None,
             tools: Vec::new(),
             plans: Vec::new(),
             columns: Vec::new(),
@@ -100,6 +101,7 @@ impl<'a> Making<'a> {
             run: None,
             warnings: Vec::new(),
             file: File { schema_version: SCHEMA_VERSION, task: Json::Null },
+            drawing: None,
         };
         Self { task, data }
     }

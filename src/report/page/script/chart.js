@@ -7,7 +7,7 @@
   const still = svg('g');
   const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
   const dots = svg('g');
-  root.append(svg('title', {}, 'Distance from the goal over time'), still, hand, dots);
+  root.append(svg('title', {}, `${page.measure?.name ?? 'Distance from the goal'} over time`), still, hand, dots);
   byId('chart').append(root);
 
   let most = 1; // metres
@@ -39,7 +39,7 @@
         svg('text', { x: LEFT - 7, y: height + 4, class: 'small end' }, `${+(k * rise * 1000).toPrecision(6)}`),
       );
     }
-    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, 'off the goal, mm'));
+    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? 'off the goal, mm'));
     const pace = roundStep(duration() || 1, Math.min(8, width / 60));
     for (let k = 0; k * pace <= duration() + 1e-9; k++) {
       const name = `${+(k * pace).toPrecision(6)}${k ? '' : ' s'}`;

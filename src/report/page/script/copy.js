@@ -13,6 +13,7 @@
 
   whenPlanChanges.push(() => {
     byId('command').textContent = plan().command;
+    byId('command-details').hidden = !plan().command;
     byId('python').textContent = plan().python;
     byId('python-details').hidden = !plan().python;
     byId('file-details').hidden = !plan().file;

@@ -3,9 +3,10 @@
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
-  // Of a run nothing was disturbed.
-  byId('ends-card').hidden = Boolean(page.run);
-  if (page.run) return;
+  // Of a run nothing was disturbed, and lever-ups end in other ways.
+  const none = Boolean(page.run ?? page.measure);
+  byId('ends-card').hidden = none;
+  if (none) return;
 
   function draw() {
     const { goal } = page.stage;

@@ -6,7 +6,7 @@ const solid = (() => {
   const canvas = html('canvas', { tabindex: 0, 'aria-label': 'The table in 3-D', role: 'img' });
   const figure = html('figure', { class: 'solid', id: 'solid' }, canvas);
   const words = html('p', { class: 'faint', id: 'solid-words' });
-  const choices = [['3-D', true], ['From above', false]].map(([name, inDepth]) => {
+  const choices = [['3-D', true], [page.measure ? 'Drawing' : 'From above', false]].map(([name, inDepth]) => {
     const button = html('button', { id: inDepth ? 'show-solid' : 'show-flat' }, name);
     button.addEventListener('click', () => show(inDepth));
     return [button, inDepth];
@@ -34,15 +34,15 @@ const solid = (() => {
     getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
   const layerColour = (layer) => colour({ seen: 'planar', real: 'spatial' }[layer] ?? layer);
 
-  /** The solid of a body on its underside. */
-  function geometry({ shape, height }) {
-    const tall = height * LENGTH;
+  /** The solid of a body, in its own frame. */
+  function geometry({ shape, height, under = 0 }) {
+    const [tall, low] = [height * LENGTH, under * LENGTH];
     if ('disc' in shape) {
       const radius = shape.disc * LENGTH;
-      return new THREE.CylinderGeometry(radius, radius, tall, 48).rotateX(Math.PI / 2).translate(0, 0, tall / 2);
+      return new THREE.CylinderGeometry(radius, radius, tall, 48).rotateX(Math.PI / 2).translate(0, 0, low + tall / 2);
     }
     const corners = shape.polygon.map(([x, y]) => new THREE.Vector2(x * LENGTH, y * LENGTH));
-    return new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: tall, bevelEnabled: false });
+    return new THREE.ExtrudeGeometry(new THREE.Shape(corners), { depth: tall, bevelEnabled: false }).translate(0, 0, low);
   }
 
   /** A body with its edges; a ghost lets everything through. */
@@ -60,12 +60,16 @@ const solid = (() => {
     mesh.receiveShadow = !ghost;
     const edges = new THREE.LineSegments(
       new THREE.EdgesGeometry(form, EDGE), new THREE.LineBasicMaterial({ color: rim }));
-    return new THREE.Group().add(mesh, edges);
+    const whole = new THREE.Group().add(mesh, edges);
+    for (const part of body.more ?? []) whole.add(piece(part, fill, rim, ghost));
+    return whole;
   }
 
-  function placed(node, [x, y, heading], height = 0) {
-    node.position.set(x, y, height);
-    node.rotation.z = heading;
+  /** Puts something where a pose says; one in space says the height and the turn, too. */
+  function placed(node, [x, y, heading, z, ...turn], height = 0) {
+    node.position.set(x, y, z ?? height);
+    if (turn.length) node.quaternion.set(...turn).normalize();
+    else node.rotation.z = heading;
     return node;
   }
 
@@ -91,9 +95,9 @@ const solid = (() => {
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
     const { goal, objects, obstacles } = page.stage;
-    add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const body of [...objects, ...obstacles]) add(posed(body.at), reachOf(body.shape));
-    for (const stroke of plan().strokes) {
+    if (!page.measure) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    for (const stroke of page.measure ? [] : plan().strokes) {
       const room = Math.max(...page.tools[stroke.tool].parts.map(
         (part) => Math.hypot(...posed(part.at).slice(0, 2)) + reachOf(part.shape)));
       for (const end of [stroke.from, stroke.to]) add(posed(end), 0.5 * room);
@@ -106,7 +110,7 @@ const solid = (() => {
     const [[left, top], [width, depth]] = table
       ? table.map((pair) => pair.map((value) => value * LENGTH)) : [[x, y], [3 * half, 3 * half]];
     const ground = new THREE.Mesh(new THREE.PlaneGeometry(width, depth),
-      new THREE.MeshLambertMaterial({ color: colour('page') }));
+      new THREE.MeshLambertMaterial({ color: colour('grid') }));
     ground.receiveShadow = true;
     // A hair lower, so that nothing that lies on it flickers.
     scene.add(placed(ground, [left, top, 0], -THIN / 3));
@@ -128,6 +132,12 @@ const solid = (() => {
     for (const body of obstacles) {
       scene.add(placed(piece(body, colour('hatch'), colour('other-rim')), posed(body.at)));
     }
+    for (const replay of shown()) {
+      const [xs, ys, , zs] = replay.objects[goal.object];
+      const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);
+      scene.add(line(way, layerColour(replay.layer)));
+    }
+    if (page.measure) return;
     const at = posed([...goal.at, 0]);
     const disc = new THREE.Mesh(new THREE.CircleGeometry(goal.tolerance * LENGTH, 64),
       new THREE.MeshBasicMaterial({ color: colour('goal'), transparent: true, opacity: 0.25, depthWrite: false }));
@@ -135,10 +145,6 @@ const solid = (() => {
     if (goal.heading) {
       at[2] = goal.heading[0] * FINE;
       scene.add(placed(piece(objects[goal.object], colour('goal'), colour('goal'), true), at));
-    }
-    for (const replay of shown()) {
-      const [xs, ys] = replay.objects[goal.object];
-      scene.add(line(Array.from(xs, (x, k) => [x, ys[k], 3 * THIN]), layerColour(replay.layer)));
     }
     for (const stroke of plan().strokes) {
       const grip = posed(page.tools[stroke.tool].grip);
@@ -229,7 +235,7 @@ const solid = (() => {
   function home() {
     const [[x, y], half] = extent();
     controls.target.set(x, y, 0);
-    camera.position.set(x, y - 1.55 * half, 1.75 * half);
+    camera.position.set(x, y - 1.8 * half, 2 * half);
     controls.update();
     render();
   }
@@ -256,10 +262,10 @@ const solid = (() => {
 
   async function begin() {
     if (!document.createElement('canvas').getContext('webgl2')) {
-      throw new Error('The 3-D view needs WebGL 2, which this browser does not offer here. The table is drawn from above.');
+      throw new Error('The 3-D view needs WebGL 2, which this browser does not offer here. It is drawn instead.');
     }
     if (!('DecompressionStream' in window)) {
-      throw new Error('The 3-D view needs a browser of 2023 or later. The table is drawn from above.');
+      throw new Error('The 3-D view needs a browser of 2023 or later. It is drawn instead.');
     }
     await unpack();
     renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });

@@ -1,6 +1,8 @@
 // The table from above: what stands where at the time of the clock.
 
 (() => {
+  // Where something else is measured, a drawing stands here.
+  if (page.measure) return;
   const MARGIN = 0.05; // metres around everything
   const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');

@@ -6,6 +6,8 @@
     reached: 'reached', given_up: 'given up',
   };
 
+  const measured = page.measure?.name ?? 'Off the goal';
+  byId('measure').textContent = measured;
   byId('task').textContent = page.task;
   byId('goal').textContent = [page.description, `Goal: ${page.stage.goal.words}.`].filter(Boolean).join(' ');
 
@@ -33,7 +35,7 @@
           svg('svg', { viewBox: '0 0 26 10', class: 'sample', 'aria-hidden': 'true' },
             svg('path', { d: 'M1 5h24', class: `line ${replay.layer}` })),
           html('span', {}, name)),
-        html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, off the goal` }),
+        html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, ${measured.toLowerCase()}` }),
         html('span', { class: 'faint' }, `ends at ${millimetres(replay.error(replay.end))}`));
     });
     byId('layers').replaceChildren(...rows);
