@@ -31,7 +31,7 @@ const SCRIPT: &str = concat!(
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "61rzAURenAECpTkUlwP/6fuxYAMi1/e0lJBIu2DSHW8=";
+const SCRIPT_HASH: &str = "vZrUYVL1ldecYegx3yfAuGwHVbM7QQ+NC3FeWszU/R8=";
 const STYLE_HASH: &str = "vFAM2fdGnvbInUWN1X9GFrZfBFNGPvopuJyNBvpmNAQ=";
 
 /// The 3-D view, which three.js draws.
@@ -83,8 +83,8 @@ pub fn page(data: &Data, view: PageView) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
-         script-src 'sha256-{SCRIPT_HASH}'{allowed}; style-src 'sha256-{STYLE_HASH}'; {pictures}base-uri 'none'; \
-         form-action 'none'\">\n\
+         script-src 'sha256-{SCRIPT_HASH}'{allowed}; style-src 'sha256-{STYLE_HASH}'; \
+         {pictures}base-uri 'none'; form-action 'none'\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n{body}\
          <script type=\"application/json\" id=\"data\">{}</script>\n\

@@ -186,7 +186,7 @@ fn a_lever_up_is_seen_from_all_sides() {
     };
 
     let Some(mut browser) = Browser::start_with(&DRAWN) else { return };
-    browser.open(&file, "t=0");
+    browser.open(&file, "t=0.01");
     browser.value("solid.begun");
     assert_eq!(browser.value("byId('solid').hidden"), false);
     let last = motion.frames.len() - 1;
