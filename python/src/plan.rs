@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
-use pushplan::report::{predict_command, verdict_page};
+use pushplan::report::{Origin, PageView, verdict_page};
 use pushplan::scene::{Engine, PushForm, Situation};
 use pushplan::solve::{AskedPush, asked_plan};
 use pushplan::verify::VerifySettings;
@@ -191,9 +191,9 @@ impl PyPlan {
             Some(verdict) if recorded(verdict) => verdict.clone(),
             _ => work::run(py, 0, |_| self.replayed())?,
         };
-        let plan = &self.file.plan;
-        let command = predict_command(&self.task_file, &[], plan);
-        Ok(verdict_page(&self.file, self.trajectory.as_ref(), &verdict, &command))
+        let origin = Origin { task: self.task_file.clone(), ..Origin::default() };
+        let recipe = origin.plan(&self.file.plan);
+        Ok(verdict_page(&self.file, self.trajectory.as_ref(), &verdict, recipe, PageView::Above))
     }
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
-use pushplan::report::run_document;
+use pushplan::report::{PageView, Recipe, run_document, run_page};
 use pushplan::scene::Sight;
 use pushplan::{Noise, RunSettings, Runner, ToolMotion, Trace, Vector, hidden};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
@@ -17,7 +17,7 @@ use crate::push::PyPush;
 use crate::solve::Asked;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
-use crate::{errors, json, words, work};
+use crate::{errors, json, page, words, work};
 
 /// What a world is asked to do: the tool is set down where the first stroke begins, moves along all
 /// strokes, waits until everything rests and is lifted.
@@ -122,6 +122,17 @@ impl PyRun {
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let trace = serde_json::to_string(&self.0);
         json::text(py, &trace.map_err(|error| PyRuntimeError::new_err(error.to_string()))?)
+    }
+
+    /// A page that plays the run, with what was predicted and believed: one HTML file, without server
+    /// or network.
+    fn page(&self) -> String {
+        // Whoever asks made it in Python.
+        run_page(&self.0, &[], Recipe::default(), PageView::Above)
+    }
+
+    fn _repr_html_(&self) -> String {
+        page::frame(&self.page())
     }
 
     fn __str__(&self) -> String {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pushplan::report::{predict_command, solution_document, solution_page};
+use pushplan::report::{Origin, PageView, solution_document, solution_page};
 use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, Task};
@@ -87,11 +87,12 @@ impl PySolution {
         };
         let situation = Situation::stated(&task.scene);
         let replays = work::run(py, 0, |_| best.replays(task, &situation))?;
-        let command = |ranked: &RankedPlan| {
-            let options = ["--model".to_owned(), ranked.predicted.by.to_string()];
-            predict_command(task_file, &options, &ranked.plan)
+        let recipe = |ranked: &RankedPlan| {
+            let model = Some(ranked.predicted.by.clone());
+            let task = task_file.clone();
+            Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };
-        Ok(solution_page(task, solution, &replays, &command))
+        Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
     }
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {

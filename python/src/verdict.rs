@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::report::{predict_command, replay_warnings, verdict_document, verdict_page};
+use pushplan::report::{Origin, PageView, replay_warnings, verdict_document, verdict_page};
 use pushplan::scene::{Disturbance, Evidence, Warning};
 use pushplan::{Task, Verdict};
 use pyo3::prelude::*;
@@ -73,8 +73,8 @@ impl PyVerdict {
     /// A page that plays the replays: one HTML file, without server or network.
     fn page(&self) -> String {
         let task_file = format!("{}.yaml", self.file.task.name);
-        let command = predict_command(&task_file, &[], &self.file.plan);
-        verdict_page(&self.file, None, &self.verdict, &command)
+        let recipe = Origin { task: task_file, ..Origin::default() }.plan(&self.file.plan);
+        verdict_page(&self.file, None, &self.verdict, recipe, PageView::Above)
     }
 
     fn _repr_html_(&self) -> String {

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import html
+import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -36,6 +39,38 @@ def test_a_plan_from_a_file_is_replayed_for_its_page(task: pushplan.Task, tmp_pa
     page = pushplan.Plan.load(tmp_path / "best.plan.json").page()
     # Both engines' replays are in it.
     assert page.count('"layer"') >= 2
+
+
+def test_the_script_of_a_page_makes_its_plan_again(
+    task: pushplan.Task, root: Path, tmp_path: Path
+) -> None:
+    solution = pushplan.solve(task, effort="draft")
+    data = re.search(r'id="data">(.*?)</script>', solution.page(), re.DOTALL)
+    assert data is not None
+    plans = json.loads(data.group(1))["plans"]
+    for plan, made in list(zip(solution.plans, plans))[:2]:
+        # What the script prints at last is the verdict of this very plan.
+        again = made["python"].replace("print(pushplan.verify(plan))", f"plan.save({str(tmp_path / 'a.json')!r})")
+        assert again != made["python"]
+        ran = subprocess.run(
+            [sys.executable, "-c", again], cwd=root, text=True, capture_output=True, check=False
+        )
+        assert ran.returncode == 0, ran.stderr
+        assert plan.error is not None
+        assert ran.stdout == f"predicted to end {1000 * plan.error:.1f} mm off\n"
+        saved = pushplan.Plan.load(tmp_path / "a.json")
+        assert saved.to_dict()["plan"] == plan.to_dict()["plan"]
+    whole = subprocess.run(
+        [sys.executable, "-c", plans[0]["python"]], cwd=root, text=True, capture_output=True, check=False
+    )
+    assert "verdict: passed" in whole.stdout, whole.stderr
+
+
+def test_a_run_shows_its_page(task: pushplan.Task) -> None:
+    ran = pushplan.run(task, 1)
+    page = ran.page()
+    assert page.startswith("<!DOCTYPE html>") and '"layer":"seen"' in page
+    assert shown(ran._repr_html_()) == page
 
 
 def test_plans_go_to_mujoco(task: pushplan.Task) -> None:

@@ -59,6 +59,6 @@ pub use judge::Chance;
 pub use probe::ProbeRule;
 pub use runner::Runner;
 pub use settings::RunSettings;
-pub use simulated::{SimulatedWorld, hidden};
+pub use simulated::{SimulatedWorld, hidden, really};
 pub use trace::{End, Step, TRACE_VERSION, Trace, Why};
 pub use world::{Look, World, WorldError, WorldState};

@@ -8,6 +8,7 @@ use crate::effect::Prior;
 use crate::geometry::Pose;
 use crate::scene::{
     Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, Tool,
+    Trajectory,
 };
 use crate::solve::Planner;
 use crate::watch::Watch;
@@ -62,6 +63,7 @@ impl<'a> Runner<'a> {
             let belief = self.begin(trace)?;
             trace.pairs = belief.pairs().collect();
             trace.prior = belief.probabilities();
+            trace.prior_numbers = belief.numbers();
             keep(trace)?;
         }
         let mut belief = self.begin(trace)?;
@@ -156,10 +158,11 @@ impl<'a> Runner<'a> {
             PushForm::Chained => plan.pushes.len(),
         };
         let done = Plan { pushes: plan.pushes[..pushes].to_vec(), ..plan.clone() };
-        let predicted = self.predicted(&belief.situation(), &done, &tool);
+        let predicted = self.predicted(&belief.situation(), &done, &tool, Record::Frames);
+        let rest = predicted.outcome();
         let motion = done.motion(&tool);
         let looks = world.act(&motion)?;
-        let mut gatherer = Gatherer::new(&belief.situation().start, &predicted);
+        let mut gatherer = Gatherer::new(&belief.situation().start, rest);
         let seen = gatherer.motion(&motion, looks.clone())?;
         let mut again = Vec::new();
         let mut look = || {
@@ -173,7 +176,8 @@ impl<'a> Runner<'a> {
             why,
             pushes,
             chance,
-            expected: predicted.poses[task.goal.object],
+            expected: rest.poses[task.goal.object],
+            predicted: predicted.frames,
             tool: Tool::clone(&tool),
             plan,
             looks,
@@ -205,8 +209,8 @@ impl<'a> Runner<'a> {
         let tool = Arc::new(step.tool.clone());
         let motion = done.motion(&tool);
         let now = belief.situation();
-        let predicted = self.predicted(&now, &done, &tool);
-        let mut gatherer = Gatherer::new(&now.start, &predicted);
+        let predicted = self.predicted(&now, &done, &tool, Record::Outcome);
+        let mut gatherer = Gatherer::new(&now.start, predicted.outcome());
         let seen = gatherer.motion(&motion, step.looks.clone())?;
         let mut again = step.again.iter().cloned();
         let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
@@ -228,12 +232,24 @@ impl<'a> Runner<'a> {
         belief.settle(&self.model);
     }
 
-    /// Where a plan leaves everything, as far as is believed.
-    fn predicted(&self, now: &Situation, plan: &Plan, tool: &Arc<Tool>) -> State {
+    /// What a plan does to everything, as far as is believed; nothing if no model says.
+    fn predicted(
+        &self,
+        now: &Situation,
+        plan: &Plan,
+        tool: &Arc<Tool>,
+        record: Record,
+    ) -> Trajectory {
         let job = Job::new(now, plan.motion(tool));
         let model = self.planner.model();
-        let rolled = model.rollout(&now.scene, std::slice::from_ref(&job), Record::Outcome);
-        rolled.first().map_or_else(|| now.start.clone(), |rolled| rolled.outcome().clone())
+        let rolled = model.rollout(&now.scene, std::slice::from_ref(&job), record).pop();
+        rolled.filter(|rolled| !rolled.frames.is_empty()).unwrap_or_else(|| {
+            Trajectory::standing(
+                model.spec().clone(),
+                job.motion.strokes[0].from,
+                now.start.clone(),
+            )
+        })
     }
 }
 

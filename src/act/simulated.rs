@@ -1,11 +1,16 @@
 //! A simulated world, whose truth is hidden behind noise.
 
+use std::sync::Arc;
+
 use crate::asset::{Faults, ToolLibrary};
 use crate::belief::{Belief, BeliefSettings, generator, normal};
 use crate::geometry::Vector;
-use crate::scene::{Job, Physics, Rate, Record, Sight, State, Task, ToolMotion, Truth, Warning};
+use crate::scene::{
+    Job, Physics, Rate, Record, Sight, State, Task, ToolMotion, Trajectory, Truth, Warning,
+};
 use crate::sim::Simulator;
 
+use super::trace::{Step, Trace};
 use super::world::{Look, World, WorldError, WorldState};
 
 /// A world in one of the engines.
@@ -72,6 +77,21 @@ impl World for SimulatedWorld {
         self.state = saved.state.clone();
         self.looks = saved.looks;
     }
+}
+
+/// What really happened in every step of a run in a simulated world, frame by frame: an engine that
+/// begins where it began comes to the same bits again. Nothing where the world was not simulated.
+pub fn really(trace: &Trace) -> Vec<Trajectory> {
+    let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
+    let physics = Arc::new(Physics::stated(&truth.scene));
+    let simulator = Simulator::new(truth.engine, Rate::DEFAULT);
+    let begins = trace.steps.iter().filter_map(|step| step.world.as_ref());
+    let begins = std::iter::once(before).chain(begins);
+    let replay = |(begin, step): (&WorldState, &Step)| {
+        let (start, physics) = (begin.state.clone(), Arc::clone(&physics));
+        simulator.run(&truth.scene, &Job { start, motion: step.motion(), physics }, Record::Frames)
+    };
+    begins.zip(&trace.steps).map(replay).collect()
 }
 
 /// Whether a replay with this warning left no table to go on with.

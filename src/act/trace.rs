@@ -1,13 +1,14 @@
 //! What happened in a run: all that was seen, thought and done.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::asset::{Faults, write_atomic};
 use crate::belief::Numbers;
 use crate::geometry::Pose;
-use crate::scene::{Plan, State, Task, Tool, Truth};
+use crate::scene::{Frame, Plan, State, Task, Tool, ToolMotion, Truth};
 
 use super::error::ActError;
 use super::gather::Note;
@@ -16,7 +17,7 @@ use super::settings::RunSettings;
 use super::world::{Look, WorldState};
 
 /// Version of the format; another one cannot be gone on with.
-pub const TRACE_VERSION: u32 = 1;
+pub const TRACE_VERSION: u32 = 2;
 
 /// A run from its beginning to where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,6 +43,8 @@ pub struct Trace {
     pub pairs: Vec<[usize; 2]>,
     /// What was believed then of every one of them, as in steps.
     pub prior: Vec<[f64; 4]>,
+    /// What was believed then of masses, frictions and supports.
+    pub prior_numbers: Numbers,
     /// What was done, in order.
     pub steps: Vec<Step>,
     /// How it ended; nothing as long as it goes on.
@@ -86,6 +89,8 @@ pub struct Step {
     pub chance: Chance,
     /// Where the goal's object was expected after these pushes.
     pub expected: Pose,
+    /// What was expected of these pushes, frame by frame, under what was likeliest then.
+    pub predicted: Vec<Frame>,
     /// What was seen meanwhile and at rest, as it was reported.
     pub looks: Vec<Look>,
     /// What was seen at rest where that was not enough, look by look.
@@ -114,6 +119,14 @@ pub enum End {
     NoPush,
 }
 
+impl Step {
+    /// The motion of the pushes that were made.
+    pub fn motion(&self) -> ToolMotion {
+        let pushes = self.plan.pushes.iter().take(self.pushes).copied().collect();
+        Plan { pushes, ..self.plan.clone() }.motion(&Arc::new(self.tool.clone()))
+    }
+}
+
 impl Trace {
     /// Of a run that begins.
     pub fn new(task: Task, settings: RunSettings, planner: String, truth: Option<Truth>) -> Self {
@@ -128,6 +141,7 @@ impl Trace {
             before: None,
             pairs: Vec::new(),
             prior: Vec::new(),
+            prior_numbers: Numbers::default(),
             steps: Vec::new(),
             end: None,
         }
@@ -144,7 +158,10 @@ impl Trace {
             serde_json::from_slice(&text).map_err(|error| fault(error.to_string()))?;
         match trace.schema_version {
             TRACE_VERSION => Ok(trace),
-            other => Err(fault(format!("it is of version {other}, this program reads 1"))),
+            other => Err(fault(format!(
+                "it is of version {other}, this program goes on with {TRACE_VERSION} alone; without \
+                 --resume a new run begins"
+            ))),
         }
     }
 

@@ -1,12 +1,13 @@
 //! One action from the command line: a task, a tool and pushes become a tool motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
 
 use crate::asset::ToolLibrary;
-use crate::scene::{Plan, Situation, Task, Tool};
+use crate::report::Origin;
+use crate::scene::{ModelSpec, Plan, Situation, Task, Tool};
 use crate::solve::lever::AskedLever;
 use crate::solve::{ActionError, AskedPush, asked_plan};
 
@@ -38,11 +39,15 @@ impl LibraryArgs {
         })
     }
 
-    /// The same again as options.
-    pub fn options(&self) -> Vec<String> {
-        let folders = [("--tools", &self.tools), ("--more-tools", &self.more_tools)];
-        let given = folders.into_iter().filter_map(|(name, folder)| Some((name, folder.as_ref()?)));
-        given.flat_map(|(name, folder)| [name.to_owned(), folder.display().to_string()]).collect()
+    /// What is made from these tools, the task file and, where it is said, a model.
+    pub fn origin(&self, task: &Path, model: Option<ModelSpec>) -> Origin {
+        let shown = |folder: &PathBuf| folder.display().to_string();
+        Origin {
+            task: task.display().to_string(),
+            tools: self.tools.as_ref().map(shown),
+            more_tools: self.more_tools.as_ref().map(shown),
+            model,
+        }
     }
 }
 

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use crate::asset::PlanFile;
 use crate::effect::EffectModel;
-use crate::report::verdict_page;
+use crate::report::{PageView, Recipe, verdict_page};
 use crate::scene::{Job, ModelSpec, Record, Trajectory, Verdict};
 
 use super::{error::CliError, model, output, session::Session};
 
 /// Writes the page `<task>.html` with what the plan's effect model says beside the replays, and
-/// gives its path; `command` makes the replays again.
+/// gives its path; `recipe` makes the replays
+/// again.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -19,14 +20,14 @@ pub fn write(
     session: &Session,
     file: &PlanFile,
     verdict: &Verdict,
-    command: &str,
+    (recipe, view): (Recipe, PageView),
 ) -> Result<PathBuf, CliError> {
     let predicted = file.model.as_ref().and_then(|spec| {
         let predicted = predict(session, file, spec);
         let warn = |error| session.warn(&format!("the page shows no prediction: {error}"));
         predicted.map_err(warn).ok()?
     });
-    let page = verdict_page(file, predicted.as_ref(), verdict, command);
+    let page = verdict_page(file, predicted.as_ref(), verdict, recipe, view);
     output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
 }
 

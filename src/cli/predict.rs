@@ -8,7 +8,7 @@ use crate::asset::{AnyTask, load_any_task};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::report::{PoseRow, predict_command, prediction_document, prediction_page};
+use crate::report::{PageView, PoseRow, prediction_document, prediction_page};
 use crate::scene::{Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning};
 
 use super::{
@@ -22,6 +22,7 @@ use super::{
     poses::PosesArgs,
     push_argument::forms,
     session::Session,
+    words::{VIEWS, words},
 };
 
 /// Predict what pushes do: the network beside both simulations
@@ -43,6 +44,9 @@ pub struct PredictArgs {
     /// Folder for a page that plays what every model says, named after the task
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    pub page: PageView,
     #[command(flatten)]
     pub form: Form,
 }
@@ -83,10 +87,8 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let mut options = vec!["--model".to_owned(), asked.to_string()];
-        options.extend(args.library.options());
-        let command = predict_command(&args.task.display().to_string(), &options, &plan);
-        let page = prediction_page(&task, &tool, &plan, &trajectories, &command);
+        let recipe = args.library.origin(&args.task, Some(asked.clone())).plan(&plan);
+        let page = prediction_page(&task, &tool, &plan, &trajectories, recipe, args.page);
         let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
         document.wrote(&[path]);
     }

@@ -4,9 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::act::{ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden};
+use crate::act::{
+    ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
+};
 use crate::asset::{ToolLibrary, load_task, load_world};
-use crate::report::run_document;
+use crate::effect::Outside;
+use crate::report::{PageView, Recipe, Setting, run_document, run_page};
 use crate::scene::{ModelSpec, Task, Truth};
 use crate::solve::{Effort, Planner};
 
@@ -21,7 +24,7 @@ use super::{
     output,
     session::Session,
     solve::{share, solve_error},
-    words::{EFFORTS, PROBES, words},
+    words::{EFFORTS, PROBES, VIEWS, words},
 };
 
 /// Carry a task out in a world that is not quite known: push, look, learn, plan again
@@ -33,7 +36,8 @@ drawn. Every plan is judged under samples of what is believed; after every push 
 again, and something else is planned where too few samples reach the goal.
 
 Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
-goes on from there, and the file is then the same bytes as without. Pictures: <task>.run.svg and
+goes on from there, and the file is then the same bytes as without. <task>.html plays the run: what
+was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
 <task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
 5: all pushes are used up.
 
@@ -81,6 +85,9 @@ pub struct RunArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
@@ -127,6 +134,10 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let mut document = run_document(&trace);
     let mut written = vec![path];
     written.extend(output::write_figures(&args.out, document.figures())?);
+    let real = session.compute(|| really(&trace));
+    let page = run_page(&trace, &real, recipe(args), args.page);
+    let name = format!("{}.html", trace.task.name);
+    written.push(output::write(&args.out, &name, page.as_bytes())?);
     document.wrote(&written);
     args.form.show(session, &document)?;
     Ok(match trace.end {
@@ -134,6 +145,34 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         Some(End::UsedUp) => exit_code::FAILED_VERIFICATION,
         Some(End::NoPush) | None => exit_code::NO_PLAN,
     })
+}
+
+/// What makes the run again: settings that are not as usual.
+fn recipe(args: &RunArgs) -> Recipe {
+    let word = |table: &[(&str, ProbeRule, &str)]| {
+        let own = table.iter().find(|(_, rule, _)| *rule == args.rule);
+        own.map_or(String::new(), |(word, ..)| (*word).to_owned())
+    };
+    let outside = args.outside.outside();
+    let usual = RunSettings::default();
+    let given = [
+        (args.effort != Effort::Draft, "--effort", args.effort.to_string()),
+        (outside != Outside::Warn, "--outside", outside.to_string()),
+        (usize::from(args.pushes) != usual.pushes, "--pushes", args.pushes.to_string()),
+        (usize::from(args.samples) != usual.samples, "--samples", args.samples.to_string()),
+        (args.enough != usual.enough, "--enough", args.enough.to_string()),
+        (usize::from(args.probes) != usual.probes, "--probes", args.probes.to_string()),
+        (args.rule != usual.rule, "--rule", word(&PROBES)),
+        (args.seed != usual.seed, "--seed", args.seed.to_string()),
+    ];
+    let given = given.into_iter().filter(|(unusual, ..)| *unusual);
+    let settings = given.map(|(_, option, value)| Setting {
+        option,
+        keyword: Some(option.trim_start_matches('-')).filter(|keyword| *keyword != "rule"),
+        value,
+    });
+    let settings: Vec<Setting> = settings.collect();
+    args.library.origin(&args.task, args.model.clone()).run(&args.world, &settings)
 }
 
 /// The world in a file, or drawn from a number.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::{AnyTask, PlanFile, load_any_task};
-use crate::report::{plan_figures, predict_command, solution_document, solution_page};
+use crate::report::{PageView, plan_figures, solution_document, solution_page};
 use crate::scene::{ModelSpec, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
@@ -21,7 +21,7 @@ use super::{
     model::{self, OutsideArgs},
     output,
     session::Session,
-    words::{EFFORTS, words},
+    words::{EFFORTS, VIEWS, words},
 };
 
 /// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
@@ -59,6 +59,9 @@ pub struct SolveArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     pub out: PathBuf,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    pub page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
     /// Draw a picture of the 3-D replay that moves as well
@@ -160,12 +163,11 @@ fn write(
     let mut written = vec![path];
     let figures = plan_figures(task, best, &replays, &name, args.animate);
     written.extend(output::write_figures(&args.out, &figures)?);
-    let command = |ranked: &RankedPlan| {
-        let mut options = vec!["--model".to_owned(), ranked.predicted.by.to_string()];
-        options.extend(args.library.options());
-        predict_command(&args.task.display().to_string(), &options, &ranked.plan)
+    let recipe = |ranked: &RankedPlan| {
+        let model = Some(ranked.predicted.by.clone());
+        args.library.origin(&args.task, model).plan(&ranked.plan)
     };
-    let page = solution_page(task, solution, &replays, &command);
+    let page = solution_page(task, solution, &replays, &recipe, args.page);
     written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);
     Ok(written)
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::AnyPlanFile;
-use crate::report::{quoted, replay_warnings, verdict_document};
+use crate::report::{PageView, Recipe, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Until;
@@ -19,6 +19,7 @@ use super::{
     lever, output, page,
     session::Session,
     solve::{share, time_limit},
+    words::{VIEWS, words},
 };
 
 /// What takes longer is announced, seconds.
@@ -36,7 +37,7 @@ Example:
 )]
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
-    plan: PathBuf,
+    pub plan: PathBuf,
     /// Disturbed replays in each simulation
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
@@ -54,6 +55,9 @@ pub struct VerifyArgs {
     /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
+    pub page: PageView,
     #[command(flatten)]
     pub form: Form,
 }
@@ -85,8 +89,8 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     }
     let mut document = verdict_document(&file, &verdict);
     let written = args.out.as_deref().map(|out| {
-        let command = format!("pushplan verify {}", quoted(&args.plan.display().to_string()));
-        page::write(out, session, &file, &verdict, &command)
+        let recipe = Recipe::of_plan_file(&args.plan.display().to_string());
+        page::write(out, session, &file, &verdict, (recipe, args.page))
     });
     if let Some(Ok(path)) = &written {
         document.wrote(std::slice::from_ref(path));

@@ -6,6 +6,7 @@ use crate::act::ProbeRule;
 use crate::bench::{CrowdFamily, JointMethod, Layout, Sighting, TaskKind};
 use crate::dataset::{JointRule, LeverPreset, Preset, Solids};
 use crate::effect::Outside;
+use crate::report::PageView;
 use crate::scene::Engine;
 use crate::solve::Effort;
 #[cfg(feature = "train")]
@@ -27,6 +28,12 @@ pub static OUTSIDE: [(&str, Outside, &str); 3] = [
     ("simulate", Outside::Simulate, "Simulate in the plane instead"),
     ("warn", Outside::Warn, "Predict and warn"),
     ("refuse", Outside::Refuse, "Give no prediction; exit code 6"),
+];
+
+/// What a page shows of the table.
+pub static VIEWS: [(&str, PageView, &str); 2] = [
+    ("2d", PageView::Above, "A drawing from above"),
+    ("3d", PageView::Solid, "The same, and a scene to look at from all sides"),
 ];
 
 /// Simulation engines.

@@ -56,7 +56,10 @@ pub use lever::{
 };
 pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
-pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};
+pub use page::{
+    Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, run_page,
+    solution_page, verdict_page,
+};
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;
 pub use poses::{PoseRow, RECORDED, poses_document};

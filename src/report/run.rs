@@ -62,7 +62,8 @@ pub fn run_document(trace: &Trace) -> Document {
     }
 }
 
-fn headline(trace: &Trace) -> String {
+/// How it ended, in a line.
+pub fn headline(trace: &Trace) -> String {
     let pushes = match trace.pushes() {
         0 => "without a push".to_owned(),
         1 => "after 1 push".to_owned(),
@@ -90,7 +91,8 @@ fn seen(trace: &Trace) -> Option<State> {
     trace.steps.last().map(|step| step.state.clone())
 }
 
-fn steps(trace: &Trace) -> Table {
+/// What was done, push by push.
+pub fn steps(trace: &Trace) -> Table {
     let goal = &trace.task.goal;
     let push = |step: &Step| step.plan.pushes.first().copied();
     let real = |step: &Step| step.world.as_ref().map(|world| goal.error(&world.state));
@@ -127,7 +129,8 @@ fn why(why: Why) -> &'static str {
     }
 }
 
-fn notes(trace: &Trace) -> Vec<String> {
+/// What was wrong with what was seen.
+pub fn notes(trace: &Trace) -> Vec<String> {
     let steps = trace.steps.iter().enumerate();
     let of = |(k, step): (usize, &Step)| {
         step.notes.iter().map(|note| format!("push {}: {note}", k + 1)).collect::<Vec<_>>()

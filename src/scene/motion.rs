@@ -146,6 +146,20 @@ impl ToolMotion {
         Self { tool, lift, strokes }
     }
 
+    /// The stroke under way `time` seconds after the first one began, and the pose of the tool frame
+    /// then, if none but the last waits for rest; nothing of a motion without strokes.
+    pub fn at(&self, time: f64) -> Option<(usize, Pose)> {
+        let (mut begun, last) = (0.0, self.strokes.len().checked_sub(1)?);
+        for (k, stroke) in self.strokes.iter().enumerate() {
+            if k == last || time < begun + stroke.duration {
+                let share = ((time - begun) / stroke.duration).clamp(0.0, 1.0);
+                return Some((k, stroke.from.towards(&stroke.to, share)));
+            }
+            begun += stroke.duration;
+        }
+        None
+    }
+
     /// The objects that the tool is set down on at the start of stroke `index`: some part is then
     /// deeper than [`TOUCHING`] inside each of them.
     pub fn set_down_on<'a>(

@@ -2,12 +2,14 @@
 //! neither complains nor asks anybody for anything.
 
 mod browser;
+mod run;
+mod solid;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::report::{predict_command, solution_page};
+use pushplan::report::{Origin, PageView, solution_page};
 use pushplan::scene::{Engine, Situation, Trajectory};
 use pushplan::solve::RankedPlan;
 use pushplan::{
@@ -20,6 +22,9 @@ use browser::Browser;
 
 /// Largest page of a usual task, bytes.
 const LARGEST: usize = 200_000;
+
+/// What the 3-D view adds to a page at most, bytes.
+const PACKED: usize = 230_000;
 
 /// Half of the last digit shown, and as much again for the rounding of positions, millimetres.
 const SHOWN: f64 = 0.06;
@@ -298,15 +303,27 @@ fn data(page: &Path) -> Json {
 
 /// The page of a solution in a file, as `solve` writes it.
 fn written(folder: &TempDir, name: &str, task: &Task, solution: &Solution) -> PathBuf {
+    written_with(PageView::Above, folder, name, (task, solution))
+}
+
+/// The same with this view.
+fn written_with(
+    view: PageView,
+    folder: &TempDir,
+    name: &str,
+    (task, solution): (&Task, &Solution),
+) -> PathBuf {
     let situation = Situation::stated(&task.scene);
     let best = solution.best().expect("a plan");
     let replays = best.replays(task, &situation);
-    let command = |ranked: &RankedPlan| {
-        let options = ["--model".to_owned(), ranked.predicted.by.to_string()];
-        predict_command(&format!("tasks/{name}.yaml"), &options, &ranked.plan)
+    let recipe = |ranked: &RankedPlan| {
+        let model = Some(ranked.predicted.by.clone());
+        let task = format!("tasks/{name}.yaml");
+        Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };
-    let page = solution_page(task, solution, &replays, &command);
-    assert!(page.len() <= LARGEST, "{name}: {} bytes", page.len());
+    let page = solution_page(task, solution, &replays, &recipe, view);
+    let largest = if view == PageView::Solid { LARGEST + PACKED } else { LARGEST };
+    assert!(page.len() <= largest, "{name}: {} bytes", page.len());
     let path = folder.path().join(format!("{name}.html"));
     std::fs::write(&path, page).expect("a file");
     path

@@ -8,7 +8,7 @@ use clap::Args;
 use crate::asset::{PlanFile, load_task};
 use crate::bench::{End, SolvedTask};
 use crate::cli::{action::LibraryArgs, error::CliError, output, page, session::Session};
-use crate::report::predict_command;
+use crate::report::PageView;
 use crate::scene::{Engine, ModelSpec, Situation};
 use crate::store::RunManifest;
 use crate::verify::{Verifier, VerifySettings};
@@ -72,14 +72,9 @@ impl PageArgs {
             ));
         }
         let model: Option<ModelSpec> = run.model.parse().ok();
-        let mut options: Vec<String> = Vec::new();
-        if model.is_some() {
-            options.extend(["--model".to_owned(), run.model.clone()]);
-        }
-        options.extend(self.library.options());
-        let command = predict_command(&path.display().to_string(), &options, &plan);
+        let recipe = self.library.origin(path, model.clone()).plan(&plan);
         let file =
             PlanFile { task, tool: Arc::clone(tool), plan, model, predicted: None, verdict: None };
-        page::write(out, session, &file, &verdict, &command)
+        page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }
 }

@@ -6,7 +6,10 @@ use std::time::Instant;
 use crate::asset::ToolLibrary;
 use crate::cli::{error::CliError, exit_code, output, predict::PredictArgs, session::Session};
 use crate::effect::{LeverModel, LeverTrust, SimulatedLevers};
-use crate::report::{PredictedLever, lever_figure, lever_prediction_document};
+use crate::report::{
+    PageView, PredictedLever, Recipe, ReplayedLever, lever_figure, lever_page,
+    lever_prediction_document,
+};
 use crate::scene::{LeverJob, LeverTask};
 use crate::sim::LeverSimulator;
 
@@ -53,14 +56,28 @@ pub fn predict(
             PredictedLever { by: model.name(), trajectory, outcome, seconds }
         }));
     }
-    let figures = args.out.as_ref().map(|_| {
+    let replayed = args.out.as_ref().map(|_| {
         let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
-        lever_figure(task, (&tool, &plan), &motion, &[], &task.name)
+        (lever_figure(task, (&tool, &plan), &motion, &[], &task.name), motion)
     });
-    let figures = figures.into_iter().collect();
+    let figures = replayed.iter().map(|(figure, _)| figure.clone()).collect();
     let mut document = lever_prediction_document(task, &plan, &predicted, figures);
-    if let Some(out) = &args.out {
-        let page = document.to_html();
+    if let Some((out, (figure, motion))) = args.out.as_ref().zip(replayed) {
+        let page = match args.page {
+            PageView::Above => document.to_html(),
+            PageView::Solid => {
+                let says = |one: &PredictedLever| {
+                    let word = if one.outcome.reached { "reaches" } else { "misses" };
+                    format!("{} {word} the goal", one.by)
+                };
+                let line = predicted.iter().map(says).collect::<Vec<_>>().join(", ");
+                let (line, drawing) = (&*line, &*figure.to_svg());
+                let (tool, plan, motion) = (&*tool, &plan, &motion);
+                let replayed =
+                    ReplayedLever { task, tool, plan, motion, passed: None, line, drawing };
+                lever_page(&replayed, Recipe::default())
+            }
+        };
         let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
         document.wrote(&[path]);
     }

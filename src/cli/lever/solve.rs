@@ -12,8 +12,11 @@ use crate::cli::{
     session::Session,
     solve::{SolveArgs, solve_error},
 };
-use crate::report::{Figure, lever_figure, lever_solution_document, lever_verdict_line};
-use crate::scene::{LeverJob, LeverTask};
+use crate::report::{
+    Figure, PageView, Recipe, ReplayedLever, lever_figure, lever_page, lever_solution_document,
+    lever_verdict_line,
+};
+use crate::scene::{LeverJob, LeverMotion, LeverTask};
 use crate::sim::LeverSimulator;
 use crate::solve::PlanStatus;
 use crate::solve::lever::{LeverPlanner, RankedLever};
@@ -51,11 +54,11 @@ pub fn solve(
         session.warn("lever-ups have no picture that moves; the still one shows their frames");
     }
     let name = format!("{}{suffix}", task.name);
-    let figures: Vec<Figure> =
-        solution.best().map(|best| figure(session, &task, best, &name)).into_iter().collect();
+    let replayed = solution.best().map(|best| replay(session, &task, best, &name));
+    let figures = replayed.iter().map(|(figure, _)| figure.clone()).collect();
     let mut document = lever_solution_document(&task, &solution, figures);
-    let written = match solution.best() {
-        Some(best) => write(args, &task, best, &name, &document),
+    let written = match solution.best().zip(replayed.as_ref()) {
+        Some((best, replayed)) => write(args, &task, (best, replayed), &name, &document),
         None => Ok(Vec::new()),
     };
     // A plan that took minutes is shown also where the disk has no place for it.
@@ -64,19 +67,25 @@ pub fn solve(
     written.map(|_| code)
 }
 
-fn figure(session: &Session, task: &LeverTask, best: &RankedLever, name: &str) -> Figure {
+/// The picture of a plan, and the motion that it shows.
+fn replay(
+    session: &Session,
+    task: &LeverTask,
+    best: &RankedLever,
+    name: &str,
+) -> (Figure, LeverMotion) {
     let scene = Arc::new(task.scene(best.tool.blade));
     let job = LeverJob { scene, lever: best.plan.lever };
     let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
     let line = format!("verdict: {}", lever_verdict_line(best.verdict.as_ref()));
-    lever_figure(task, (&best.tool, &best.plan), &motion, &[line], name)
+    (lever_figure(task, (&best.tool, &best.plan), &motion, &[line], name), motion)
 }
 
 /// The plan file, the picture and the page.
 fn write(
     args: &SolveArgs,
     task: &LeverTask,
-    best: &RankedLever,
+    (best, (figure, motion)): (&RankedLever, &(Figure, LeverMotion)),
     name: &str,
     document: &crate::report::Document,
 ) -> Result<Vec<PathBuf>, CliError> {
@@ -92,6 +101,22 @@ fn write(
     file.write(&path).map_err(CliError::Output)?;
     let mut written = vec![path];
     written.extend(output::write_figures(&args.out, document.figures())?);
-    written.push(output::write(&args.out, &format!("{name}.html"), document.to_html().as_bytes())?);
+    let page = match args.page {
+        PageView::Above => document.to_html(),
+        PageView::Solid => {
+            let replayed = ReplayedLever {
+                task,
+                tool: &best.tool,
+                plan: &best.plan,
+                motion,
+                passed: best.verdict.as_ref().map(|verdict| verdict.passed),
+                line: &lever_verdict_line(best.verdict.as_ref()),
+                drawing: &figure.to_svg(),
+            };
+            let plan = written[0].display().to_string();
+            lever_page(&replayed, Recipe::of_lever_file(&plan))
+        }
+    };
+    written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);
     Ok(written)
 }

@@ -6,7 +6,10 @@ use crate::asset::LeverPlanFile;
 use crate::cli::{
     error::CliError, exit_code, follow::Following, output, session::Session, verify::VerifyArgs,
 };
-use crate::report::{lever_figure, lever_verdict_document, lever_verdict_line};
+use crate::report::{
+    PageView, Recipe, ReplayedLever, lever_figure, lever_page, lever_verdict_document,
+    lever_verdict_line,
+};
 use crate::scene::LeverJob;
 use crate::sim::LeverSimulator;
 use crate::verify::{LeverVerifier, VerifySettings};
@@ -38,12 +41,22 @@ pub fn verify(
         let scene = Arc::new(task.scene(tool.blade));
         let job = LeverJob { scene, lever: plan.lever };
         let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
-        let line = format!("verdict: {}", lever_verdict_line(Some(&verdict)));
-        let figure = lever_figure(task, (tool, plan), &motion, &[line], &task.name);
+        let line = lever_verdict_line(Some(&verdict));
+        let told = [format!("verdict: {line}")];
+        let figure = lever_figure(task, (tool, plan), &motion, &told, &task.name);
+        let drawing = figure.to_svg();
         if let Some(last) = document.sections.last_mut() {
             last.figures.push(figure);
         }
-        let page = document.to_html();
+        let page = match args.page {
+            PageView::Above => document.to_html(),
+            PageView::Solid => {
+                let (passed, motion) = (Some(verdict.passed), &motion);
+                let (line, drawing) = (&*line, &*drawing);
+                let replayed = ReplayedLever { task, tool, plan, motion, passed, line, drawing };
+                lever_page(&replayed, Recipe::of_lever_file(&args.plan.display().to_string()))
+            }
+        };
         let name = format!("{}.html", task.name);
         written = output::write(out, &name, page.as_bytes()).map(|path| document.wrote(&[path]));
     }

@@ -6,7 +6,7 @@ mod simulation;
 mod solution;
 mod suite;
 mod verdict;
-mod words;
+pub(super) mod words;
 
 pub use figure::lever_figure;
 pub use prediction::{PredictedLever, lever_prediction_document};

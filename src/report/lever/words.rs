@@ -10,7 +10,7 @@ use crate::report::table::{
 use crate::scene::{LeverOutcome, LeverPlan, LeverTask};
 
 /// One line: tool, object, turn.
-pub(super) fn plan_line(task: &LeverTask, plan: &LeverPlan) -> String {
+pub fn plan_line(task: &LeverTask, plan: &LeverPlan) -> String {
     let name = task.plates.get(plan.lever.plate).map_or("?", |plate| plate.name.as_str());
     let way = if plan.lever.pivot < 0.0 { "prying" } else { "lifting" };
     format!("{}, {way} {name} by {}", plan.tool, degrees(plan.lever.angle))
@@ -34,7 +34,7 @@ pub(super) fn plan_section(plan: &LeverPlan) -> Section {
 }
 
 /// What is asked for.
-pub(super) fn goal_line(task: &LeverTask) -> String {
+pub fn goal_line(task: &LeverTask) -> String {
     let goal = &task.goal;
     let mut demands = Vec::new();
     if let Some(block) = goal.outside.and_then(|block| task.blocks.get(block)) {

@@ -39,6 +39,8 @@ pub struct Data {
     #[serde(skip)]
     pub headline: String,
     pub stage: Stage,
+    /// What is measured over time, where that is not the distance from the goal.
+    pub measure: Option<Measure>,
     pub tools: Vec<Tool>,
     /// Best first; at least one.
     pub plans: Vec<Plan>,
@@ -47,9 +49,14 @@ pub struct Data {
     /// The tools that were offered, the chosen one first.
     pub choice: Vec<Choice>,
     pub candidates: Option<Candidates>,
+    /// Of a run: its pushes, and what was believed meanwhile.
+    pub run: Option<Run>,
     /// What lowers the trust in all this, a line each.
     pub warnings: Vec<String>,
     pub file: File,
+    /// A drawing as SVG, in place of the table from above.
+    #[serde(skip)]
+    pub drawing: Option<String>,
 }
 
 /// What stands on the table, and what must come where.
@@ -60,16 +67,35 @@ pub struct Stage {
     /// Middle and full extents of a table that ends.
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest.
-    pub reach: [i64; 2],
+    pub reach: Vec<i64>,
     pub goal: Goal,
+}
+
+/// What is measured over time.
+#[derive(Serialize)]
+pub struct Measure {
+    pub name: &'static str,
+    /// The same with its unit.
+    pub axis: &'static str,
 }
 
 #[derive(Serialize)]
 pub struct Body {
     pub name: String,
     pub shape: Outline,
+    pub height: i64,
+    /// Height of the underside above where it stands.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub under: i64,
+    /// What is fixed on it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub more: Vec<Body>,
     /// Where it stands at the start.
     pub at: [i64; 3],
+}
+
+fn is_zero(value: &i64) -> bool {
+    *value == 0
 }
 
 /// What a body covers on the table, in its own frame.
@@ -115,6 +141,10 @@ pub enum Standing {
     Failed,
     /// Not replayed, or nobody asked.
     Open,
+    /// Of a run: reached as far as can be seen.
+    Reached,
+    /// Of a run: given up.
+    GivenUp,
 }
 
 #[derive(Serialize)]
@@ -129,17 +159,23 @@ pub struct Plan {
     /// Its row in the table of plans.
     pub cells: Vec<String>,
     pub strokes: Vec<Stroke>,
+    /// Height of the tool's underside.
+    pub lift: i64,
     pub replays: Vec<Replay>,
     /// Where the goal's object ended in the disturbed replays.
     pub ends: Vec<End>,
-    /// The command that makes these replays again.
+    /// The command that makes these replays again; empty where none can.
     pub command: String,
+    /// The script that does; empty where none can.
+    pub python: String,
     /// As in its file.
     pub file: Json,
 }
 
 #[derive(Serialize)]
 pub struct Stroke {
+    /// Index of the tool.
+    pub tool: usize,
     /// Pose of the tool frame at the start and at the end.
     pub from: [i64; 3],
     pub to: [i64; 3],
@@ -154,10 +190,15 @@ pub enum Layer {
     Predicted,
     Planar,
     Spatial,
+    /// What was seen of a world.
+    Seen,
+    /// What really happened in a simulated one.
+    Real,
 }
 
 /// A trajectory, column by column. A column holds its first value and then differences; one that
-/// never changes holds one value.
+/// never changes holds one value. Poses have three: x, y and heading; those in space eight: z and the
+/// quaternion x, y, z, w of the turn, too.
 #[derive(Serialize)]
 pub struct Replay {
     pub layer: Layer,
@@ -168,8 +209,11 @@ pub struct Replay {
     pub time: Vec<i64>,
     /// Index of the first frame of every stroke.
     pub strokes: Vec<usize>,
-    pub tool: [Vec<i64>; 3],
-    pub objects: Vec<[Vec<i64>; 3]>,
+    pub tool: Vec<Vec<i64>>,
+    pub objects: Vec<Vec<Vec<i64>>>,
+    /// What is measured, frame by frame, see [`Data::measure`].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub measure: Vec<i64>,
 }
 
 #[derive(Serialize)]
@@ -232,6 +276,51 @@ impl Grid {
     pub const BLOCKED: i64 = -2;
     /// Of a cell that cannot be made for the first reason; those of the others follow downwards.
     pub const REFUSED: i64 = -10;
+}
+
+/// The pushes of a run, and what was believed meanwhile.
+#[derive(Serialize)]
+pub struct Run {
+    /// Names of the columns of [`Made::cells`].
+    pub columns: Vec<String>,
+    /// Which of them hold numbers.
+    pub numeric: Vec<bool>,
+    pub made: Vec<Made>,
+    /// When what is believed changes: at the start, and whenever a push is over.
+    pub times: Vec<i64>,
+    /// Names of the types of joints.
+    pub types: Vec<String>,
+    pub joints: Vec<Joined>,
+    pub numbers: Vec<Believed>,
+}
+
+/// What was pushed in one go.
+#[derive(Serialize)]
+pub struct Made {
+    /// When it begins.
+    pub at: i64,
+    pub cells: Vec<String>,
+}
+
+/// What is believed of how two objects hang together.
+#[derive(Serialize)]
+pub struct Joined {
+    pub name: String,
+    /// At each of [`Run::times`] the probabilities of the types, in thousandths.
+    pub shares: Vec<[i64; 4]>,
+    /// Index of the type that it really is, where that is known.
+    pub really: Option<usize>,
+}
+
+/// What is believed of a number.
+#[derive(Serialize)]
+pub struct Believed {
+    pub name: String,
+    pub unit: &'static str,
+    /// At each of [`Run::times`] mean and standard deviation, in thousandths.
+    pub values: Vec<[i64; 2]>,
+    /// What it really is, where that is known.
+    pub really: Option<i64>,
 }
 
 /// What plan files on the page share.

@@ -1,18 +1,25 @@
-//! The plan page: one HTML file that plays a plan, with all that is known about it. It needs no
-//! server and no network, and tells the browser to load nothing.
+//! The plan page: one HTML file that plays a plan, or a run, with all that is known about it. It
+//! needs no server and no network, and tells the browser to load nothing. On request it holds three.js,
+//! which shows the same in 3-D.
 //!
 //! `data` says what goes into the file, `html` puts it together with the script and the style
 //! beside it; the other files fill the data from what there is to show.
 
+mod believed;
 mod candidates;
-mod command;
 mod data;
 mod html;
+mod lever;
+mod recipe;
 mod replay;
 mod replayed;
+mod run;
 mod solution;
 mod stage;
 
-pub use command::{predict_command, quoted};
+pub use html::PageView;
+pub use lever::{ReplayedLever, lever_page};
+pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};
+pub use run::run_page;
 pub use solution::solution_page;

@@ -7,8 +7,13 @@ use super::data::{End, Layer, Replay, fine, length, point};
 
 /// The trajectory of `by`, judged as `reached` or not; nothing without a finite frame.
 pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Replay> {
+    replay_of(layer, trajectory.by.to_string(), &trajectory.frames, reached)
+}
+
+/// The same of frames that `by` stands for.
+pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> Option<Replay> {
     let sound = |frame: &&Frame| frame.state.is_finite() && frame.tool.is_finite();
-    let frames: Vec<&Frame> = trajectory.frames.iter().filter(sound).collect();
+    let frames: Vec<&Frame> = frames.iter().filter(sound).collect();
     let objects = frames.first()?.state.poses.len();
     let mut strokes = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
@@ -18,7 +23,7 @@ pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Re
     }
     let column = |value: &dyn Fn(&Frame) -> i64| packed(frames.iter().map(|frame| value(frame)));
     let pose = |of: &dyn Fn(&Frame) -> Pose| {
-        [
+        vec![
             column(&|frame| length(of(frame).position.x)),
             column(&|frame| length(of(frame).position.y)),
             column(&|frame| fine(of(frame).heading)),
@@ -26,12 +31,13 @@ pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Re
     };
     Some(Replay {
         layer,
-        by: trajectory.by.to_string(),
+        by,
         reached,
         time: differences(frames.iter().map(|frame| fine(frame.time))),
         strokes,
         tool: pose(&|frame| frame.tool),
         objects: (0..objects).map(|k| pose(&|frame| frame.state.poses[k])).collect(),
+        measure: Vec::new(),
     })
 }
 
@@ -74,7 +80,7 @@ fn layer(engine: Engine) -> Layer {
 }
 
 /// The first value and then differences; one value if there is no other.
-fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
+pub fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut packed = differences(values);
     if packed.iter().skip(1).all(|step| *step == 0) {
         packed.truncate(1);
@@ -82,7 +88,8 @@ fn packed(values: impl Iterator<Item = i64>) -> Vec<i64> {
     packed
 }
 
-fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
+/// The first value and then differences.
+pub fn differences(values: impl Iterator<Item = i64>) -> Vec<i64> {
     let mut before = 0;
     let step = |value: i64| value.wrapping_sub(std::mem::replace(&mut before, value));
     values.map(step).collect()

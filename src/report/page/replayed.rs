@@ -10,21 +10,24 @@ use crate::report::plan_text::plan_line;
 use crate::report::verdict::{replay_warnings, verdict_line};
 use crate::scene::{Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
-use super::data::{self, Data, File, Layer, Standing, Stroke, pose};
+use super::data::{self, Data, File, Layer, Standing, Stroke, length, pose};
+use super::html::{self, PageView};
+use super::recipe::Recipe;
 use super::replay::{ends, layer_of, replay, replays};
-use super::{html, stage};
+use super::stage;
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
-/// asked; `command` makes the replays again.
+/// asked; `recipe` makes the replays again.
 pub fn verdict_page(
     file: &PlanFile,
     predicted: Option<&Trajectory>,
     verdict: &Verdict,
-    command: &str,
+    recipe: Recipe,
+    view: PageView,
 ) -> String {
     let task = &file.task;
     let mut making = Making::of(task, plan_line(&file.plan));
-    let plan = making.plan(&file.tool, &file.plan, command.to_owned());
+    let plan = making.plan(&file.tool, &file.plan, recipe);
     plan.standing = standing(verdict);
     plan.verdict = verdict_line(task, Some(verdict));
     plan.replays.extend(predicted.and_then(|trajectory| {
@@ -33,19 +36,20 @@ pub fn verdict_page(
     plan.replays.extend(replays(verdict));
     plan.ends = ends(task, verdict);
     making.data.warnings = replay_warnings(verdict);
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
-/// The page of pushes as several models see them, each frame by frame; `command` makes it again.
+/// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
 pub fn prediction_page(
     task: &Task,
     tool: &Arc<Tool>,
     plan: &Plan,
     trajectories: &[Trajectory],
-    command: &str,
+    recipe: Recipe,
+    view: PageView,
 ) -> String {
     let mut making = Making::of(task, plan_line(plan));
-    let page = making.plan(tool, plan, command.to_owned());
+    let page = making.plan(tool, plan, recipe);
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
         let outcome = Outcome::judge(&task.goal, trajectory);
@@ -62,7 +66,7 @@ pub fn prediction_page(
         let line = |warning| format!("{}: {warning}", trajectory.by);
         making.data.warnings.extend(trajectory.warnings.iter().map(line));
     }
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 /// How good a plan is by its verdict.
@@ -88,19 +92,31 @@ impl<'a> Making<'a> {
             description: task.description.clone(),
             headline,
             stage: stage::stage(task),
+            measure: None,
             tools: Vec::new(),
             plans: Vec::new(),
             columns: Vec::new(),
             choice: Vec::new(),
             candidates: None,
+            run: None,
             warnings: Vec::new(),
             file: File { schema_version: SCHEMA_VERSION, task: Json::Null },
+            drawing: None,
         };
         Self { task, data }
     }
 
+    /// Index of a tool, whose file this is; it is added if it is new.
+    pub fn tool(&mut self, tool: &Tool, file: Json) -> usize {
+        let known = self.data.tools.iter().position(|known| known.name == tool.name);
+        known.unwrap_or_else(|| {
+            self.data.tools.push(stage::tool(tool, file));
+            self.data.tools.len() - 1
+        })
+    }
+
     /// Adds a plan, whose replays and verdict are to be filled in.
-    pub fn plan(&mut self, tool: &Arc<Tool>, plan: &Plan, command: String) -> &mut data::Plan {
+    pub fn plan(&mut self, tool: &Arc<Tool>, plan: &Plan, recipe: Recipe) -> &mut data::Plan {
         let file = PlanFile {
             task: self.task.clone(),
             tool: Arc::clone(tool),
@@ -112,21 +128,19 @@ impl<'a> Making<'a> {
         let mut file = serde_json::to_value(&file).unwrap_or_default();
         let mut part = |key: &str| file.get_mut(key).map_or(Json::Null, Json::take);
         self.data.file.task = part("task");
-        let known = self.data.tools.iter().position(|known| known.name == tool.name);
-        let index = known.unwrap_or_else(|| {
-            self.data.tools.push(stage::tool(tool, part("tool")));
-            self.data.tools.len() - 1
-        });
+        let index = self.tool(tool, part("tool"));
         self.data.plans.push(data::Plan {
             tool: index,
             name: plan_line(plan),
             standing: Standing::Open,
             verdict: String::new(),
             cells: Vec::new(),
-            strokes: strokes(&plan.motion(tool)),
+            strokes: strokes(&plan.motion(tool), index),
             replays: Vec::new(),
             ends: Vec::new(),
-            command,
+            lift: length(plan.lift),
+            command: recipe.command,
+            python: recipe.python,
             file: part("plan"),
         });
         let last = self.data.plans.len() - 1;
@@ -134,9 +148,11 @@ impl<'a> Making<'a> {
     }
 }
 
-fn strokes(motion: &ToolMotion) -> Vec<Stroke> {
+/// The strokes of a motion with the tool of this index.
+pub fn strokes(motion: &ToolMotion, tool: usize) -> Vec<Stroke> {
     let mut lowered = true;
     let stroke = |stroke: &crate::scene::Stroke| Stroke {
+        tool,
         from: pose(&stroke.from),
         to: pose(&stroke.to),
         lowered: std::mem::replace(&mut lowered, stroke.settle),

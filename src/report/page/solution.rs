@@ -11,7 +11,8 @@ use crate::solve::{PlanStatus, RankedPlan, Solution};
 
 use super::candidates::{candidates, frequent};
 use super::data::{Choice, Layer, Standing};
-use super::html;
+use super::html::{self, PageView};
+use super::recipe::Recipe;
 use super::replay::{ends, replay, replays};
 use super::replayed::{Making, standing};
 
@@ -19,12 +20,13 @@ use super::replayed::{Making, standing};
 const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
 
 /// The page of a solution. `nominal` holds the replays of its first plan, also where that was not
-/// worth verifying; `command` says how a plan's replays are made again.
+/// worth verifying; `recipe` says how a plan's replays are made again.
 pub fn solution_page(
     task: &Task,
     solution: &Solution,
     nominal: &Verdict,
-    command: &dyn Fn(&RankedPlan) -> String,
+    recipe: &dyn Fn(&RankedPlan) -> Recipe,
+    view: PageView,
 ) -> String {
     let mut making = Making::of(task, headline(solution));
     for (k, ranked) in solution.plans.iter().enumerate() {
@@ -34,7 +36,7 @@ pub fn solution_page(
         list.extend(replay(Layer::Predicted, &ranked.predicted, ranked.outcome.reached));
         list.extend(replayed.into_iter().flat_map(replays));
         let why = why(task, solution, k);
-        let plan = making.plan(&ranked.tool, &ranked.plan, command(ranked));
+        let plan = making.plan(&ranked.tool, &ranked.plan, recipe(ranked));
         plan.standing = verdict.map_or(Standing::Open, standing);
         plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
         plan.cells = cells(ranked, replayed, why);
@@ -45,7 +47,7 @@ pub fn solution_page(
     making.data.choice = choice(solution);
     making.data.candidates = candidates(solution);
     making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
-    html::page(&making.data)
+    html::page(&making.data, view)
 }
 
 fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {

@@ -14,18 +14,24 @@ pub fn stage(task: &Task) -> Stage {
     let objects = scene.objects.iter().map(|object| Body {
         name: object.name.clone(),
         shape: outline(&object.shape),
+        height: length(object.shape.height()),
+        under: 0,
+        more: Vec::new(),
         at: pose(&object.pose),
     });
     let obstacles = scene.obstacles.iter().map(|obstacle| Body {
         name: obstacle.name.clone(),
         shape: outline(&obstacle.shape()),
+        height: length(obstacle.size[2]),
+        under: 0,
+        more: Vec::new(),
         at: pose(&obstacle.pose),
     });
     Stage {
         objects: objects.collect(),
         obstacles: obstacles.collect(),
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
-        reach: [task.robot.reach_min, task.robot.reach_max].map(length),
+        reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
         goal: Goal {
             object: goal.object,
             at: point(goal.position),
@@ -42,6 +48,9 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
     let parts = tool.parts().iter().map(|part| Body {
         name: part.name.clone(),
         shape: outline(&part.shape),
+        height: length(part.shape.height()),
+        under: 0,
+        more: Vec::new(),
         at: pose(&part.pose),
     });
     Tool { name: tool.name.clone(), parts: parts.collect(), grip: pose(&tool.grip), file }

@@ -31,6 +31,11 @@ impl Browser {
     /// Starts the program that `PUSHPLAN_CHROMIUM` names, or else `chromium`; `None` if there is
     /// none, which on a server is a fault.
     pub fn start() -> Option<Self> {
+        Self::start_with(&["--disable-gpu"])
+    }
+
+    /// The same with these options.
+    pub fn start_with(options: &[&str]) -> Option<Self> {
         let named = env::var("PUSHPLAN_CHROMIUM").unwrap_or_else(|_| "chromium".to_owned());
         if Command::new(&named).arg("--version").output().is_err() {
             let strict = env::var("CI").is_ok_and(|ci| ci == "true") && named != "none";
@@ -43,7 +48,8 @@ impl Browser {
         let script = "exec \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>&1";
         let mut child = Command::new("sh")
             .args(["-c", script, "sh", &named, "--headless=new", "--no-sandbox"])
-            .args(["--remote-debugging-pipe", "--disable-gpu", "--no-first-run"])
+            .args(["--remote-debugging-pipe", "--no-first-run"])
+            .args(options)
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -127,6 +133,24 @@ impl Browser {
                     "type": kind, "x": found[0], "y": found[1], "button": "left", "clickCount": 1,
                 }),
             );
+        }
+    }
+
+    /// Drags from the middle of the element that a selector finds, so many pixels right and down.
+    pub fn drag(&mut self, selector: &str, [right, down]: [f64; 2]) {
+        let found = self.value(&format!(
+            "(() => {{ const b = document.querySelector({}).getBoundingClientRect(); \
+             return [b.x + b.width / 2, b.y + b.height / 2]; }})()",
+            json!(selector)
+        ));
+        let [x, y] = [0, 1].map(|k| found[k].as_f64().expect("a place"));
+        let places = [("mousePressed", x, y), ("mouseMoved", x + right, y + down)];
+        let places = places.into_iter().chain([("mouseReleased", x + right, y + down)]);
+        for (kind, x, y) in places {
+            let event = json!({
+                "type": kind, "x": x, "y": y, "button": "left", "buttons": 1, "clickCount": 1,
+            });
+            self.call("Input.dispatchMouseEvent", event);
         }
     }
 

@@ -7,12 +7,12 @@
   const still = svg('g');
   const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
   const dots = svg('g');
-  root.append(svg('title', {}, 'Distance from the goal over time'), still, hand, dots);
+  root.append(svg('title', {}, `${page.measure?.name ?? 'Distance from the goal'} over time`), still, hand, dots);
   byId('chart').append(root);
 
-  let most = 1; // metres
+  let [least, most] = [0, 1]; // metres
   const x = (time) => +(LEFT + (time / (duration() || 1)) * (width - LEFT - RIGHT)).toFixed(1);
-  const y = (error) => +(HEIGHT - BOTTOM - (error / most) * (HEIGHT - TOP - BOTTOM)).toFixed(1);
+  const y = (error) => +(HEIGHT - BOTTOM - ((error - least) / (most - least)) * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
   /** A round step that cuts `span` into at most `count` pieces. */
   function roundStep(span, count) {
@@ -26,20 +26,22 @@
     root.setAttribute('viewBox', `0 0 ${width} ${HEIGHT}`);
     const tolerance = page.stage.goal.tolerance * LENGTH;
     const errors = replays().flatMap((replay) => Array.from(replay.time, (t) => replay.error(t)));
+    // What is measured instead of a distance may sink below where it began.
+    least = Math.min(0, ...errors) * 1.06;
     most = Math.max(tolerance * 1.2, ...errors) * 1.06 || 1;
     const bottom = HEIGHT - BOTTOM;
     still.append(svg('rect', {
-      x: LEFT, y: y(tolerance), width: width - LEFT - RIGHT, height: bottom - y(tolerance), class: 'allowed',
+      x: LEFT, y: y(tolerance), width: width - LEFT - RIGHT, height: y(0) - y(tolerance), class: 'allowed',
     }));
-    const rise = roundStep(most, 4);
-    for (let k = 0; k * rise <= most; k++) {
+    const rise = roundStep(most - least, 4);
+    for (let k = Math.ceil(least / rise); k * rise <= most; k++) {
       const height = y(k * rise);
       still.append(
         svg('line', { x1: LEFT, x2: width - RIGHT, y1: height, y2: height, class: 'grid' }),
         svg('text', { x: LEFT - 7, y: height + 4, class: 'small end' }, `${+(k * rise * 1000).toPrecision(6)}`),
       );
     }
-    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, 'off the goal, mm'));
+    still.append(svg('text', { x: width - RIGHT - 4, y: TOP + 10, class: 'small end' }, page.measure?.axis ?? 'off the goal, mm'));
     const pace = roundStep(duration() || 1, Math.min(8, width / 60));
     for (let k = 0; k * pace <= duration() + 1e-9; k++) {
       const name = `${+(k * pace).toPrecision(6)}${k ? '' : ' s'}`;

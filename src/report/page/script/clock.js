@@ -3,6 +3,8 @@
 const view = { plan: 0, time: 0, playing: false, speed: 1, hidden: new Set() };
 const whenPlanChanges = [];
 const whenTimeChanges = [];
+/** What keys do, by name. */
+const keys = {};
 
 const plan = () => page.plans[view.plan];
 const replays = () => replaysOf(plan());
@@ -47,7 +49,9 @@ function step(frames) {
   if (!replay) return;
   const [frame, share] = replay.place(view.time);
   // From between two frames, back is to the start of this one.
-  const next = frame + frames + (frames < 0 && share > 1e-9 ? 1 : 0);
+  let next = frame + frames + (frames < 0 && share > 1e-9 ? 1 : 0);
+  // Where a run goes on, two frames share a time.
+  while (next > 0 && frames < 0 && replay.time[next] >= view.time) next--;
   const last = replay.time.length - 1;
   showTime(next > last ? duration() : replay.time[Math.max(0, next)]);
   keepLink();

@@ -26,21 +26,21 @@
     button.setAttribute('aria-label', view.playing ? 'Pause' : 'Play');
   });
 
-  const KEYS = {
+  Object.assign(keys, {
     ' ': () => play(!view.playing),
     ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
     ArrowRight: (event) => step(event.shiftKey ? 10 : 1),
     Home: () => { play(false); showTime(0); keepLink(); },
     End: () => { play(false); showTime(duration()); keepLink(); },
-  };
-  for (const [layer, { key }] of Object.entries(LAYERS)) KEYS[key] = () => toggle(layer);
+  });
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { tagName, type } = event.target;
     // A list has its own keys; a button, a box and a summary are pressed with space.
     if (tagName === 'SELECT') return;
     if (event.key === ' ' && (['BUTTON', 'SUMMARY'].includes(tagName) || type === 'checkbox')) return;
-    const act = KEYS[event.key];
+    const layer = replays()[Number(event.key) - 1]?.layer;
+    const act = layer ? () => toggle(layer) : keys[event.key];
     if (!act) return;
     event.preventDefault();
     act(event);
@@ -55,7 +55,8 @@
   new ResizeObserver(() => {
     // Figures are drawn for their width; their own change of height is none.
     const now = widthOf(byId('stage'));
-    if (now !== width) showPlan(view.plan);
+    // Not at once, as that may change the width again.
+    if (now !== width) requestAnimationFrame(() => showPlan(view.plan));
     width = now;
   }).observe(byId('stage'));
   addEventListener('hashchange', followLink);

@@ -1,4 +1,4 @@
-// What can be taken along: a command, a plan file, a link.
+// What can be taken along: a command, a script, a plan file, a link.
 
 (() => {
   const file = () => {
@@ -13,7 +13,11 @@
 
   whenPlanChanges.push(() => {
     byId('command').textContent = plan().command;
-    byId('file').textContent = file();
+    byId('command-details').hidden = !plan().command;
+    byId('python').textContent = plan().python;
+    byId('python-details').hidden = !plan().python;
+    byId('file-details').hidden = !plan().file;
+    byId('file').textContent = plan().file ? file() : '';
   });
   whenTimeChanges.push(() => {
     byId('link').textContent = `${location.href.split('#')[0]}#${linkPart()}`;

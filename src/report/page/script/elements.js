@@ -4,11 +4,8 @@
 const page = JSON.parse(document.getElementById('data').textContent);
 const LENGTH = 1e-5; // metres in a unit of the data
 const FINE = 1e-4; // radians or seconds in a unit of the data
-const LAYERS = {
-  predicted: { name: 'predicted', key: '1' },
-  planar: { name: 'planar', key: '2' },
-  spatial: { name: '3-D', key: '3' },
-};
+/** Names of layers; the digit keys show and hide those of a plan in order. */
+const LAYERS = { predicted: 'predicted', planar: 'planar', spatial: '3-D', seen: 'seen', real: 'real' };
 
 const byId = (id) => document.getElementById(id);
 
@@ -27,6 +24,14 @@ function html(tag, attributes = {}, ...children) {
 function svg(tag, attributes = {}, ...children) {
   return filled(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
 }
+
+/** On which side the cells of a column line up. */
+const side = (numeric) => ({ class: numeric ? 'number' : '' });
+
+/** The first row of a table; `numeric` says which columns hold numbers. */
+const headed = (names, numeric) => html('tr', {}, ...names.map((name, c) => html('th', {
+  scope: 'col', ...side(numeric[c]),
+}, name)));
 
 /** Width of a figure in pixels, so that its text is as large on a phone as on a desk. */
 const widthOf = (figure) => Math.max(300, Math.round(figure.clientWidth) || 800);

@@ -3,6 +3,10 @@
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
+  // Of a run nothing was disturbed, and lever-ups end in other ways.
+  const none = Boolean(page.run ?? page.measure);
+  byId('ends-card').hidden = none;
+  if (none) return;
 
   function draw() {
     const { goal } = page.stage;
@@ -47,7 +51,7 @@
     const counts = ['planar', 'spatial'].map((layer) => {
       const own = ends.filter((end) => end.layer === layer);
       const count = own.filter((end) => end.reached).length;
-      return own.length ? `${count} of ${own.length} ${LAYERS[layer].name}` : '';
+      return own.length ? `${count} of ${own.length} ${LAYERS[layer]}` : '';
     }).filter(Boolean);
     byId('ends-words').textContent = counts.length
       ? `Crosses: as planned. Dots: with starts and frictions slightly off, ${counts.join(' and ')} replays reach the goal.`

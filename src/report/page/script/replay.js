@@ -18,9 +18,8 @@ const between = (a, b, share) => a.map((value, k) => value + (b[k] - value) * sh
 class Replay {
   constructor(raw, strokes) {
     const count = raw.time.length;
-    const columns = ([x, y, heading]) => [
-      unpacked(x, count, LENGTH), unpacked(y, count, LENGTH), unpacked(heading, count, FINE),
-    ];
+    // Of the columns of a pose the third and those after the fourth are angles, or shares.
+    const columns = (pose) => pose.map((column, c) => unpacked(column, count, c === 2 || c > 3 ? FINE : LENGTH));
     this.layer = raw.layer;
     this.by = raw.by;
     this.reached = raw.reached;
@@ -28,6 +27,7 @@ class Replay {
     this.end = this.time[count - 1];
     this.tool = columns(raw.tool);
     this.objects = raw.objects.map(columns);
+    this.measure = raw.measure?.map((value) => value * LENGTH);
     this.firsts = raw.strokes;
     this.strokes = strokes;
   }
@@ -50,6 +50,12 @@ class Replay {
     return this.pose(this.objects[index], this.place(time));
   }
 
+  /** The stroke under way at `time`. */
+  stroke(time) {
+    const [frame] = this.place(time);
+    return this.strokes[Math.max(0, this.firsts.findLastIndex((first) => first <= frame))];
+  }
+
   /** Pose of the tool frame at `time`. It is set down for a stroke in no time. */
   toolPose(time) {
     const [frame, share] = this.place(time);
@@ -67,8 +73,13 @@ class Replay {
     return between(here, columns.map((column) => column[frame + 1]), share);
   }
 
-  /** Distance of the goal's object from the goal at `time`, metres. */
+  /** Distance of the goal's object from the goal at `time`, or what is measured instead, metres. */
   error(time) {
+    if (this.measure) {
+      const [frame, share] = this.place(time);
+      const here = this.measure[frame];
+      return share === 0 ? here : here + (this.measure[frame + 1] - here) * share;
+    }
     const [x, y] = this.object(page.stage.goal.object, time);
     return Math.hypot(x - page.stage.goal.at[0] * LENGTH, y - page.stage.goal.at[1] * LENGTH);
   }

@@ -1,6 +1,8 @@
 // The table from above: what stands where at the time of the clock.
 
 (() => {
+  // Where something else is measured, a drawing stands here.
+  if (page.measure) return;
   const MARGIN = 0.05; // metres around everything
   const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');
@@ -69,8 +71,8 @@
     for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
-    const tool = page.tools[plan().tool];
     for (const stroke of plan().strokes) {
+      const tool = page.tools[stroke.tool];
       for (const end of [posed(stroke.from), posed(stroke.to)]) {
         add(placed(end, posed(tool.grip)));
         for (const part of tool.parts) add(placed(end, posed(part.at)), radius(part.shape));
@@ -153,8 +155,8 @@
   /** Where the end effector goes, over everything. */
   function drawPushes() {
     pushes.replaceChildren();
-    const grip = posed(page.tools[plan().tool].grip);
     plan().strokes.forEach((stroke, k) => {
+      const grip = posed(page.tools[stroke.tool].grip);
       const [from, to] = [stroke.from, stroke.to].map((end) => map(placed(posed(end), grip)));
       const turn = (Math.atan2(to[1] - from[1], to[0] - from[0]) * 180) / Math.PI;
       pushes.append(
@@ -176,14 +178,17 @@
       moving.append(shape);
       bodies.push([shape, place]);
     };
-    const tool = toolShape(page.tools[plan().tool], 'tool');
-    if (plan().strokes.length) add(tool, (time) => at(lead.toolPose(time)));
+    // Of several tools the one that pushes is shown.
+    for (const index of new Set(plan().strokes.map((stroke) => stroke.tool))) {
+      const place = (time) => (lead.stroke(time).tool === index ? at(lead.toolPose(time)) : 'scale(0)');
+      add(toolShape(page.tools[index], 'tool'), place);
+    }
     for (const replay of shown()) {
       objects.forEach((body, k) => {
         const own = k === goal.object ? ' own' : '';
         const className = replay === lead ? `object${own}` : `ghost ${replay.layer}`;
         const shape = svg('g', { class: className },
-          outline(body.shape, {}), svg('title', {}, `${body.name}, ${LAYERS[replay.layer].name}`));
+          outline(body.shape, {}), svg('title', {}, `${body.name}, ${LAYERS[replay.layer]}`));
         if (!('disc' in body.shape)) shape.append(svg('path', { d: `M0 0h${px(radius(body.shape) * 0.45)}` }));
         add(shape, (time) => at(replay.object(k, time)));
       });

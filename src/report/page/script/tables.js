@@ -1,8 +1,13 @@
 // The header, and the tables of layers, plans and tools.
 
 (() => {
-  const WORDS = { passed: 'works', fragile: 'fragile', failed: 'fails', open: 'not verified' };
+  const WORDS = {
+    passed: 'works', fragile: 'fragile', failed: 'fails', open: 'not verified',
+    reached: 'reached', given_up: 'given up',
+  };
 
+  const measured = page.measure?.name ?? 'Off the goal';
+  byId('measure').textContent = measured;
   byId('task').textContent = page.task;
   byId('goal').textContent = [page.description, `Goal: ${page.stage.goal.words}.`].filter(Boolean).join(' ');
 
@@ -11,13 +16,14 @@
     const badge = byId('badge');
     badge.textContent = WORDS[standing];
     badge.className = `badge ${standing}`;
-    byId('plan').textContent = `Plan${page.plans.length > 1 ? ` ${view.plan + 1}` : ''}: ${plan().name}.`;
+    const kind = page.run ? 'Run' : 'Plan';
+    byId('plan').textContent = `${kind}${page.plans.length > 1 ? ` ${view.plan + 1}` : ''}: ${plan().name}.`;
     byId('verdict').textContent = `${verdict[0].toUpperCase()}${verdict.slice(1)}.`;
   }
 
   function layers() {
-    const rows = replays().map((replay) => {
-      const { name, key } = LAYERS[replay.layer];
+    const rows = replays().map((replay, k) => {
+      const name = LAYERS[replay.layer];
       const box = html('input', { type: 'checkbox', id: `show-${replay.layer}` });
       box.checked = !view.hidden.has(replay.layer);
       box.addEventListener('change', () => {
@@ -25,11 +31,11 @@
         byId(`show-${replay.layer}`).focus();
       });
       return html('div', { class: 'layer' },
-        html('label', { title: `${replay.by}; key ${key}` }, box,
+        html('label', { title: `${replay.by}; key ${k + 1}` }, box,
           svg('svg', { viewBox: '0 0 26 10', class: 'sample', 'aria-hidden': 'true' },
             svg('path', { d: 'M1 5h24', class: `line ${replay.layer}` })),
           html('span', {}, name)),
-        html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, off the goal` }),
+        html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, ${measured.toLowerCase()}` }),
         html('span', { class: 'faint' }, `ends at ${millimetres(replay.error(replay.end))}`));
     });
     byId('layers').replaceChildren(...rows);
@@ -40,18 +46,14 @@
       byId(`error-${replay.layer}`).textContent = millimetres(replay.error(view.time));
     }
     if (page.stage.goal.heading) {
-      const turned = replays().map((replay) => `${LAYERS[replay.layer].name} ${degrees(replay.headingError(view.time))}`);
+      const turned = replays().map((replay) => `${LAYERS[replay.layer]} ${degrees(replay.headingError(view.time))}`);
       const allowed = degrees(page.stage.goal.heading[1] * FINE);
       byId('heading').textContent = `Heading off by: ${turned.join(', ')}; ${allowed} allowed.`;
     }
   }
 
-  /** Whether a column of a table holds numbers: those between the first two and the last one. */
-  const alignment = (column, columns) => ({ class: column > 1 && column < columns - 1 ? 'number' : '' });
-
-  const headed = (names) => html('tr', {}, ...names.map((name, c) => html('th', {
-    scope: 'col', ...alignment(c, names.length),
-  }, name)));
+  /** Which columns hold numbers: those between the first two and the last one. */
+  const numeric = (columns) => Array.from({ length: columns }, (_, c) => c > 1 && c < columns - 1);
 
   /** A button that opens a plan. */
   function opener(index, text) {
@@ -67,10 +69,10 @@
   function plans() {
     byId('plans-card').hidden = page.plans.length < 2;
     const rows = page.plans.map((one, k) => {
-      const cells = one.cells.map((cell, c) => html('td', alignment(c + 1, one.cells.length + 1), cell));
+      const cells = one.cells.map((cell, c) => html('td', side(numeric(one.cells.length + 1)[c + 1]), cell));
       return html('tr', {}, html('td', {}, opener(k, `${k + 1}`)), ...cells);
     });
-    byId('plans').replaceChildren(headed(['', ...page.columns]), ...rows);
+    byId('plans').replaceChildren(headed(['', ...page.columns], numeric(page.columns.length + 1)), ...rows);
   }
 
   function current() {
@@ -88,7 +90,7 @@
       html('td', { class: 'number' }, best),
       html('td', {}, why)));
     const names = ['', 'tool', 'pushes considered', 'cannot be made', 'best score in the search', 'why'];
-    byId('tools').replaceChildren(headed(names), ...rows);
+    byId('tools').replaceChildren(headed(names, numeric(names.length)), ...rows);
   }
 
   byId('warnings-card').hidden = page.warnings.length === 0;

@@ -1,0 +1,276 @@
+//! What is typed to have a page's replays made again: a command line, and a script in Python.
+
+use crate::scene::{ModelSpec, Plan, Push, PushForm};
+
+/// Files and models that a page was made from, as people name them.
+#[derive(Clone, Debug, Default)]
+pub struct Origin {
+    /// The task file.
+    pub task: String,
+    /// Folder of the tools that were chosen from instead of the shipped ones.
+    pub tools: Option<String>,
+    /// Folder of further tools.
+    pub more_tools: Option<String>,
+    /// What predicted, where it is to be said.
+    pub model: Option<ModelSpec>,
+}
+
+/// A setting of a run.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The option of the command.
+    pub option: &'static str,
+    /// The keyword in Python, if there is one.
+    pub keyword: Option<&'static str>,
+    /// What it is set to.
+    pub value: String,
+}
+
+/// How the replays are made again.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Recipe {
+    /// For a shell; empty where it cannot do the same.
+    pub command: String,
+    /// For Python with the package `pushplan`; empty where it cannot do the same.
+    pub python: String,
+}
+
+impl Origin {
+    /// Of a plan: `pushplan predict` of its pushes, and a script that replays them in both engines.
+    ///
+    /// A plan without pushes has none to predict, and the task is solved instead.
+    pub fn plan(&self, plan: &Plan) -> Recipe {
+        Recipe { command: self.command(plan), python: self.script(plan) }
+    }
+
+    /// Of a run in a world, which is a file or a number; `settings` are those that were not as
+    /// usual.
+    pub fn run(&self, world: &str, settings: &[Setting]) -> Recipe {
+        let mut words = ["pushplan", "run", &quoted(&self.task)].map(str::to_owned).to_vec();
+        words.extend(["--world".to_owned(), quoted(world)]);
+        words.extend(self.options());
+        for setting in settings {
+            words.extend([setting.option.to_owned(), quoted(&setting.value)]);
+        }
+        // Python takes a world of its own or a number.
+        let (mut lines, tools) = self.loads();
+        let mut given = vec!["task".to_owned(), world.to_owned()];
+        given.extend(tools.map(str::to_owned));
+        given.extend(
+            self.model.as_ref().map(|model| format!("model={}", literal(&model.to_string()))),
+        );
+        let keywords = settings.iter().map(|setting| {
+            let value = match setting.value.parse::<f64>() {
+                Ok(_) => setting.value.clone(),
+                Err(_) => literal(&setting.value),
+            };
+            Some(format!("{}={value}", setting.keyword?))
+        });
+        let keywords: Option<Vec<String>> = keywords.collect();
+        let python = match (world.parse::<u64>(), keywords) {
+            (Ok(_), Some(keywords)) => {
+                given.extend(keywords);
+                lines.push(format!("print(pushplan.run({}))", given.join(", ")));
+                lines.join("\n")
+            }
+            _ => String::new(),
+        };
+        Recipe { command: words.join(" "), python }
+    }
+
+    fn command(&self, plan: &Plan) -> String {
+        let verb = if plan.pushes.is_empty() { "solve" } else { "predict" };
+        let mut words = vec!["pushplan".to_owned(), verb.to_owned(), quoted(&self.task)];
+        words.extend(self.options());
+        if !plan.pushes.is_empty() {
+            words.extend(["--tool".to_owned(), quoted(&plan.tool)]);
+            words.extend(["--grip-yaw-deg".to_owned(), plan.grip_yaw.to_degrees().to_string()]);
+        }
+        for (k, push) in plan.pushes.iter().enumerate() {
+            let start = match goes_on(plan, k) {
+                true => String::new(),
+                false => format!("start={},{} ", push.start.x, push.start.y),
+            };
+            let (direction, length, speed) = (push.direction.to_degrees(), push.length, push.speed);
+            let push = format!("{start}direction_deg={direction} length={length} speed={speed}");
+            words.extend(["--push".to_owned(), quoted(&push)]);
+        }
+        words.join(" ")
+    }
+
+    fn options(&self) -> Vec<String> {
+        let model = self.model.as_ref().map(ToString::to_string);
+        let given =
+            [("--model", &model), ("--tools", &self.tools), ("--more-tools", &self.more_tools)];
+        let given = given.into_iter().filter_map(|(name, value)| Some((name, value.as_ref()?)));
+        given.flat_map(|(name, value)| [name.to_owned(), quoted(value)]).collect()
+    }
+
+    fn script(&self, plan: &Plan) -> String {
+        let (mut lines, tools) = self.loads();
+        let tools = tools.map_or(String::new(), |tools| format!(", {tools}"));
+        let model = self.model.as_ref().map(|model| literal(&model.to_string()));
+        if plan.pushes.is_empty() {
+            let model = model.map_or(String::new(), |model| format!(", model={model}"));
+            lines.push(format!("print(pushplan.solve(task{tools}{model}))"));
+            return lines.join("\n");
+        }
+        lines.push("pushes = [".to_owned());
+        let pushes = plan.pushes.iter().enumerate();
+        lines.extend(
+            pushes.map(|(k, push)| format!("    {},", python_push(push, goes_on(plan, k)))),
+        );
+        lines.push("]".to_owned());
+        lines.push(format!(
+            "plan = pushplan.Plan.of(task, {}, pushes, grip_yaw={}{})",
+            literal(&plan.tool),
+            plan.grip_yaw,
+            tools.replace("tools", "tools=tools")
+        ));
+        let model = model.map_or(String::new(), |model| format!(", {model}"));
+        lines.push(format!("predicted = pushplan.predict(plan{model})"));
+        lines.push("print(f\"predicted to end {1000 * predicted.error:.1f} mm off\")".to_owned());
+        lines.push("print(pushplan.verify(plan))".to_owned());
+        lines.join("\n")
+    }
+
+    /// The lines that load tools and task, and the name of the tools where they are not the shipped
+    /// ones.
+    fn loads(&self) -> (Vec<String>, Option<&'static str>) {
+        let mut lines = vec!["import pushplan".to_owned(), String::new()];
+        let shipped = "pushplan.ToolLibrary.shipped()".to_owned();
+        let own = |folder: &String| format!("pushplan.ToolLibrary.load({})", literal(folder));
+        let mut tools = self.tools.as_ref().map(own);
+        if let Some(folder) = &self.more_tools {
+            let known = tools.unwrap_or(shipped);
+            tools = Some(format!("{known}.with_folder({})", literal(folder)));
+        }
+        let task = literal(&self.task);
+        match &tools {
+            Some(tools) => {
+                lines.push(format!("tools = {tools}"));
+                lines.push(format!("task = pushplan.Task.load({task}, tools)"));
+            }
+            None => lines.push(format!("task = pushplan.Task.load({task})")),
+        }
+        (lines, tools.map(|_| "tools"))
+    }
+}
+
+impl Recipe {
+    /// Of the replays of a plan file.
+    pub fn of_plan_file(path: &str) -> Self {
+        let load = format!("plan = pushplan.Plan.load({})", literal(path));
+        Self {
+            command: format!("pushplan verify {}", quoted(path)),
+            python: ["import pushplan", "", &load, "print(pushplan.verify(plan))"].join("\n"),
+        }
+    }
+
+    /// Of the replays of a file of a lever-up, which Python does not read.
+    pub fn of_lever_file(path: &str) -> Self {
+        Self { python: String::new(), ..Self::of_plan_file(path) }
+    }
+}
+
+/// Whether a push of a plan goes on where the one before it ended, to the last digit.
+fn goes_on(plan: &Plan, push: usize) -> bool {
+    plan.form == PushForm::Chained && push > 0
+}
+
+fn python_push(push: &Push, goes_on: bool) -> String {
+    let start = match goes_on {
+        true => "None".to_owned(),
+        false => format!("({}, {})", push.start.x, push.start.y),
+    };
+    let Push { direction, length, speed, .. } = push;
+    format!("pushplan.Push({start}, {direction}, length={length}, speed={speed})")
+}
+
+/// A text as Python reads it: JSON's way to write one is Python's, too.
+fn literal(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A word as a POSIX shell takes it whole.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', r"'\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+
+    fn plan() -> Plan {
+        let start = Vector::new(0.5, 0.25);
+        let push = Push { start, direction: std::f64::consts::PI, length: 0.1, speed: 0.1 };
+        Plan {
+            tool: "bob's hook".to_owned(),
+            grip_yaw: 0.0,
+            form: PushForm::Chained,
+            lift: 0.002,
+            pushes: vec![push, push],
+        }
+    }
+
+    #[test]
+    fn a_plan_becomes_a_command_that_a_shell_takes_as_it_is() {
+        let origin = Origin {
+            task: "my tasks/a.yaml".to_owned(),
+            tools: Some("mine".to_owned()),
+            ..Origin::default()
+        };
+        insta::assert_snapshot!(
+            origin.plan(&plan()).command,
+            @r"pushplan predict 'my tasks/a.yaml' --tools mine --tool 'bob'\''s hook' --grip-yaw-deg 0 --push 'start=0.5,0.25 direction_deg=180 length=0.1 speed=0.1' --push 'direction_deg=180 length=0.1 speed=0.1'"
+        );
+        let nothing = Plan { pushes: Vec::new(), ..plan() };
+        let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
+        assert_eq!(origin.plan(&nothing).command, "pushplan solve a.yaml");
+    }
+
+    #[test]
+    fn a_run_becomes_a_script_where_python_can_do_the_same() {
+        let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
+        let setting = |option, keyword, value: &str| {
+            let value = value.to_owned();
+            Setting { option, keyword, value }
+        };
+        let usual =
+            [setting("--effort", Some("effort"), "standard"), setting("--seed", Some("seed"), "3")];
+        let Recipe { command, python } = origin.run("2", &usual);
+        assert_eq!(command, "pushplan run a.yaml --world 2 --effort standard --seed 3");
+        assert!(python.ends_with("print(pushplan.run(task, 2, effort=\"standard\", seed=3))"));
+        assert_eq!(origin.run("hidden.yaml", &usual).python, "");
+        assert_eq!(origin.run("2", &[setting("--rule", None, "random")]).python, "");
+    }
+
+    #[test]
+    fn a_plan_becomes_a_script() {
+        let origin = Origin {
+            task: "my \"tasks\"/a.yaml".to_owned(),
+            more_tools: Some("mine".to_owned()),
+            model: Some(crate::scene::ModelKind::PLANAR.into()),
+            ..Origin::default()
+        };
+        insta::assert_snapshot!(origin.plan(&plan()).python, @r#"
+        import pushplan
+
+        tools = pushplan.ToolLibrary.shipped().with_folder("mine")
+        task = pushplan.Task.load("my \"tasks\"/a.yaml", tools)
+        pushes = [
+            pushplan.Push((0.5, 0.25), 3.141592653589793, length=0.1, speed=0.1),
+            pushplan.Push(None, 3.141592653589793, length=0.1, speed=0.1),
+        ]
+        plan = pushplan.Plan.of(task, "bob's hook", pushes, grip_yaw=0, tools=tools)
+        predicted = pushplan.predict(plan, "planar")
+        print(f"predicted to end {1000 * predicted.error:.1f} mm off")
+        print(pushplan.verify(plan))
+        "#);
+    }
+}

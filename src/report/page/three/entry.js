@@ -1,0 +1,7 @@
+// What `../script/solid.js` draws with: of three.js this and what it needs, nothing else.
+export {
+  BufferGeometry, CircleGeometry, Color, CylinderGeometry, DirectionalLight, EdgesGeometry, ExtrudeGeometry,
+  Group, HemisphereLight, Line, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshBasicMaterial,
+  MeshLambertMaterial, PerspectiveCamera, PlaneGeometry, Scene, Shape, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+export { OrbitControls } from 'three/addons/controls/OrbitControls.js';
