@@ -193,3 +193,39 @@ pub(super) fn has_unseen_headings(window: &[Observation]) -> bool {
 pub(super) fn is_lifted(seen: &Observation) -> bool {
     seen.strokes.last().is_some_and(|stroke| stroke.settle)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        belief::BeliefSettings,
+        geometry::{Pose, Shape},
+        scene::{Noise, Object, Part, Scene, Tool},
+    };
+
+    #[test]
+    fn a_joint_that_closes_a_loop_makes_each_other_one_in_it_give_way() {
+        use JointType::{Fixed, None, Revolute};
+        let can = |name: &str, x, y| Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0);
+        let scene = Scene::new([
+            can("a", 0.0, 0.0),
+            can("b", 0.11, 0.0),
+            can("c", 0.055, 0.095),
+            can("d", 0.22, 0.0),
+        ]);
+        let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
+        let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+        let settings = BeliefSettings::new(Noise { position: 0.0, heading: 0.0 });
+        let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
+        assert_eq!(belief.pairs().collect::<Vec<_>>(), [[0, 1], [0, 2], [1, 2], [1, 3]]);
+        let types = [Fixed, Revolute, None, Fixed];
+        assert_eq!(
+            belief.changed(&types, 2, Fixed),
+            [[None, Revolute, Fixed, Fixed], [Fixed, None, Fixed, Fixed]]
+        );
+        assert_eq!(belief.changed(&types, 3, None), [[Fixed, Revolute, None, None]]);
+        assert_eq!(belief.changed(&types, 1, Fixed), [[Fixed, Fixed, None, Fixed]]);
+    }
+}
