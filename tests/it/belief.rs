@@ -207,7 +207,7 @@ fn near_pairs_that_moved_are_told_apart_in_crowds() {
 
 #[test]
 fn many_are_told_apart_in_crowds_of_cylinders_without_headings() {
-    for (preset, count, least) in [(Preset::Sparse, 8, 0.8), (Preset::Dense, 8, 0.6)] {
+    for (preset, count, least) in [(Preset::Sparse, 8, 0.85), (Preset::Dense, 8, 0.75)] {
         let (right, all) = told_apart(preset, count, Solids::Cylinders, false);
         assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
     }
