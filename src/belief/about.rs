@@ -35,6 +35,7 @@ impl Belief {
     pub fn take_tool(&mut self, tool: Arc<Tool>, lift: f64) {
         self.tool = tool;
         self.lift = lift;
+        self.push = None;
     }
 
     /// Standard deviations of where every object is thought to be: of either coordinate (metres) and

@@ -7,12 +7,12 @@ use serde::Serialize;
 use crate::{
     effect::EffectModel,
     scene::{
-        Job, Joint, Observation, Physics, Scene, Sight, Situation, State, Tool, Unknowns,
-        near_pairs,
+        Job, Joint, Observation, Physics, Scene, Situation, State, Tool, Unknowns, near_pairs,
     },
 };
 
 use super::{
+    group::{Push, has_unseen_headings, is_lifted},
     joints::{carried, likeliest, of_types},
     look::{Looked, Told},
     pair::{JointType, PairBelief},
@@ -35,18 +35,19 @@ pub struct Belief {
     pub(super) scene: Scene,
     pub(super) tool: Arc<Tool>,
     pub(super) lift: f64,
-    settings: BeliefSettings,
+    pub(super) settings: BeliefSettings,
     pub(super) pairs: Vec<PairBelief>,
     pub(super) track: Track,
     /// Joints that are not to be found out, where the scene states its objects.
     pub(super) known: Vec<Joint>,
     pub(super) particles: Particles,
     pub(super) stretch: Option<Stretch>,
+    pub(super) push: Option<Push>,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
-    history: Vec<Step>,
-    regulation: Option<Regulation>,
+    pub(super) history: Vec<Step>,
+    pub(super) regulation: Option<Regulation>,
 }
 
 /// What was believed when, and why.
@@ -54,7 +55,8 @@ pub struct Belief {
 pub struct Step {
     /// Observations until then.
     pub observations: usize,
-    /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`].
+    /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`];
+    /// at the end of a push in which headings were not seen, those of all joints inferred together.
     pub probabilities: Vec<[f64; 4]>,
     /// What the window said for each type, as logarithms against the best; `None` where nothing of
     /// the pair moved.
@@ -89,6 +91,7 @@ impl Belief {
             known: Vec::new(),
             particles,
             stretch: None,
+            push: None,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -126,7 +129,7 @@ impl Belief {
     /// Takes what was seen. Every few observations are looked at together, so the last ones may
     /// not have told anything yet: see [`Self::settle`].
     pub fn update(&mut self, model: &dyn EffectModel, observation: Observation) {
-        let lifted = observation.strokes.last().is_some_and(|stroke| stroke.settle);
+        let lifted = is_lifted(&observation);
         self.window.push(observation);
         if self.window.len() >= WINDOW || lifted {
             self.settle(model);
@@ -139,38 +142,53 @@ impl Belief {
         if window.is_empty() {
             return;
         }
+        self.remember(&window);
+        self.take(model, &window, None);
+        self.look_together(model);
+    }
+
+    /// Takes a window, in which the joints are those of `assumed` types, or else the likeliest.
+    pub(super) fn take(
+        &mut self,
+        model: &dyn EffectModel,
+        window: &[Observation],
+        assumed: Option<&[JointType]>,
+    ) {
         self.seen += window.len();
-        let mut map = self.map();
-        let Some(mut looked) = self.look(model, &window, &map) else { return };
-        let unseen = |sight: &Sight| sight.heading.is_none();
-        if window.iter().any(|now| now.seen.iter().flatten().any(unseen)) {
+        let mut map = assumed.map_or_else(|| self.map(), |types| self.physics_of(types));
+        let Some(mut looked) = self.look(model, window, &map) else { return };
+        if assumed.is_none() && has_unseen_headings(window) {
             // Without headings a pair is told by how all of its group moves: once more, with the
             // others joined as this window has them.
             let mut pairs = self.pairs.clone();
             weigh(&mut pairs, &looked.told, self.settings.tempering);
             map = self.with_known(likeliest(&self.scene, &pairs, &self.track.state));
-            let Some(again) = self.look(model, &window, &map) else { return };
+            let Some(again) = self.look(model, window, &map) else { return };
             looked = again;
         }
         weigh(&mut self.pairs, &looked.told, self.settings.tempering);
-        self.weigh_particles(model, &window);
-        let played = (self.scene_now(), self.job(&window, map));
-        self.track.follow(&looked.base, &window);
-        let mut evidences = Vec::new();
-        for (pair, Told { judged, instants, ends }) in self.pairs.iter_mut().zip(&looked.told) {
+        self.weigh_particles(model, window);
+        let played = (self.scene_now(), self.job(window, map));
+        self.learn(window, &looked);
+        let of = |(pair, told): (&PairBelief, &Told)| {
+            told.judged.as_ref().map(|judged| pair.by_type(&judged.evidence))
+        };
+        let evidence = self.pairs.iter().zip(&looked.told).map(of).collect();
+        self.regulate(played, window, &looked);
+        let probabilities = self.probabilities();
+        self.history.push(Step { observations: self.seen, probabilities, evidence });
+    }
+
+    /// Takes what was seen in a window into where everything is and the geometry of all hypotheses.
+    pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
+        self.track.follow(&looked.base, window);
+        for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
             pair.learn(instants);
             let between = pair.between;
             pair.recount(&ends.map(|ends| {
                 [0, 1].map(|k| Some(ends[k]? - self.track.state.poses[between[k]].heading))
             }));
-            evidences.push(judged.as_ref().map(|judged| pair.by_type(&judged.evidence)));
         }
-        self.regulate(played, &window, &looked);
-        self.history.push(Step {
-            observations: self.seen,
-            probabilities: self.probabilities(),
-            evidence: evidences,
-        });
     }
 
     /// Physics in which [`Self::pairs`] are joined as `types` say, where these joints would most likely
@@ -266,7 +284,7 @@ pub(super) fn joint_of(physics: &Physics, between: [usize; 2]) -> Option<&Joint>
 }
 
 /// Takes what a window tells of pairs, as far as it is trusted.
-fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
+pub(super) fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
     for (pair, told) in pairs.iter_mut().zip(told) {
         if let Some(judged) = &told.judged {
             pair.weigh(&judged.evidence, tempering);

@@ -77,13 +77,38 @@ impl Belief {
             });
             let instants =
                 by_type.map(|rolled| self.instants(pair.between, rolled, window, &moved));
-            let judged = tells(pair).then(|| self.judge(pair, &by_type, &instants, window, &moved));
+            let places = by_type.map(|rolled| self.track.places(rolled, window, &moved));
+            let judged = tells(pair).then(|| self.judge(pair, &places, &instants, &moved));
             let ends =
                 by_type.map(|rolled| pair.between.map(|k| Track::unseen_end(k, rolled, window)));
             Told { judged, instants, ends }
         };
         let told = self.pairs.iter().enumerate().map(tell).collect();
         Some(Looked { base, told, moved })
+    }
+
+    /// What a window tells of all pairs, joined as in `map`, where no other type is asked and places of
+    /// objects do not count; and how likely these are.
+    pub(super) fn look_at(
+        &self,
+        model: &dyn EffectModel,
+        window: &[Observation],
+        map: &Physics,
+    ) -> Option<(Looked, f64)> {
+        let base = self.roll(model, window, vec![map.clone()]).pop()?;
+        let moved: Vec<f64> = (0..self.scene.objects.len())
+            .map(|object| self.track.motion(object, &base, window))
+            .collect();
+        let tell = |pair: &PairBelief| {
+            let instants = self.instants(pair.between, &base, window, &moved);
+            let instants = JointType::ALL.map(|_| instants.clone());
+            let judged = Some(self.judge(pair, &[0.0; 4], &instants, &moved));
+            let ends = pair.between.map(|k| Track::unseen_end(k, &base, window));
+            Told { judged, instants, ends: [ends; 4] }
+        };
+        let told = self.pairs.iter().map(tell).collect();
+        let places = self.track.places(&base, window, &moved);
+        Some((Looked { base, told, moved }, places))
     }
 
     /// What the tool did in a window, rolled out under every one of `physics`.
@@ -141,20 +166,20 @@ impl Belief {
         instants
     }
 
-    /// What a window says of every hypothesis about a pair, rolled out by type.
+    /// What a window says of every hypothesis about a pair, rolled out by type; by type too, how likely
+    /// the `places` of all objects are.
     fn judge(
         &self,
         pair: &PairBelief,
-        rolled: &[&Rolled; 4],
+        places: &[f64; 4],
         instants: &[Vec<Instant>; 4],
-        window: &[Observation],
         moved: &[f64],
     ) -> Judged {
         let [a, b] = pair.between;
         let [first, second] = [a, b].map(|k| &self.track.state.poses[k]);
         let before = relative(first, second);
         let by_type = JointType::ALL.map(|kind| {
-            let (rolled, instants) = (rolled[kind as usize], &instants[kind as usize]);
+            let instants = &instants[kind as usize];
             let last = instants.last()?;
             let variance = |which: usize| {
                 // Errors of headings that are not seen turn all of a pair's frame alike.
@@ -167,11 +192,7 @@ impl Belief {
             let relative = change.xy().norm().hypot(ARM * change.z);
             let unseen = last.headings == [false; 2];
             let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM, unseen);
-            Some((
-                instants,
-                doubt,
-                PLACES[usize::from(unseen)] * self.track.places(rolled, window, moved),
-            ))
+            Some((instants, doubt, PLACES[usize::from(unseen)] * places[kind as usize]))
         });
         let of = |kind: JointType| by_type[kind as usize].as_ref();
         let judged = pair.hypotheses.iter().map(|hypothesis| {

@@ -8,7 +8,8 @@
 //!
 //! A heading that is not seen is the one rolled out plus an error that every hypothesis estimates for
 //! itself, together with its geometry. What a hypothesis says then rests on how all of a group moves,
-//! so a window is looked at twice, the second time with the joints that it spoke for.
+//! so a window is looked at twice, the second time with the joints that it spoke for, and after a push
+//! whole assignments of joints are played again and compared (`group`).
 //!
 //! A [`BeliefRegulator`] may correct what the filter finds: a recurrent network that reads what every
 //! window told of a pair (`testimony`).
@@ -21,6 +22,7 @@ mod chance;
 mod density;
 mod filter;
 mod fit;
+mod group;
 mod joints;
 mod look;
 mod pair;

@@ -101,6 +101,11 @@ impl Regulation {
         Self { by, memory: Memory::default(), heard: Vec::new() }
     }
 
+    /// Whether it corrects nothing and keeps what it hears as training data.
+    pub fn listens(&self) -> bool {
+        self.by.cell.is_none()
+    }
+
     /// Takes a window: the evidence of every pair of which anything was `told`, and the `job` that
     /// was played. Returns what to add to the logarithms of the types of these pairs.
     pub fn take(

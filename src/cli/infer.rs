@@ -25,7 +25,7 @@ sure that is, and where the point or line is. Joints that the recording states a
 recorded instants are looked at together; the rest of what the recording says of the scene, masses
 and frictions, is taken for true but hardly matters. Headings that are not recorded are estimated:
 where objects are pushed about one by one nearly as many joints are found as with headings, in a
-tight crowd about a quarter of the pairs are mistaken.
+tight crowd about a fifth of the pairs are mistaken.
 
 Examples:
   pushplan infer pushes.recording.json

@@ -1,0 +1,231 @@
+//! Joints of a group of objects, inferred together where headings are not seen.
+//!
+//! The filter judges each pair beside what it takes the others for at that moment. A heading that is
+//! not seen follows from the joints around it, so one wrong joint misleads its neighbours, and what they
+//! said then is never taken back. Hence after every push whole assignments of joints to pairs are
+//! played again from where the push began, each with headings and geometry of its own, and compared by
+//! how likely what was seen is under them: coordinate ascent on the likeliest joints, a pair at a time
+//! (iterated conditional modes, Besag 1986, doi:10.1111/j.2517-6161.1986.tb01412.x). Under the best of
+//! them the filter follows the push once more.
+//!
+//! Where headings are seen a pair can be told by itself, and nothing is played again.
+
+use crate::{
+    effect::EffectModel,
+    scene::{DisjointSets, Observation},
+};
+
+use super::{
+    density::log_sum,
+    filter::{Belief, joint_of, weigh},
+    pair::{JointType, PairBelief},
+};
+
+/// Most windows that are played again.
+const LONGEST: usize = 10;
+
+/// Times that every pair is asked, unless nothing changes before.
+const SWEEPS: usize = 2;
+
+/// What is less likely by the filter is not tried.
+const LEAST: f64 = 0.01;
+
+/// Most assignments that are played, which takes about as long as the filter did.
+const PLAYS: usize = 64;
+
+/// A push so far, to be played again.
+#[derive(Clone, Debug)]
+pub(super) struct Push {
+    /// What was believed before it; its history is left out.
+    before: Box<Belief>,
+    windows: Vec<Vec<Observation>>,
+}
+
+impl Belief {
+    /// Keeps what is believed before a window, and the window.
+    pub(super) fn remember(&mut self, window: &[Observation]) {
+        let mut push = self.push.take().unwrap_or_else(|| {
+            let history = std::mem::take(&mut self.history);
+            let before = Box::new(self.clone());
+            self.history = history;
+            Push { before, windows: Vec::new() }
+        });
+        push.windows.push(window.to_vec());
+        self.push = Some(push);
+    }
+
+    /// At the end of a push in which headings were not seen, and after many windows, has all joints
+    /// inferred together and takes what follows from them.
+    pub(super) fn look_together(&mut self, model: &dyn EffectModel) {
+        let windows = self.push.as_ref().map_or(&[][..], |push| &push.windows);
+        if windows.len() < LONGEST && !windows.iter().flatten().last().is_some_and(is_lifted) {
+            return;
+        }
+        let Some(Push { before, windows }) = self.push.take() else { return };
+        // One that only listens is to hear what windows say as they come.
+        let listens = self.regulation.as_ref().is_some_and(|regulation| regulation.listens());
+        if listens || !windows.iter().any(|window| has_unseen_headings(window)) {
+            return;
+        }
+        let types = self.assign(model, &before, &windows);
+        let mut again = *before;
+        for window in &windows {
+            again.take(model, window, Some(&types));
+        }
+        again.history = std::mem::take(&mut self.history);
+        *self = again;
+        let probabilities = self.probabilities();
+        if let Some(step) = self.history.last_mut() {
+            step.probabilities = probabilities;
+        }
+    }
+
+    /// The likeliest types of all pairs together, searched for from the filter's.
+    fn assign(
+        &self,
+        model: &dyn EffectModel,
+        before: &Belief,
+        windows: &[Vec<Observation>],
+    ) -> Vec<JointType> {
+        let marginals = self.probabilities();
+        let map = self.map();
+        let mut best: Vec<JointType> =
+            self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
+        let mut most = before.play(model, &best, windows);
+        let mut plays = 1;
+        let mut order: Vec<usize> = (0..best.len()).collect();
+        let share = |p: usize| marginals[p][best[p] as usize];
+        order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
+        for _ in 0..SWEEPS {
+            let before_sweep = best.clone();
+            for &p in &order {
+                let likely =
+                    |kind: &JointType| *kind != best[p] && marginals[p][*kind as usize] >= LEAST;
+                let kinds: Vec<JointType> = JointType::ALL.into_iter().filter(likely).collect();
+                let options: Vec<_> =
+                    kinds.into_iter().flat_map(|kind| self.changed(&best, p, kind)).collect();
+                for option in options {
+                    if plays == PLAYS {
+                        return best;
+                    }
+                    plays += 1;
+                    let score = before.play(model, &option, windows);
+                    if score > most {
+                        (most, best) = (score, option);
+                    }
+                }
+            }
+            if best == before_sweep {
+                break;
+            }
+        }
+        best
+    }
+
+    /// `types` with one pair of another kind; where that closes a loop, every joint in it gives way in
+    /// turn.
+    fn changed(&self, types: &[JointType], pair: usize, kind: JointType) -> Vec<Vec<JointType>> {
+        let mut changed = types.to_vec();
+        changed[pair] = kind;
+        if self.is_forest(&changed) {
+            return vec![changed];
+        }
+        let others = (0..types.len()).filter(|&p| p != pair && types[p] != JointType::None);
+        let without = others.map(|p| {
+            let mut without = changed.clone();
+            without[p] = JointType::None;
+            without
+        });
+        without.filter(|types| self.is_forest(types)).collect()
+    }
+
+    fn is_forest(&self, types: &[JointType]) -> bool {
+        let mut sets = DisjointSets::new(self.scene.objects.len());
+        let mut joined = self.pairs.iter().zip(types);
+        joined.all(|(pair, kind)| *kind == JointType::None || sets.join(pair.between))
+    }
+
+    /// How likely `types` are, and what was seen in these windows where they are true, as a logarithm
+    /// up to what is the same for all of them. As much of the evidence counts as in the filter.
+    fn play(
+        &self,
+        model: &dyn EffectModel,
+        types: &[JointType],
+        windows: &[Vec<Observation>],
+    ) -> f64 {
+        let mut played = self.clone();
+        let mut log = 0.0;
+        for (pair, kind) in played.pairs.iter_mut().zip(types) {
+            log += pair.filtered(false)[*kind as usize].ln();
+            pair.hypotheses.retain(|hypothesis| hypothesis.fit.kind == *kind);
+        }
+        for window in windows {
+            let map = played.physics_of(types);
+            let Some((looked, places)) = played.look_at(model, window, &map) else { break };
+            for (pair, told) in played.pairs.iter().zip(&looked.told) {
+                if let Some(judged) = &told.judged {
+                    log += self.settings.tempering * pair.log_density(&judged.evidence);
+                }
+            }
+            log += self.settings.tempering * places;
+            weigh(&mut played.pairs, &looked.told, self.settings.tempering);
+            played.learn(window, &looked);
+        }
+        log
+    }
+}
+
+impl PairBelief {
+    /// Logarithm of the density of a window under all hypotheses, where it is `evidence` under each.
+    fn log_density(&self, evidence: &[f64]) -> f64 {
+        let logs = || self.hypotheses.iter().map(|hypothesis| hypothesis.log);
+        let both = logs().zip(evidence).map(|(log, evidence)| log + evidence);
+        log_sum(both) - log_sum(logs())
+    }
+}
+
+/// Whether a heading of something that was seen was not.
+pub(super) fn has_unseen_headings(window: &[Observation]) -> bool {
+    window.iter().any(|now| now.seen.iter().flatten().any(|sight| sight.heading.is_none()))
+}
+
+/// Whether the tool is lifted after an observation.
+pub(super) fn is_lifted(seen: &Observation) -> bool {
+    seen.strokes.last().is_some_and(|stroke| stroke.settle)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        belief::BeliefSettings,
+        geometry::{Pose, Shape},
+        scene::{Noise, Object, Part, Scene, Tool},
+    };
+
+    #[test]
+    fn a_joint_that_closes_a_loop_makes_each_other_one_in_it_give_way() {
+        use JointType::{Fixed, None, Revolute};
+        let can = |name: &str, x, y| Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0);
+        let scene = Scene::new([
+            can("a", 0.0, 0.0),
+            can("b", 0.11, 0.0),
+            can("c", 0.055, 0.095),
+            can("d", 0.22, 0.0),
+        ]);
+        let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
+        let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+        let settings = BeliefSettings::new(Noise { position: 0.0, heading: 0.0 });
+        let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
+        assert_eq!(belief.pairs().collect::<Vec<_>>(), [[0, 1], [0, 2], [1, 2], [1, 3]]);
+        let types = [Fixed, Revolute, None, Fixed];
+        assert_eq!(
+            belief.changed(&types, 2, Fixed),
+            [[None, Revolute, Fixed, Fixed], [Fixed, None, Fixed, Fixed]]
+        );
+        assert_eq!(belief.changed(&types, 3, None), [[Fixed, Revolute, None, None]]);
+        assert_eq!(belief.changed(&types, 1, Fixed), [[Fixed, Fixed, None, Fixed]]);
+    }
+}
