@@ -14,7 +14,7 @@ use super::{
     simulate, solve, tradeoff, verify,
 };
 #[cfg(feature = "train")]
-use super::{train, train_regulator};
+use super::{train, train_lever, train_regulator};
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
@@ -41,6 +41,8 @@ enum Command {
     Train(train::TrainArgs),
     #[cfg(feature = "train")]
     TrainRegulator(train_regulator::TrainRegulatorArgs),
+    #[cfg(feature = "train")]
+    TrainLever(train_lever::TrainLeverArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
@@ -86,6 +88,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Train(args) => train::run(args, &session),
         #[cfg(feature = "train")]
         Command::TrainRegulator(args) => train_regulator::run(args, &session),
+        #[cfg(feature = "train")]
+        Command::TrainLever(args) => train_lever::run(args, &session),
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
         Command::Infer(args) => infer::run(args, &session),

@@ -35,6 +35,8 @@ mod tradeoff;
 #[cfg(feature = "train")]
 mod train;
 #[cfg(feature = "train")]
+mod train_lever;
+#[cfg(feature = "train")]
 mod train_regulator;
 mod verify;
 mod words;

@@ -50,8 +50,9 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, Block, Ending, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene,
-    LeverTrajectory, LeverUp, LeverWarning, Place, Plate, Slab, Weight, has_slipped, lever_frame,
+    Blade, Block, Ending, LEVER_FRAMES, LeverFeatures, LeverFrame, LeverJob, LeverMotion,
+    LeverScene, LeverTrajectory, LeverUp, LeverWarning, Place, Plate, Slab, Weight, has_slipped,
+    lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

@@ -1,5 +1,7 @@
 //! `pushplan bench levers`: errors of models of lever-ups.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use crate::bench::{LeverBaseline, Neighbour, lever_report};
@@ -13,8 +15,9 @@ use crate::cli::{
     words::{LEVER_PRESETS, words},
 };
 use crate::dataset::{LeverConfig, LeverDataset, LeverPreset};
-use crate::effect::{LeverFeatures, LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
+use crate::effect::{LeverModel, LeverNetwork, LeverPrior, PriorSettings, SimulatedLevers};
 use crate::report::levers_document;
+use crate::scene::LeverFeatures;
 use crate::sim::LeverSimulator;
 
 /// Models of lever-ups against the 3-D engine, on plates that none has seen
@@ -37,6 +40,9 @@ pub struct LeversArgs {
     /// Their seed; must differ from that of the others
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
+    /// Weights of networks to measure as well, see `pushplan train-lever`
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    network: Vec<PathBuf>,
     #[command(flatten)]
     form: Form,
 }
@@ -46,6 +52,11 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         let message = "the lever-ups that are remembered have the seed of the others";
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
+    let load = |path: &PathBuf| {
+        let network = LeverNetwork::load(path);
+        network.map_err(|error| CliError::invalid("cannot use the network", &error))
+    };
+    let networks: Vec<LeverNetwork> = args.network.iter().map(load).collect::<Result<_, _>>()?;
     interrupt::watch();
     let usual = [LeverPreset::Fixed, LeverPreset::Varied];
     let families = if args.families.is_empty() { &usual[..] } else { &args.families };
@@ -63,7 +74,8 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         let spinner = session.spinner("predicting");
         reports.push(session.compute(|| {
             let models = models(&known);
-            let models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            let mut models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            models.extend(networks.iter().map(|network| network as &dyn LeverModel));
             lever_report((*preset, args.seed), asked.episodes(), &models)
         }));
         spinner.finish_and_clear();

@@ -5,6 +5,7 @@
 //! planar ones.
 
 mod action;
+mod features;
 mod motion;
 mod outcome;
 mod plate;
@@ -14,6 +15,7 @@ mod trajectory;
 mod weight;
 
 pub use action::{LeverJob, LeverUp, Place, lever_frame};
+pub use features::LeverFeatures;
 pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
