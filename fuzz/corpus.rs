@@ -11,6 +11,8 @@ use pushplan::scene::{Job, Outcome, Plan, Push, Record, Task};
 use serde_json::Value as Json;
 
 use crate::bytes::damaged;
+use crate::levers;
+use crate::markup::spoiled;
 use crate::random::Random;
 use crate::targets::Target;
 use crate::tree::Tree;
@@ -28,9 +30,13 @@ impl Corpus {
             Target::Task => folder("tasks"),
             Target::Plan => made(plan),
             Target::Trajectory => made(trajectory),
+            Target::Blade => folder("tools"),
+            Target::LeverTask => folder("tasks/levers"),
+            Target::LeverPlan => levers::plans(),
             // Written in `corpus`.
             Target::Recording => Vec::new(),
             Target::Weights => vec![("small".into(), weights())],
+            Target::Foreign => folder("tests/cmd/import.in"),
         };
         files.extend(folder(&format!("fuzz/corpus/{}", target.name())));
         Self { files }
@@ -49,6 +55,9 @@ impl Corpus {
         }
         if random.once_in(3) {
             return damaged(bytes, other, random);
+        }
+        if target == Target::Foreign {
+            return spoiled(bytes, random);
         }
         let text = String::from_utf8_lossy(bytes);
         // JSON is YAML, but for very long files the YAML parser takes its time.
@@ -104,8 +113,9 @@ fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
         entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
     // Pictures and sources stand beside some of them.
     let is_data = |path: &PathBuf| {
-        path.extension()
-            .is_some_and(|end| ["yaml", "json", "safetensors"].iter().any(|e| end == *e))
+        path.extension().is_some_and(|end| {
+            ["yaml", "json", "safetensors", "xml", "urdf"].iter().any(|e| end == *e)
+        })
     };
     paths.retain(|path| path.is_file() && is_data(path));
     paths.sort();

@@ -5,6 +5,8 @@
 
 mod bytes;
 mod corpus;
+mod levers;
+mod markup;
 mod random;
 mod snippets;
 mod survive;

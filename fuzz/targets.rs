@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
+use pushplan::asset::{Faults, LeverPlanFile, PlanFile, TrajectoryFile, check};
+use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{Weights, WeightsError};
 use pushplan::recording::Recording;
-use pushplan::scene::{Task, Tool};
+use pushplan::scene::{BladeTool, LeverTask, Task, Tool};
 
-use crate::survive;
+use crate::{levers, survive};
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -19,11 +20,26 @@ pub enum Target {
     Trajectory,
     Recording,
     Weights,
+    Blade,
+    LeverTask,
+    LeverPlan,
+    /// Of other programs: MJCF and URDF.
+    Foreign,
 }
 
 impl Target {
-    pub const ALL: [Self; 6] =
-        [Self::Tool, Self::Task, Self::Plan, Self::Trajectory, Self::Recording, Self::Weights];
+    pub const ALL: [Self; 10] = [
+        Self::Tool,
+        Self::Task,
+        Self::Plan,
+        Self::Trajectory,
+        Self::Recording,
+        Self::Weights,
+        Self::Blade,
+        Self::LeverTask,
+        Self::LeverPlan,
+        Self::Foreign,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -33,15 +49,20 @@ impl Target {
             Self::Trajectory => "trajectory",
             Self::Recording => "recording",
             Self::Weights => "weights",
+            Self::Blade => "blade",
+            Self::LeverTask => "lever-task",
+            Self::LeverPlan => "lever-plan",
+            Self::Foreign => "foreign",
         }
     }
 
     /// The ending that such files have.
     pub fn ending(self) -> &'static str {
         match self {
-            Self::Tool | Self::Task => ".yaml",
-            Self::Plan | Self::Trajectory | Self::Recording => ".json",
+            Self::Tool | Self::Task | Self::Blade | Self::LeverTask => ".yaml",
+            Self::LeverPlan | Self::Plan | Self::Trajectory | Self::Recording => ".json",
             Self::Weights => ".safetensors",
+            Self::Foreign => ".xml",
         }
     }
 
@@ -70,9 +91,32 @@ impl Target {
             Self::Plan => read(PlanFile::parse(text, &file), text, survive::plan),
             Self::Trajectory => read(TrajectoryFile::parse(text, &file), text, survive::trajectory),
             Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
+            Self::Blade => read(BladeTool::parse(text, &file), text, levers::blade),
+            Self::LeverTask => read(LeverTask::parse(text, &file), text, levers::task),
+            Self::LeverPlan => read(LeverPlanFile::parse(text, &file), text, levers::plan),
+            Self::Foreign => foreign(text, &file),
             Self::Weights => false,
         }
     }
+}
+
+/// Reads a file of another program as a tool and as a scene; what comes of it is used like any other.
+fn foreign(text: &str, file: &str) -> bool {
+    let wanted = Wanted::default();
+    let spoken = |faults: Faults| {
+        assert!(!faults.0.is_empty(), "refused without a fault");
+        assert!(faults.0.iter().all(|fault| !fault.message.trim().is_empty()));
+    };
+    let model = match parse(text, file) {
+        Ok((model, ..)) => model,
+        Err(faults) => {
+            explained(&faults, text);
+            return false;
+        }
+    };
+    let tool = tool(&model, file, &wanted).map(|made| survive::tool(made.value)).map_err(spoken);
+    let scene = objects(&model, file, &wanted).map(|made| survive::task(made.value.task));
+    tool.is_ok() | scene.map_err(spoken).is_ok()
 }
 
 /// Weights from `input`, with a checksum that fits: damage must not hide behind it.

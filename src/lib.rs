@@ -50,14 +50,15 @@
 //!
 //! # Features
 //!
-//! All are on by default; a library needs none of them, and then no C compiler either. CI counts
+//! All but `train` are on by default; a library needs none of them, and then no C compiler either. CI counts
 //! the crates that are left, at most 120, with `cargo tree -e normal,build --no-default-features
 //! --prefix none --no-dedupe | sort -u | wc -l`.
 //!
 //! | feature | what it adds |
 //! |---|---|
 //! | `cli` | the command `pushplan` |
-//! | `train` | training of the network, on candle |
+//! | `formats` | MJCF and URDF in, MCAP and NPZ out |
+//! | `train` | training of the networks, on candle, whose crates double the time of the first build |
 //! | `mimalloc` | a faster allocator for the command, written in C |
 //!
 //! # Internals
@@ -96,6 +97,9 @@ pub mod fit;
 pub mod geometry;
 #[doc(hidden)]
 pub mod graph;
+#[cfg(feature = "formats")]
+#[doc(hidden)]
+pub mod import;
 #[doc(hidden)]
 pub mod judge;
 #[doc(hidden)]

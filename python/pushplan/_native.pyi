@@ -1,8 +1,8 @@
 # What the compiled part of the package holds; its docstrings say the rest.
 
 import os
-from collections.abc import Sequence
-from typing import Any, Literal, final
+from collections.abc import Iterable, Sequence
+from typing import Any, Literal, Protocol, final, type_check_only
 
 import numpy as np
 import numpy.typing as npt
@@ -11,21 +11,30 @@ from .files import TaskFile, ToolFile
 
 __all__ = [
     "Belief",
+    "Motion",
     "Plan",
     "Push",
     "Recording",
     "Replay",
     "Rollouts",
+    "Run",
     "Solution",
     "Task",
     "Tool",
     "ToolLibrary",
     "Trajectory",
     "Verdict",
+    "blade_schema",
+    "export_mcap",
+    "export_mjcf",
+    "import_task",
+    "import_tool",
     "infer",
+    "lever_task_schema",
     "predict",
     "recording_schema",
     "rollout",
+    "run",
     "solve",
     "solve_all",
     "task_schema",
@@ -331,6 +340,55 @@ class Belief:
     def scene(self) -> dict[str, Any]: ...
     def to_dict(self) -> dict[str, Any]: ...
 
+@final
+class Motion:
+    @property
+    def tool(self) -> Tool: ...
+    @property
+    def lift(self) -> float: ...
+    @property
+    def end_effector(self) -> _Floats: ...
+    @property
+    def tool_frame(self) -> _Floats: ...
+    @property
+    def durations(self) -> list[float]: ...
+
+@type_check_only
+class _World(Protocol):
+    def look(self) -> npt.ArrayLike: ...
+    def act(self, motion: Motion, /) -> Iterable[tuple[float, npt.ArrayLike]]: ...
+
+@final
+class Run:
+    @property
+    def end(self) -> Literal["reached", "used_up", "no_push"]: ...
+    @property
+    def reached(self) -> bool: ...
+    @property
+    def pushes(self) -> list[Push]: ...
+    @property
+    def poses(self) -> _Floats: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def save(self, path: _Path) -> None: ...
+    def to_dict(self) -> dict[str, Any]: ...
+
+def run(
+    task: Task,
+    world: int | _World,
+    tools: ToolLibrary | None = None,
+    *,
+    effort: _Effort = "draft",
+    model: str | None = None,
+    outside: _Outside = "warn",
+    seed: int = 0,
+    pushes: int = 12,
+    samples: int = 16,
+    enough: float = 0.8,
+    probes: int = 3,
+    noise: tuple[float, float] | None = None,
+    threads: int = 0,
+) -> Run: ...
 def solve(
     task: Task,
     tools: ToolLibrary | None = None,
@@ -388,6 +446,28 @@ def infer(
     heading_noise: float = 0.01,
     threads: int = 0,
 ) -> Belief: ...
+def import_tool(
+    path: _Path, *, body: str | None = None, name: str | None = None, friction: float = 0.5
+) -> Tool: ...
+def import_task(
+    path: _Path,
+    *,
+    bodies: Sequence[str] | None = None,
+    name: str | None = None,
+    friction: float = 0.5,
+    shift: tuple[float, float] = ...,
+) -> Task: ...
+def export_mjcf(plan: Plan, path: _Path) -> None: ...
+def export_mcap(
+    plan: Plan,
+    path: _Path,
+    *,
+    trajectory: Trajectory | None = None,
+    model: str = "3d",
+    threads: int = 0,
+) -> None: ...
 def tool_schema() -> dict[str, Any]: ...
 def task_schema() -> dict[str, Any]: ...
+def lever_task_schema() -> dict[str, Any]: ...
+def blade_schema() -> dict[str, Any]: ...
 def recording_schema() -> dict[str, Any]: ...

@@ -2,7 +2,8 @@
 
 ``Task.of`` and ``Tool.of`` take such mappings and check them as strictly as files; a type checker
 finds misspelled keys before. ``pushplan.task_schema()`` says what every key means, its range and its
-default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
+default. Tasks of levering and tools with blades have files too (``pushplan.lever_task_schema()``), for
+the command ``pushplan``. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
 """
 
 import sys
@@ -18,16 +19,29 @@ else:
     from typing_extensions import NotRequired
 
 __all__ = [
+    "BladeFile",
+    "BladeKeys",
     "CuboidKeys",
     "CylinderKeys",
     "FrictionKeys",
     "GoalKeys",
     "GripKeys",
     "JointKeys",
+    "LeverGoalKeys",
+    "LeverObjectKeys",
+    "LeverObstacleKeys",
+    "LeverPartKeys",
+    "LeverRobotKeys",
+    "LeverSceneKeys",
+    "LeverTableKeys",
+    "LeverTaskFile",
+    "LeversKeys",
     "Numbers",
     "ObjectKeys",
     "ObstacleKeys",
     "PartKeys",
+    "PlatePrismKeys",
+    "PlateShapeKeys",
     "PrismKeys",
     "PushKeys",
     "ReachKeys",
@@ -219,3 +233,122 @@ class ToolFile(TypedDict):
     description: NotRequired[str]
     grip: NotRequired[GripKeys]
     joints: NotRequired[Sequence[Sequence[str]]]
+
+
+class PlatePrismKeys(TypedDict):
+    """An upright prism on a convex polygon, metres."""
+
+    corners: Sequence[Numbers]
+    height: float
+    origin: NotRequired[Numbers]
+
+
+class PlateShapeKeys(TypedDict, total=False):
+    """One flat solid: exactly one of the keys."""
+
+    cuboid: CuboidKeys
+    prism: PlatePrismKeys
+
+
+class LeverPartKeys(TypedDict):
+    """What is fixed on a plate; position [x, y] or [x, y, z] in metres."""
+
+    shape: PlateShapeKeys
+    position: Numbers
+    yaw_deg: NotRequired[float]
+
+
+class LeverObjectKeys(TypedDict):
+    """A plate; mass in kilograms, position [x, y] and heights in metres."""
+
+    name: str
+    shape: PlateShapeKeys
+    mass: float
+    friction: float
+    position: Numbers
+    parts: NotRequired[Sequence[LeverPartKeys]]
+    clearance: NotRequired[float]
+    z: NotRequired[float]
+    yaw_deg: NotRequired[float]
+
+
+class LeverObstacleKeys(TypedDict):
+    """A fixed cuboid; extents [x, y, z] and position [x, y] or [x, y, z] in metres."""
+
+    name: str
+    size: Numbers
+    position: Numbers
+    yaw_deg: NotRequired[float]
+    friction: NotRequired[float]
+
+
+class LeverTableKeys(TypedDict, total=False):
+    """The table."""
+
+    friction: float
+
+
+class LeverSceneKeys(TypedDict):
+    """What lies on the table."""
+
+    objects: Sequence[LeverObjectKeys]
+    table: NotRequired[LeverTableKeys]
+    obstacles: NotRequired[Sequence[LeverObstacleKeys]]
+
+
+class LeverRobotKeys(TypedDict):
+    """Where the end effector can be, metres."""
+
+    reach: ReachKeys
+
+
+class LeversKeys(TypedDict, total=False):
+    """The lever-ups that a plan may contain; metres, m/s and seconds."""
+
+    depth: Numbers
+    angle_deg: Numbers
+    pivot: Union[Literal["auto"], float, Sequence[Union[Literal["auto"], float]]]
+    speed: float
+    hold: float
+    retreat: float
+
+
+class LeverGoalKeys(TypedDict):
+    """What must come of it; metres."""
+
+    object: str
+    outside: NotRequired[str]
+    raised: NotRequired[float]
+    flipped: NotRequired[bool]
+    position: NotRequired[Numbers]
+    tolerance: NotRequired[float]
+
+
+class LeverTaskFile(TypedDict):
+    """The keys of a task file of levering."""
+
+    scene: LeverSceneKeys
+    robot: LeverRobotKeys
+    tools: Union[Literal["all"], Sequence[str]]
+    goal: LeverGoalKeys
+    name: NotRequired[str]
+    description: NotRequired[str]
+    levers: NotRequired[LeversKeys]
+    robustness: NotRequired[float]
+
+
+class BladeKeys(TypedDict):
+    """What goes under an edge, metres."""
+
+    length: float
+    width: float
+    thickness: float
+
+
+class BladeFile(TypedDict):
+    """The keys of a file of a tool with a blade."""
+
+    name: str
+    blade: BladeKeys
+    description: NotRequired[str]
+    friction: NotRequired[float]

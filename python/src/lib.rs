@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 mod arrays;
 mod belief;
 mod errors;
+mod formats;
 mod json;
 mod mapping;
 mod moved;
@@ -17,6 +18,7 @@ mod page;
 mod plan;
 mod push;
 mod rollouts;
+mod run;
 mod schemas;
 mod solution;
 mod solve;
@@ -34,13 +36,19 @@ mod _native {
     #[pymodule_export]
     use super::belief::{PyBelief, PyRecording, infer};
     #[pymodule_export]
+    use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
+    #[pymodule_export]
     use super::plan::PyPlan;
     #[pymodule_export]
     use super::push::PyPush;
     #[pymodule_export]
     use super::rollouts::{Rollouts, rollout};
     #[pymodule_export]
-    use super::schemas::{recording_schema, task_schema, tool_schema};
+    use super::run::{PyMotion, PyRun, run};
+    #[pymodule_export]
+    use super::schemas::{
+        blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema,
+    };
     #[pymodule_export]
     use super::solution::PySolution;
     #[pymodule_export]

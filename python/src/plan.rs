@@ -175,7 +175,7 @@ impl PyPlan {
     }
 
     /// The plan as a scene of MuJoCo (MJCF), pushes and goal included.
-    fn to_mjcf(&self) -> PyResult<String> {
+    pub fn to_mjcf(&self) -> PyResult<String> {
         mjcf(&self.file).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 

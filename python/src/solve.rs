@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use pushplan::effect::{EffectModel, EffectModels};
+use pushplan::asset::PlanFile;
+use pushplan::effect::{EffectModel, EffectModels, Routed};
 use pushplan::scene::{ModelKind, Situation, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
@@ -96,16 +97,16 @@ fn solve_each(
 }
 
 /// How to solve, in words.
-struct Asked<'a> {
-    effort: &'a str,
-    model: Option<&'a str>,
-    outside: &'a str,
-    seed: u64,
-    time_limit: Option<f64>,
+pub struct Asked<'a> {
+    pub effort: &'a str,
+    pub model: Option<&'a str>,
+    pub outside: &'a str,
+    pub seed: u64,
+    pub time_limit: Option<f64>,
 }
 
 impl Asked<'_> {
-    fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
+    pub fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
         let effort = words::effort(self.effort)?;
         let spec = match self.model {
             Some(text) => words::spec(py, text)?,
@@ -144,32 +145,34 @@ pub fn predict(
 ) -> PyResult<PyTrajectory> {
     let model = words::model(py, model, words::outside(outside)?)?;
     let file = &plan.file;
-    let predict = || {
-        let scene = &file.task.scene;
-        let motion = file.plan.motion(&file.tool);
-        if motion.strokes.is_empty() {
-            let home = Pose { position: file.task.robot.home, heading: file.plan.grip_yaw };
-            let by = ModelKind::Still.into();
-            return Trajectory::standing(by, file.tool.pose(home), scene.start());
-        }
-        let job = Job::stated(scene, motion);
-        let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
-        let mut trajectory = rolled.unwrap_or_else(|| {
-            Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
-        });
-        for warning in model.trust(scene, &job).warnings() {
-            if !trajectory.warnings.contains(&warning) {
-                trajectory.warnings.push(warning);
-            }
-        }
-        trajectory
-    };
-    let trajectory = work::run(py, words::threads(threads)?, |_| predict())?;
+    let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
         let message = format!("{} gives no prediction for this plan", trajectory.by);
         return Err(errors::refused(py, &message, &trajectory.warnings));
     }
     Ok(PyTrajectory::new(&Arc::new(file.task.clone()), trajectory))
+}
+
+/// What a model predicts for a plan, with what lowers the trust in it.
+pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
+    let scene = &file.task.scene;
+    let motion = file.plan.motion(&file.tool);
+    if motion.strokes.is_empty() {
+        let home = Pose { position: file.task.robot.home, heading: file.plan.grip_yaw };
+        let by = ModelKind::Still.into();
+        return Trajectory::standing(by, file.tool.pose(home), scene.start());
+    }
+    let job = Job::stated(scene, motion);
+    let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
+    let mut trajectory = rolled.unwrap_or_else(|| {
+        Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
+    });
+    for warning in model.trust(scene, &job).warnings() {
+        if !trajectory.warnings.contains(&warning) {
+            trajectory.warnings.push(warning);
+        }
+    }
+    trajectory
 }
 
 /// Replays a plan in both engines, as written and `disturbed` times in each with starts and

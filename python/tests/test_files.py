@@ -146,10 +146,16 @@ def test_tools_that_the_task_names_are_checked_where_they_are_given(tmp_path: Pa
 
 @pytest.mark.parametrize(
     ("schema", "keys"),
-    [(pushplan.task_schema(), files.TaskFile), (pushplan.tool_schema(), files.ToolFile)],
+    [
+        (pushplan.task_schema(), files.TaskFile),
+        (pushplan.tool_schema(), files.ToolFile),
+        (pushplan.lever_task_schema(), files.LeverTaskFile),
+        (pushplan.blade_schema(), files.BladeFile),
+    ],
 )
 def test_the_types_have_the_keys_of_the_schema(schema: dict[str, Any], keys: Any) -> None:
-    assert compared(schema, keys) > 20 if keys is files.TaskFile else 10
+    least = {files.TaskFile: 20, files.LeverTaskFile: 20, files.ToolFile: 10, files.BladeFile: 6}
+    assert compared(schema, keys) > least[keys]
 
 
 def compared(schema: dict[str, Any], keys: Any) -> int:

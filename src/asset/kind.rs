@@ -4,15 +4,16 @@ use std::fmt;
 use std::path::Path;
 
 use crate::recording::Recording;
-use crate::scene::Tool;
+use crate::scene::{BladeTool, Tool};
 
 use super::fault::{Fault, Faults};
+use super::lever::{BLADE_TOOL_KEYS, LEVER_TASK_KEYS};
 use super::library::ToolLibrary;
 use super::node::Node;
 use super::recording::RECORDING_KEYS;
-use super::saved::{PlanFile, TrajectoryFile};
+use super::saved::{LeverPlanFile, LeverTrajectoryFile, PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
-use super::{spec::Key, task, tool, world};
+use super::{lever, spec::Key, task, tool, world};
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +30,14 @@ pub enum Kind {
     Recording,
     /// A world file.
     World,
+    /// A file of a tool with a blade.
+    Blade,
+    /// A task of levering.
+    LeverTask,
+    /// A plan file of levering.
+    LeverPlan,
+    /// A trajectory file of levering.
+    LeverTrajectory,
 }
 
 impl fmt::Display for Kind {
@@ -40,6 +49,10 @@ impl fmt::Display for Kind {
             Kind::Trajectory => "trajectory",
             Kind::Recording => "recording",
             Kind::World => "world",
+            Kind::Blade => "tool with a blade",
+            Kind::LeverTask => "task of levering",
+            Kind::LeverPlan => "plan of levering",
+            Kind::LeverTrajectory => "trajectory of levering",
         })
     }
 }
@@ -60,6 +73,10 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
         // What it says of a task's objects can be checked beside the task alone.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
+        Kind::Blade => BladeTool::parse(&text, &file).map(|_| kind),
+        Kind::LeverTask => lever::parse_lever_task(&text, &file, library).map(|_| kind),
+        Kind::LeverPlan => LeverPlanFile::parse(&text, &file).map(|_| kind),
+        Kind::LeverTrajectory => LeverTrajectoryFile::parse(&text, &file).map(|_| kind),
     }
 }
 
@@ -69,19 +86,23 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         Some("plan") => return Ok(Kind::Plan),
         Some("trajectory") => return Ok(Kind::Trajectory),
         Some("recording") => return Ok(Kind::Recording),
+        Some("lever_plan") => return Ok(Kind::LeverPlan),
+        Some("lever_trajectory") => return Ok(Kind::LeverTrajectory),
         _ => {}
     }
     // By the number of keys that fit, so that a misspelled one does not hide what was meant.
     let fitting = |keys: &[Key]| keys.iter().filter(|key| root.get(key.name).is_some()).count();
     let kinds = [
-        (fitting(tool::TOOL_KEYS), Kind::Tool),
-        (fitting(task::TASK_KEYS), Kind::Task),
+        (fitting(tool::TOOL_KEYS).max(fitting(BLADE_TOOL_KEYS)), Kind::Tool),
+        (fitting(task::TASK_KEYS).max(fitting(LEVER_TASK_KEYS)), Kind::Task),
         (fitting(RECORDING_KEYS), Kind::Recording),
         (fitting(world::WORLD_KEYS), Kind::World),
     ];
     let most = kinds.iter().map(|(keys, _)| *keys).max().unwrap_or(0);
     let mut best = kinds.into_iter().filter(|(keys, _)| *keys == most).map(|(_, kind)| kind);
     match (best.next(), best.next()) {
+        (Some(Kind::Tool), None) if lever::is_blade_tool(&root) => Ok(Kind::Blade),
+        (Some(Kind::Task), None) if lever::is_lever_task(&root) => Ok(Kind::LeverTask),
         (Some(kind), None) => Ok(kind),
         _ => {
             let message = "this is not a tool, task, plan, trajectory, recording or world file";

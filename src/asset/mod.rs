@@ -4,11 +4,12 @@
 //! the YAML crate. A file is read in three steps: its text becomes a tree of nodes that know
 //! their place (`node`, `reader`), the tree is checked against what such a file may hold (`spec`,
 //! `strict`), and the rules that span several keys are applied while the domain's type is
-//! built (`tool`, `task`, `saved`). Nothing is simulated here and nothing is drawn.
+//! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
 
 mod fault;
 mod folder;
 mod kind;
+mod lever;
 mod library;
 mod node;
 mod printable;
@@ -29,15 +30,18 @@ mod write;
 pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
 pub use kind::{Kind, check};
+pub use lever::{AnyTask, load_any_task};
 pub use library::ToolLibrary;
 pub use printable::printable;
 pub use recording::RECORDING_FORMAT;
-pub use saved::{PlanFile, SCHEMA_VERSION, TrajectoryFile};
+pub use saved::{
+    AnyPlanFile, LeverPlanFile, LeverTrajectoryFile, PlanFile, SCHEMA_VERSION, TrajectoryFile,
+};
 pub use schema::{
-    plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
+    blade_schema, lever_plan_schema, lever_task_schema, lever_trajectory_schema, plan_schema,
+    recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
 };
 pub use task::load_task;
+pub use text::{named_after, read_text};
 pub use world::load_world;
 pub use write::write_atomic;
-
-use text::read_text;

@@ -21,6 +21,18 @@ object looks the same count alike unless the goal says otherwise. The position o
 its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
 prism turns as heavily as an even plate on its base, about its centre of mass. Unknown keys are faults.";
 
+/// What holds for a whole task of levering.
+const LEVER_TASK_RULES: &str = "Flat objects, what is fixed around them, a robot, tools with blades, \
+and a goal that speaks of lifting. Lengths are in metres, masses in kilograms, angles in degrees. The \
+table is the plane z = 0; x points forward from the robot, whose base is the origin. A blade goes \
+level under an edge at its height, pointing inward, and turns about a level axis; the edge goes up. It \
+is held at the other end of its shaft, which stays within the reach. Friction coefficients are the \
+mean of two friction values. Unknown keys are faults.";
+
+/// What holds for a whole file of a tool with a blade.
+const BLADE_RULES: &str = "A tool that levers: a flat blade, held at the end of its shaft. Lengths are \
+in metres. Unknown keys are faults.";
+
 /// What holds for a whole world file.
 const WORLD_RULES: &str = "What is really there where a task does not know it, for `pushplan run`: \
 what is not said here is as the task states it, and no planner sees it. Lengths are in metres, masses in \
@@ -38,6 +50,30 @@ pub fn task_schema() -> Json {
     let mut schema = document("pushplan task", &super::task::TASK);
     schema["description"] = json!(TASK_RULES);
     schema
+}
+
+/// The schema of tasks of levering.
+pub fn lever_task_schema() -> Json {
+    let mut schema = document("pushplan task of levering", &super::lever::LEVER_TASK);
+    schema["description"] = json!(LEVER_TASK_RULES);
+    schema
+}
+
+/// The schema of tools with blades.
+pub fn blade_schema() -> Json {
+    let mut schema = document("pushplan tool with a blade", &super::lever::BLADE_TOOL);
+    schema["description"] = json!(BLADE_RULES);
+    schema
+}
+
+/// The schema of plan files of levering.
+pub fn lever_plan_schema() -> Json {
+    document("pushplan plan of levering", &super::saved::LEVER_PLAN_FILE)
+}
+
+/// The schema of trajectory files of levering.
+pub fn lever_trajectory_schema() -> Json {
+    document("pushplan trajectory of levering", &super::saved::LEVER_TRAJECTORY_FILE)
 }
 
 /// The schema of plan files.

@@ -59,14 +59,17 @@ pub(super) fn is_in_names(c: char) -> bool {
 
 /// The name of what a file holds that gives none: the `stem` of the file, with a dash for whatever
 /// a name cannot hold.
-pub(super) fn named_after(stem: &str) -> String {
+pub fn named_after(stem: &str) -> String {
     let dashed = |c: char| if is_in_names(c) { c } else { '-' };
     let name: String = stem.chars().map(dashed).take(LONGEST_NAME).collect();
     if name.is_empty() { "unnamed".to_owned() } else { name }
 }
 
 /// The file's name for messages, and its text.
-pub(super) fn read_text(path: &Path) -> Result<(String, String), Fault> {
+///
+/// # Errors
+/// If it cannot be read, is not UTF-8 or far too long.
+pub fn read_text(path: &Path) -> Result<(String, String), Fault> {
     let fault = |error: std::io::Error| Fault::io(path, "read the file", &error);
     let name = path.display().to_string();
     let mut text = String::new();

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
-use super::fault::{Faults, did_you_mean};
+use super::fault::{Fault, Faults, did_you_mean};
 use super::node::Node;
 use super::prism;
 use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};
@@ -84,6 +84,18 @@ impl Tool {
     /// The tool in the keys of its file, which [`Tool::parse`] reads back.
     pub fn to_json(&self) -> serde_json::Value {
         super::saved::emit::tool(self)
+    }
+
+    /// The tool as a YAML file that [`Tool::parse`] reads back. It is the same tool to the bit if its
+    /// angles came from a file or are round in degrees.
+    ///
+    /// # Errors
+    /// If the tool holds what no file can.
+    pub fn to_yaml(&self) -> Result<String, Faults> {
+        serde_yaml::to_string(&self.to_json()).map_err(|error| {
+            let message = format!("the tool cannot be written as YAML: {error}");
+            Fault::of_file(&self.name, message, "check its numbers").into()
+        })
     }
 
     /// Reads a tool file.

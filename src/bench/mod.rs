@@ -10,6 +10,7 @@ mod cpu_clock;
 mod crowd;
 mod effects;
 mod equations;
+mod evaluation;
 mod far;
 mod heldout;
 mod inference;
@@ -34,18 +35,20 @@ pub use crowd::{
 };
 pub use effects::{TimedEffect, timed_effect};
 pub use equations::{EquationCost, equation_costs};
+pub use evaluation::{Evaluated, by_kind};
 pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
-    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverReport, LeverRow, Neighbour, Setting,
-    SupportRow, convergence, lever_report, support_rows,
+    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
+    LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow, convergence, lever_report,
+    point_report, support_rows,
 };
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,
 };
-pub use refinement::{PlanErrors, RefinementReport, refinement_report};
+pub use refinement::{PlanErrors, RefinedTask, RefinementReport, Tried, refine_task};
 pub use solved::{End, SolvedTask};
 pub use suite::{Case, Suite, SuiteKind, crowd_cases};
 pub use timing::{PushCost, SearchCost, push_costs, search_costs};

@@ -1,7 +1,6 @@
 //! What refinement brings: random tasks that are known to be solvable, solved without and with
 //! it, everything else alike.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -9,6 +8,7 @@ use crate::{
     judge::Summary,
     scene::{Situation, Task},
     solve::{PlanStatus, Planner, Solution, SolveError},
+    store::Measured,
 };
 
 use super::{
@@ -59,17 +59,27 @@ pub struct RefinementReport {
 }
 
 /// What refinement did in one task.
-struct Refined {
-    before: Tried,
-    after: Tried,
-    worse: usize,
-    programmes: [usize; 2],
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RefinedTask {
+    /// The task solved without refinement.
+    pub before: Tried,
+    /// The same with it.
+    pub after: Tried,
+    /// Refined plans whose predicted error is larger than before.
+    pub worse: usize,
+    /// Quadratic programmes solved.
+    pub programmes: usize,
+    /// Quadratic programmes that ended in another status.
+    pub programmes_failed: usize,
 }
 
 /// A task solved, and whether its plan works on whatever the objects may rest.
-struct Tried {
-    solved: SolvedTask,
-    on_all_supports: bool,
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tried {
+    /// The task and what became of it.
+    pub solved: SolvedTask,
+    /// Whether the plan to use works in both engines on even pressure, corners and in between.
+    pub on_all_supports: bool,
 }
 
 impl Tried {
@@ -84,49 +94,53 @@ impl Tried {
     }
 }
 
-/// Solves `tasks` random tasks with two planners, of which `without` differs from `with` by not
-/// refining; in parallel over tasks on the current rayon pool, the same bits for any number of
-/// threads.
+/// Solves random task `index` of `seed` with two planners, of which `without` differs from `with` by
+/// not refining; `library` holds at least one tool. The same bits for any number of threads.
 ///
 /// # Errors
 /// What the planners refuse.
-pub fn refinement_report(
+pub fn refine_task(
     [without, with]: [&Planner; 2],
     library: &ToolLibrary,
     seed: u64,
-    tasks: usize,
-) -> Result<RefinementReport, SolveError> {
-    let tasks = if library.is_empty() { 0 } else { tasks };
-    let done: Vec<Refined> = (0..tasks)
-        .into_par_iter()
-        .map(|index| {
-            let task = random_task(library, seed, index);
-            let solution = with.solve(&task, library)?;
-            let statistics = &solution.statistics.refinement;
-            let refined = solution.plans.iter().map(|plan| &plan.refinement);
-            let worse = refined.filter(|plan| plan.after > plan.before).count();
-            Ok(Refined {
-                before: Tried::of(&task, &without.solve(&task, library)?),
-                after: Tried::of(&task, &solution),
-                worse,
-                programmes: [statistics.solved, statistics.failures.len()],
-            })
-        })
-        .collect::<Result<_, SolveError>>()?;
-    let (before, after): (Vec<&Tried>, Vec<&Tried>) =
-        done.iter().map(|one| (&one.before, &one.after)).unzip();
-    let programmes = |which: usize| done.iter().map(|one| one.programmes[which]).sum();
-    Ok(RefinementReport {
-        model: with.model().spec().to_string(),
-        seed,
-        tasks,
-        tolerance: after.first().map_or(0.0, |task| task.solved.tolerance),
-        before: plan_errors(&before),
-        after: plan_errors(&after),
-        worse: done.iter().map(|one| one.worse).sum(),
-        programmes: programmes(0),
-        programmes_failed: programmes(1),
-    })
+    index: usize,
+) -> Result<Measured<RefinedTask>, SolveError> {
+    let task = random_task(library, seed, index);
+    let before = without.solve(&task, library)?;
+    let after = with.solve(&task, library)?;
+    let statistics = &after.statistics.refinement;
+    let refined = after.plans.iter().map(|plan| &plan.refinement);
+    let record = RefinedTask {
+        before: Tried::of(&task, &before),
+        after: Tried::of(&task, &after),
+        worse: refined.filter(|plan| plan.after > plan.before).count(),
+        programmes: statistics.solved,
+        programmes_failed: statistics.failures.len(),
+    };
+    let total = |solution: &Solution| solution.statistics.timing.total;
+    let seconds = [("without", total(&before)), ("with", total(&after))];
+    let seconds = seconds.map(|(name, spent)| (name.to_owned(), spent)).into();
+    Ok(Measured { record, seconds })
+}
+
+impl RefinementReport {
+    /// What tasks of `seed` say together that were solved by means of the effect model `model`.
+    pub fn of(model: &str, seed: u64, done: &[&RefinedTask]) -> Self {
+        let (before, after): (Vec<&Tried>, Vec<&Tried>) =
+            done.iter().map(|one| (&one.before, &one.after)).unzip();
+        let sum = |count: &dyn Fn(&RefinedTask) -> usize| done.iter().map(|one| count(one)).sum();
+        Self {
+            model: model.to_owned(),
+            seed,
+            tasks: done.len(),
+            tolerance: after.first().map_or(0.0, |task| task.solved.tolerance),
+            before: plan_errors(&before),
+            after: plan_errors(&after),
+            worse: sum(&|one| one.worse),
+            programmes: sum(&|one| one.programmes),
+            programmes_failed: sum(&|one| one.programmes_failed),
+        }
+    }
 }
 
 fn plan_errors(list: &[&Tried]) -> PlanErrors {

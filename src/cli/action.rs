@@ -7,9 +7,12 @@ use clap::Args;
 
 use crate::asset::ToolLibrary;
 use crate::scene::{Plan, Situation, Task, Tool};
+use crate::solve::lever::AskedLever;
 use crate::solve::{ActionError, AskedPush, asked_plan};
 
-use super::{error::CliError, push_argument::push_argument, session::Session};
+use super::{
+    error::CliError, lever::lever_argument, push_argument::push_argument, session::Session,
+};
 
 /// Where tools come from.
 #[derive(Args, Debug)]
@@ -47,12 +50,16 @@ impl LibraryArgs {
 #[derive(Args, Debug)]
 pub struct ActionArgs {
     /// Name of the tool; it need not be among the task's
-    #[arg(long, value_name = "NAME", requires = "pushes")]
+    #[arg(long, value_name = "NAME", requires = "moves")]
     tool: Option<String>,
     /// A push, or several in order; see below
     #[arg(long = "push", value_name = "PUSH", requires = "tool", allow_hyphen_values = true,
-          value_parser = push_argument)]
+          value_parser = push_argument, group = "moves")]
     pushes: Vec<AskedPush>,
+    /// A lever-up in a task of levering; see below. The tool is the task's first unless one is named
+    #[arg(long, value_name = "LEVER", conflicts_with_all = ["pushes", "grip_yaw_deg"],
+          allow_hyphen_values = true, value_parser = lever_argument, group = "moves")]
+    lever: Option<AskedLever>,
     /// Turn of the end effector against +x; by default the first of the task's that fits
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     grip_yaw_deg: Option<f64>,
@@ -61,7 +68,23 @@ pub struct ActionArgs {
 impl ActionArgs {
     /// Whether an action was given at all.
     pub fn given(&self) -> bool {
-        self.tool.is_some()
+        self.tool.is_some() || self.lever.is_some()
+    }
+
+    /// The lever-up, and the name of its tool if one is given.
+    ///
+    /// # Errors
+    /// [`CliError::Usage`] if pushes are given, or nothing.
+    pub fn lever(&self) -> Result<(Option<&str>, &AskedLever), CliError> {
+        let lever = self.lever.as_ref().ok_or_else(|| {
+            let advice = "add --lever point=0:0.5,depth=0.012,angle=90, see --help";
+            let message = match self.pushes.is_empty() {
+                true => "this is a task of levering, and no lever-up is given",
+                false => "this is a task of levering, not one of pushes",
+            };
+            CliError::usage(message, advice)
+        })?;
+        Ok((self.tool.as_deref(), lever))
     }
 
     /// The action as a plan, with the tool that it names; rules of the task that it breaks are
@@ -75,6 +98,10 @@ impl ActionArgs {
         library: &ToolLibrary,
         session: &Session,
     ) -> Result<(Plan, Arc<Tool>), CliError> {
+        if self.lever.is_some() {
+            let advice = "give --tool and --push, or another task";
+            return Err(CliError::usage("this task is one of pushes, not of levering", advice));
+        }
         let name = self.tool.as_deref().ok_or_else(|| {
             CliError::usage("no action is given", "add --tool and --push, see --help")
         })?;

@@ -6,6 +6,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "formats")]
+use super::import;
+#[cfg(not(feature = "train"))]
+use super::untrained;
 use super::{
     bench, check, completions,
     error::CliError,
@@ -35,6 +39,8 @@ enum Command {
     Predict(predict::PredictArgs),
     Simulate(simulate::SimulateArgs),
     Export(export::ExportArgs),
+    #[cfg(feature = "formats")]
+    Import(import::ImportArgs),
     Check(check::CheckArgs),
     Generate(generate::GenerateArgs),
     #[cfg(feature = "train")]
@@ -43,6 +49,15 @@ enum Command {
     TrainRegulator(train_regulator::TrainRegulatorArgs),
     #[cfg(feature = "train")]
     TrainLever(train_lever::TrainLeverArgs),
+    /// Train the network, in a build with the feature `train`
+    #[cfg(not(feature = "train"))]
+    Train(untrained::UntrainedArgs),
+    /// Train the belief regulator, in a build with the feature `train`
+    #[cfg(not(feature = "train"))]
+    TrainRegulator(untrained::UntrainedArgs),
+    /// Train a network of lever-ups, in a build with the feature `train`
+    #[cfg(not(feature = "train"))]
+    TrainLever(untrained::UntrainedArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
@@ -82,6 +97,8 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Predict(args) => predict::run(args, &session),
         Command::Simulate(args) => simulate::run(args, &session),
         Command::Export(args) => export::run(args, &session),
+        #[cfg(feature = "formats")]
+        Command::Import(args) => import::run(args, &session),
         Command::Check(args) => check::run(args, &session),
         Command::Generate(args) => generate::run(args, &session),
         #[cfg(feature = "train")]
@@ -90,6 +107,10 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::TrainRegulator(args) => train_regulator::run(args, &session),
         #[cfg(feature = "train")]
         Command::TrainLever(args) => train_lever::run(args, &session),
+        #[cfg(not(feature = "train"))]
+        Command::Train(_) | Command::TrainRegulator(_) | Command::TrainLever(_) => {
+            Err(untrained::run())
+        }
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
         Command::Infer(args) => infer::run(args, &session),

@@ -5,26 +5,35 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::asset::{Faults, PlanFile, SCHEMA_VERSION};
-use crate::export::{REPLAY_SCRIPT, mjcf};
+use crate::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
+use crate::export::{ExportError, REPLAY_SCRIPT, mjcf};
+use crate::scene::{ModelSpec, Trajectory};
 
-use super::{error::CliError, exit_code, output, session::Session};
+use super::{error::CliError, exit_code, model, output, session::Session};
 
-/// Write plans for other programs: a second opinion from an engine that is not ours
+/// Write plans for other programs: scenes of MuJoCo, recordings for Foxglove and Rerun
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan export plans/pull-back.plan.json --out mjcf
   pip install mujoco && python3 mjcf/replay.py mjcf/pull-back.xml
+  pushplan export plans/pull-back.plan.json --format mcap --model planar
 
-Writes <out>/<plan>.xml, a scene of MuJoCo with the plan's pushes and goal in it, and
-<out>/replay.py, which plays such scenes and says for each whether the plan works there.")]
+mjcf writes <out>/<plan>.xml, a scene of MuJoCo with the plan's pushes and goal in it, and
+<out>/replay.py, which plays such scenes and says for each whether the plan works there.
+
+mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
+foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
+(/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
+--model; a trajectory file (`pushplan simulate`) is written as it is.")]
 pub struct ExportArgs {
-    /// Plan files; each holds the task and the tool as well
+    /// Plan or trajectory files; each holds the task and the tool as well
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
     /// For which program
     #[arg(long, value_enum, default_value_t = Format::Mjcf)]
     format: Format,
+    #[arg(long, value_name = "MODEL", default_value = "3d", help = model::HELP)]
+    model: ModelSpec,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
     out: PathBuf,
@@ -35,24 +44,38 @@ pub struct ExportArgs {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// MuJoCo
+    /// MuJoCo's scenes
     Mjcf,
+    /// Recordings for Foxglove, Rerun and others
+    #[cfg(feature = "formats")]
+    Mcap,
+}
+
+impl Format {
+    /// How names of its files end.
+    fn ending(self) -> &'static str {
+        match self {
+            Format::Mjcf => "xml",
+            #[cfg(feature = "formats")]
+            Format::Mcap => "mcap",
+        }
+    }
 }
 
 pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
-    let Format::Mjcf = args.format;
-    let (mut scenes, mut faults) = (Vec::new(), Vec::new());
+    let (mut opened, mut faults) = (Vec::new(), Vec::new());
     for path in &args.plans {
-        match PlanFile::load(path) {
-            Ok(file) => scenes.push((scene_name(path), scene(path, &file)?)),
+        match open(path) {
+            Ok((plan, known)) => opened.push((path, plan, known)),
             Err(found) => faults.extend(found.0),
         }
     }
     if !faults.is_empty() {
         return Err(Faults(faults).into());
     }
-    for (index, (name, _)) in scenes.iter().enumerate() {
-        if scenes[..index].iter().any(|(other, _)| other == name) {
+    let names: Vec<String> = args.plans.iter().map(|path| name(path, args.format)).collect();
+    for (index, name) in names.iter().enumerate() {
+        if names[..index].contains(name) {
             return Err(CliError::usage(
                 format!("two plans would be written to {name}"),
                 "export them to different folders",
@@ -61,10 +84,26 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
     }
     output::prepare(&args.out)?;
     let mut written = Vec::new();
-    for (name, text) in &scenes {
-        written.push(output::write(&args.out, name, text.as_bytes())?);
+    for (name, (path, plan, known)) in names.iter().zip(opened) {
+        let refused = |error: ExportError| CliError::File(format!("{}: {error}", path.display()));
+        let bytes = match args.format {
+            Format::Mjcf => mjcf(&plan).map_err(refused)?.into_bytes(),
+            #[cfg(feature = "formats")]
+            Format::Mcap => {
+                let trajectory = match known {
+                    Some(trajectory) => trajectory,
+                    None => carried_out(&plan, &args.model, session)?,
+                };
+                crate::export::mcap(&plan, &trajectory).map_err(refused)?
+            }
+        };
+        #[cfg(not(feature = "formats"))]
+        let _ = (&args.model, known);
+        written.push(output::write(&args.out, name, &bytes)?);
     }
-    written.push(output::write(&args.out, "replay.py", REPLAY_SCRIPT.as_bytes())?);
+    if args.format == Format::Mjcf {
+        written.push(output::write(&args.out, "replay.py", REPLAY_SCRIPT.as_bytes())?);
+    }
     if args.json {
         let report = json!({"schema_version": SCHEMA_VERSION, "files": written});
         session.print(&format!("{report:#}\n"))?;
@@ -76,13 +115,51 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
-fn scene(path: &Path, file: &PlanFile) -> Result<String, CliError> {
-    mjcf(file).map_err(|error| CliError::File(format!("{}: {error}", path.display())))
+/// A plan, and what it does if the file says so.
+fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
+    match asset::check(path, None)? {
+        Kind::Plan => PlanFile::load(path).map(|plan| (plan, None)),
+        Kind::Trajectory => {
+            let TrajectoryFile { task, tool, plan, trajectory } = TrajectoryFile::load(path)?;
+            let model = Some(trajectory.by.clone());
+            let plan = PlanFile { task, tool, plan, model, predicted: None, verdict: None };
+            Ok((plan, Some(trajectory)))
+        }
+        kind => {
+            let message = format!("this is a {kind} file, and plans are exported");
+            let advice = "`pushplan solve` writes plans, `pushplan simulate` trajectories";
+            Err(Fault::of_file(&path.display().to_string(), message, advice).into())
+        }
+    }
 }
 
-/// `a/b.plan.json` becomes `b.xml`.
-fn scene_name(path: &Path) -> String {
+/// What a plan does according to a model.
+#[cfg(feature = "formats")]
+fn carried_out(
+    plan: &PlanFile,
+    spec: &ModelSpec,
+    session: &Session,
+) -> Result<Trajectory, CliError> {
+    use crate::effect::EffectModel;
+    use crate::scene::{Job, Record};
+    let model = model::load(spec)?;
+    let scene = &plan.task.scene;
+    let job = Job::stated(scene, plan.plan.motion(&plan.tool));
+    let jobs = std::slice::from_ref(&job);
+    let rolled = session.compute(|| model.rollout(scene, jobs, Record::Frames)).pop();
+    let trajectory =
+        rolled.ok_or_else(|| CliError::unexpected("cannot carry out the plan", spec))?;
+    for warning in &trajectory.warnings {
+        session.warn(&format!("{}: {warning}", trajectory.by));
+    }
+    Ok(trajectory)
+}
+
+/// `a/b.plan.json` becomes `b.xml`, `a/b.3d.trajectory.json` `b.3d.xml`.
+fn name(path: &Path, format: Format) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let stem = name.strip_suffix(".json").unwrap_or(&name);
-    format!("{}.xml", stem.strip_suffix(".plan").unwrap_or(stem))
+    let stem = [".plan", ".trajectory"].iter().find_map(|kind| stem.strip_suffix(kind));
+    let stem = stem.unwrap_or_else(|| name.strip_suffix(".json").unwrap_or(&name));
+    format!("{stem}.{}", format.ending())
 }

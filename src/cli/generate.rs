@@ -2,12 +2,16 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
+#[cfg(feature = "formats")]
+use crate::dataset::generate_npz;
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, Solids, generate,
     generate_levers,
 };
+
+use crate::store::Shard;
 
 use super::{
     error::CliError,
@@ -22,7 +26,9 @@ use super::{
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
-episodes; the same command goes on from there.
+episodes; the same command goes on from there. --shard 2/3 makes every third episode, on another
+machine say; `pushplan bench merge DIR SHARD...` makes of the parts the same files as one run, and
+`pushplan bench status SHARD...` says which are missing.
 
 A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
 for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one seed have no random
@@ -32,7 +38,12 @@ Examples:
   pushplan generate data/train --preset mixed --episodes 20000 --seed 1
   pushplan generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
       --objects 9 --joints mixed --solids cylinders --speed 0.21
-  pushplan generate data/levers --preset levers --episodes 1600 --seed 1"
+  pushplan generate data/levers --preset levers --episodes 1600 --seed 1
+  pushplan generate data/arrays --episodes 2000 --format npz
+
+npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
+statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
+of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, seconds, radians."
 )]
 pub struct GenerateArgs {
     /// Folder for the data
@@ -56,9 +67,24 @@ pub struct GenerateArgs {
     /// Solids of a crowd [default: redrawn every 25 episodes]
     #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
     solids: Option<Solids>,
+    /// Files for whom
+    #[arg(long, value_enum, default_value_t = Format::Records)]
+    format: Format,
     /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
     #[arg(long, value_name = "M/S")]
     speed: Option<f64>,
+    /// Make only part I of N, in a folder of its own
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Our own training
+    Records,
+    /// NumPy: arrays of 128 episodes a file, and their statistics
+    #[cfg(feature = "formats")]
+    Npz,
 }
 
 impl GenerateArgs {
@@ -71,14 +97,34 @@ impl GenerateArgs {
         }
     }
 
-    /// Makes the data; their size in bytes.
-    fn make(&self, following: &Following) -> Result<u64, DatasetError> {
+    /// Which of the episodes are made.
+    fn shard(&self) -> Shard {
+        self.shard.unwrap_or(Shard::WHOLE)
+    }
+
+    /// Makes the data; the number of episodes and their size in bytes.
+    fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
         let &Self { seed, episodes, .. } = self;
+        let shard = self.shard();
         let constraints = self.constraints();
         match self.preset {
             Data::Pushes(preset) => {
                 let config = DatasetConfig { seed, episodes, preset, constraints };
-                generate(&config, &self.folder, following)
+                match self.format {
+                    Format::Records => generate(&config, shard, &self.folder, following),
+                    #[cfg(feature = "formats")]
+                    Format::Npz if shard != Shard::WHOLE => {
+                        Err(DatasetError::Constraint("npz files cannot be sharded".to_owned()))
+                    }
+                    #[cfg(feature = "formats")]
+                    Format::Npz => {
+                        let bytes = generate_npz(&config, &self.folder, following)?;
+                        Ok((episodes as usize, bytes))
+                    }
+                }
+            }
+            Data::Levers(_) if self.format != Format::Records => {
+                Err(DatasetError::Constraint("only pushes can be written as npz".to_owned()))
             }
             Data::Levers(_) if constraints != Constraints::default() => {
                 let why = "objects, joints, solids and speed can be fixed for crowds only";
@@ -86,7 +132,7 @@ impl GenerateArgs {
             }
             Data::Levers(preset) => {
                 let config = LeverConfig { seed, episodes, preset };
-                generate_levers(&config, &self.folder, following)
+                generate_levers(&config, shard, &self.folder, following)
             }
         }
     }
@@ -97,10 +143,13 @@ pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
     let following = Following::bar(session, "episodes");
     let made = session.compute(|| args.make(&following));
     following.finish()?;
-    let bytes = made.map_err(data_error)?;
+    let (episodes, bytes) = made.map_err(data_error)?;
+    let part = match args.shard() {
+        Shard::WHOLE => String::new(),
+        shard => format!(", shard {shard}"),
+    };
     session.print(&format!(
-        "{} episodes of seed {}, {:.1} MB, in {}\n",
-        args.episodes,
+        "{episodes} episodes of seed {}{part}, {:.1} MB, in {}\n",
         args.seed,
         bytes as f64 / 1e6,
         args.folder.display()
@@ -117,7 +166,9 @@ pub fn data_error(error: DatasetError) -> CliError {
             error.to_string(),
             "`pushplan generate --help` says what each preset has",
         ),
-        DatasetError::Foreign { .. } => CliError::File(error.to_string()),
+        DatasetError::Foreign { .. } | DatasetError::Shard { .. } => {
+            CliError::File(error.to_string())
+        }
         DatasetError::Store(error) => error.into(),
     }
 }

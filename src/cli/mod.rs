@@ -15,8 +15,11 @@ mod fit;
 mod follow;
 mod form;
 mod generate;
+#[cfg(feature = "formats")]
+mod import;
 mod infer;
 mod interrupt;
+mod lever;
 mod model;
 mod noise;
 mod output;
@@ -38,6 +41,8 @@ mod train;
 mod train_lever;
 #[cfg(feature = "train")]
 mod train_regulator;
+#[cfg(not(feature = "train"))]
+mod untrained;
 mod verify;
 mod words;
 

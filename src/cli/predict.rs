@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::asset::{AnyTask, load_any_task};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
@@ -15,45 +16,50 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
+    lever,
     model::{self, OutsideArgs},
     output,
     poses::PosesArgs,
-    push_argument::FORMS,
+    push_argument::forms,
     session::Session,
 };
 
 /// Predict what pushes do: the network beside both simulations
 #[derive(Args, Debug)]
-#[command(after_help = FORMS, after_long_help = FORMS)]
+#[command(after_help = forms(), after_long_help = forms())]
 pub struct PredictArgs {
     /// The task whose scene is pushed
     task: PathBuf,
     #[command(flatten)]
-    action: ActionArgs,
+    pub action: ActionArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
-    model: ModelSpec,
+    #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
+    pub model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     #[command(flatten)]
-    poses: PosesArgs,
+    pub poses: PosesArgs,
     /// Folder for a page that plays what every model says, named after the task
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     args.out.as_deref().map(output::prepare).transpose()?;
-    let task = Task::load(&args.task)?;
+    let task = match load_any_task(&args.task, None)? {
+        AnyTask::Pushes(task) => task,
+        AnyTask::Levers(task) => return lever::predict(args, &task, &library, session),
+    };
+    let asked = args.model.clone().unwrap_or(ModelKind::NETWORK.into());
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let job = Job::stated(&task.scene, plan.motion(&tool));
-    let mut specs = vec![args.model.clone()];
+    let mut specs = vec![asked.clone()];
     let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
-    specs.extend(simulated.into_iter().filter(|spec| *spec != args.model));
+    specs.extend(simulated.into_iter().filter(|spec| *spec != asked));
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
@@ -77,7 +83,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let mut options = vec!["--model".to_owned(), args.model.to_string()];
+        let mut options = vec!["--model".to_owned(), asked.to_string()];
         options.extend(args.library.options());
         let command = predict_command(&args.task.display().to_string(), &options, &plan);
         let page = prediction_page(&task, &tool, &plan, &trajectories, &command);

@@ -4,7 +4,7 @@ use crate::geometry::Vector;
 use crate::solve::{AskedPush, AskedStart};
 
 /// Help shown wherever a push can be given.
-pub const FORMS: &str = "\
+const FORMS: &str = "\
 Pushes, in the order they are made:
   --push 'start=0.42,0.10 direction_deg=180 length=0.2 speed=0.1'
       where the end effector starts (m), which way it goes (degrees from +x), how far (m) and
@@ -12,6 +12,11 @@ Pushes, in the order they are made:
   --push can:180          push the object `can` towards -x, the tool set down before it
   --push can:180:0.01     with its centre 1 cm left of the centre line of the tool's face
   --push can:180:0:0.15   15 cm far";
+
+/// Help shown wherever pushes or a lever-up can be given.
+pub fn forms() -> String {
+    format!("{FORMS}\n\n{}", super::lever::LEVER_FORM)
+}
 
 /// Reads one push.
 ///

@@ -14,7 +14,8 @@ use super::error::CliError;
 /// Options of every subcommand.
 #[derive(Args, Clone, Debug)]
 pub struct GlobalArgs {
-    /// Worker threads; 0 means one per core. Results never depend on it
+    /// Worker threads; 0 means one per core of the machine, the container or the Slurm task (its
+    /// --cpus-per-task). Results never depend on it
     #[arg(long, global = true, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u16).range(0..=1024))]
     pub threads: u16,
@@ -40,7 +41,11 @@ impl Session {
     /// [`CliError::Unexpected`] if the system refuses that many threads.
     pub fn start(args: &GlobalArgs) -> Result<Self, CliError> {
         let threads = match args.threads {
-            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            0 => {
+                // Affinity and control groups are known to it, which Slurm need not use.
+                let cores = std::thread::available_parallelism().map_or(1, usize::from);
+                allocated(cores, std::env::var("SLURM_CPUS_PER_TASK").ok().as_deref())
+            }
             threads => usize::from(threads),
         };
         let pool = ThreadPoolBuilder::new()
@@ -74,9 +79,14 @@ impl Session {
 
     /// Writes a warning to stderr.
     pub fn warn(&self, text: &str) {
+        self.say(&format!("warning: {text}"));
+    }
+
+    /// Writes a line beside the results to stderr.
+    pub fn say(&self, text: &str) {
         if !self.quiet {
             // Were stderr gone, there would be nobody left to tell.
-            let _ = writeln!(std::io::stderr(), "warning: {}", shown(text));
+            let _ = writeln!(std::io::stderr(), "{}", shown(text));
         }
     }
 
@@ -120,6 +130,14 @@ impl Session {
     }
 }
 
+/// Of `cores`, as many as Slurm has allotted to the task, if it has.
+fn allocated(cores: usize, slurm: Option<&str>) -> usize {
+    match slurm.and_then(|text| text.trim().parse().ok()) {
+        Some(allotted @ 1..) => cores.min(allotted),
+        _ => cores,
+    }
+}
+
 /// `text` line by line without anything that a terminal would obey.
 pub fn shown(text: &str) -> String {
     text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
@@ -128,4 +146,18 @@ pub fn shown(text: &str) -> String {
 fn style(template: &str) -> ProgressStyle {
     // Only a typing mistake in a template above can fail; the default bar then does.
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_follow_the_allocation() {
+        for (slurm, threads) in
+            [(None, 8), (Some("3"), 3), (Some("64"), 8), (Some("0"), 8), (Some("all"), 8)]
+        {
+            assert_eq!(allocated(8, slurm), threads, "{slurm:?}");
+        }
+    }
 }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::asset::{PlanFile, TrajectoryFile};
+use crate::asset::{AnyPlanFile, AnyTask, TrajectoryFile, load_any_task};
 use crate::report::simulation_document;
-use crate::scene::{Engine, Job, Record, Task};
+use crate::scene::{Engine, Job, Record};
 use crate::sim::Simulator;
 
 use super::{
@@ -14,15 +14,15 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
-    output,
-    push_argument::FORMS,
+    lever, output,
+    push_argument::forms,
     session::Session,
     words::{ENGINES, words},
 };
 
 /// Simulate pushes and write every frame as a trajectory file, with a picture
 #[derive(Args, Debug)]
-#[command(after_help = FORMS)]
+#[command(after_help = forms())]
 pub struct SimulateArgs {
     /// The task whose scene is pushed, or a plan file that is carried out as it is
     #[arg(value_name = "TASK|PLAN")]
@@ -31,35 +31,46 @@ pub struct SimulateArgs {
     action: ActionArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Which engine
-    #[arg(long, value_parser = words(&ENGINES), default_value = "planar")]
-    engine: Engine,
+    /// Which engine [default: planar; 3d for lever-ups]
+    #[arg(long, value_parser = words(&ENGINES))]
+    pub engine: Option<Engine>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    out: PathBuf,
+    pub out: PathBuf,
     /// Draw a picture that moves as well
     #[arg(long)]
-    animate: bool,
+    pub animate: bool,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
 }
 
 pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     let (task, plan, tool) = if args.action.given() {
-        let task = Task::load(&args.file)?;
-        let (plan, tool) = args.action.plan(&task, &args.library.load()?, session)?;
+        let library = args.library.load()?;
+        let task = match load_any_task(&args.file, None)? {
+            AnyTask::Pushes(task) => task,
+            AnyTask::Levers(task) => {
+                let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
+                return lever::simulate(args, task, planned, session);
+            }
+        };
+        let (plan, tool) = args.action.plan(&task, &library, session)?;
         (task, plan, tool)
     } else if args.file.extension().is_some_and(|end| end == "json") {
-        let PlanFile { task, plan, tool, .. } = PlanFile::load(&args.file)?;
-        (task, plan, tool)
+        match AnyPlanFile::load(&args.file)? {
+            AnyPlanFile::Pushes(file) => (file.task, file.plan, file.tool),
+            AnyPlanFile::Levers(file) => {
+                return lever::simulate(args, file.task, (file.plan, file.tool), session);
+            }
+        }
     } else {
         return Err(CliError::usage(
             "nothing moves in a task alone",
-            "add --tool and --push, or give a plan file (*.plan.json)",
+            "add --tool and --push (or --lever), or give a plan file (*.plan.json)",
         ));
     };
     output::prepare(&args.out)?;
-    let (simulator, name) = match args.engine {
+    let (simulator, name) = match args.engine.unwrap_or(Engine::Planar) {
         Engine::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
         Engine::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
         Engine::Upright => (Simulator::upright(), format!("{}.3d-upright", task.name)),

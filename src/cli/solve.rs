@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::asset::{PlanFile, load_task};
+use crate::asset::{AnyTask, PlanFile, load_any_task};
 use crate::report::{plan_figures, predict_command, solution_document, solution_page};
 use crate::scene::{ModelSpec, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
@@ -17,17 +17,19 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
+    lever,
     model::{self, OutsideArgs},
     output,
     session::Session,
     words::{EFFORTS, words},
 };
 
-/// Choose a tool and pushes for a task, verify them, write plan, picture and page
+/// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan solve tasks/pull-back.yaml
   pushplan solve tasks/narrow-gap.yaml --effort thorough --json
+  pushplan solve tasks/levers/raise-plate.yaml
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
@@ -39,36 +41,39 @@ pub struct SolveArgs {
     task: PathBuf,
     /// How hard to try
     #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
-    effort: Effort,
+    pub effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelSpec>,
+    pub model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
+    pub seed: u64,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
-    robustness: Option<f64>,
+    pub robustness: Option<f64>,
     /// Stop after this time and show the best plan so far
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
-    time_limit: Option<Duration>,
+    pub time_limit: Option<Duration>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    out: PathBuf,
+    pub out: PathBuf,
     #[command(flatten)]
     library: LibraryArgs,
     /// Draw a picture of the 3-D replay that moves as well
     #[arg(long)]
-    animate: bool,
+    pub animate: bool,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
 }
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let mut task = load_task(&args.task, &library)?;
+    let mut task = match load_any_task(&args.task, Some(&library))? {
+        AnyTask::Pushes(task) => task,
+        AnyTask::Levers(task) => return lever::solve(args, task, &library, session),
+    };
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;

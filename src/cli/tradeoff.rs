@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::bench::{TradeOff, TradeOffReport, TradeOffSettings, Unit, levels, plan_levels};
+use crate::bench::{TradeOff, TradeOffSettings, Unit, levels, plan_levels};
 use crate::report::tradeoff_document;
-use crate::store::{RunManifest, Seconds, Store};
+use crate::store::{RunManifest, Seconds, Shard, Store};
 use crate::watch::Watch;
 
 use super::{
@@ -21,6 +21,11 @@ use super::{
 processor time of one thread, all levels in turn. With --out every finished unit is kept: the same
 command goes on after an interruption. The folder then holds tradeoff.json, tradeoff.md,
 tradeoff-push.svg and tradeoff-task.svg.
+
+--shard 2/3 measures every third unit, on another machine say; when `pushplan bench merge OUT
+SHARD...` has put the parts together, the same command with --out OUT and without --shard finds
+nothing left to measure and writes the results. Errors and successes are the same as of one run.
+Costs are times: shards on processors that differ give costs that are of no machine.
 
 Examples:
   pushplan tradeoff --quick
@@ -55,6 +60,9 @@ pub struct TradeOffArgs {
     /// Folder that keeps every finished unit and the results
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Measure only part I of N of the units; the results are made of all
+    #[arg(long, value_name = "I/N", requires = "out")]
+    shard: Option<Shard>,
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
@@ -87,9 +95,18 @@ pub fn run(args: &TradeOffArgs, session: &Session) -> Result<u8, CliError> {
     });
     let run = TradeOff::new(&library, levels, plans, args.settings())
         .map_err(|error| CliError::unexpected("cannot start a thread", &error))?;
-    let manifest = run.manifest(&digests);
-    let report = measure(args, session, &run, manifest)?;
-    let document = tradeoff_document(&report);
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let store = measure(args, session, &run, run.manifest(&digests).with_shard(shard))?;
+    let finished = store.finished().iter();
+    let units: Vec<(Unit, Seconds)> =
+        finished.map(|unit| (unit.record.clone(), unit.seconds.clone())).collect();
+    if shard != Shard::WHOLE {
+        let count = units.len();
+        session
+            .print(&format!("{count} units, shard {shard}; merge all shards to see results\n"))?;
+        return Ok(exit_code::DONE);
+    }
+    let document = tradeoff_document(&run.report(&units));
     if let Some(out) = &args.out {
         output::write(out, "tradeoff.json", document.to_json().as_bytes())?;
         output::write(out, "tradeoff.md", document.to_page().as_bytes())?;
@@ -119,7 +136,7 @@ fn measure(
     session: &Session,
     run: &TradeOff,
     manifest: RunManifest,
-) -> Result<TradeOffReport, CliError> {
+) -> Result<Store<Unit>, CliError> {
     interrupt::watch();
     let following = Following::bar(session, "units");
     let mut store: Store<Unit> = match &args.out {
@@ -135,10 +152,7 @@ fn measure(
     });
     following.finish()?;
     done?;
-    let finished = store.finished().iter();
-    let units: Vec<(Unit, Seconds)> =
-        finished.map(|unit| (unit.record.clone(), unit.seconds.clone())).collect();
-    Ok(run.report(&units))
+    Ok(store)
 }
 
 /// A share from 0.05 (a millimetre, about what the engines' steps differ by) to 5.

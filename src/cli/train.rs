@@ -103,8 +103,8 @@ struct Followed<'a> {
 pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
     let settings = args.settings()?;
     interrupt::watch();
-    let folder = FolderLock::take(&args.folder)?;
     let following = Following::bar(session, "data");
+    let folder = FolderLock::take(&args.folder, &following)?;
     let made = session.compute(|| {
         let data = match &args.data {
             Some(folder) => Dataset::open(folder)?,

@@ -117,7 +117,7 @@ pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
     let asked: Vec<LeverEpisode> =
         held_out.iter().flat_map(|set| set.episodes().to_vec()).collect();
     interrupt::watch();
-    let folder = FolderLock::take(&args.folder)?;
+    let folder = FolderLock::take(&args.folder, &Following::bar(session, "folder"))?;
     let following = Following::bar(session, "steps");
     let best = session.compute(|| train_lever(&settings, &known, &asked, &folder, &following));
     following.finish()?;

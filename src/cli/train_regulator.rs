@@ -89,7 +89,7 @@ pub fn run(args: &TrainRegulatorArgs, session: &Session) -> Result<u8, CliError>
     let network = Arc::new(Network::new(weights));
     let digest = weights_digest(&ModelSpec::from(crate::scene::ModelKind::NETWORK))?;
     interrupt::watch();
-    let folder = FolderLock::take(&args.folder)?;
+    let folder = FolderLock::take(&args.folder, &Following::bar(session, "folder"))?;
     let draw = |name: &str, of: (u64, u64)| {
         let following = Following::bar(session, name);
         let digest = digest.clone().unwrap_or_default();

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::asset::PlanFile;
+use crate::asset::AnyPlanFile;
 use crate::report::{quoted, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
@@ -16,7 +16,7 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
-    output, page,
+    lever, output, page,
     session::Session,
     solve::{share, time_limit},
 };
@@ -40,27 +40,30 @@ pub struct VerifyArgs {
     /// Disturbed replays in each simulation
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    disturbed: u32,
+    pub disturbed: u32,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
-    robustness: Option<f64>,
+    pub robustness: Option<f64>,
     /// Stop after this time, whatever is done by then
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
-    time_limit: Option<Duration>,
+    pub time_limit: Option<Duration>,
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
+    pub seed: u64,
     /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
 }
 
 pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
-    let mut file = PlanFile::load(&args.plan)?;
     args.out.as_deref().map(output::prepare).transpose()?;
+    let mut file = match AnyPlanFile::load(&args.plan)? {
+        AnyPlanFile::Pushes(file) => *file,
+        AnyPlanFile::Levers(file) => return lever::verify(args, *file, session),
+    };
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);

@@ -32,6 +32,8 @@ pub(super) struct ActiveSet {
     /// Values of all constraints without their forces.
     free: Vec<Vector2<f64>>,
     rows: Vec<Row>,
+    /// What force and torque on every group add to the row at hand.
+    felt: Vec<Vector3<f64>>,
     /// The equations, row by row, each with what it asks for at its end.
     matrix: Vec<f64>,
 }
@@ -48,8 +50,6 @@ struct Row {
     along: Vector2<f64>,
     /// The force and torque that it puts on the groups.
     press: [Vector3<f64>; 2],
-    /// The twists that these give them without joints.
-    moved: [Vector3<f64>; 2],
     /// By how much more than the groups' own answer the force gives way.
     give: f64,
     target: f64,
@@ -74,7 +74,7 @@ impl ActiveSet {
         for round in 0..ROUNDS {
             self.list(constraints);
             tally.solve(self.rows.len());
-            if self.rows.len() > MOST || !self.eliminate(joints) {
+            if self.rows.len() > MOST || !self.eliminate(unknowns, joints) {
                 return false;
             }
             self.apply(constraints);
@@ -117,7 +117,6 @@ impl ActiveSet {
                     value: [c.to[equation], -c.from[equation]],
                     along,
                     press: [by(&c.to), -by(&c.from)],
-                    moved: [by(&c.moved[0]), by(&c.moved[1])],
                     give,
                     target: c.target[equation] - free[equation],
                 });
@@ -134,26 +133,23 @@ impl ActiveSet {
     }
 
     /// Fills in the equations and solves them; whether they have an answer.
-    fn eliminate(&mut self, joints: &Eliminated) -> bool {
-        let Self { rows, matrix, .. } = self;
+    fn eliminate(&mut self, unknowns: &[Unknown], joints: &Eliminated) -> bool {
+        let Self { rows, felt, matrix, .. } = self;
         let n = rows.len();
         let width = n + 1;
         matrix.clear();
-        matrix.resize(n * width, 0.0);
-        for (row, line) in rows.iter().zip(matrix.chunks_exact_mut(width)) {
-            for (other, entry) in rows.iter().zip(&mut *line) {
-                for (group, value) in row.groups.iter().zip(&row.value) {
-                    for (side, with) in other.groups.iter().enumerate() {
-                        *entry += if joints.couples(*group, *with) {
-                            value.dot(&(joints.block(*group, *with) * other.press[side]))
-                        } else {
-                            // Without a branch: which of them meet no processor could foresee.
-                            f64::from(u8::from(group == with)) * value.dot(&other.moved[side])
-                        };
-                    }
-                }
+        for row in &*rows {
+            felt.clear();
+            felt.resize(unknowns.len(), Vector3::zeros());
+            for (group, value) in row.groups.iter().zip(&row.value) {
+                joints.feel((*group, value), unknowns, felt);
             }
-            line[n] = row.target;
+            matrix.extend(rows.iter().map(
+                |Row { groups: [a, b], press: [on_a, on_b], .. }| {
+                    felt[a.0].dot(on_a) + felt[b.0].dot(on_b)
+                },
+            ));
+            matrix.push(row.target);
         }
         for (k, row) in rows.iter().enumerate() {
             matrix[k * width + k] += row.give;

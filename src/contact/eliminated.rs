@@ -54,12 +54,32 @@ impl Eliminated {
     }
 
     /// Whether the joints make anything of forces on one of two groups that the other feels.
-    pub fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
+    fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
         !self.blocks.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]
     }
 
+    /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`.
+    pub fn feel(
+        &self,
+        (group, value): (GroupIndex, &Vector3<f64>),
+        unknowns: &[Unknown],
+        felt: &mut [Vector3<f64>],
+    ) {
+        if self.blocks.is_empty() {
+            felt[group.0] += unknowns[group.0].inverse * value;
+            return;
+        }
+        let own = self.mechanism[group.0];
+        let line = &self.blocks[group.0 * self.mechanism.len()..];
+        for ((felt, mechanism), block) in felt.iter_mut().zip(&self.mechanism).zip(line) {
+            if *mechanism == own {
+                *felt += block.tr_mul(value);
+            }
+        }
+    }
+
     /// The twist that force and torque on `other` give to `one`, which it [couples](Self::couples).
-    pub fn block(&self, one: GroupIndex, other: GroupIndex) -> &Matrix3<f64> {
+    fn block(&self, one: GroupIndex, other: GroupIndex) -> &Matrix3<f64> {
         &self.blocks[one.0 * self.mechanism.len() + other.0]
     }
 

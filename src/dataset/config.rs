@@ -11,7 +11,11 @@ use crate::store::RunManifest;
 use super::{constraints::Constraints, error::DatasetError, preset::Preset};
 
 /// The suite of a folder of episodes.
-const SUITE: &str = "episodes";
+pub const SUITE: &str = "episodes";
+
+/// The suite of a folder of `.npz` files.
+#[cfg(feature = "formats")]
+const SUITE_OF_FILES: &str = "episodes as npz";
 
 /// What the episodes show: the 3-D engine in most of those with tools.
 const TRUTH: &str = "planar and 3d";
@@ -82,6 +86,17 @@ impl DatasetConfig {
             Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
         RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
             .with_settings(json!(settings))
+    }
+
+    /// The same as what a folder of files with so many episodes each holds.
+    #[cfg(feature = "formats")]
+    pub(super) fn manifest_of_files(&self, files: usize, episodes_a_file: u64) -> RunManifest {
+        let sampled =
+            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
+        let mut settings = json!(sampled);
+        settings["episodes"] = json!(self.episodes);
+        settings["episodes_a_file"] = json!(episodes_a_file);
+        RunManifest::new(SUITE_OF_FILES, files, self.seed, TRUTH).with_settings(settings)
     }
 
     /// What the folder `dir` holds according to its manifest.

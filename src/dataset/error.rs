@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::store::StoreError;
+use crate::store::{Shard, StoreError};
 
 /// Why a data set could not be made or read.
 #[derive(Debug, Error)]
@@ -26,5 +26,16 @@ pub enum DatasetError {
     Foreign {
         /// The folder.
         path: PathBuf,
+    },
+    /// The folder holds a part of a data set.
+    #[error(
+        "{} is shard {shard} of a data set; `pushplan bench merge OUT SHARD...` puts shards together",
+        path.display()
+    )]
+    Shard {
+        /// The folder.
+        path: PathBuf,
+        /// Which part.
+        shard: Shard,
     },
 }

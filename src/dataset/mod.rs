@@ -25,6 +25,8 @@ mod lesson;
 mod lessons;
 mod lever;
 mod novelty;
+#[cfg(feature = "formats")]
+mod npz;
 mod observed;
 mod obstacle;
 mod preset;
@@ -37,19 +39,21 @@ mod unseen;
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
 pub use assembly::random_tool;
 pub use chance::{generator, log_uniform};
-pub use config::DatasetConfig;
+pub use config::{DatasetConfig, SUITE};
 pub use constraints::{Constraints, JointRule, TEST_SPEED};
 pub use episode::{Episode, sample};
 pub use error::DatasetError;
-pub use generate::generate;
+pub use generate::{generate, merge_data};
 pub use hand::HAND_RADIUS;
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
 pub use lever::{
-    DISC_PLACES, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode, LeverPreset,
-    generate_levers, lever_job,
+    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode,
+    LeverPreset, generate_levers, lever_job,
 };
 pub use novelty::is_shipped;
+#[cfg(feature = "formats")]
+pub use npz::{A_FILE, FORMAT as NPZ_FORMAT, generate_npz};
 pub use observed::Seeing;
 pub use preset::Preset;
 pub use set::Dataset;

@@ -22,7 +22,8 @@ impl Dataset {
     pub fn in_memory(config: &DatasetConfig, watch: &dyn Watch) -> Result<Self, DatasetError> {
         config.check()?;
         let count = Count::new(watch, 0, config.episodes as usize);
-        let drawn = draw_range(config, 0..config.episodes, &count, watch);
+        let indices: Vec<u64> = (0..config.episodes).collect();
+        let drawn = draw(config, &indices, &count, watch);
         let episodes = drawn.into_iter().collect::<Option<_>>().ok_or(DatasetError::Cancelled)?;
         Ok(Self { config: config.clone(), episodes })
     }
@@ -42,21 +43,21 @@ impl Dataset {
     }
 }
 
-/// Draws the episodes of a range of indices in parallel, counting them; `None` for those
-/// that were left when `watch` said to stop.
-pub(super) fn draw_range(
+/// Draws the episodes with these indices in parallel, counting them; `None` for those that were
+/// left when `watch` said to stop.
+pub(super) fn draw(
     config: &DatasetConfig,
-    indices: std::ops::Range<u64>,
+    indices: &[u64],
     count: &Count,
     watch: &dyn Watch,
 ) -> Vec<Option<Episode>> {
     indices
-        .into_par_iter()
+        .par_iter()
         .map(|index| {
             if watch.cancelled() {
                 return None;
             }
-            let episode = Episode::draw(config, index);
+            let episode = Episode::draw(config, *index);
             count.one();
             Some(episode)
         })

@@ -11,4 +11,7 @@ pub enum ExportError {
         /// Names of the two objects.
         between: [String; 2],
     },
+    /// A trajectory that cannot be written, such as one of more frames than a file can count.
+    #[error("it cannot be written as MCAP: {0}")]
+    Mcap(String),
 }

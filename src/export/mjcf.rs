@@ -79,12 +79,19 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     custom(&mut xml, file, &motion);
     mesh::meshes(&mut xml, &solids);
     xml.open("worldbody", &[]);
-    let table = [("name", "table".into()), ("type", "plane".into()), ("size", "0 0 1".into())];
+    let friction = numbers(&[scene.table_friction]);
+    let table = [
+        ("name", "table".into()),
+        ("type", "plane".into()),
+        ("size", "0 0 1".into()),
+        ("friction", friction),
+    ];
     xml.leaf("geom", &table);
     for obstacle in &scene.obstacles {
         let name = format!("obstacle/{}", obstacle.name);
         let height = obstacle.size[2] / 2.0;
-        solid(&mut xml, name, &obstacle.shape(), &obstacle.pose, height, 0.0);
+        let material = (0.0, obstacle.friction);
+        solid(&mut xml, name, &obstacle.shape(), &obstacle.pose, height, material);
     }
     for tree in &trees {
         body(&mut xml, scene, tree);
@@ -199,7 +206,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     if let Shape::Prism { base, height } = &shape {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
-    solid(xml, name, &shape, &Pose::default(), rise, object.mass);
+    solid(xml, name, &shape, &Pose::default(), rise, (object.mass, object.friction));
     for (index, (at, _)) in object.feet().each().enumerate() {
         let at = numbers(&[at.x, at.y, FOOT - half]);
         let name = foot_name(object, index);
@@ -275,12 +282,21 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
     let turned = Pose { heading: start.heading, ..Pose::default() };
     for (name, shape, pose) in seamless(motion.tool.outline()) {
         let height = motion.lift + shape.height() / 2.0;
-        solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, 0.0);
+        let material = (0.0, motion.tool.friction);
+        solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, material);
     }
     xml.close();
 }
 
-fn solid(xml: &mut Xml, name: String, shape: &Shape, pose: &Pose, height: f64, mass: f64) {
+/// A solid of a mass and a friction value. Only pairs rub; the value is for whoever reads the file.
+fn solid(
+    xml: &mut Xml,
+    name: String,
+    shape: &Shape,
+    pose: &Pose,
+    height: f64,
+    (mass, friction): (f64, f64),
+) {
     let (kind, (key, value)) = match *shape {
         Shape::Cylinder { radius, height } => {
             ("cylinder", ("size", numbers(&[radius, height / 2.0])))
@@ -291,6 +307,7 @@ fn solid(xml: &mut Xml, name: String, shape: &Shape, pose: &Pose, height: f64, m
     let mut attributes = vec![("name", name), ("type", kind.into()), (key, value)];
     attributes.extend(placed(pose, height));
     attributes.push(("mass", numbers(&[mass])));
+    attributes.push(("friction", numbers(&[friction])));
     xml.leaf("geom", &attributes);
 }
 

@@ -1,6 +1,6 @@
 //! Planar geometry: poses, footprints, closest points, clearances and swept areas.
 //!
-//! Everything but poses in space is in the plane of the table, in metres and radians. It knows
+//! Everything but poses and solids in space is in the plane of the table, in metres and radians. It knows
 //! nothing of tools, tasks or physics; the vertical extent of a body is only a height.
 
 mod cast;
@@ -12,6 +12,7 @@ mod polygon;
 mod pose;
 mod rim;
 mod shape;
+mod solid;
 mod spatial;
 mod support_edge;
 mod turn;
@@ -24,6 +25,7 @@ pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};
 pub use rim::Rim;
 pub use shape::{Footprint, Shape};
+pub use solid::{Solid, common_area};
 pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
 pub use turn::Turn;

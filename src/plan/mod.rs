@@ -2,13 +2,15 @@
 //!
 //! [`Search`] enumerates pushes, rolls them out with an effect model and keeps a beam over
 //! sequences; [`refine()`] then moves offsets, directions and lengths of the best candidates
-//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows.
+//! with a quadratic programme on a fitted linear model. [`Workspace`] says what a task allows. [`lever`] does the same for lever-ups, without a
+//! refinement.
 
 mod beam;
 mod candidate;
 mod enumerate;
 mod evaluate;
 mod field;
+pub mod lever;
 mod linear;
 mod parameters;
 mod qp;

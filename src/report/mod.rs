@@ -16,6 +16,8 @@ mod html;
 mod joints;
 mod keyframes;
 mod labels;
+mod lever;
+mod lever_points;
 mod levers;
 mod number;
 mod page;
@@ -49,6 +51,11 @@ pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
+pub use lever::{
+    PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
+    lever_solution_document, lever_tasks_document, lever_verdict_document, lever_verdict_line,
+};
+pub use lever_points::lever_points_document;
 pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{predict_command, prediction_page, quoted, solution_page, verdict_page};

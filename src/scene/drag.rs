@@ -93,7 +93,7 @@ impl WithSimd for Moving<'_> {
             for k in 0..LANES {
                 let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
                 let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
-                let weight = load / (u * u + v * v).sqrt().max(least);
+                let weight = load * inverse_root((u * u + v * v).max(least * least));
                 sums[0][k] += weight;
                 sums[1][k] += weight * x[k];
                 sums[2][k] += weight * y[k];
@@ -108,5 +108,27 @@ impl WithSimd for Moving<'_> {
         let [sum, x, y, second, whole] = totals;
         let scale = 1.0 / whole;
         Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
+    }
+}
+
+/// 1 / sqrt(x) to some 14 digits, for x from 1e-30 to 1e30: in single precision, and one step of
+/// Newton's method. Processors take a quarter of the time for roots and quotients in single
+/// precision, and these took half of the time of a frame in a crowd.
+#[inline(always)]
+fn inverse_root(x: f64) -> f64 {
+    let near = f64::from(1.0 / (x as f32).sqrt());
+    near * (1.5 - 0.5 * x * near * near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inverse_root_is_one_to_fourteen_digits() {
+        for exponent in -290..=290 {
+            let x = 10f64.powf(f64::from(exponent) / 10.0);
+            assert!((inverse_root(x) * x.sqrt() - 1.0).abs() < 3e-14, "{x}");
+        }
     }
 }

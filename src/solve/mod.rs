@@ -3,13 +3,15 @@
 //! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
 //! searches, refines the best and has them verified, and it returns the first plan that passes.
 //! Not finding one is a [`PlanStatus`], not an error. [`asked_plan`] makes a plan of pushes that a
-//! person asks for.
+//! person asks for. [`lever`]
+//! does the same for lever-ups.
 
 mod asked;
 mod check;
 mod efforts;
 mod error;
 mod grade;
+pub mod lever;
 mod planner;
 mod rank;
 mod ranking;

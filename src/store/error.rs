@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::asset::Faults;
 
+use super::numbers::Numbers;
 use super::shard::Shard;
 
 /// Why a run could not be begun, resumed, read or merged.
@@ -80,10 +81,16 @@ pub enum StoreError {
         path: PathBuf,
     },
     /// Another process writes to the folder.
-    #[error("another pushplan is writing to {}; wait for it, or choose another folder", path.display())]
+    #[error(
+        "another pushplan is writing to {}{}; wait for it, or choose another folder",
+        path.display(),
+        brackets(writer)
+    )]
     Busy {
         /// The folder.
         path: PathBuf,
+        /// Process and host, where the lock says so.
+        writer: Option<String>,
     },
     /// A record that would not be read as it was written, such as one with an undefined number.
     #[error("the record of task {index} cannot be kept: {why}")]
@@ -117,7 +124,7 @@ pub enum StoreError {
         second: PathBuf,
     },
     /// Not all shards were given.
-    #[error("to merge, all {of} shards are needed; missing: {}", numbers(missing))]
+    #[error("to merge, all {of} shards are needed; missing: {}", Numbers(missing))]
     MissingShards {
         /// How many there are.
         of: usize,
@@ -133,6 +140,12 @@ pub enum StoreError {
     /// No shard was given.
     #[error("there is nothing to merge")]
     NothingToMerge,
+    /// None of the folders that were asked about holds a run.
+    #[error("none of these folders holds a run: {}", folders(paths))]
+    NoRun {
+        /// The folders.
+        paths: Vec<PathBuf>,
+    },
 }
 
 impl StoreError {
@@ -146,6 +159,10 @@ fn list(lines: &[String]) -> String {
     lines.iter().map(|line| format!("\n  {line}")).collect()
 }
 
-fn numbers(list: &[usize]) -> String {
-    list.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+fn brackets(text: &Option<String>) -> String {
+    text.as_ref().map_or(String::new(), |text| format!(" ({text})"))
+}
+
+fn folders(paths: &[PathBuf]) -> String {
+    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }

@@ -1,6 +1,7 @@
 //! How records follow each other in their file.
 
 use std::io::{self, BufRead, Read};
+use std::path::Path;
 
 use crate::checksum::checksum;
 
@@ -24,6 +25,11 @@ pub(super) enum Next {
 }
 
 impl Form {
+    /// That of the run in a folder; [`Form::Lines`] if it has no records.
+    pub fn of(dir: &Path) -> Self {
+        if dir.join(Form::Frames.file()).exists() { Form::Frames } else { Form::Lines }
+    }
+
     /// Name of the file.
     pub fn file(self) -> &'static str {
         match self {

@@ -40,7 +40,7 @@ impl Journal {
         watch: &dyn Watch,
         look: &mut Look,
     ) -> Result<Self, StoreError> {
-        let lock = FolderLock::take(dir)?;
+        let lock = FolderLock::take(dir, watch)?;
         let path = dir.join(form.file());
         match RunManifest::load(dir)? {
             Some(there) if there != manifest => {

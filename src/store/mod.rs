@@ -12,7 +12,9 @@
 //! ```
 //! `manifest.json` and the records are the same bytes however often a run was interrupted, whether
 //! it was made whole or merged from shards, and for any number of threads. Times differ from run
-//! to run; `times.jsonl` is not part of that promise. One process at a time writes to a folder.
+//! to run; `times.jsonl` is not part of that promise. One process at a time writes to a folder: while
+//! one does, `.pushplan-lock` is there and says which. Shards have folders of their own, so that no two
+//! machines ever write to one.
 //!
 //! Knows nothing of what a record holds, and draws nothing.
 
@@ -23,8 +25,10 @@ mod journal;
 mod lock;
 mod manifest;
 mod merge;
+mod numbers;
 mod run;
 mod shard;
+mod status;
 mod times;
 
 pub use digest::digest;
@@ -33,7 +37,8 @@ pub use form::Form;
 pub use journal::{Held, Journal, Look, read_records};
 pub use lock::FolderLock;
 pub use manifest::RunManifest;
-pub use merge::merge_runs;
+pub use merge::{line_index, merge_runs};
 pub use run::{Finished, Measured, Store};
 pub use shard::{Shard, ShardError};
+pub use status::{RunStatus, ShardStatus};
 pub use times::Seconds;

@@ -5,7 +5,9 @@
 //! plans are found.
 
 mod disturbance;
+mod lever;
 mod rules;
 mod verifier;
 
+pub use lever::LeverVerifier;
 pub use verifier::{Verifier, VerifySettings};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pushplan::store::{Measured, RunManifest, Seconds, Store, StoreError, merge_runs};
+use pushplan::store::{Form, Measured, RunManifest, Seconds, Store, StoreError, line_index};
 use pushplan::watch::{Unwatched, Watch};
 use serde_json::json;
 use tempfile::TempDir;
@@ -229,6 +229,10 @@ fn a_run_in_memory_gives_the_same_records() {
 
 fn manifest() -> RunManifest {
     RunManifest::new("test", TASKS, 7, "still").with_settings(json!({"effort": {"beam": 24}}))
+}
+
+fn merge_runs(out: &Path, shards: &[PathBuf]) -> Result<RunManifest, StoreError> {
+    pushplan::store::merge_runs(out, shards, Form::Lines, &mut line_index)
 }
 
 /// A result that depends on the index alone.

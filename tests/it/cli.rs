@@ -8,6 +8,7 @@ use tempfile::TempDir;
 
 /// The transcripts in `tests/cmd`, with what was printed and the exit codes.
 #[test]
+#[cfg_attr(feature = "train", ignore = "the help is that of a build without training")]
 fn transcripts() {
     trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan");
 }
@@ -286,90 +287,19 @@ fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
-    goes_on_after_an_interruption("generate", "--episodes 64");
+    crate::interrupted::goes_on_after_an_interruption("generate", "--episodes 64");
 }
 
-#[cfg(unix)]
+#[cfg(not(feature = "train"))]
 #[test]
-fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
-    let run = "--episodes 40 --held-out 6 --steps 60 --evaluate-every 5 --width 8 --batch 32";
-    goes_on_after_an_interruption("train", run);
-}
-
-#[cfg(unix)]
-#[test]
-fn two_commands_never_write_to_one_folder() {
-    let folder = TempDir::new().expect("a folder");
-    let lock = pushplan::store::FolderLock::take(folder.path()).expect("a free folder");
-    let dir = folder.path().to_str().expect("UTF-8");
-    let short = ["--episodes", "1", "--held-out", "1", "--steps", "1"];
-    for command in [
-        &["generate", dir, "--episodes", "1"][..],
-        &[&["train", dir][..], &short].concat(),
-        &["bench", "tasks", "tasks/pull-back.yaml", "--out", dir],
-    ] {
-        let output = pushplan(command);
-        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        let wanted = format!("error: another pushplan is writing to {dir}; wait for it, or");
-        assert!(stderr(&output).starts_with(&wanted), "{}", stderr(&output));
+fn a_build_without_training_says_how_to_get_one_with_it() {
+    for command in ["train", "train-regulator", "train-lever"] {
+        let output = pushplan(&[command, "runs/any", "--steps", "9"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = stderr(&output);
+        assert!(said.contains("error: this pushplan was built without training"), "{said}");
+        assert!(said.contains("--features train"), "{said}");
     }
-    assert_eq!(files(folder.path()), [""; 0], "nothing is written");
-    drop(lock);
-    let output = pushplan(&["generate", dir, "--episodes", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
-/// Runs a resumable command once whole and once with an interruption, and compares the files.
-#[cfg(unix)]
-fn goes_on_after_an_interruption(command: &str, options: &str) {
-    let folder = TempDir::new().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let (whole, broken) = (path("whole"), path("broken"));
-    let arguments = |dir: &str| -> Vec<String> {
-        [command, dir].into_iter().chain(options.split(' ')).map(str::to_owned).collect()
-    };
-    let run = |dir: &str| {
-        let arguments = arguments(dir);
-        let output = pushplan(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    };
-    run(&whole);
-
-    // As long jobs are run; a hangup that is ignored must not cost the other signals.
-    let mut child = Command::new("nohup")
-        .arg(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments(&broken))
-        .stdin(std::process::Stdio::null())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .expect("the command starts");
-    // After the first files, so that there is something to keep.
-    let begun = std::time::Instant::now();
-    while std::fs::read_dir(&broken).map_or(0, Iterator::count) < 2
-        && child.try_wait().expect("a child").is_none()
-    {
-        assert!(begun.elapsed().as_secs() < 60, "no file after a minute");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("a signal is sent");
-    let code = child.wait().expect("the command ends").code();
-    // On a fast machine it may be done before the signal comes.
-    assert!(code == Some(130) || code == Some(0), "exit code {code:?}");
-
-    run(&broken);
-    let read = |dir: &str| -> Vec<(String, Vec<u8>)> {
-        let names = files(Path::new(dir)).into_iter();
-        // Metrics hold wall times, which no two runs share.
-        let names = names.filter(|name| name != "metrics.jsonl");
-        names
-            .map(|name| (name.clone(), std::fs::read(Path::new(dir).join(name)).expect("a file")))
-            .collect()
-    };
-    assert!(read(&broken) == read(&whole), "the resumed files differ");
 }
 
 fn pushplan(arguments: &[&str]) -> Output {

@@ -1,7 +1,7 @@
 //! Crowds, scattered or in a grid: what they hold, that every draw is sound, and that joints
 //! and constraints are as stated.
 
-use pushplan::store::StoreError;
+use pushplan::store::{Shard, StoreError};
 use pushplan::watch::Unwatched;
 use pushplan::{
     dataset::{
@@ -223,12 +223,12 @@ fn one_and_two_threads_draw_the_same_bits() {
 fn files_give_back_joints_and_round_parts_and_belong_to_their_constraints() {
     let dir = tempfile::tempdir().unwrap();
     let set = test_set(Preset::Dense, 9, JointRule::Mixed, Solids::Any);
-    generate(&set, dir.path(), &Unwatched).unwrap();
+    generate(&set, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
     let read = Dataset::open(dir.path()).unwrap();
     assert_eq!(read, Dataset::in_memory(&set, &Unwatched).unwrap());
     assert!(read.episodes().iter().any(|e| !e.scene.joints.is_empty()));
     let other = test_set(Preset::Dense, 9, JointRule::Fixed, Solids::Any);
-    let refused = generate(&other, dir.path(), &Unwatched);
+    let refused = generate(&other, Shard::WHOLE, dir.path(), &Unwatched);
     assert!(
         matches!(refused, Err(DatasetError::Store(StoreError::OtherRun { .. }))),
         "{refused:?}"

@@ -10,7 +10,7 @@ use std::{
     },
 };
 
-use pushplan::store::{FolderLock, RunManifest, Store, StoreError};
+use pushplan::store::{FolderLock, RunManifest, Shard, Store, StoreError};
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     asset::ToolLibrary,
@@ -180,13 +180,14 @@ fn large() -> DatasetConfig {
 #[test]
 fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memory_holds() {
     let (whole, broken) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let bytes = generate(&large(), whole.path(), &Unwatched).unwrap();
+    let (count, bytes) = generate(&large(), Shard::WHOLE, whole.path(), &Unwatched).unwrap();
+    assert_eq!(count, 100);
     let names: Vec<String> = files(whole.path()).into_iter().map(|f| f.0).collect();
     assert_eq!(names, ["manifest.json", "records.bin"]);
     assert_eq!(fs::metadata(whole.path().join("records.bin")).unwrap().len(), bytes);
 
     let script = Script { stop_after: Some(80), ..Script::default() };
-    let stopped = generate(&large(), broken.path(), &script);
+    let stopped = generate(&large(), Shard::WHOLE, broken.path(), &script);
     assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
     match Dataset::open(broken.path()) {
         Err(DatasetError::Store(StoreError::Unfinished { done, total, .. })) => {
@@ -196,7 +197,7 @@ fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memor
     }
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    pool.install(|| generate(&large(), broken.path(), &Unwatched)).unwrap();
+    pool.install(|| generate(&large(), Shard::WHOLE, broken.path(), &Unwatched)).unwrap();
     assert!(files(whole.path()) == files(broken.path()), "the files differ");
     let (read, made) =
         (Dataset::open(whole.path()).unwrap(), Dataset::in_memory(&large(), &Unwatched).unwrap());
@@ -206,7 +207,7 @@ fn an_interrupted_generation_goes_on_to_the_same_files_and_reads_back_what_memor
 #[test]
 fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
     let dir = tempfile::tempdir().unwrap();
-    generate(&small(), dir.path(), &Unwatched).unwrap();
+    generate(&small(), Shard::WHOLE, dir.path(), &Unwatched).unwrap();
     let before = files(dir.path());
     let path = dir.path().join("records.bin");
     let sound = fs::read(&path).unwrap();
@@ -218,7 +219,7 @@ fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
         let unfinished = matches!(opened, Err(DatasetError::Store(StoreError::Unfinished { .. })));
         assert!(unfinished, "{opened:?}");
         let script = Script::default();
-        generate(&small(), dir.path(), &script).unwrap();
+        generate(&small(), Shard::WHOLE, dir.path(), &script).unwrap();
         let notes = script.notes.into_inner().unwrap();
         assert_eq!(notes.len(), 1, "{notes:?}");
         assert!(notes[0].contains("records.bin is not whole behind record "), "{notes:?}");
@@ -230,21 +231,24 @@ fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
 fn other_settings_a_second_writer_an_empty_order_and_a_blocked_path_are_refused() {
     let dir = tempfile::tempdir().unwrap();
     let one = DatasetConfig { episodes: 2, ..small() };
-    generate(&one, dir.path(), &Unwatched).unwrap();
-    match generate(&small(), dir.path(), &Unwatched) {
+    generate(&one, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
+    match generate(&small(), Shard::WHOLE, dir.path(), &Unwatched) {
         Err(DatasetError::Store(StoreError::OtherRun { differences, .. })) => {
             assert_eq!(differences, ["tasks is 2 there, 44 was asked for"]);
         }
         other => panic!("{other:?}"),
     }
-    let lock = FolderLock::take(dir.path()).unwrap();
-    let busy = generate(&one, dir.path(), &Unwatched);
+    let lock = FolderLock::take(dir.path(), &Unwatched).unwrap();
+    let busy = generate(&one, Shard::WHOLE, dir.path(), &Unwatched);
     assert!(matches!(busy, Err(DatasetError::Store(StoreError::Busy { .. }))), "{busy:?}");
     drop(lock);
-    generate(&one, dir.path(), &Unwatched).unwrap();
-    let nothing = generate(&DatasetConfig { episodes: 0, ..small() }, dir.path(), &Unwatched);
+    generate(&one, Shard::WHOLE, dir.path(), &Unwatched).unwrap();
+    let nothing = {
+        let none = DatasetConfig { episodes: 0, ..small() };
+        generate(&none, Shard::WHOLE, dir.path(), &Unwatched)
+    };
     assert!(matches!(nothing, Err(DatasetError::Empty("episodes"))), "{nothing:?}");
-    let blocked = generate(&one, &dir.path().join("manifest.json"), &Unwatched);
+    let blocked = generate(&one, Shard::WHOLE, &dir.path().join("manifest.json"), &Unwatched);
     assert!(matches!(blocked, Err(DatasetError::Store(StoreError::Io { .. }))), "{blocked:?}");
     let nowhere = Dataset::open(&dir.path().join("nowhere"));
     assert!(matches!(nowhere, Err(DatasetError::Store(StoreError::Missing { .. }))), "{nowhere:?}");

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use pushplan::{
     asset::ToolLibrary,
     bench::{
-        HeldOut, HeldOutReport, PlanErrors, Suite, SuiteKind, push_costs, random_task,
-        refinement_report, search_costs,
+        HeldOut, HeldOutReport, PlanErrors, RefinedTask, RefinementReport, Suite, SuiteKind,
+        push_costs, random_task, refine_task, search_costs,
     },
     effect::{EffectModel, Projection, Simulated, Still},
     judge::MOVED,
@@ -84,7 +84,9 @@ fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
     let with = planner(settings);
     let measured = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| refinement_report([&without, &with], &library(), 1, 6)).unwrap()
+        let one = |index| refine_task([&without, &with], &library(), 1, index).unwrap().record;
+        let done: Vec<RefinedTask> = pool.install(|| (0..6).map(one).collect());
+        RefinementReport::of("planar", 1, &done.iter().collect::<Vec<_>>())
     };
     let report = measured(2);
     assert_eq!((report.tasks, report.worse, report.programmes_failed), (6, 0, 0));

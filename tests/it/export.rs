@@ -1,5 +1,6 @@
 //! Plans for other programs: what is written, and what MuJoCo makes of it.
 
+mod lever_twins;
 mod mujoco;
 
 use std::fs;

@@ -7,7 +7,8 @@ use pushplan::{
     scene::{Job, Joint, JointKind, Record, Scene, Span, State, Stroke, ToolMotion},
 };
 
-use super::network::{assert_same, half_stroke, object, stroke, tool, weights};
+use super::network::assert_same;
+use super::random_network::{half_stroke, object, stroke, tool, weights};
 
 /// Before the tool: a box, hinged to a cylinder that slides along a box, which is fixed to a
 /// second cylinder.

@@ -228,7 +228,7 @@ fn a_mirrored_lever_up_does_the_mirrored_thing() {
         let mut apart: Vec<f64> = one.lift.iter().zip(&other.lift).map(apart).collect();
         apart.sort_by(f64::total_cmp);
         // Solvers take contacts in another order; what is about to tip over feels that.
-        assert!(apart[LEVER_FRAMES / 2] < 0.1, "edge {edge}: {apart:?} mm");
+        assert!(apart[LEVER_FRAMES / 2] < 0.3, "edge {edge}: {apart:?} mm");
         assert!(apart[LEVER_FRAMES - 1] < 3.0, "edge {edge}: {apart:?} mm");
     }
 }

@@ -1,4 +1,5 @@
-//! Tests across rooms, in one binary so that candle and rapier link once.
+//! Tests across rooms, in one binary so that rapier links once. Those of training, which are built only
+//! with candle, stand in `tests/training`.
 
 mod architecture;
 mod assets;
@@ -6,6 +7,7 @@ mod baselines;
 mod belief;
 mod bench_store;
 mod benchmarks;
+mod book;
 mod cli;
 mod closed_loop;
 mod crowd_errors;
@@ -17,13 +19,19 @@ mod extremes;
 mod facade;
 mod fitting;
 mod fixtures;
+mod formats;
+#[cfg(unix)]
+mod interrupted;
 mod jointed;
 mod joints_bench;
 mod lever_data;
 mod lever_engine;
+mod lever_models;
+mod levers;
 mod models;
 mod network;
 mod outside;
+mod pages;
 mod pairs;
 mod pictures;
 mod plan_page;
@@ -31,16 +39,18 @@ mod planning;
 mod prior;
 mod prisms;
 mod pruning;
+mod random_network;
+mod random_regulator;
 mod random_tasks;
 mod readme;
 mod real_pushes;
 mod regulator;
 mod seams;
+mod shards;
 mod shipped_network;
 mod simulation;
 mod solving;
 mod symmetry;
 mod tool_choice;
 mod tradeoff;
-mod training;
 mod verification;

@@ -1,103 +1,15 @@
-//! The network as a whole: its symmetries, its two implementations, its weights file.
+//! The network as a whole: its symmetries, its weights file.
 
 use std::sync::Arc;
 
-use pushplan::watch::Unwatched;
 use pushplan::{
-    contact::{Bodies, FrameProblem, FrameSolver},
-    dataset::{Dataset, DatasetConfig},
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
-    graph::Batch,
-    network::{
-        Buffers, Card, Config, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor,
-        Weights, WeightsError,
-    },
-    scene::{
-        Job, Object, Obstacle, Part, Physics, Record, Scene, State, Stroke, Tool, ToolMotion,
-        Velocity,
-    },
+    network::{Buffers, ErrorCard, Forward, Weights, WeightsError},
+    scene::{Job, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity},
 };
 
-/// Random weights whose last layer is not zero, so that the network matters, nor large, so
-/// that a rollout stays near a push and does not amplify rounding.
-pub(super) fn weights(width: usize) -> Weights {
-    let config = Config { width, steps: 2 };
-    let mut parameters = Parameters::fresh(&config, 3);
-    let like = parameters.values["motion.hidden"].clone();
-    for name in ["motion.even", "motion.odd"] {
-        if let Some(values) = parameters.values.get_mut(name) {
-            let count = values.len();
-            values.iter_mut().zip(&like[..count]).for_each(|(value, x)| *value = 0.02 * x);
-        }
-    }
-    let batch = batch(&scene(), &scene().start(), &stroke());
-    Weights {
-        card: Card {
-            config,
-            normaliser: Normaliser::measure(&batch),
-            ranges: DatasetConfig::default().ranges(),
-            data_seed: 0,
-            episodes: 0,
-            steps: 0,
-            errors: None,
-        },
-        parameters,
-    }
-}
-
-pub(super) fn object(shape: Shape, x: f64, y: f64, heading: f64) -> Object {
-    Object::new(format!("{x} {y}"), shape).friction(0.5).at(x, y, heading)
-}
-
-/// A box against the tool, a cylinder against the box, a heavier box beside both, an obstacle.
-fn scene() -> Scene {
-    Scene::new([
-        object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
-        object(Shape::Cylinder { radius: 0.04, height: 0.1 }, 0.165, 0.02, 0.0),
-        object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7).mass(1.1),
-    ])
-    .on_table(0.4)
-    .with_obstacle(
-        Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.22, -0.05, 0.1)).friction(0.3),
-    )
-}
-
-pub(super) fn tool() -> Arc<Tool> {
-    let part = |name: &str, size, pose| Part::cuboid(name, size, pose);
-    let parts = vec![
-        part("bar", [0.04, 0.16, 0.05], Pose::default()),
-        part("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
-    ];
-    let joints = [[0, 1]];
-    Arc::new(Tool::joined("t", parts, &joints).expect("one piece").friction(0.6))
-}
-
-pub(super) fn stroke() -> Stroke {
-    let to = Pose::new(0.1, 0.02, 0.0);
-    Stroke { from: Pose::default(), to, duration: 1.0, settle: true }
-}
-
-/// Half the way, before the wall is met: when things are jammed, a random network soon makes
-/// centimetres of the last bit's rounding.
-pub(super) fn half_stroke() -> Stroke {
-    Stroke { to: Pose::new(0.05, 0.01, 0.0), duration: 0.5, settle: false, ..stroke() }
-}
-
-fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
-    let mut batch = Batch::default();
-    let bodies = Bodies::new(scene, &tool(), 0.002, &Physics::stated(scene));
-    let axis = (stroke.to.position - stroke.from.position).normalize();
-    add_graph(&mut batch, 0, FrameProblem { bodies: &bodies, state, step: &stroke.frame(0), axis });
-    batch
-}
-
-/// Adds the graph of a frame.
-fn add_graph(batch: &mut Batch, graph: u32, problem: FrameProblem<'_>) {
-    let mut solver = FrameSolver::default();
-    let (frame, forces) = solver.solve_with_forces(problem);
-    batch.add(graph, &frame, &forces);
-}
+use crate::random_network::{batch, half_stroke, scene, stroke, tool, weights};
 
 fn rollout(model: &Network, scene: &Scene, stroke: Stroke) -> State {
     let motion = ToolMotion { tool: tool(), lift: 0.002, strokes: vec![stroke] };
@@ -119,43 +31,6 @@ fn moved(scene: &Scene, by: Pose) -> Scene {
     scene.objects.iter_mut().for_each(|o| o.pose = by * o.pose);
     scene.obstacles.iter_mut().for_each(|o| o.pose = by * o.pose);
     scene
-}
-
-#[test]
-fn fused_inference_equals_the_candle_graph() {
-    let data = DatasetConfig { seed: 11, episodes: 20, ..DatasetConfig::default() };
-    let data = Dataset::in_memory(&data, &Unwatched).expect("data");
-    let mut batch = Batch::default();
-    for (k, episode) in data.episodes().iter().enumerate() {
-        let bodies = Bodies::new(
-            &episode.scene,
-            &episode.motion.tool,
-            0.002,
-            &Physics::stated(&episode.scene),
-        );
-        let stroke = &episode.motion.strokes[0];
-        let axis = (stroke.to.position - stroke.from.position).normalize();
-        for index in 0..stroke.frames().min(episode.frames.len()) {
-            let (state, step) = (&episode.frames[index].state, stroke.frame(index));
-            let problem = FrameProblem { bodies: &bodies, state, step: &step, axis };
-            add_graph(&mut batch, k as u32, problem);
-        }
-    }
-    assert!(batch.node_count() > 100);
-    for width in [32, 128] {
-        let weights = weights(width);
-        let reference = Predictor::new(weights.card.config, &weights.parameters)
-            .and_then(|net| net.forward(&Inputs::new(&batch, &weights.card.normaliser)?))
-            .and_then(|out| out.to_vec2::<f32>())
-            .expect("candle");
-        let mut fused = Vec::new();
-        Forward::new(&weights).run(&batch, &mut Buffers::default(), &mut fused);
-        assert_eq!(reference.len(), fused.len());
-        let scale = reference.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
-        for (a, b) in reference.iter().flatten().zip(fused.iter().flatten()) {
-            assert!((f64::from(*a) - b).abs() < 2e-5 * f64::from(scale), "{a} {b}");
-        }
-    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use pushplan::{
     solve::{Effort, Planner, SolveError},
 };
 
-use super::network::{object, stroke, tool};
+use super::random_network::{object, stroke, tool};
 use pushplan::geometry::{Pose, Shape};
 use pushplan::scene::ToolMotion;
 

@@ -9,6 +9,8 @@ use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use crate::pages::{self, blocks};
+
 const README: &str = include_str!("../../README.md");
 
 /// How the README starts the program from a checkout.
@@ -70,29 +72,13 @@ fn its_table_is_the_measured_one() {
     }
 }
 
-/// Every command of the pages is one that the program takes: with `--help` behind it the command
-/// line is read up to there.
+/// Those of training are looked at where there is training, in `tests/training`.
 #[test]
 fn the_commands_of_all_pages_are_taken() {
-    let pages = [
-        README,
-        include_str!("../../models/results.md"),
-        include_str!("../../models/brdpn.md"),
-        include_str!("../../models/diary.md"),
-    ];
-    let mut taken = 0;
-    for page in pages {
-        for block in blocks(page, "sh") {
-            let commands = block.replace("\\\n", " ");
-            for command in commands.lines().filter_map(|line| line.strip_prefix("pushplan ")) {
-                let command = command.split(" #").next().unwrap_or(command);
-                let command = command.split(" && ").next().unwrap_or(command);
-                run(&format!("{command} --help"));
-                taken += 1;
-            }
-        }
-    }
-    assert!(taken > 10, "{taken}");
+    let commands = pages::commands();
+    let commands: Vec<_> = commands.iter().filter(|command| !pages::trains(command)).collect();
+    commands.iter().for_each(|command| run(&format!("{command} --help")));
+    assert!(commands.len() > 10);
 }
 
 #[test]
@@ -129,14 +115,4 @@ fn run(arguments: &str) {
         .expect("the command runs");
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "pushplan {arguments}: {error}");
-}
-
-/// The contents of a page's code blocks in `language`.
-fn blocks(page: &str, language: &str) -> Vec<String> {
-    let fence = format!("```{language}\n");
-    page.split(&fence)
-        .skip(1)
-        .filter_map(|rest| rest.split("```").next())
-        .map(str::to_owned)
-        .collect()
 }

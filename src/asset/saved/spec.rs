@@ -47,7 +47,7 @@ pub(in crate::asset) const VERSION: Value = Value::Count(Range {
 });
 
 /// Large enough for anything on a table, small enough to betray a blown-up simulation.
-const REAL: Value =
+pub(super) const REAL: Value =
     Value::Number(Range { what: "a number", low: -1e6, high: 1e6, advice: "is the file damaged?" });
 
 const POSITIVE: Value = Value::Number(Range {
@@ -57,14 +57,14 @@ const POSITIVE: Value = Value::Number(Range {
     advice: "lengths are in metres, speeds in m/s",
 });
 
-const UNSIGNED: Value = Value::Number(Range {
+pub(super) const UNSIGNED: Value = Value::Number(Range {
     what: "a number from zero",
     low: 0.0,
     high: 1e6,
     advice: "is the file damaged?",
 });
 
-const INDEX: Value =
+pub(super) const INDEX: Value =
     Value::Count(Range { what: "an index", low: 0.0, high: 1e6, advice: "is the file damaged?" });
 
 const DRAW: Value = Value::Count(Range {
@@ -74,10 +74,10 @@ const DRAW: Value = Value::Count(Range {
     advice: "is the file damaged?",
 });
 
-const SHARE: Value =
+pub(super) const SHARE: Value =
     Value::Number(Range { what: "a share", low: 0.0, high: 1.0, advice: "half is 0.5" });
 
-const VECTOR: Value = numbers(&REAL, 2);
+pub(super) const VECTOR: Value = numbers(&REAL, 2);
 
 const PLAN: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),

@@ -113,7 +113,8 @@ fn obstacle(node: &Node) -> Option<Obstacle> {
     })
 }
 
-fn robot(node: &Node) -> Option<Robot> {
+/// The robot: its reach, and what else is said of it.
+pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
     let reach = node.get("reach")?;
     let reach_min = number_or(reach, "min", 0.0)?;
     Some(Robot {
@@ -135,7 +136,8 @@ pub(super) fn home(robot: &Node) -> Option<Vector> {
     vector(robot.get("home")?)
 }
 
-fn tools(node: &Node) -> ToolChoice {
+/// The tools that a task names.
+pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
     match node.text() {
         Some(_) => ToolChoice::All,
         None => {

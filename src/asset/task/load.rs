@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::scene::{Scene, Task, Tool, ToolChoice};
 
 use crate::asset::fault::{Fault, Faults, did_you_mean};
+use crate::asset::lever::is_lever_task;
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};
@@ -80,6 +81,12 @@ pub(in crate::asset) fn parse_with(
     let source = Source::yaml(file, text);
     let mut root = Node::parse(source)?;
     let mut ledger = Ledger::new(source);
+    if is_lever_task(&root) {
+        let node = root.get("levers").or_else(|| root.get("goal")).unwrap_or(&root);
+        let advice = "`solve`, `predict`, `simulate` and `verify` take such tasks";
+        ledger.fault(node, "this is a task of levering, and pushes are asked for", advice);
+        return ledger.finish(None);
+    }
     check(&mut root, &TASK, &mut ledger);
     if let Some(library) = library {
         for node in root.get("tools").map(Node::items).unwrap_or_default() {
@@ -107,6 +114,10 @@ pub(in crate::asset) fn scene_of(node: &Node, slack: f64, ledger: &mut Ledger) -
 }
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {
+    if library.blade(name).is_some() {
+        let message = format!("`{name}` has a blade: it levers, and this task is one of pushes");
+        return (message, "name a tool that pushes, or add `levers` for a task of levering".into());
+    }
     let known = library.iter().map(|tool| tool.name.as_str());
     (format!("unknown tool `{name}`"), did_you_mean(name, known))
 }

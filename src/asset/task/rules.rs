@@ -162,7 +162,8 @@ fn masses(objects: &[Node], ledger: &mut Ledger) {
     }
 }
 
-fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
+/// The reach must hold something, and home.
+pub(in crate::asset) fn robot(robot: &Node, pushes: &Node, ledger: &mut Ledger) {
     let Some(reach) = robot.get("reach") else { return };
     let (Some(min), Some(max)) =
         (number_or(reach, "min", 0.0), reach.get("max").and_then(Node::number))
@@ -198,7 +199,8 @@ fn form(pushes: &Node) -> Option<PushForm> {
     }
 }
 
-fn tools(tools: &Node, ledger: &mut Ledger) {
+/// Tools are named once.
+pub(in crate::asset) fn tools(tools: &Node, ledger: &mut Ledger) {
     for (k, node) in tools.items().iter().enumerate() {
         if node.text().is_some() && tools.items()[..k].iter().any(|t| t.content == node.content) {
             ledger.fault(node, "this tool is named twice", "remove one of the two");

@@ -23,28 +23,34 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::required("scene", SCENE, "What stands on the table."),
     Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING),
     Key::required("robot", ROBOT, "Where the end effector can be."),
-    Key::required(
-        "tools",
-        Value::Either(&[
-            Value::Word(&["all"]),
-            Value::List { of: &Value::Name, items: "tool names", min: 1, max: 64 },
-        ]),
-        "Names of the tools to choose from, or `all`.",
-    ),
+    TOOLS,
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
     Key::required("goal", GOAL, "Where an object must come to rest."),
-    Key::optional(
-        "robustness",
-        Value::Number(Range {
-            what: "a share",
-            low: 0.0,
-            high: 1.0,
-            advice: "three quarters are 0.75",
-        }),
-        "Share of the replays with small errors of starts and frictions that must reach the goal \
-         for a plan to count; default 0.75.",
-    ),
+    ROBUSTNESS,
 ];
+
+/// What tools a task allows.
+pub(in crate::asset) const TOOLS: Key = Key::required(
+    "tools",
+    Value::Either(&[
+        Value::Word(&["all"]),
+        Value::List { of: &Value::Name, items: "tool names", min: 1, max: 64 },
+    ]),
+    "Names of the tools to choose from, or `all`.",
+);
+
+/// How often a plan must work.
+pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(
+    "robustness",
+    Value::Number(Range {
+        what: "a share",
+        low: 0.0,
+        high: 1.0,
+        advice: "three quarters are 0.75",
+    }),
+    "Share of the replays with small errors of starts and frictions that must reach the goal \
+     for a plan to count; default 0.75.",
+);
 
 /// What of a scene may be unknown.
 const UNKNOWN: Value = Value::List {
@@ -182,14 +188,7 @@ const ROBOT: Value = Value::Map(&[
         "Where chained pushes start, [x, y] in metres; by default the nearest point of the reach \
          in front of the base.",
     ),
-    Key::required(
-        "reach",
-        Value::Map(&[
-            Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
-            Key::required("max", REACH, "Largest distance from the base, metres."),
-        ]),
-        "Distances from the base, at the origin, at which the end effector can be.",
-    ),
+    REACH_KEY,
     Key::optional(
         "max_force",
         Value::Number(Range {
@@ -201,6 +200,16 @@ const ROBOT: Value = Value::Map(&[
         "Largest force in newtons that the arm can press with; by default any.",
     ),
 ]);
+
+/// Where the end effector can be.
+pub(in crate::asset) const REACH_KEY: Key = Key::required(
+    "reach",
+    Value::Map(&[
+        Key::optional("min", REACH, "Smallest distance from the base, metres; default 0."),
+        Key::required("max", REACH, "Largest distance from the base, metres."),
+    ]),
+    "Distances from the base, at the origin, at which the end effector can be.",
+);
 
 const REACH: Value = Value::Number(Range {
     what: "a reach in metres",

@@ -26,7 +26,7 @@ enum Kind {
     /// Nothing moves.
     Still,
     /// Everything moves as it did on average; slips and ends as most did.
-    Mean(Seen),
+    Mean(Box<Seen>),
     /// What happened to another plate.
     Like { neighbour: Neighbour, known: Vec<(Vec<f32>, Seen)>, seed: u64 },
 }
@@ -70,7 +70,7 @@ impl LeverBaseline {
         } else {
             Ending::Back
         };
-        Self { kind: Kind::Mean(mean) }
+        Self { kind: Kind::Mean(Box::new(mean)) }
     }
 
     /// The trajectory of the one of these episodes that `neighbour` chooses; nothing moves where

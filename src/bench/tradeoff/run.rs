@@ -88,6 +88,9 @@ pub struct TradeOff<'a> {
 }
 
 impl<'a> TradeOff<'a> {
+    /// Name of the suite in manifests.
+    pub const SUITE: &'static str = "tradeoff";
+
     /// A run over `levels` and `plans`, whose models are among them; those of others are left
     /// out.
     ///
@@ -132,7 +135,7 @@ impl<'a> TradeOff<'a> {
             "counts": self.settings,
             "tools": self.library.iter().map(|tool| &tool.name).collect::<Vec<_>>(),
         });
-        RunManifest::new("tradeoff", units, self.settings.seed, "every level")
+        RunManifest::new(Self::SUITE, units, self.settings.seed, "every level")
             .with_settings(settings)
     }
 

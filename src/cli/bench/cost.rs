@@ -20,6 +20,9 @@ use super::common::Common;
 
 /// Time of one push by every model, and of a search of one-push candidates
 #[derive(Args, Debug)]
+#[command(
+    after_help = "What is compared are times of one machine, so there are no shards; it takes minutes at most."
+)]
 pub struct CostArgs {
     #[command(flatten)]
     common: Common,

@@ -21,7 +21,8 @@ pub const HELP: &str = "With --out every finished task is kept at once: after an
 (Ctrl-C) the same command goes on.
 manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
 the wall times, which never are. --shard 2/3 measures every third task, on another machine say;
-`pushplan bench merge OUT SHARD...` makes of the parts what one run would have left.";
+`pushplan bench merge OUT SHARD...` makes of the parts what one run would have left, and
+`pushplan bench status SHARD...` says which are missing.";
 
 /// Where results are kept.
 #[derive(Args, Debug)]
@@ -129,6 +130,7 @@ impl From<StoreError> for CliError {
             StoreError::Manifest { .. }
             | StoreError::Damaged { .. }
             | StoreError::Missing { .. }
+            | StoreError::NoRun { .. }
             | StoreError::Unfinished { .. } => Self::File(message),
             StoreError::Io { .. } | StoreError::Busy { .. } | StoreError::Record { .. } => {
                 Self::Unexpected(message)

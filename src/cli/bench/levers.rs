@@ -53,8 +53,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
     let load = |path: &PathBuf| {
-        let network = LeverNetwork::load(path);
-        network.map_err(|error| CliError::invalid("cannot use the network", &error))
+        LeverNetwork::load(path).map_err(|error| CliError::File(error.to_string()))
     };
     let networks: Vec<LeverNetwork> = args.network.iter().map(load).collect::<Result<_, _>>()?;
     interrupt::watch();
@@ -98,6 +97,18 @@ fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
         Box::new(LeverPrior { settings: PriorSettings::FROM_REST }),
         Box::new(LeverPrior::default()),
         Box::new(LeverPrior { settings: PriorSettings::FINE }),
+        Box::new(LeverPrior { settings: PriorSettings { sweeps: 30, ..PriorSettings::USUAL } }), // TEMP
+        Box::new(LeverPrior { settings: PriorSettings { sweeps: 20, ..PriorSettings::USUAL } }), // TEMP
+        Box::new(LeverPrior { settings: PriorSettings { sweeps: 12, ..PriorSettings::USUAL } }), // TEMP
+        Box::new(LeverPrior { settings: PriorSettings { sweeps: 8, ..PriorSettings::USUAL } }), // TEMP
+        Box::new(LeverPrior {
+            settings: PriorSettings {
+                sweeps: 20,
+                step: 1.0 / 20.0,
+                shortest: 1.0 / 80.0,
+                ..PriorSettings::USUAL
+            },
+        }), // TEMP
         Box::new(SimulatedLevers { simulator: LeverSimulator::COARSE }),
     ]
 }

@@ -6,14 +6,17 @@ mod convergence;
 mod cost;
 mod joints;
 mod keep;
+mod lever_points;
+mod lever_tasks;
 mod levers;
 mod page;
 mod random;
 mod refinement;
 mod run;
 mod saved;
+mod status;
 mod tasks;
 mod tools;
 
 pub use command::{BenchArgs, run};
-pub use keep::weights_digest;
+pub use keep::{value_digest, weights_digest};

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use clap::Args;
+use serde_json::json;
 
-use crate::bench::refinement_report;
+use crate::bench::{RefinedTask, RefinementReport, refine_task};
 use crate::cli::{
     error::CliError,
     model,
@@ -12,13 +13,19 @@ use crate::cli::{
     solve::solve_error,
     words::{EFFORTS, words},
 };
-use crate::report::refinement_document;
+use crate::report::{Document, refinement_document};
 use crate::solve::{Effort, Planner, Settings};
+use crate::store::{Finished, RunManifest};
 
 use super::common::Common;
+use super::keep::{self, KeepArgs, value_digest, weights_digest};
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "refinement";
 
 /// Random solvable tasks with and without refinement of what the search finds
 #[derive(Args, Debug)]
+#[command(after_help = keep::HELP)]
 pub struct RefinementArgs {
     #[command(flatten)]
     common: Common,
@@ -32,23 +39,43 @@ pub struct RefinementArgs {
     /// Seed of the tasks
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
+    #[command(flatten)]
+    keep: KeepArgs,
 }
 
 pub fn run(args: &RefinementArgs, session: &Session) -> Result<(), CliError> {
     let library = args.common.library.load()?;
     let effort = args.effort;
-    let model = Arc::new(model::load(&args.common.spec(effort))?);
-    let settings = Settings { disturbed: 0, ..effort.settings() };
+    let spec = args.common.spec(effort);
+    let model = Arc::new(model::load(&spec)?);
+    let budget = Settings { disturbed: 0, ..effort.settings() };
     let planner = |settings| {
         let planner = Planner::builder(Arc::clone(&model)).settings(settings);
         planner.outside(args.common.outside.outside()).build()
     };
-    let without = planner(Settings { refine_rounds: 0, ..settings });
-    let with = planner(settings);
-    let spinner = session.spinner("refining");
-    let report = session
-        .compute(|| refinement_report([&without, &with], &library, args.seed, args.tasks as usize));
-    spinner.finish_and_clear();
-    let report = report.map_err(solve_error)?;
-    args.common.form.show(session, &refinement_document(&report, &effort.to_string()))
+    let without = planner(Settings { refine_rounds: 0, ..budget });
+    let with = planner(budget);
+    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+    // Without a tool there is nothing to make a task with.
+    let count = if tools.is_empty() { 0 } else { args.tasks as usize };
+    let mut settings =
+        json!({ "effort": effort, "budget": with.settings(), "tools": value_digest(&tools)? });
+    args.common.outside.note(&mut settings);
+    let manifest = RunManifest::new(SUITE, count, args.seed, &spec.to_string())
+        .with_weights(weights_digest(&spec)?)
+        .with_settings(settings);
+    let store = args.keep.measure(session, manifest, |index| {
+        session
+            .compute(|| refine_task([&without, &with], &library, args.seed, index))
+            .map_err(solve_error)
+    })?;
+    let document = document(store.manifest(), store.finished());
+    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
+}
+
+/// The report of what a run has measured.
+pub fn document(run: &RunManifest, finished: &[Finished<RefinedTask>]) -> Document {
+    let done: Vec<&RefinedTask> = finished.iter().map(|one| &one.record).collect();
+    let effort = run.settings["effort"].as_str().unwrap_or("unknown");
+    refinement_document(&RefinementReport::of(&run.model, run.seed, &done), effort)
 }

@@ -4,18 +4,24 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{BeliefCase, BeliefRecord, ClosedRecord, RandomRecord, SolvedTask, ToolRecord};
-use crate::cli::{error::CliError, form::Form, output, session::Session};
-use crate::report::{
-    ClosedRun, Document, RandomRun, closed_document, random_document, solved_document,
-    tools_document,
+use crate::bench::{
+    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, RandomRecord, RefinedTask,
+    SolvedTask, ToolRecord, TradeOff, by_kind,
 };
-use crate::store::{Finished, RunManifest, Store, StoreError, merge_runs};
+use crate::cli::{
+    error::CliError, evaluate, form::Form, generate::data_error, output, session::Session,
+};
+use crate::dataset::{self, merge_data};
+use crate::report::{
+    ClosedRun, Document, RandomRun, closed_document, evaluation_document, lever_tasks_document,
+    random_document, solved_document, tools_document,
+};
+use crate::store::{self, Finished, RunManifest, Store, StoreError, line_index, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, random, tasks, tools};
+use super::{joints, keep, lever_tasks, random, refinement, tasks, tools};
 
-/// Put the shards of a run together: the same bytes as one run
+/// Put the shards of a benchmark or of training data together: the same bytes as one run
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
   pushplan bench random --out part-1 --shard 1/2      # here
@@ -48,8 +54,25 @@ pub struct ReportArgs {
 }
 
 pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
-    merge_runs(&args.out, &args.shards)?;
-    let runs = std::slice::from_ref(&args.out);
+    let (out, shards) = (&args.out, &args.shards);
+    let suite = shards.first().map(|dir| RunManifest::expect(dir)).transpose()?;
+    let suite = suite.map(|manifest| manifest.suite).unwrap_or_default();
+    if [dataset::SUITE, dataset::LEVER_SUITE].contains(&suite.as_str()) {
+        let (episodes, seed) = merge_data(out, shards).map_err(data_error)?;
+        return session
+            .print(&format!("{episodes} episodes of seed {seed} in {}\n", out.display()));
+    }
+    let whole = merge_runs(out, shards, store::Form::Lines, &mut line_index)?;
+    if suite == TradeOff::SUITE {
+        // Its report needs the networks that were measured, which only the command names.
+        return session.print(&format!(
+            "{} units in {}; the command of the shards with this folder and without --shard shows \
+             the results\n",
+            whole.tasks,
+            out.display()
+        ));
+    }
+    let runs = std::slice::from_ref(out);
     keep::show(args.form, session, &document(runs)?, Some(&args.out))
 }
 
@@ -97,6 +120,10 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
+        (lever_tasks::SUITE, [dir]) => {
+            let store = Store::<LeverRecord>::load(dir)?;
+            Ok(lever_tasks_document(store.manifest(), store.finished()))
+        }
         (super::run::SUITE, runs) => {
             let runs: Vec<ClosedRun> = runs
                 .iter()
@@ -105,7 +132,28 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             same_tasks(&runs)?;
             Ok(closed_document(&runs))
         }
-        (tasks::SUITE | tools::SUITE | joints::SUITE, _) => Err(CliError::usage(
+        (refinement::SUITE, [dir]) => {
+            let store = Store::<RefinedTask>::load(dir)?;
+            Ok(refinement::document(store.manifest(), store.finished()))
+        }
+        (evaluate::SUITE, [dir]) => {
+            let store = Store::<Evaluated>::load(dir)?;
+            let (suites, crowds) = by_kind(store.finished().iter().map(|part| &part.record));
+            Ok(evaluation_document(&suites, &crowds))
+        }
+        (TradeOff::SUITE, _) => Err(CliError::usage(
+            "the report of a trade-off needs the networks that were measured",
+            "give the command of the run again, with its --out: it measures only what is missing",
+        )),
+        (
+            tasks::SUITE
+            | tools::SUITE
+            | joints::SUITE
+            | refinement::SUITE
+            | evaluate::SUITE
+            | lever_tasks::SUITE,
+            _,
+        ) => Err(CliError::usage(
             format!("runs of the suite `{suite}` are not shown side by side"),
             "name one folder",
         )),

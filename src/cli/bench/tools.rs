@@ -118,7 +118,7 @@ pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
 fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     if args.keep.out.is_some() {
         return Err(CliError::usage(
-            "single pushes are quick and not kept",
+            "single pushes take seconds, and are neither kept nor split",
             "leave --out out, or --form single",
         ));
     }

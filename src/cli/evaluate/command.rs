@@ -2,22 +2,24 @@
 
 use clap::Args;
 
-use crate::bench::{HeldOut, HeldOutReport, SuiteKind, push_baselines};
+use crate::bench::SuiteKind;
 use crate::cli::{
     action::LibraryArgs,
     error::CliError,
     exit_code,
     form::Form,
     model::{self, OutsideArgs},
+    output,
     poses::PosesArgs,
     session::Session,
 };
-use crate::effect::EffectModel;
-use crate::report::{evaluation_document, heldout_document};
+use crate::report::evaluation_document;
 use crate::scene::ModelSpec;
+use crate::store::Shard;
 
 use super::crowds::Crowds;
 use super::on::On;
+use super::parts::Parts;
 use super::sources::{CrowdArgs, Sources};
 
 /// Measure prediction errors on held-out pushes, crowds and your own recordings
@@ -29,6 +31,11 @@ use super::sources::{CrowdArgs, Sources};
   all            sparse and dense
   FILE, FOLDER   your own recordings (`pushplan schema recording`), or trajectory files; those of
                  a folder are measured together
+
+With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
+interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
+machine say; `pushplan bench merge OUT SHARD...` makes of all shards what one run would have left.
+Recordings are measured anew each time.
 
 Examples:
   pushplan evaluate --on single --pushes 2000
@@ -42,25 +49,28 @@ pub struct EvaluateArgs {
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
     model: ModelSpec,
     #[command(flatten)]
-    outside: OutsideArgs,
+    pub outside: OutsideArgs,
     /// What to measure on, see below; several may be given
     #[arg(long, value_name = "WHAT", num_args = 1..)]
     on: Vec<On>,
     /// Pushes of each kind of tool pushes
     #[arg(long, value_name = "N", default_value_t = 2000,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pushes: u32,
+    pub pushes: u32,
     /// Seed of the pushes and scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
-    seed: u64,
+    pub seed: u64,
+    /// Measure only shard I of N; a kind of pushes or a set of scenes is never split
+    #[arg(long, value_name = "I/N", requires = "out")]
+    pub shard: Option<Shard>,
     #[command(flatten)]
-    crowd: CrowdArgs,
+    pub crowd: CrowdArgs,
     #[command(flatten)]
     poses: PosesArgs,
     #[command(flatten)]
-    library: LibraryArgs,
+    pub library: LibraryArgs,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
 }
 
 pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
@@ -76,8 +86,16 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
     if args.on.is_empty() {
         kinds = SuiteKind::ALL.to_vec();
     }
+    if args.shard.is_some() && !files.is_empty() {
+        return Err(CliError::usage(
+            "recordings are measured in one go",
+            "leave out --shard, or name only what is drawn, such as dense",
+        ));
+    }
     let sources = Sources::load(&families, &files, &args.crowd)?;
-    let suites = tools(args, model, &kinds, session)?;
+    if let Some(folder) = &args.crowd.out {
+        output::prepare(folder)?;
+    }
     let crowds = Crowds {
         sources: &sources,
         model,
@@ -86,40 +104,11 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
         args: &args.crowd,
         poses: &args.poses,
         form: args.form,
+    };
+    let (suites, mut reports) = Parts { args, kinds: &kinds, crowds: &crowds }.run(session)?;
+    if !sources.recordings.is_empty() {
+        crowds.recordings(&suites, &mut reports, session)?;
     }
-    .run(session)?;
-    args.form.show_rest(session, &evaluation_document(&suites, &crowds), crowds.len() > 1)?;
+    args.form.show_rest(session, &evaluation_document(&suites, &reports), reports.len() > 1)?;
     Ok(exit_code::DONE)
-}
-
-/// Errors on pushes of the shipped tools.
-fn tools(
-    args: &EvaluateArgs,
-    spec: &ModelSpec,
-    kinds: &[SuiteKind],
-    session: &Session,
-) -> Result<Vec<HeldOutReport>, CliError> {
-    if kinds.is_empty() {
-        return Ok(Vec::new());
-    }
-    let library = args.library.load()?;
-    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.load(spec)?)];
-    for other in push_baselines(spec) {
-        models.push(Box::new(model::load(&other)?));
-    }
-    let mut reports = Vec::new();
-    for kind in kinds {
-        let spinner = session.spinner(kind.title());
-        let report = session.compute(|| {
-            spinner.set_message("simulating");
-            let truth = HeldOut::prepare(*kind, &library, args.seed, args.pushes as usize);
-            spinner.set_message("predicting");
-            let models: Vec<&dyn EffectModel> = models.iter().map(|model| &**model).collect();
-            truth.report(&models)
-        });
-        spinner.finish_and_clear();
-        args.form.show_part(session, &heldout_document(&report))?;
-        reports.push(report);
-    }
-    Ok(reports)
 }

@@ -1,7 +1,8 @@
-//! Measuring on crowds and recordings, set by set.
+//! Measuring on a set of crowds, and on recordings.
 
 use crate::bench::{
-    Asked, BeliefRecord, CrowdReport, JointMethod, assumed, belief_steps, crowd_baselines, follow,
+    Asked, BeliefRecord, CrowdReport, CrowdSet, HeldOutReport, JointMethod, assumed, belief_steps,
+    crowd_baselines, follow,
 };
 use crate::cli::{
     error::CliError,
@@ -37,38 +38,29 @@ pub struct Crowds<'a> {
 }
 
 impl Crowds<'_> {
-    /// Measures set by set; tables are printed and the folder's files written as each is done.
+    /// Errors on a set of scenes.
+    ///
+    /// # Errors
+    /// A model that cannot be read.
+    pub fn set(&self, set: &CrowdSet, session: &Session) -> Result<CrowdReport, CliError> {
+        let models = self.models(false)?;
+        let following = Following::bar(session, &set.title());
+        let report = session.compute(|| {
+            let trials = set.draw(self.seed, self.args.count as usize, &following);
+            CrowdReport::of_set(set, self.seed, &trials, &models, &following)
+        });
+        following.finish()?;
+        Ok(report)
+    }
+
+    /// Every set of recordings by itself, and all together where there are several; beside them
+    /// stand in the folder's files what was measured before.
     ///
     /// # Errors
     /// A model that cannot be read; results that cannot be written.
-    pub fn run(&self, session: &Session) -> Result<Vec<CrowdReport>, CliError> {
-        let (sets, recordings) = (&self.sources.sets, &self.sources.recordings);
-        let mut reports = Vec::new();
-        if let Some(folder) = self.args.out.iter().find(|_| sets.len() + recordings.len() > 0) {
-            output::prepare(folder)?;
-        }
-        if !sets.is_empty() {
-            let models = self.models(false)?;
-            for set in sets {
-                let count = self.args.count as usize;
-                let following = Following::bar(session, &set.title());
-                reports.push(session.compute(|| {
-                    let trials = set.draw(self.seed, count, &following);
-                    CrowdReport::of_set(set, self.seed, &trials, &models, &following)
-                }));
-                following.finish()?;
-                self.show_newest(&reports, session)?;
-            }
-        }
-        if !recordings.is_empty() {
-            self.recordings(&mut reports, session)?;
-        }
-        Ok(reports)
-    }
-
-    /// Every set of recordings by itself, and all together where there are several.
-    fn recordings(
+    pub fn recordings(
         &self,
+        suites: &[HeldOutReport],
         reports: &mut Vec<CrowdReport>,
         session: &Session,
     ) -> Result<(), CliError> {
@@ -99,7 +91,8 @@ impl Crowds<'_> {
                 }
             }));
             following.finish()?;
-            self.show_newest(reports, session)?;
+            self.form.show_part(session, &crowd_document(reports))?;
+            self.write(suites, reports)?;
         }
         let told = self.args.told();
         if !told.is_empty() {
@@ -170,14 +163,15 @@ impl Crowds<'_> {
         }
     }
 
-    /// Prints the newest report and writes the folder's files.
-    fn show_newest(&self, reports: &[CrowdReport], session: &Session) -> Result<(), CliError> {
-        self.form.show_part(session, &crowd_document(reports))?;
-        if let Some(folder) = &self.args.out {
-            let document = evaluation_document(&[], reports);
-            output::write(folder, "evaluation.json", document.to_json().as_bytes())?;
-            output::write_figures(folder, document.figures())?;
-        }
+    /// Writes the folder's files, if there is a folder.
+    ///
+    /// # Errors
+    /// If that cannot be done.
+    pub fn write(&self, suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Result<(), CliError> {
+        let Some(folder) = &self.args.out else { return Ok(()) };
+        let document = evaluation_document(suites, crowds);
+        output::write(folder, "evaluation.json", document.to_json().as_bytes())?;
+        output::write_figures(folder, document.figures())?;
         Ok(())
     }
 

@@ -4,6 +4,8 @@
 mod command;
 mod crowds;
 mod on;
+mod parts;
 mod sources;
 
 pub use command::{EvaluateArgs, run};
+pub use parts::SUITE;

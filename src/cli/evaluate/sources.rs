@@ -37,8 +37,8 @@ pub struct CrowdArgs {
     /// Measure the model alone on sparse and dense scenes and recordings, without baselines
     #[arg(long)]
     pub no_baselines: bool,
-    /// Folder for evaluation.json, written again after every set, and the curves of error by
-    /// horizon as SVG
+    /// Folder that keeps every finished part, evaluation.json, written again after each, and the
+    /// curves of error by horizon as SVG
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

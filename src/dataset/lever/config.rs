@@ -11,13 +11,13 @@ use super::super::error::DatasetError;
 use super::preset::LeverPreset;
 
 /// The suite of a folder of lever-ups.
-const SUITE: &str = "levers";
+pub const LEVER_SUITE: &str = "levers";
 
 /// What the episodes show.
 const TRUTH: &str = "3d";
 
 /// Version of the sampler: another one draws other episodes for the same settings.
-const SAMPLER: u32 = 1;
+const SAMPLER: u32 = 2;
 
 /// The settings in a manifest.
 #[derive(Serialize, Deserialize)]
@@ -57,15 +57,15 @@ impl LeverConfig {
     /// The same as what a folder of lever-ups holds.
     pub(super) fn manifest(&self) -> RunManifest {
         let settings = Sampled { sampler: SAMPLER, preset: self.preset };
-        RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
+        RunManifest::new(LEVER_SUITE, self.episodes as usize, self.seed, TRUTH)
             .with_settings(json!(settings))
     }
 
     /// What the folder `dir` holds according to its manifest.
-    pub(super) fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
+    pub(in crate::dataset) fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
         let settings: Option<Sampled> = serde_json::from_value(manifest.settings.clone()).ok();
-        let sampled =
-            settings.filter(|settings| manifest.suite == SUITE && settings.sampler == SAMPLER);
+        let sampled = settings
+            .filter(|settings| manifest.suite == LEVER_SUITE && settings.sampler == SAMPLER);
         let Some(Sampled { preset, .. }) = sampled else {
             return Err(DatasetError::Foreign { path: dir.to_owned() });
         };

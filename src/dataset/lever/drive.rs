@@ -21,8 +21,9 @@ const BOARD: f64 = 0.0016;
 /// Density of a board with its parts, kg/m^3.
 const DENSITY: f64 = 1900.0;
 
-/// Side of a standoff, and how far its middle is from the board's edges, metres.
-const STANDOFF: (f64, f64) = (0.005, 0.005);
+/// Side of a standoff, metres. Standoffs fill the pocket's corners: before a slot between them and the
+/// walls a board on edge would drop into it and stand.
+const STANDOFF: f64 = 0.006;
 
 /// How far from a corner the board is levered, metres: beside the standoffs.
 const FROM_CORNER: f64 = 0.014;
@@ -127,11 +128,11 @@ impl Drive {
         };
         let [x, y] = self.board.map(|side| 0.5 * side);
         let mut blocks = vec![block("floor".to_owned(), Vector::zeros(), 0.0, DRIVE, [0.0, FLOOR])];
-        let (side, inset) = STANDOFF;
         for (k, [i, j]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].iter().enumerate() {
+            let inset = 0.5 * STANDOFF - self.gap;
             let at = Vector::new(i * (x - inset), j * (y - inset));
             let name = format!("standoff-{}", k + 1);
-            blocks.push(block(name, at, 0.0, [side, side], [FLOOR, FLOOR + self.standoff]));
+            blocks.push(block(name, at, 0.0, [STANDOFF, STANDOFF], [FLOOR, FLOOR + self.standoff]));
         }
         let z = [FLOOR, FLOOR + self.standoff + BOARD + self.above];
         for (k, name) in WALLS.into_iter().enumerate() {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::store::{Form, Journal, RunManifest, StoreError, read_records};
+use crate::store::{Form, Journal, RunManifest, Shard, StoreError, read_records};
 use crate::watch::{Count, Watch};
 
 use super::super::error::DatasetError;
@@ -13,7 +13,7 @@ use super::episode::LeverEpisode;
 
 /// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, some
 /// seconds of work.
-const AT_ONCE: u64 = 256;
+const AT_ONCE: usize = 256;
 
 /// All lever-ups of a set, in order of their index.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,8 @@ impl LeverDataset {
     pub fn in_memory(config: &LeverConfig, watch: &dyn Watch) -> Result<Self, DatasetError> {
         config.check()?;
         let count = Count::new(watch, 0, config.episodes as usize);
-        let drawn = draw_range(config, 0..config.episodes, &count, watch);
+        let indices: Vec<u64> = (0..config.episodes).collect();
+        let drawn = draw(config, &indices, &count, watch);
         let episodes = drawn.into_iter().collect::<Option<_>>().ok_or(DatasetError::Cancelled)?;
         Ok(Self { config: *config, episodes })
     }
@@ -43,6 +44,9 @@ impl LeverDataset {
     pub fn open(dir: &Path) -> Result<Self, DatasetError> {
         let manifest = RunManifest::expect(dir)?;
         let config = LeverConfig::of(&manifest, dir)?;
+        if let Some(shard) = manifest.shard {
+            return Err(DatasetError::Shard { path: dir.to_owned(), shard });
+        }
         let mut episodes = Vec::new();
         let held = read_records(dir, &manifest, Form::Frames, &mut |record| {
             let episode = decode(record)?;
@@ -69,46 +73,49 @@ impl LeverDataset {
 }
 
 /// Makes a set in the folder `dir`, or finishes one that was interrupted: what is there and whole is
-/// kept. The files are the same bits for any number of threads and interruptions. Gives the size of
-/// the episodes, bytes.
+/// kept. The files are the same bits for any number of threads and interruptions. Of a `shard` only its
+/// episodes are made; [`merge_data`](crate::dataset::merge_data) puts shards together. Gives how many
+/// episodes the folder holds, and their size in bytes.
 ///
 /// # Errors
 /// If the configuration asks for nothing, the folder holds something else or another process writes
 /// to it, a file cannot be written, or `watch` says to stop. Finished episodes are kept in every case.
 pub fn generate_levers(
     config: &LeverConfig,
+    shard: Shard,
     dir: &Path,
     watch: &dyn Watch,
-) -> Result<u64, DatasetError> {
+) -> Result<(usize, u64), DatasetError> {
     config.check()?;
-    let mut journal = Journal::open(dir, config.manifest(), Form::Frames, watch, &mut |record| {
+    let manifest = config.manifest().with_shard(shard);
+    let indices: Vec<u64> = manifest.indices().map(|index| index as u64).collect();
+    let mut journal = Journal::open(dir, manifest, Form::Frames, watch, &mut |record| {
         Ok(decode(record)?.index as usize)
     })?;
-    let count = Count::new(watch, journal.done(), config.episodes as usize);
-    while (journal.done() as u64) < config.episodes {
-        let first = journal.done() as u64;
-        let range = first..(first + AT_ONCE).min(config.episodes);
-        let drawn = draw_range(config, range.clone(), &count, watch);
+    let count = Count::new(watch, journal.done(), indices.len());
+    while journal.done() < indices.len() {
+        let end = (journal.done() + AT_ONCE).min(indices.len());
+        let drawn = draw(config, &indices[journal.done()..end], &count, watch);
         // Of what is stopped, the beginning without a hole can be kept.
         let whole = drawn.iter().map_while(Option::as_ref);
         let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;
         journal.append(records.iter().map(Vec::as_slice))?;
-        if (journal.done() as u64) < range.end {
+        if journal.done() < end {
             return Err(DatasetError::Cancelled);
         }
     }
-    Ok(journal.bytes())
+    Ok((journal.done(), journal.bytes()))
 }
 
-/// Draws the episodes of a range of indices in parallel, counting them; `None` for those that were
+/// Draws the episodes of these indices in parallel, counting them; `None` for those that were
 /// left when `watch` said to stop.
-fn draw_range(
+fn draw(
     config: &LeverConfig,
-    indices: std::ops::Range<u64>,
+    indices: &[u64],
     count: &Count,
     watch: &dyn Watch,
 ) -> Vec<Option<LeverEpisode>> {
-    let draw = |index| {
+    let draw = |&index: &u64| {
         if watch.cancelled() {
             return None;
         }
@@ -116,7 +123,7 @@ fn draw_range(
         count.one();
         Some(episode)
     };
-    indices.into_par_iter().map(draw).collect()
+    indices.par_iter().map(draw).collect()
 }
 
 fn encode(episode: &LeverEpisode) -> Result<Vec<u8>, StoreError> {

@@ -7,7 +7,7 @@ use crate::geometry::{Pose, Vector};
 use crate::scene::{LeverScene, LeverUp, Place, Plate, Slab};
 
 use super::super::chance::uniform;
-use super::plates::{CLEARANCE, DENSITY, alone, lever, plate};
+use super::plates::{CLEARANCE, DENSITY, FRICTION, alone, lever, plate};
 
 /// A lying cylinder is a prism of twice so many sides.
 const SIDES: usize = 10;
@@ -19,12 +19,11 @@ const STEP: f64 = std::f64::consts::PI / SIDES as f64;
 pub(super) fn lying(shapes: &mut Pcg64, rng: &mut Pcg64) -> (LeverScene, LeverUp) {
     let radius = uniform(shapes, 0.025, 0.045);
     let length = uniform(shapes, 0.10, 0.18);
-    let friction = 0.4;
     let plate = if shapes.random() {
         let half_width = radius * (0.5 * STEP).cos();
-        plate(rectangle(length, half_width), 2.0 * radius - CLEARANCE, friction)
+        plate(rectangle(length, half_width), 2.0 * radius - CLEARANCE, FRICTION)
     } else {
-        cylinder(length, radius, friction)
+        cylinder(length, radius, FRICTION)
     };
     let edge = 2 * rng.random_range(0..2);
     let place = Place { edge, fraction: uniform(rng, 0.3, 0.7) };

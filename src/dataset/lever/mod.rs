@@ -11,7 +11,7 @@ mod lying;
 mod plates;
 mod preset;
 
-pub use config::LeverConfig;
+pub use config::{LEVER_SUITE, LeverConfig};
 pub use episode::{LEVERS_PER_SHAPE, LeverEpisode, lever_job};
 pub use generate::{LeverDataset, generate_levers};
 pub use preset::{DISC_PLACES, LeverPreset};

@@ -31,8 +31,13 @@ const LONGEST: f64 = 0.9 * PI;
 /// How far from a corner plates are levered, metres.
 const FROM_CORNER: f64 = 0.012;
 
-/// The friction value of plates, table and blade where it is not drawn.
-const FRICTION: f64 = 0.4;
+/// The friction value of plates where it is not drawn.
+pub(super) const FRICTION: f64 = 0.4;
+
+/// Those of table and blade: a blade of steel slips below a plate that stays where it is. With equal
+/// ones the load, about half on either, lets both slide or none, and what does is not decided.
+const TABLE: f64 = 0.6;
+const BLADE: f64 = 0.3;
 
 /// The outline of a drive's circuit board without its notches, metres.
 const BOARD: [[f64; 2]; 7] = [
@@ -125,8 +130,8 @@ pub(super) fn alone(mut plate: Plate, rng: &mut Pcg64) -> LeverScene {
     LeverScene {
         plates: vec![plate],
         blocks: Vec::new(),
-        table_friction: FRICTION,
-        blade: screwdriver(FRICTION),
+        table_friction: TABLE,
+        blade: screwdriver(BLADE),
     }
 }
 

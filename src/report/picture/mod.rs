@@ -7,6 +7,7 @@ mod bodies;
 mod extent;
 mod joints;
 mod legend;
+mod lever_picture;
 mod moving_picture;
 mod moving_tool;
 mod palette;
@@ -17,5 +18,6 @@ mod strokes;
 mod timeline;
 mod view;
 
+pub use lever_picture::LeverPicture;
 pub use moving_picture::MovingPicture;
 pub use scene_picture::{ScenePicture, Source, Track};

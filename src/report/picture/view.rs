@@ -60,15 +60,26 @@ pub struct View {
 impl View {
     /// Fits `bounds` into a plot with its upper left corner at `corner`.
     pub fn fit(bounds: Bounds, corner: Vector) -> Self {
+        Self::fit_into(bounds, corner, [SMALLEST, LARGEST], MARGIN)
+    }
+
+    /// Fits `bounds` with a `margin` (metres) into a plot between the smallest and the largest size
+    /// (pixels), with its upper left corner at `corner`.
+    pub fn fit_into(
+        bounds: Bounds,
+        corner: Vector,
+        [smallest, largest]: [Vector; 2],
+        margin: f64,
+    ) -> Self {
         let (mut low, mut high) = (bounds.low, bounds.high);
         if !(high.x >= low.x && high.y >= low.y) {
             (low, high) = (Vector::new(-0.5, -0.5), Vector::new(0.5, 0.5));
         }
-        let margin = Vector::new(MARGIN, MARGIN);
+        let margin = Vector::new(margin, margin);
         (low, high) = (low - margin, high + margin);
         let extent = high - low;
-        let scale = (LARGEST.x / extent.x).min(LARGEST.y / extent.y);
-        let size = (extent * scale).sup(&SMALLEST);
+        let scale = (largest.x / extent.x).min(largest.y / extent.y);
+        let size = (extent * scale).sup(&smallest);
         let spare = (size / scale - extent) * 0.5;
         Self { low: low - spare, high: high + spare, scale, corner, size }
     }
@@ -117,6 +128,11 @@ impl View {
 
     /// Grid lines every step, with numbers along the left and lower edge.
     pub fn grid(&self, svg: &mut Svg) {
+        self.grid_named(svg, "x, m", "y, m");
+    }
+
+    /// The same with names of the axes.
+    pub fn grid_named(&self, svg: &mut Svg, across: &str, up: &str) {
         self.grid_lines(svg);
         let step = self.grid_step();
         let font = Font::new(11.0, palette::FAINT_INK);
@@ -136,9 +152,9 @@ impl View {
                 svg.text(at, &label(k * step), font.anchored(Anchor::End));
             }
         }
-        svg.text(Vector::new(end.x, below), "x, m", font.anchored(Anchor::End));
+        svg.text(Vector::new(end.x, below), across, font.anchored(Anchor::End));
         let top = Vector::new(self.corner.x - 7.0, self.corner.y + 10.0);
-        svg.text(top, "y, m", font.anchored(Anchor::End));
+        svg.text(top, up, font.anchored(Anchor::End));
     }
 
     /// The numbers of the grid lines between two coordinates.

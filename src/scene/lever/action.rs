@@ -47,6 +47,8 @@ impl LeverUp {
     pub const HOLD: f64 = 0.2;
     /// Usual way back, metres.
     pub const RETREAT: f64 = 0.1;
+    /// Longest duration that is planned or replayed, seconds.
+    pub const LONGEST: f64 = 120.0;
     /// Usual speed of the tip, m/s.
     pub const SPEED: f64 = 0.1;
 

@@ -6,19 +6,25 @@
 
 mod action;
 mod features;
+mod goal;
 mod motion;
 mod outcome;
 mod plate;
 mod scene;
 mod support;
+mod task;
 mod trajectory;
+mod verdict;
 mod weight;
 
 pub use action::{LeverJob, LeverUp, Place, lever_frame};
 pub use features::LeverFeatures;
+pub use goal::{LeverGoal, LeverOutcome};
 pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};
 pub use plate::{Plate, Slab};
 pub use scene::{Blade, Block, LeverScene};
+pub use task::{BladeTool, LeverPlan, LeverRules, LeverTask, Pivot};
 pub use trajectory::{LEVER_FRAMES, LeverTrajectory, has_slipped};
+pub use verdict::{LeverEvidence, LeverFault, LeverReason, LeverVerdict};
 pub use weight::Weight;

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose3;
 
-/// A plate that lies flat leans less than this, radians (5 degrees): a foot that stands on a wall
-/// makes more.
-const FLAT: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// A plate that lies on its underside leans less than this, radians (15 degrees): an edge may lie on
+/// the wall of a pocket. Single plates end within a degree of flat.
+const FLAT: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// An upside-down plate leans less than this off the vertical, radians (15 degrees): it may lie on
-/// parts of different height.
-const UPSIDE_DOWN: f64 = 15.0 * std::f64::consts::PI / 180.0;
+/// An upside-down plate leans less than this off the vertical, radians (45 degrees): boards that are
+/// turned out of a drive lie on its wall, 147 to 170 degrees from where they were.
+const UPSIDE_DOWN: f64 = 45.0 * std::f64::consts::PI / 180.0;
 
 /// How the levered plate lies when everything rests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -60,8 +60,10 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
 /// A batch as tensors.
 pub(super) struct Batch {
     tensors: LeverTensors,
-    /// Of every frame and at rest: [B, 9].
-    wanted: Vec<Tensor>,
+    /// Of every frame: [B, T, 9].
+    wanted: Tensor,
+    /// At rest: [B, 1, 9].
+    rests: Tensor,
     /// [B, 1].
     slips: Tensor,
     /// [B, 3]: 1 at the true ending.
@@ -86,9 +88,10 @@ impl Batch {
             let rows = gather(&|e| e.inputs.moving[t * columns..][..columns].to_vec());
             tensor(scaled(rows, moving), columns)
         });
-        let wanted = (0..=LEVER_FRAMES).map(|t| {
-            tensor(gather(&|e| e.wanted[t * LEVER_POSE..][..LEVER_POSE].to_vec()), LEVER_POSE)
-        });
+        let all = LEVER_FRAMES * LEVER_POSE;
+        let poses = |values: Vec<f32>, frames: usize| {
+            Tensor::from_vec(values, (count, frames, LEVER_POSE), &Device::Cpu)
+        };
         let one_of = |e: &Example| (0..3).map(|k| f32::from(u8::from(k == e.ending))).collect();
         Ok(Self {
             tensors: LeverTensors {
@@ -98,28 +101,28 @@ impl Batch {
                 )?,
                 moving: frames.collect::<Result<_>>()?,
             },
-            wanted: wanted.collect::<Result<_>>()?,
+            wanted: poses(gather(&|e| e.wanted[..all].to_vec()), LEVER_FRAMES)?,
+            rests: poses(gather(&|e| e.wanted[all..].to_vec()), 1)?,
             slips: tensor(gather(&|e| vec![e.slip]), 1)?,
             endings: tensor(gather(&one_of), 3)?,
         })
     }
 
-    /// Mean distances of ways and axes over the frames and at rest, and cross entropies of slip and
-    /// ending.
+    /// Distances of ways and axes, their root mean square over the frames, and at rest, and cross
+    /// entropies of slip and ending; means over lever-ups.
     pub fn loss(&self, network: &LeverGraph) -> Result<Tensor> {
         let (poses, end) = network.forward(&self.tensors)?;
         let [axes, rest, slip, ending] = WEIGHTS;
-        let far = |a: &Tensor, b: &Tensor, from: usize, count: usize| -> Result<Tensor> {
-            let apart = (a.narrow(1, from, count)? - b.narrow(1, from, count)?)?;
-            (apart.sqr()?.sum(1)? + NEAR)?.sqrt()?.mean_all()
+        let told = Tensor::stack(&poses, 1)?;
+        // Not the mean distance: what is published is the root mean square over the frames.
+        let far = |told: &Tensor, wanted: &Tensor, from: usize, count: usize| -> Result<Tensor> {
+            let apart = (told.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?;
+            (apart.sqr()?.sum(2)?.mean(1)? + NEAR)?.sqrt()?.mean_all()
         };
-        let frames = LEVER_FRAMES as f64;
-        let mut loss =
-            (far(&end.narrow(1, 4, LEVER_POSE)?, &self.wanted[LEVER_FRAMES], 0, 3)? * rest)?;
-        for (pose, wanted) in poses.iter().zip(&self.wanted) {
-            loss = (loss + (far(pose, wanted, 0, 3)? / frames)?)?;
-            loss = (loss + (far(pose, wanted, 3, 6)? * (axes / frames))?)?;
-        }
+        let mut loss = far(&told, &self.wanted, 0, 3)?;
+        loss = (loss + (far(&told, &self.wanted, 3, 6)? * axes)?)?;
+        let told = end.narrow(1, 4, LEVER_POSE)?.unsqueeze(1)?;
+        loss = (loss + (far(&told, &self.rests, 0, 3)? * rest)?)?;
         // log(1 + exp x) - x y, without overflow.
         let x = end.narrow(1, 0, 1)?;
         let soft = (x.relu()? + ((x.abs()?.neg()?.exp()? + 1.0)?.log()?))?;

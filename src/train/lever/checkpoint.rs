@@ -1,4 +1,4 @@
-//! Everything that a regulator's training needs to resume bit-exactly, in one safetensors file.
+//! Everything that the training of a network of lever-ups needs to resume bit-exactly, in one safetensors file.
 
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};

@@ -19,7 +19,7 @@ pub struct LeverSettings {
     pub width: usize,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Lever-ups a step, an even number.
+    /// Lever-ups a step, B.
     pub batch: usize,
     /// Steps between held-out evaluations and checkpoints.
     pub evaluate_every: u64,

@@ -159,7 +159,7 @@ fn replay(python: &str, scenes: &[(&str, String)]) -> Vec<Json> {
 }
 
 /// A Python that has MuJoCo.
-fn python() -> Option<String> {
+pub(super) fn python() -> Option<String> {
     let named = env::var("PUSHPLAN_PYTHON").ok();
     let python = named.clone().unwrap_or_else(|| "python3".to_owned());
     let found = Command::new(&python).args(["-c", "import mujoco"]).output();

@@ -164,7 +164,7 @@ fn feet_on_blade(
         let nearest = [near(0), near(1), near(2)];
         let apart = [0, 1, 2].map(|k| local[k] - nearest[k]);
         let distance = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
-        if distance > 0.02 || distance < 1e-9 {
+        if !(1e-9..=0.02).contains(&distance) {
             continue;
         }
         let normal =

@@ -59,7 +59,7 @@ impl Watch for Listener {
 }
 
 fn lock(folder: &Path) -> FolderLock {
-    FolderLock::take(folder).expect("the folder is free")
+    FolderLock::take(folder, &Unwatched).expect("the folder is free")
 }
 
 /// Trains until a step, and gives the number of lines that were told.
@@ -132,7 +132,7 @@ fn a_checkpoint_of_another_run_or_a_damaged_one_is_refused_and_kept() {
     let folder = tempfile::tempdir().expect("folder");
     let short = Settings { steps: 1, evaluate_every: 1, ..settings() };
     let lock = lock(folder.path());
-    assert!(matches!(FolderLock::take(folder.path()), Err(StoreError::Busy { .. })));
+    assert!(matches!(FolderLock::take(folder.path(), &Unwatched), Err(StoreError::Busy { .. })));
     train(&short, &data, &held_out, &lock, &Unwatched).expect("training");
     let path = folder.path().join("checkpoint.safetensors");
     let before = fs::read(&path).expect("checkpoint");

@@ -1,0 +1,211 @@
+"""Formats that others read: MuJoCo opens our scenes, `mcap` our recordings, NumPy our data."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any, Callable
+
+import numpy as np
+import pytest
+
+import pushplan
+
+mujoco = pytest.importorskip("mujoco")
+jsonschema = pytest.importorskip("jsonschema")
+
+KITCHEN = "tests/cmd/import.in/kitchen.xml"
+
+
+def plan(task: pushplan.Task) -> pushplan.Plan:
+    push = pushplan.Push((0.3, 0.0), 0.1, 0.1, 0.1)
+    return pushplan.Plan.of(task, "stick", [push])
+
+
+def test_what_mujoco_reads_is_what_is_imported(root: Path) -> None:
+    """Sizes, masses and places of a scene, as MuJoCo's own compiler has them."""
+    model = mujoco.MjModel.from_xml_path(str(root / KITCHEN))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    with pytest.warns(UserWarning, match="`damping` of the joint"):
+        task = pushplan.import_task(root / KITCHEN)
+    scene: Any = task.to_dict()["scene"]
+    bodies = {"can": "can", "lying-box": "lying box", "door": "door", "leaf": "leaf", "wedge": "wedge"}
+    assert [thing["name"] for thing in scene["objects"]] == list(bodies)
+    for thing in scene["objects"]:
+        body = model.body(bodies[thing["name"]])
+        # What one stands on is where its centre of mass is, in MuJoCo as well.
+        assert data.xipos[body.id][:2] == pytest.approx(thing["position"], abs=1e-9)
+        assert body.mass[0] == pytest.approx(thing["mass"], rel=1e-9)
+        [geom] = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body.id and model.geom_contype[g]]
+        turn = data.geom_xmat[geom].reshape(3, 3)
+        if "cuboid" in thing["shape"]:
+            ahead = turn @ np.diag(2 * model.geom_size[geom])
+            size = thing["shape"]["cuboid"]["size"]
+            assert np.sort(np.linalg.norm(ahead, axis=0)) == pytest.approx(np.sort(size), abs=1e-9)
+            assert np.abs(ahead[2]).sum() == pytest.approx(size[2], abs=1e-9)
+            yaw = math.radians(thing["yaw_deg"])
+            along = np.array([math.cos(yaw), math.sin(yaw), 0.0]) @ turn
+            assert np.abs(along).max() == pytest.approx(1.0, abs=1e-9)
+        elif "cylinder" in thing["shape"]:
+            radius, half = model.geom_size[geom][:2]
+            assert thing["shape"]["cylinder"] == pytest.approx({"radius": radius, "height": 2 * half})
+    [wall] = scene["obstacles"]
+    assert data.body("wall").xpos[:2] == pytest.approx(wall["position"])
+    assert wall["yaw_deg"] == pytest.approx(30.0) and wall["size"] == pytest.approx([0.02, 0.2, 0.06])
+    assert scene["table"]["size"] == pytest.approx([1.0, 0.8])
+
+
+def test_an_exported_scene_opens_in_mujoco_and_comes_back(task: pushplan.Task, tmp_path: Path) -> None:
+    pushplan.export_mjcf(plan(task), tmp_path / "scene.xml")
+    assert (tmp_path / "scene.xml").read_text() == plan(task).to_mjcf()
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+    with pytest.warns(UserWarning, match="the tool is left out"):
+        again = pushplan.import_task(tmp_path / "scene.xml")
+    assert again.objects == task.objects and again.goal_object == task.goal_object
+    assert again.start == pytest.approx(task.start, abs=1e-9)
+    for name in again.objects:
+        assert model.body(f"object/{name}").mass[0] == pytest.approx(
+            next(o["mass"] for o in again.to_dict()["scene"]["objects"] if o["name"] == name)
+        )
+    assert pushplan.import_tool(tmp_path / "scene.xml").friction == plan(task).tool.friction
+
+
+def test_faults_of_a_file_have_places(tmp_path: Path) -> None:
+    path = tmp_path / "ball.xml"
+    path.write_text(
+        "<mujoco><worldbody>\n<body name='ball'><freejoint/>\n<geom size='0.05'/></body>"
+        "</worldbody></mujoco>"
+    )
+    with pytest.raises(pushplan.FileError) as raised:
+        pushplan.import_task(path)
+    [fault] = raised.value.faults
+    assert (fault.line, fault.column) == (3, 1) and "`ball` is a sphere" in fault.message
+    with pytest.raises(pushplan.FileError, match="cannot read the file"):
+        pushplan.import_tool(tmp_path / "missing.urdf")
+
+
+def recorded(path: Path) -> dict[str, list[tuple[int, Any]]]:
+    """Messages of a file by topic, each with its time, read with the package `mcap`."""
+    from mcap.reader import make_reader
+
+    found: dict[str, list[tuple[int, Any]]] = {}
+    with path.open("rb") as file:
+        for schema, channel, message in make_reader(file, validate_crcs=True).iter_messages():
+            assert schema is not None and schema.encoding == "jsonschema"
+            assert json.loads(schema.data)["title"] == schema.name
+            assert channel.message_encoding == "json"
+            held = json.loads(message.data)
+            jsonschema.validate(held, json.loads(schema.data))
+            found.setdefault(channel.topic, []).append((message.log_time, held))
+    return found
+
+
+def test_a_recording_is_read_by_mcap(task: pushplan.Task, tmp_path: Path) -> None:
+    from mcap.reader import make_reader
+
+    path = tmp_path / "plan.mcap"
+    predicted = pushplan.predict(plan(task), "planar")
+    pushplan.export_mcap(plan(task), path, trajectory=predicted)
+    topics = recorded(path)
+    assert set(topics) == {"/scene", "/tf", "/state"}
+    times = [at / 1e9 for at, _ in topics["/tf"]]
+    assert times == pytest.approx(predicted.times, abs=1e-9)
+    for frame, (_, message) in enumerate(topics["/tf"]):
+        transforms = {t["child_frame_id"]: t for t in message["transforms"]}
+        for index, name in enumerate(task.objects):
+            transform = transforms[f"object/{name}"]
+            x, y, heading = predicted.poses[frame, index]
+            assert (transform["translation"]["x"], transform["translation"]["y"]) == (x, y)
+            turn = transform["rotation"]
+            off = 2 * math.atan2(turn["z"], turn["w"]) - heading
+            assert math.remainder(off, math.tau) == pytest.approx(0.0, abs=1e-9)
+            assert transform["parent_frame_id"] == "table"
+    [(_, scene)] = topics["/scene"]
+    frames = {entity["frame_id"] for entity in scene["entities"]}
+    assert frames == {"table", "tool", *(f"object/{name}" for name in task.objects)}
+    with path.open("rb") as file:
+        reader = make_reader(file)
+        [attached] = reader.iter_attachments()
+        [said] = reader.iter_metadata()
+    assert attached.media_type == "application/json"
+    assert pushplan.Plan.parse(attached.data.decode()).to_dict() == plan(task).to_dict()
+    assert float(said.metadata["error_m"]) == predicted.error and said.metadata["model"] == "planar"
+
+
+def test_the_command_writes_the_same_recording(
+    task: pushplan.Task, tmp_path: Path, command: Callable[..., Any]
+) -> None:
+    plan(task).save(tmp_path / "p.plan.json")
+    made = command("export", tmp_path / "p.plan.json", "--format", "mcap", "--model", "planar", "--out", tmp_path)
+    assert made.returncode == 0, made.stderr
+    pushplan.export_mcap(plan(task), tmp_path / "own.mcap", model="planar")
+    assert (tmp_path / "p.mcap").read_bytes() == (tmp_path / "own.mcap").read_bytes()
+
+
+def test_a_trajectory_of_another_task_is_refused(task: pushplan.Task, tmp_path: Path) -> None:
+    other: Any = task.to_dict()
+    other["scene"]["objects"].append({**other["scene"]["objects"][0], "name": "more", "position": [0.3, 0.4]})
+    predicted = pushplan.predict(plan(pushplan.Task.of(other)))
+    with pytest.raises(ValueError, match="of another task"):
+        pushplan.export_mcap(plan(task), tmp_path / "x.mcap", trajectory=predicted)
+    assert not (tmp_path / "x.mcap").exists()
+
+
+def test_data_are_read_by_numpy_and_are_what_the_engines_say(
+    tmp_path: Path, command: Callable[..., Any]
+) -> None:
+    made = command("generate", tmp_path, "--format", "npz", "--episodes", 40, "--seed", 3)
+    assert made.returncode == 0, made.stderr
+    with np.load(tmp_path / "episodes-00000.npz") as file:
+        data = dict(file)
+    frames, objects = data["pose"].shape[:2]
+    assert data["episode"].tolist() == list(range(40)) and data["mass"].shape == (40, objects)
+    assert data["frame_start"][-1] == frames == len(data["time"]) and data["settles"].dtype == bool
+    off = []
+    for episode in range(40):
+        strokes = slice(*data["stroke_start"][episode : episode + 2])
+        stroke = data["stroke"][strokes]
+        if np.any(stroke[:, 2] != stroke[:, 5]) or not data["settles"][strokes].all():
+            continue  # the tool turns, as pushes do not
+        scene, tool = (json.loads(data[key][episode]) for key in ("scene", "tool"))
+        assert tool["grip"] == {"position": [0.0, 0.0], "yaw_deg": 0.0}
+        count = data["objects"][episode]
+        assert [o["mass"] for o in scene["objects"]] == data["mass"][episode, :count].tolist()
+        name, place = scene["objects"][0]["name"], scene["objects"][0]["position"]
+        task = pushplan.Task.of({
+            "scene": scene,
+            "robot": {"reach": {"max": 10}},
+            "tools": "all",
+            "pushes": {"lift": float(data["lift"][episode])},
+            "goal": {"object": name, "position": place, "tolerance": 0.01},
+        })
+        along = stroke[:, 3:5] - stroke[:, 0:2]
+        length = np.hypot(*along.T)
+        pushes = np.column_stack([
+            stroke[:, :2], np.arctan2(along[:, 1], along[:, 0]), length, length / data["stroke_time"][strokes],
+        ])
+        # Where it is not stated how high the tool presses, the 3-D engine says what is true.
+        model = "planar" if "push_height" in scene else "3d"
+        first, behind = data["frame_start"][episode : episode + 2]
+        poses = data["pose"][first:behind, :count]
+        # Headings of files are within a turn, those of the data count turns.
+        rolled = pushplan.rollout(
+            task, pushplan.Tool.of(tool), pushes[None], grip_yaw=stroke[0, 2], start=poses[0], model=model
+        )
+        assert rolled.frames[0] == behind - first
+        off.append(np.abs(rolled.poses[0] - poses).max())
+        assert rolled.times[0] == pytest.approx(data["time"][first:behind])
+    # Directions went through an angle: last digits differ, which some contacts make more of.
+    assert len(off) > 10 and np.median(off) < 1e-9 and max(off) < 0.02
+    statistics = json.loads((tmp_path / "statistics.json").read_text())
+    for key in ("mass", "friction", "size", "pose", "velocity", "change"):
+        columns = data[key].reshape(-1, 3) if data[key].shape[-1] == 3 and data[key].ndim > 2 else data[key].reshape(-1, 1)
+        said = statistics[key]
+        assert said["mean"] == pytest.approx(np.nanmean(columns, axis=0), abs=1e-12), key
+        assert said["std"] == pytest.approx(np.nanstd(columns, axis=0), rel=1e-9), key
+        assert said["count"] == np.sum(~np.isnan(columns), axis=0).tolist()
+    change = np.diff(data["pose"], axis=0)
+    inside = np.setdiff1d(np.arange(1, frames), data["frame_start"])
+    assert data["change"][inside] == pytest.approx(change[inside - 1], nan_ok=True)

@@ -1,0 +1,180 @@
+//! From a checked tree to a [`LeverTask`].
+
+use std::path::Path;
+
+use crate::asset::node::Node;
+use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
+use crate::asset::task::{named_tools, reach_of};
+use crate::asset::text::named_after;
+use crate::geometry::{Pose, Vector, centroid, cross};
+use crate::scene::{Block, LeverGoal, LeverRules, LeverTask, Pivot, Plate, Scene, Slab, Task};
+
+/// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
+/// that were written about it do not come to zero exactly.
+const CENTRED: f64 = 1e-9;
+
+/// The task, or `None` if anything needed is missing or was faulty.
+pub(super) fn lever_task(root: &Node, file: &str) -> Option<LeverTask> {
+    let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let scene = root.get("scene")?;
+    let items = |key| scene.get(key).map(Node::items).unwrap_or_default().iter();
+    let plates: Vec<Plate> = items("objects").map(plate).collect::<Option<_>>()?;
+    let blocks: Vec<Block> = items("obstacles").map(block).collect::<Option<_>>()?;
+    Some(LeverTask {
+        name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
+        description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
+        table_friction: match scene.get("table") {
+            Some(table) => number_or(table, "friction", Scene::FRICTION)?,
+            None => Scene::FRICTION,
+        },
+        goal: goal(root.get("goal")?, &plates, &blocks)?,
+        plates,
+        blocks,
+        robot: reach_of(root.get("robot")?)?,
+        tools: named_tools(root.get("tools")?),
+        levers: match root.get("levers") {
+            Some(node) => levers(node)?,
+            None => LeverRules::default(),
+        },
+        robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
+    })
+}
+
+/// A plate with its frame below its centre of mass.
+pub(super) fn plate(node: &Node) -> Option<Plate> {
+    let (base, origin) = solid(node.get("shape")?)?;
+    let top = base.height;
+    let mut slabs = vec![base];
+    for part in node.get("parts").map(Node::items).unwrap_or_default() {
+        let (mut slab, own) = solid(part.get("shape")?)?;
+        let turn = Pose { position: Vector::zeros(), heading: angle(part, "yaw_deg", 0.0)? };
+        let place = part.get("position")?;
+        let shift = vector(place)? - origin;
+        slab.bottom = height(place, top)?;
+        for corner in &mut slab.corners {
+            *corner = turn.vector(*corner - own) + shift;
+        }
+        slabs.push(slab);
+    }
+    slabs[0].corners.iter_mut().for_each(|corner| *corner -= origin);
+    let stated = |key| node.get(key).map(Node::number);
+    let (clearance, z) = match (stated("clearance"), stated("z")) {
+        (Some(clearance), Some(z)) => (clearance?, z?),
+        (Some(both), None) | (None, Some(both)) => (both?, both?),
+        (None, None) => return None,
+    };
+    let plate = Plate {
+        name: name_of(node)?.into(),
+        slabs,
+        mass: node.get("mass")?.number()?,
+        friction: node.get("friction")?.number()?,
+        clearance,
+        pose: pose(node)?,
+        z,
+    };
+    let off = plate.weight().centre.xy().norm();
+    Some(if off > CENTRED { plate.balanced() } else { plate })
+}
+
+/// A solid in the frame that its corners are written in, and the point of it that a position
+/// speaks of.
+fn solid(shape: &Node) -> Option<(Slab, Vector)> {
+    if let Some(prism) = shape.get("prism") {
+        let corners = prism.get("corners")?.items().iter().map(vector);
+        let mut corners: Vec<Vector> = corners.collect::<Option<_>>()?;
+        if corners.len() < 3 {
+            return None;
+        }
+        let area: f64 =
+            (0..corners.len()).map(|k| cross(corners[k], corners[(k + 1) % corners.len()])).sum();
+        // Counter-clockwise, the first corner staying the first.
+        if area < 0.0 {
+            corners[1..].reverse();
+        }
+        let origin = match prism.get("origin") {
+            Some(origin) => vector(origin)?,
+            None => centroid(&corners),
+        };
+        let height = prism.get("height")?.number()?;
+        return Some((Slab { corners, bottom: 0.0, height }, origin));
+    }
+    let [x, y, height] = triple(shape.get("cuboid")?, "size")?;
+    let (x, y) = (0.5 * x, 0.5 * y);
+    let corners = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y));
+    Some((Slab { corners: corners.to_vec(), bottom: 0.0, height }, Vector::zeros()))
+}
+
+/// The third number of a place, or else the `usual` height.
+fn height(place: &Node, usual: f64) -> Option<f64> {
+    place.items().get(2).map_or(Some(usual), Node::number)
+}
+
+pub(super) fn block(node: &Node) -> Option<Block> {
+    Some(Block {
+        name: name_of(node)?.into(),
+        size: triple(node, "size")?,
+        pose: pose(node)?,
+        z: height(node.get("position")?, 0.0)?,
+        friction: number_or(node, "friction", Scene::FRICTION)?,
+    })
+}
+
+fn levers(node: &Node) -> Option<LeverRules> {
+    let usual = LeverRules::default();
+    let pair = |key: &str| match node.get(key).map(Node::items) {
+        Some([low, high]) => Some(Some([low.number()?, high.number()?])),
+        Some(_) => None,
+        None => Some(None),
+    };
+    Some(LeverRules {
+        depth: pair("depth")?.unwrap_or(usual.depth),
+        angle: pair("angle_deg")?.map_or(usual.angle, |pair| pair.map(f64::to_radians)),
+        pivots: match node.get("pivot") {
+            None => usual.pivots,
+            Some(list) if !list.items().is_empty() => {
+                list.items().iter().map(pivot).collect::<Option<_>>()?
+            }
+            Some(one) => vec![pivot(one)?],
+        },
+        speed: number_or(node, "speed", usual.speed)?,
+        hold: number_or(node, "hold", usual.hold)?,
+        retreat: number_or(node, "retreat", usual.retreat)?,
+    })
+}
+
+fn pivot(node: &Node) -> Option<Pivot> {
+    match node.text() {
+        Some(_) => Some(Pivot::Auto),
+        None => node.number().map(Pivot::At),
+    }
+}
+
+fn goal(node: &Node, plates: &[Plate], blocks: &[Block]) -> Option<LeverGoal> {
+    let name = node.get("object")?.text()?;
+    let plate = plates.iter().position(|plate| plate.name == name)?;
+    let outside = match node.get("outside") {
+        Some(name) => {
+            let name = name.text()?;
+            Some(blocks.iter().position(|block| block.name == name)?)
+        }
+        None => None,
+    };
+    let place = match (node.get("position"), node.get("tolerance")) {
+        (Some(at), Some(tolerance)) => Some((vector(at)?, tolerance.number()?)),
+        (None, None) => None,
+        _ => return None,
+    };
+    Some(LeverGoal {
+        plate,
+        outside,
+        raised: match node.get("raised") {
+            Some(height) => Some(height.number()?),
+            None => None,
+        },
+        flipped: match node.get("flipped") {
+            Some(flipped) => Some(flipped.switch()?),
+            None => None,
+        },
+        place,
+    })
+}

@@ -1,0 +1,125 @@
+//! `pushplan import`: tools and objects of other programs.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::asset::write_atomic;
+use crate::geometry::Vector;
+use crate::import::{Imported, ImportedScene, Language, Wanted, objects, read, tool};
+
+use super::{error::CliError, exit_code, session::Session};
+
+/// Read a tool or objects out of a file of MuJoCo (MJCF) or ROS (URDF)
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Examples:
+  pushplan import gripper.urdf --as tool --out tools/gripper.yaml
+  pushplan import scene.xml --as objects --body can --body box --out tasks/mine.yaml
+
+Without --out the file is printed. `pushplan import --help` says what becomes of what.",
+    after_long_help = "What becomes of what:
+
+  objects    Bodies that stand freely (<freejoint/>; in URDF a link without a parent, or on a floating
+             joint of `world`) on one plane or box, the table. Boxes on any face, upright cylinders,
+             and meshes that are upright prisms of up to eight corners with their vertices in the file.
+             Several solids of a body become objects with fixed joints, hinges about the vertical and
+             slides along the table become joints. Small spheres under a solid are the points that it
+             stands on. Boxes that do not move are obstacles. Robot and tools, and the goal where the
+             file has none, stand for yours.
+  tool       One body with all that is fixed to it, undersides level. Its frame is that of the body.
+             What it weighs, and what holds or moves it, does not matter.
+  mass       <inertial> if it is there, else MuJoCo's rule: mass, or density (1000 kg/m^3) times volume.
+             A centre of mass off the middle makes a box a prism.
+  friction   The first number of `friction` in MJCF (1 by default); in URDF <lateral_friction> or
+             <mu1>, else --friction. MuJoCo takes the larger value of a pair, or that of a <pair>,
+             where pushplan takes the mean: pairs that differ are listed under `frictions`. Of a tool
+             and an object it is the mean.
+  shapes that only are seen (contype and conaffinity 0, <visual>) weigh, but are left out.
+
+What pushplan has no word for is an error that says where and what to do. What is said a little
+otherwise, such as damping of joints, is a warning."
+)]
+pub struct ImportArgs {
+    /// A file of MJCF or URDF
+    file: PathBuf,
+    /// What to make of it
+    #[arg(long = "as", value_enum, value_name = "WHAT")]
+    kind: What,
+    /// A body or link to import, several if repeated; by default all, or the only one
+    #[arg(long = "body", value_name = "NAME")]
+    bodies: Vec<String>,
+    /// Name of the tool or task; by default that of the model, or of the file
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Friction value of what states none
+    #[arg(long, value_name = "VALUE", default_value_t = Wanted::FRICTION)]
+    friction: f64,
+    /// Shift all objects on the table by so many metres
+    #[arg(long, value_name = "X,Y", value_parser = shift, allow_hyphen_values = true,
+          default_value = "0,0")]
+    shift: Vector,
+    /// File to write instead of printing it
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum What {
+    /// A tool file
+    Tool,
+    /// A task file with the objects and obstacles
+    Objects,
+}
+
+pub fn run(args: &ImportArgs, session: &Session) -> Result<u8, CliError> {
+    let file = args.file.display().to_string();
+    let wanted = Wanted {
+        bodies: args.bodies.clone(),
+        name: args.name.clone(),
+        friction: args.friction,
+        shift: args.shift,
+    };
+    let (model, language, mut notes) = read(&args.file)?;
+    let from = from(&file, language);
+    let (text, more) = match args.kind {
+        What::Tool => {
+            let Imported { value, notes } = tool(&model, &file, &wanted)?;
+            (format!("{from}\n{}", value.to_yaml()?), notes)
+        }
+        What::Objects => {
+            let Imported { value, notes } = objects(&model, &file, &wanted)?;
+            let ImportedScene { task, has_goal } = value;
+            let yours = if has_goal { "robot and tools" } else { "robot, tools and goal" };
+            let header = format!("{from} Yours to write: {yours}.");
+            (format!("{header}\n{}", task.to_yaml()?), notes)
+        }
+    };
+    notes.extend(more);
+    for note in &notes {
+        session.warn(note);
+    }
+    match &args.out {
+        Some(path) => {
+            write_atomic(path, text.as_bytes()).map_err(CliError::Output)?;
+            session.print(&format!("wrote {}\n", path.display()))?;
+        }
+        None => session.print(&text)?,
+    }
+    Ok(exit_code::DONE)
+}
+
+/// The first line of an imported file. Line feeds in a name would end the comment.
+fn from(file: &str, language: Language) -> String {
+    let file = file.replace(char::is_control, " ");
+    format!("# From {file} ({}).", language.name())
+}
+
+/// `x,y` in metres.
+fn shift(text: &str) -> Result<Vector, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([x, y]) if x.is_finite() && y.is_finite() => Ok(Vector::new(*x, *y)),
+        _ => Err("write two numbers such as 0.5,-0.1".to_owned()),
+    }
+}

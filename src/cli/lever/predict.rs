@@ -1,0 +1,69 @@
+//! `pushplan predict` for a lever-up.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::asset::ToolLibrary;
+use crate::cli::{error::CliError, exit_code, output, predict::PredictArgs, session::Session};
+use crate::effect::{LeverModel, LeverTrust, SimulatedLevers};
+use crate::report::{PredictedLever, lever_figure, lever_prediction_document};
+use crate::scene::{LeverJob, LeverTask};
+use crate::sim::LeverSimulator;
+
+use super::argument::lever_plan;
+use super::model::lever_model;
+use super::solve::FRAME;
+
+/// Predicts one lever-up by a model, beside coarse and fine simulation.
+///
+/// # Errors
+/// A lever-up that cannot be made, and results that cannot be written.
+pub fn predict(
+    args: &PredictArgs,
+    task: &LeverTask,
+    library: &ToolLibrary,
+    session: &Session,
+) -> Result<u8, CliError> {
+    let asked = args.action.lever()?;
+    if args.poses.wanted() {
+        return Err(CliError::usage(
+            "poses of lever-ups are in space and have no such file",
+            "`pushplan simulate` writes them into a trajectory file",
+        ));
+    }
+    let (plan, tool) = lever_plan(task, library, asked, session)?;
+    let job = LeverJob { scene: Arc::new(task.scene(tool.blade)), lever: plan.lever };
+    let mut models = vec![lever_model(args.model.as_ref())?];
+    for simulator in [LeverSimulator::COARSE, LeverSimulator::FINE] {
+        let simulated = SimulatedLevers { simulator };
+        if models.iter().all(|known| known.name() != simulated.name()) {
+            models.push(Arc::new(simulated));
+        }
+    }
+    let mut predicted = Vec::new();
+    for model in &models {
+        if model.trust(&job) == LeverTrust::NotMine {
+            session.warn(&format!("{}: leaves out something that matters here", model.name()));
+        }
+        let began = Instant::now();
+        let rolled = session.compute(|| model.rollout(std::slice::from_ref(&job)));
+        let seconds = began.elapsed().as_secs_f64();
+        predicted.extend(rolled.into_iter().map(|trajectory| {
+            let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+            PredictedLever { by: model.name(), trajectory, outcome, seconds }
+        }));
+    }
+    let figures = args.out.as_ref().map(|_| {
+        let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
+        lever_figure(task, (&tool, &plan), &motion, &[], &task.name)
+    });
+    let figures = figures.into_iter().collect();
+    let mut document = lever_prediction_document(task, &plan, &predicted, figures);
+    if let Some(out) = &args.out {
+        let page = document.to_html();
+        let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
+        document.wrote(&[path]);
+    }
+    args.form.show(session, &document)?;
+    Ok(exit_code::DONE)
+}

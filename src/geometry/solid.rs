@@ -1,0 +1,133 @@
+//! Convex solids in space, and how deep two of them are in each other.
+
+use super::{Pose3, Vector, Vector3};
+
+/// Directions whose cross product is shorter are parallel.
+const PARALLEL: f64 = 1e-9;
+
+/// A convex solid: a prism or a cuboid in any pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    corners: Vec<Vector3>,
+    /// Normals of its faces, one of each opposite pair, of length one.
+    normals: Vec<Vector3>,
+    /// Directions of its edges, of length one.
+    edges: Vec<Vector3>,
+}
+
+impl Solid {
+    /// The prism on a base of these corners (metres, in order) from `bottom` to `top` along z, in a
+    /// pose.
+    pub fn prism(base: &[Vector], [bottom, top]: [f64; 2], pose: &Pose3) -> Self {
+        let at = |corner: &Vector, z: f64| pose.point(Vector3::new(corner.x, corner.y, z));
+        let corners: Vec<Vector3> =
+            [bottom, top].iter().flat_map(|z| base.iter().map(|c| at(c, *z))).collect();
+        let up = pose.rotation * Vector3::z();
+        let (mut normals, mut edges) = (vec![up], vec![up]);
+        for (k, corner) in base.iter().enumerate() {
+            let along = base[(k + 1) % base.len()] - corner;
+            let Some(along) = along.try_normalize(PARALLEL) else { continue };
+            edges.push(pose.rotation * Vector3::new(along.x, along.y, 0.0));
+            normals.push(pose.rotation * Vector3::new(along.y, -along.x, 0.0));
+        }
+        Self { corners, normals, edges }
+    }
+
+    /// The cuboid of these full extents (metres) about its centre, in a pose.
+    pub fn cuboid([x, y, z]: [f64; 3], pose: &Pose3) -> Self {
+        let (x, y, z) = (0.5 * x, 0.5 * y, 0.5 * z);
+        let corner = |k: usize| {
+            let sign = |bit: usize| if k & bit == 0 { -1.0 } else { 1.0 };
+            pose.point(Vector3::new(sign(1) * x, sign(2) * y, sign(4) * z))
+        };
+        let axes: Vec<Vector3> =
+            [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pose.rotation * axis).to_vec();
+        Self { corners: (0..8).map(corner).collect(), normals: axes.clone(), edges: axes }
+    }
+
+    /// How far the two would have to be shifted to come apart, metres; below zero where they are
+    /// apart. By the separating axes of convex solids: normals of faces, and what is normal to an
+    /// edge of each.
+    pub fn depth(&self, other: &Self) -> f64 {
+        let faces = self.normals.iter().chain(&other.normals).copied();
+        let crossed = self.edges.iter().flat_map(|a| other.edges.iter().map(|b| a.cross(b)));
+        let crossed = crossed.filter_map(|axis| axis.try_normalize(PARALLEL));
+        let overlap = |axis: Vector3| {
+            let ([a, b], [c, d]) = (self.span(axis), other.span(axis));
+            (b - c).min(d - a)
+        };
+        faces.chain(crossed).map(overlap).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Height of its lowest point, metres.
+    pub fn lowest(&self) -> f64 {
+        self.span(Vector3::z())[0]
+    }
+
+    fn span(&self, axis: Vector3) -> [f64; 2] {
+        let along = self.corners.iter().map(|corner| corner.dot(&axis));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+}
+
+/// What two convex polygons share, as corners in order; both counter-clockwise, metres.
+pub fn common_area(first: &[Vector], second: &[Vector]) -> Vec<Vector> {
+    let mut area = first.to_vec();
+    for (k, &from) in second.iter().enumerate() {
+        let along = second[(k + 1) % second.len()] - from;
+        let inside = |p: &Vector| super::cross(along, p - from);
+        let before = std::mem::take(&mut area);
+        for (k, &p) in before.iter().enumerate() {
+            let q = before[(k + 1) % before.len()];
+            let (a, b) = (inside(&p), inside(&q));
+            if a >= 0.0 {
+                area.push(p);
+            }
+            if a * b < 0.0 {
+                area.push(p + (q - p) * (a / (a - b)));
+            }
+        }
+    }
+    area
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+
+    #[test]
+    fn depth_is_that_of_boxes_and_of_crossed_edges() {
+        let at = |x: f64, y: f64, z: f64| Pose3::upright(Pose::new(x, y, 0.0), z);
+        let cube = Solid::cuboid([1.0; 3], &at(0.0, 0.0, 0.0));
+        let beside = Solid::cuboid([1.0; 3], &at(0.9, 0.3, 0.2));
+        assert!((cube.depth(&beside) - 0.1).abs() < 1e-12);
+        assert!((cube.depth(&Solid::cuboid([1.0; 3], &at(1.5, 0.0, 0.0))) + 0.5).abs() < 1e-12);
+        // Standing on an edge each, at right angles: only the axis across both edges tells.
+        let quarter = std::f64::consts::FRAC_PI_4;
+        let about = |axis| Pose3::default().turned_about(Vector3::zeros(), axis, quarter);
+        let lower = Solid::cuboid([1.0; 3], &about(Vector3::x_axis()));
+        let mut above = about(Vector3::y_axis());
+        above.position.z = 2f64.sqrt() + 0.01;
+        let above = Solid::cuboid([1.0; 3], &above);
+        assert!((lower.depth(&above) + 0.01).abs() < 1e-9, "{}", lower.depth(&above));
+        let base = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| Vector::new(x, y));
+        let wedge = Solid::prism(&base, [0.0, 1.0], &Pose3::default());
+        let corner = Solid::cuboid([0.2; 3], &at(0.7, 0.7, 0.5));
+        assert!(wedge.depth(&corner) < 0.0, "beyond the long side, within the bounding box");
+        assert_eq!(wedge.lowest(), 0.0);
+    }
+
+    #[test]
+    fn common_areas_are_clipped() {
+        let square = |a: f64, b: f64| {
+            [[a, a], [b, a], [b, b], [a, b]].map(|[x, y]| Vector::new(x, y)).to_vec()
+        };
+        let mut common = common_area(&square(0.0, 2.0), &square(1.0, 3.0));
+        // Which corner comes first is the clipper's business.
+        let first = common.iter().position(|corner| *corner == Vector::new(1.0, 1.0));
+        common.rotate_left(first.expect("the lower left corner"));
+        assert_eq!(common, square(1.0, 2.0));
+        assert!(common_area(&square(0.0, 1.0), &square(2.0, 3.0)).is_empty());
+    }
+}

@@ -1,0 +1,48 @@
+//! The convex polygon around points of a plane.
+
+use crate::geometry::{Vector, cross};
+
+/// Corners nearer than this to the line between their neighbours are left out, metres.
+const STRAIGHT: f64 = 1e-6;
+
+/// Corners of the hull, counter-clockwise (Andrew 1979, "Another efficient algorithm for convex
+/// hulls in two dimensions").
+pub(super) fn hull(points: &[Vector]) -> Vec<Vector> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let mut corners: Vec<Vector> = Vec::new();
+    let half = |points: &mut dyn Iterator<Item = &Vector>, corners: &mut Vec<Vector>| {
+        let first = corners.len();
+        for point in points {
+            while let [.., a, b] = corners[first..] {
+                let (side, next) = (b - a, point - a);
+                // How far the middle one stands out of the line between the others.
+                if cross(side, next) > STRAIGHT * next.norm() {
+                    break;
+                }
+                corners.pop();
+            }
+            corners.push(*point);
+        }
+        // The last one begins the other half.
+        corners.pop();
+    };
+    half(&mut sorted.iter(), &mut corners);
+    half(&mut sorted.iter().rev(), &mut corners);
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_inside_and_on_sides_are_no_corners() {
+        let grid = (0..25).map(|k| Vector::new(f64::from(k % 5), f64::from(k / 5)) * 0.01);
+        let corners = hull(&grid.collect::<Vec<_>>());
+        assert_eq!(corners, [[0.0, 0.0], [0.04, 0.0], [0.04, 0.04], [0.0, 0.04]].map(Vector::from));
+        assert!(hull(&[Vector::zeros(); 3]).len() < 3);
+        let line: Vec<Vector> = (0..4).map(|k| Vector::new(f64::from(k), f64::from(k))).collect();
+        assert!(hull(&line).len() < 3);
+    }
+}

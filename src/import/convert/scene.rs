@@ -1,0 +1,116 @@
+//! A scene, with what the file says of a goal.
+
+use crate::asset::Faults;
+use crate::geometry::Vector;
+use crate::import::fault::Ledger;
+use crate::import::model::Model;
+use crate::scene::{Goal, Robot, Scene, Task};
+
+use super::frictions::frictions;
+use super::groups::{beyond, free};
+use super::names::{Names, same};
+use super::objects::{drafts, joints};
+use super::statics::{empty, statics};
+use super::wanted::{Imported, Wanted};
+
+/// Nearest and farthest that the robot of a task reaches whose file knows none, metres; farther where
+/// an object is.
+const REACH: [f64; 2] = [0.1, 0.9];
+
+/// Tolerance of a goal that nobody has stated, metres.
+const TOLERANCE: f64 = 0.02;
+
+/// A scene and a task around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedScene {
+    /// A task with this scene; robot and tools, and mostly the goal, stand for yours.
+    pub task: Task,
+    /// Whether the goal is that of the file; otherwise it is where the first object is.
+    pub has_goal: bool,
+}
+
+/// The objects and obstacles of a model on a table.
+///
+/// # Errors
+/// Everything that pushplan has no word for, each with its place in `file`.
+pub fn objects(
+    model: &Model,
+    file: &str,
+    wanted: &Wanted,
+) -> Result<Imported<ImportedScene>, Faults> {
+    let mut ledger = Ledger::new(file);
+    beyond(model, wanted, &mut ledger);
+    let roots = free(model, wanted, &mut ledger);
+    let mut ledger = ledger.sound()?;
+    if roots.is_empty() {
+        let advice = "objects stand freely (<freejoint/>, or a floating joint of the world); \
+                      `--as tool` imports a tool";
+        ledger.fault_of_file("no body of the file moves freely", advice);
+    }
+    let mut names = Names::default();
+    let (mut found, mut hung) = (Vec::new(), Vec::new());
+    for root in roots {
+        let (bodies, joints) = drafts(model, root, wanted, &mut names, &mut ledger);
+        found.extend(bodies);
+        hung.extend(joints);
+    }
+    found.sort_by_key(|draft| draft.body);
+    let joints = joints(model, &found, &hung, &mut ledger);
+    let mut ledger = ledger.sound()?;
+    let statics = statics(model, &found, wanted, &mut names, &mut ledger);
+    let Some(statics) = statics else {
+        return Err(ledger.finish(None::<()>).err().unwrap_or_default());
+    };
+    let frictions = frictions(model, &found, &statics, &mut ledger);
+    let moved = |mut object: crate::scene::Object| {
+        object.pose.position += wanted.shift;
+        object
+    };
+    let scene = Scene {
+        objects: found.iter().map(|draft| moved(draft.object.clone())).collect(),
+        joints: joints.into_iter().map(|joint| shifted(joint, wanted.shift)).collect(),
+        frictions,
+        ..empty(&statics, wanted.shift)
+    };
+    let goal = model.goal.as_ref().and_then(|(body, numbers)| {
+        let object = found.iter().position(|draft| same(body, model.name_of(draft.body)))?;
+        goal(&scene, object, numbers, wanted.shift)
+    });
+    let has_goal = goal.is_some();
+    let first = scene.objects.first().map_or(Vector::zeros(), |object| object.pose.position);
+    let goal = goal.unwrap_or_else(|| Goal::new(0, [first.x, first.y], TOLERANCE));
+    let farthest =
+        scene.objects.iter().map(|object| object.pose.position.norm()).fold(0.0, f64::max);
+    let most = REACH[1].max(((farthest + 0.3) * 10.0).ceil() / 10.0);
+    let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
+    let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
+    // What spans several bodies, such as overlaps, is judged where every task is.
+    match task.to_yaml().and_then(|text| Task::parse(&text, file)) {
+        Ok(_) => {}
+        Err(faults) => ledger.adopt("task", faults),
+    }
+    let (value, notes) = ledger.finish(Some(ImportedScene { task, has_goal }))?;
+    Ok(Imported { value, notes })
+}
+
+fn shifted(mut joint: crate::scene::Joint, shift: Vector) -> crate::scene::Joint {
+    if let crate::scene::JointKind::Revolute { at, .. } = &mut joint.kind {
+        *at += shift;
+    }
+    joint
+}
+
+/// The goal as `pushplan export` writes it: x, y, tolerance; heading, its tolerance, headings alike.
+fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<Goal> {
+    let [x, y, tolerance, heading @ ..] = numbers else { return None };
+    let goal = Goal::new(object, [x + shift.x, y + shift.y], *tolerance);
+    Some(match heading {
+        [heading, within, alike, ..] => {
+            Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
+        }
+        [heading, within] => {
+            goal.facing(*heading, *within).looking_like(&scene.objects[object].shape)
+        }
+        _ => goal,
+    })
+}

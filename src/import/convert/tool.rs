@@ -1,0 +1,163 @@
+//! A tool.
+
+use std::path::Path;
+
+use crate::asset::{Faults, named_after};
+use crate::geometry::{ConvexPolygon, Shape};
+use crate::import::fault::Ledger;
+use crate::import::model::{Model, Motion};
+use crate::scene::{Part, Tool, ToolError};
+
+use super::groups::held_by;
+use super::names::{Names, bare, same};
+use super::upright::{Base, Upright, flat};
+use super::wanted::{Imported, Wanted};
+
+/// Undersides of parts that differ by less are level, metres.
+const LEVEL: f64 = 1e-3;
+
+/// The tool that one body of a model is, with everything that is fixed to it. Its frame, and its
+/// grip, are those of the body; what it weighs and what holds or moves it does not matter.
+///
+/// # Errors
+/// Everything that pushplan has no word for, each with its place in `file`.
+pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
+    let mut ledger = Ledger::new(file);
+    let body = chosen(model, wanted, &mut ledger);
+    let made = body.and_then(|body| assemble(model, file, body, wanted, &mut ledger));
+    if let Some(tool) = &made
+        && let Err(faults) = Tool::parse(&tool.to_json().to_string(), file)
+    {
+        ledger.adopt("tool", faults);
+    }
+    let (value, notes) = ledger.finish(made)?;
+    Ok(Imported { value, notes })
+}
+
+/// The name of what is imported, if nobody says another: the file's own, or that of the file.
+pub(super) fn name(model: &Model, file: &str) -> String {
+    let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    named_after(&if model.name.is_empty() { stem() } else { model.name.clone() })
+}
+
+/// The body that is the tool.
+fn chosen(model: &Model, wanted: &Wanted, ledger: &mut Ledger) -> Option<usize> {
+    let solid = |body: &usize| {
+        model.rigid(*body).iter().any(|body| model.bodies[*body].solids.iter().any(|s| s.touches))
+    };
+    let candidates: Vec<usize> = match &wanted.bodies[..] {
+        // One that says so, or the only one.
+        [] => {
+            let all: Vec<usize> = model.children(0).filter(solid).collect();
+            let said = all.iter().copied().find(|body| model.name_of(*body) == "tool");
+            said.map_or(all, |tool| vec![tool])
+        }
+        asked => (1..model.bodies.len())
+            .filter(|body| asked.iter().any(|name| same(name, model.name_of(*body))))
+            .collect(),
+    };
+    match candidates[..] {
+        [body] => Some(body),
+        [] => {
+            let message = match wanted.bodies.first() {
+                Some(asked) => format!("no body is called `{asked}`"),
+                None => "no body of the file touches anything".to_owned(),
+            };
+            let names: Vec<&str> =
+                model.children(0).map(|body| bare(model.name_of(body))).collect();
+            ledger.fault_of_file(message, format!("bodies are {}", names.join(", ")));
+            None
+        }
+        _ => {
+            let names: Vec<&str> =
+                candidates.iter().map(|body| bare(model.name_of(*body))).collect();
+            let message = format!("there are {} bodies, and a tool is one", candidates.len());
+            ledger.fault_of_file(message, format!("choose with --body: {}", names.join(", ")));
+            None
+        }
+    }
+}
+
+fn assemble(
+    model: &Model,
+    file: &str,
+    body: usize,
+    wanted: &Wanted,
+    ledger: &mut Ledger,
+) -> Option<Tool> {
+    let bodies = model.rigid(body);
+    for child in (body + 1)..model.bodies.len() {
+        let other = &model.bodies[child];
+        let moves = other.parent.is_some_and(|parent| bodies.contains(&parent))
+            && other.motion != Motion::Fixed;
+        if moves {
+            let how = held_by(&other.motion);
+            let message = format!("`{}` moves against the tool, by {how}", other.name);
+            ledger.fault(other.place, message, "a tool is one rigid piece: fix it, or take it out");
+        }
+    }
+    let frame = flat(&model.bodies[body].pose).inverse();
+    let (mut parts, mut names) = (Vec::new(), Names::default());
+    let (mut frictions, mut lows) = (Vec::new(), Vec::new());
+    let solids = bodies.iter().flat_map(|body| {
+        let of = &model.bodies[*body];
+        of.solids.iter().filter(|solid| solid.touches).map(|solid| (of.name.as_str(), solid))
+    });
+    for (of, solid) in solids {
+        let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
+        let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };
+        let height = upright.height;
+        let mut pose = frame * upright.pose;
+        let shape = match &upright.base {
+            Base::Rectangle([x, y]) => Shape::Cuboid { size: [*x, *y, height] },
+            Base::Disc(radius) => Shape::Cylinder { radius: *radius, height },
+            Base::Polygon(corners) => match ConvexPolygon::new(corners) {
+                Ok(base) => {
+                    pose.position = pose.point(upright.middle());
+                    Shape::Prism { base, height }
+                }
+                Err(error) => {
+                    let message = format!("`{name}` is no prism of ours: {error}");
+                    ledger.fault(solid.place, message, "leave out corners that matter least");
+                    continue;
+                }
+            },
+        };
+        frictions.push((solid.place, solid.material.friction.unwrap_or(wanted.friction)));
+        lows.push((solid.place, name.clone(), upright.low));
+        parts.push(Part { name, shape, pose });
+    }
+    let low = lows.iter().map(|(.., low)| *low).fold(f64::INFINITY, f64::min);
+    for (place, name, own) in lows.iter().filter(|(.., own)| own - low > LEVEL) {
+        let message = format!("`{name}` begins {:.1} mm above the lowest part", 1e3 * (own - low));
+        let advice = "parts of a tool stand side by side: let it reach down, or let it touch \
+                      nothing if it meets no object";
+        ledger.fault(*place, message, advice);
+    }
+    let (_, friction) = *frictions.first()?;
+    if let Some((place, other)) = frictions.iter().find(|(_, other)| *other != friction) {
+        let message = format!("parts have different frictions, {friction} and {other}");
+        ledger.fault(*place, message, "a tool has one friction value: make them alike");
+    }
+    let name = match &wanted.name {
+        Some(name) => name.clone(),
+        // A scene's name says nothing of one of its bodies.
+        None if wanted.bodies.is_empty() && !model.ours => self::name(model, file),
+        None => named_after(bare(model.name_of(body))),
+    };
+    // Parts that do not touch are rigid all the same, as the file says.
+    let joined = match Tool::new(name.clone(), parts.clone()) {
+        Err(ToolError::Apart { .. }) => {
+            let pairs: Vec<[usize; 2]> = (1..parts.len()).map(|part| [0, part]).collect();
+            Tool::joined(name, parts, &pairs)
+        }
+        made => made,
+    };
+    match joined {
+        Ok(tool) => Some(tool.friction(friction)),
+        Err(error) => {
+            ledger.fault(model.bodies[body].place, error.to_string(), "");
+            None
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! Pairs of geoms that touch by their own rules.
+
+use roxmltree::Node;
+
+use crate::import::model::Model;
+use crate::import::xml::{Source, elements};
+
+use super::defaults::Lookup;
+use super::geoms::Context;
+
+/// Takes in an element `contact`.
+pub(super) fn pairs<'a>(
+    source: &mut Source<'a>,
+    context: &Context<'a>,
+    node: Node<'a, 'a>,
+    model: &mut Model,
+) {
+    for pair in elements(node) {
+        let tag = pair.tag_name().name();
+        if tag != "pair" {
+            let message = format!("<{tag}> is not read: in pushplan everything touches everything");
+            source.fault(pair, message, "take it out");
+            continue;
+        }
+        let names = ["geom1", "geom2"].map(|name| pair.attribute(name).unwrap_or_default());
+        let element = Lookup { node: pair, class: None };
+        let Some(friction) = context.defaults.find(element, "friction") else { continue };
+        if let Some([first, ..]) = source.list(friction).as_deref() {
+            model.pairs.push((names.map(str::to_owned), *first));
+        }
+    }
+}

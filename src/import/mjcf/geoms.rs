@@ -1,0 +1,243 @@
+//! Geoms: one solid each.
+
+use std::collections::{HashMap, HashSet};
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use roxmltree::Node;
+
+use crate::import::model::{Material, Outline, Solid, Weight};
+use crate::import::turns;
+use crate::import::xml::Source;
+
+use super::compiler::Compiler;
+use super::defaults::{Defaults, Lookup};
+
+/// Density of a geom that states neither mass nor density, kg/m^3: MuJoCo's, that of water.
+const DENSITY: f64 = 1000.0;
+
+/// Friction value of a geom that states none: MuJoCo's.
+const FRICTION: f64 = 1.0;
+
+/// Attributes that are read.
+const READ: [&str; 20] = [
+    "axisangle",
+    "class",
+    "conaffinity",
+    "contype",
+    "density",
+    "euler",
+    "friction",
+    "fromto",
+    "mass",
+    "mesh",
+    "name",
+    "pos",
+    "priority",
+    "quat",
+    "shellinertia",
+    "size",
+    "type",
+    "xyaxes",
+    "zaxis",
+    "hfield",
+];
+
+/// Attributes that change only how contacts give way, or what is seen.
+const HARMLESS: [&str; 13] = [
+    "condim",
+    "fitscale",
+    "fluidcoef",
+    "fluidshape",
+    "gap",
+    "group",
+    "margin",
+    "material",
+    "rgba",
+    "solimp",
+    "solmix",
+    "solref",
+    "user",
+];
+
+/// What is needed besides a geom's element to read it.
+pub(super) struct Context<'a> {
+    pub compiler: Compiler,
+    pub defaults: Defaults<'a>,
+    /// Elements `mesh`, by name.
+    pub meshes: HashMap<String, Node<'a, 'a>>,
+    /// Names of geoms that touch what a pair says.
+    pub paired: HashSet<&'a str>,
+}
+
+impl<'a> Context<'a> {
+    /// The pose of an element in its parent's frame; none, with a fault, if it cannot be one.
+    pub fn pose(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Isometry3<f64>> {
+        let position = match self.defaults.find(element, "pos") {
+            Some(position) => source.numbers::<3>(position)?,
+            None => [0.0; 3],
+        };
+        let turn = self.compiler.turn(source, &self.defaults, element)?;
+        Some(Isometry3::from_parts(Translation3::from(position), turn))
+    }
+
+    /// The solid of a geom whose parent stands at `parent`; none, with faults, if it has none.
+    pub fn solid(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        parent: &Isometry3<f64>,
+    ) -> Option<Solid> {
+        let node = element.node;
+        source.only(node, &[&READ, &HARMLESS]);
+        self.defaults.check(source, node, "class");
+        let find = |name: &str| self.defaults.find(element, name);
+        let kind = find("type").map_or("sphere", |kind| kind.value());
+        let sizes = match find("size") {
+            Some(sizes) => source.list(sizes)?,
+            None => Vec::new(),
+        };
+        let mut pose = self.pose(source, element)?;
+        let mut halves = sizes.clone();
+        if let Some(ends) = find("fromto") {
+            let [a, b, c, d, e, f] = source.numbers(ends)?;
+            let (from, to) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
+            // MuJoCo's z axis points back, from the second point to the first.
+            let along = from - to;
+            let turn = turns::z_axis(along.into()).unwrap_or_else(UnitQuaternion::identity);
+            pose = Isometry3::from_parts(Translation3::from((from + to) / 2.0), turn);
+            let width = sizes.first().copied().unwrap_or_default();
+            halves = match kind {
+                "box" => vec![width, width, along.norm() / 2.0],
+                _ => vec![width, along.norm() / 2.0],
+            };
+        }
+        let outline = self.outline(source, element, kind, &halves)?;
+        let flag = |source: &mut Source<'a>, name: &str| match find(name) {
+            Some(bits) => source.number(bits),
+            None => Some(1.0),
+        };
+        let (kinds, with) = (flag(source, "contype")?, flag(source, "conaffinity")?);
+        let name = node.attribute("name").unwrap_or_default();
+        if [(1.0, 1.0), (0.0, 0.0)].iter().all(|usual| *usual != (kinds, with)) {
+            let place = source.place(node);
+            let note = "`contype` and `conaffinity` are left out: everything touches everything";
+            source.ledger.note(place, note);
+        }
+        let touches = kinds != 0.0 || with != 0.0 || self.paired.contains(name);
+        Some(Solid {
+            name: name.to_owned(),
+            place: source.place(node),
+            outline,
+            pose: parent * pose,
+            material: self.material(source, element)?,
+            touches,
+        })
+    }
+
+    fn material(&self, source: &mut Source<'a>, element: Lookup<'a, '_>) -> Option<Material> {
+        let find = |name: &str| self.defaults.find(element, name);
+        if let Some(shell) = find("shellinertia").filter(|shell| shell.value() == "true") {
+            source.fault_of(shell, "this geom is hollow", "state mass and inertia of its body");
+            return None;
+        }
+        let weight = match (find("mass"), find("density")) {
+            (Some(mass), _) => Weight::Mass(source.number(mass)?),
+            (None, Some(density)) => Weight::Density(source.number(density)?),
+            (None, None) => Weight::Density(DENSITY),
+        };
+        let friction = match find("friction") {
+            Some(values) => source.list(values)?.first().copied().unwrap_or(FRICTION),
+            None => FRICTION,
+        };
+        let rank = match find("priority") {
+            Some(rank) => source.number(rank)? as i64,
+            None => 0,
+        };
+        Some(Material { weight, friction: Some(friction), rank })
+    }
+
+    fn outline(
+        &self,
+        source: &mut Source<'a>,
+        element: Lookup<'a, '_>,
+        kind: &str,
+        sizes: &[f64],
+    ) -> Option<Outline> {
+        let node = element.node;
+        Some(match (kind, sizes) {
+            ("box", [x, y, z]) => Outline::Box([*x, *y, *z]),
+            ("cylinder", [radius, half] | [radius, half, _]) => {
+                Outline::Cylinder { radius: *radius, half: *half }
+            }
+            ("sphere", [radius, ..]) => Outline::Sphere(*radius),
+            ("plane", [x, y, ..]) => Outline::Plane([*x, *y]),
+            ("mesh", _) => {
+                let Some(named) = self.defaults.find(element, "mesh") else {
+                    source.fault(node, "this geom is a mesh but names none", "add `mesh`");
+                    return None;
+                };
+                let Some(mesh) = self.meshes.get(named.value()).copied() else {
+                    let message = format!("there is no mesh `{}`", named.value());
+                    source.fault_of(named, message, "name one of those under <asset>");
+                    return None;
+                };
+                self.hull(source, mesh)?
+            }
+            ("box" | "cylinder" | "sphere" | "plane", _) => {
+                let message = format!("this {kind} has {} sizes", sizes.len());
+                let advice = "a box has three half extents, a cylinder radius and half its length";
+                source.fault(node, message, advice);
+                return None;
+            }
+            ("capsule" | "ellipsoid" | "hfield" | "sdf", _) => {
+                let article = if kind == "ellipsoid" { "an" } else { "a" };
+                Outline::Other(format!("{article} {kind}"))
+            }
+            _ => {
+                let message = format!("`{kind}` is no type of a geom");
+                source.fault(node, message, "write box, cylinder or mesh");
+                return None;
+            }
+        })
+    }
+
+    /// The points of a mesh that stands in the file itself.
+    fn hull(&self, source: &mut Source<'a>, mesh: Node<'a, 'a>) -> Option<Outline> {
+        let element = Lookup { node: mesh, class: None };
+        let find = |name: &str| self.defaults.find(element, name);
+        let Some(vertices) = find("vertex") else {
+            let what = find("file").map_or("", |file| file.value());
+            return Some(Outline::Other(format!("a mesh of another file ({what})")));
+        };
+        if find("builtin").is_some() {
+            return Some(Outline::Other("a mesh that MuJoCo makes itself".to_owned()));
+        }
+        let scale = match find("scale") {
+            Some(scale) => source.numbers::<3>(scale)?,
+            None => [1.0; 3],
+        };
+        let moved = match find("refpos") {
+            Some(position) => source.numbers::<3>(position)?,
+            None => [0.0; 3],
+        };
+        let turn = match find("refquat") {
+            Some(quaternion) => turns::quaternion(source.numbers(quaternion)?)?,
+            None => UnitQuaternion::identity(),
+        };
+        let numbers = source.list(vertices)?;
+        if numbers.len() < 12 || !numbers.len().is_multiple_of(3) {
+            let message = format!("a mesh has 4 vertices or more, not {} numbers", numbers.len());
+            source.fault_of(vertices, message, "write x, y and z of each");
+            return None;
+        }
+        let frame = Isometry3::from_parts(Translation3::from(moved), turn);
+        let point = |three: &[f64]| {
+            frame.inverse_transform_point(&Point3::new(
+                three[0] * scale[0],
+                three[1] * scale[1],
+                three[2] * scale[2],
+            ))
+        };
+        Some(Outline::Hull(numbers.chunks_exact(3).map(point).collect()))
+    }
+}

@@ -1,0 +1,100 @@
+//! The sections of a file.
+
+use std::collections::{HashMap, HashSet};
+
+use roxmltree::Node;
+
+use crate::import::model::{Body, Model};
+use crate::import::xml::{Source, elements};
+use crate::scene::GRAVITY;
+
+use super::bodies::{FLATTEN, world};
+use super::compiler::Compiler;
+use super::contacts::pairs;
+use super::defaults::Defaults;
+use super::geoms::Context;
+
+/// Sections that say nothing of how pushes end.
+const HARMLESS: [&str; 5] = ["visual", "statistic", "size", "sensor", "keyframe"];
+
+/// Sections that move or hold bodies in ways that pushplan has no word for.
+const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
+
+/// The model of an element `mujoco`; none, with faults, if it cannot be read.
+pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<Model> {
+    let name = root.attribute("model").unwrap_or_default().to_owned();
+    let mut model =
+        Model { name, bodies: vec![Body::world()], larger_friction: true, ..Model::default() };
+    let mut context = Context {
+        compiler: Compiler::default(),
+        defaults: Defaults::default(),
+        meshes: HashMap::new(),
+        paired: HashSet::new(),
+    };
+    // What others are read by comes first, wherever it stands.
+    for section in elements(root) {
+        match section.tag_name().name() {
+            "compiler" => context.compiler.read(source, section),
+            "default" => context.defaults.read(source, section, None),
+            "asset" => meshes(section, &mut context),
+            "contact" => {
+                let ends = elements(section).filter(|pair| pair.has_tag_name("pair"));
+                let names = ends.flat_map(|pair| ["geom1", "geom2"].map(|end| pair.attribute(end)));
+                context.paired.extend(names.flatten());
+            }
+            _ => {}
+        }
+    }
+    for section in elements(root) {
+        match section.tag_name().name() {
+            "compiler" | "default" | "asset" => {}
+            "worldbody" => world(source, &context, section, &mut model),
+            "contact" => pairs(source, &context, section, &mut model),
+            "option" => gravity(source, section),
+            "custom" => custom(source, section, &mut model),
+            tag if HARMLESS.contains(&tag) => {}
+            tag if BEYOND.contains(&tag) => {
+                if elements(section).next().is_some() {
+                    model.beyond.push((source.place(section), format!("<{tag}>")));
+                }
+            }
+            tag => source.fault(section, format!("<{tag}> is not read"), FLATTEN),
+        }
+    }
+    Some(model)
+}
+
+fn meshes<'a>(section: Node<'a, 'a>, context: &mut Context<'a>) {
+    for mesh in elements(section).filter(|asset| asset.has_tag_name("mesh")) {
+        // A mesh without a name is called like its file.
+        let stem = || std::path::Path::new(mesh.attribute("file")?).file_stem()?.to_str();
+        if let Some(name) = mesh.attribute("name").or_else(stem) {
+            context.meshes.insert(name.to_owned(), mesh);
+        }
+    }
+}
+
+/// Pushes are planned on a level table on earth.
+fn gravity<'a>(source: &mut Source<'a>, option: Node<'a, 'a>) {
+    let Some(stated) = option.attribute_node("gravity") else { return };
+    let Some([x, y, z]) = source.numbers(stated) else { return };
+    if x.hypot(y) > 1e-3 * GRAVITY || (z + GRAVITY).abs() > 0.02 * GRAVITY {
+        let message =
+            format!("gravity is {x} {y} {z} m/s^2; pushplan's tables stand level on earth");
+        source.fault_of(stated, message, "turn the scene, so that gravity is `0 0 -9.81`");
+    }
+}
+
+/// What `pushplan export` says there.
+fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model) {
+    for numeric in elements(section).filter(|node| node.has_tag_name("numeric")) {
+        let name = numeric.attribute("name").unwrap_or_default();
+        model.ours |= name == "push 1";
+        let goal = name.strip_prefix("goal of ");
+        if let (Some(body), Some(data)) = (goal, numeric.attribute_node("data"))
+            && let Some(numbers) = source.list(data)
+        {
+            model.goal = Some((body.to_owned(), numbers));
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Files of other programs in: tools and scenes from MJCF (MuJoCo) and URDF.
+//!
+//! A file is read into plain bodies with solids, poses in the world and masses ([`Model`], by
+//! `mjcf` or `urdf`), and those become a [`Tool`](crate::scene::Tool) or a
+//! [`Scene`](crate::scene::Scene) (`convert`). What pushplan has no word for is a fault with its
+//! place and what to do; what it says a little otherwise is a note. Nothing is left out silently,
+//! nothing is simulated, nothing is written.
+//!
+//! XML is read with `roxmltree` itself. Of the crates for these formats `mjcf-rs` 0.36 keeps no
+//! places, passes over elements and attributes that it does not know, and an `eulerseq` of four
+//! letters makes it panic; `urdf-rs` 0.10 keeps no places either, reads `0.1 x 0.2 0.3` as three
+//! numbers and a missing mass as zero. Faults that point to a line were worth the few hundred lines.
+
+mod convert;
+mod fault;
+mod mjcf;
+mod model;
+mod read;
+mod turns;
+mod urdf;
+mod xml;
+
+pub use convert::{Imported, ImportedScene, Wanted, objects, tool};
+pub use model::{Body, Material, Model, Motion, Outline, Solid, Weight};
+pub use read::{Language, parse, read};

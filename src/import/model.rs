@@ -1,0 +1,177 @@
+//! What a file of another program says, before it becomes anything of ours.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use crate::asset::Place;
+
+/// The bodies of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// The name that the file gives it; may be empty.
+    pub name: String,
+    /// Bodies, every parent before its children; the first is the world.
+    pub bodies: Vec<Body>,
+    /// Coefficients of friction of pairs of solids, by their names.
+    pub pairs: Vec<([String; 2], f64)>,
+    /// What the file has beyond bodies that pushes would be changed by, such as actuators.
+    pub beyond: Vec<(Place, String)>,
+    /// Where an object should end, if the file says so: its body, x and y, tolerance (metres) and,
+    /// where it matters, heading and its tolerance (radians).
+    pub goal: Option<(String, Vec<f64>)>,
+    /// Whether the file was written by `pushplan export`, so that its tool is known.
+    pub ours: bool,
+    /// How the language makes one coefficient of two.
+    pub larger_friction: bool,
+}
+
+/// A rigid body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name, or what stands for one.
+    pub name: String,
+    /// Where it stands in the file.
+    pub place: Place,
+    /// The body that it hangs on; none for the world.
+    pub parent: Option<usize>,
+    /// What it may do against that body.
+    pub motion: Motion,
+    /// Pose in the world, metres.
+    pub pose: Isometry3<f64>,
+    /// What it is made of.
+    pub solids: Vec<Solid>,
+    /// Mass (kg), centre of mass in the world (metres) and, if it says so, moment of inertia about
+    /// the vertical through it (kg m^2); none if they follow from the solids.
+    pub inertial: Option<(f64, Point3<f64>, Option<f64>)>,
+}
+
+/// What a body may do against the one that it hangs on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Nothing.
+    Fixed,
+    /// Anything.
+    Free,
+    /// Turn about an axis.
+    Hinge {
+        /// Unit vector in the world.
+        axis: Vector3<f64>,
+        /// A point of the axis in the world, metres.
+        at: Point3<f64>,
+        /// Turns from the start, radians, where limited.
+        limits: Option<[f64; 2]>,
+    },
+    /// Slide along an axis.
+    Slide {
+        /// Unit vector in the world.
+        axis: Vector3<f64>,
+        /// Shifts from the start, metres, where limited.
+        limits: Option<[f64; 2]>,
+    },
+    /// What pushplan has no word for; said in words.
+    Other(String),
+}
+
+/// One solid of a body.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Its name; may be empty.
+    pub name: String,
+    /// Where it stands in the file.
+    pub place: Place,
+    /// Its outline.
+    pub outline: Outline,
+    /// Pose of its middle in the world, metres.
+    pub pose: Isometry3<f64>,
+    /// What it is made of.
+    pub material: Material,
+    /// Whether it touches anything; others are only seen.
+    pub touches: bool,
+}
+
+/// What a solid weighs and how it rubs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// What it weighs.
+    pub weight: Weight,
+    /// Friction value, if the file has one.
+    pub friction: Option<f64>,
+    /// Of two solids the one with the higher rank says how they rub.
+    pub rank: i64,
+}
+
+/// What a solid weighs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Weight {
+    /// Kilograms.
+    Mass(f64),
+    /// Kilograms a cubic metre.
+    Density(f64),
+    /// The body says it.
+    OfBody,
+}
+
+/// The outline of a solid about its middle, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outline {
+    /// A box of these half extents.
+    Box([f64; 3]),
+    /// A cylinder along its z axis.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Half of its length.
+        half: f64,
+    },
+    /// A sphere of this radius.
+    Sphere(f64),
+    /// The convex hull of these points.
+    Hull(Vec<Point3<f64>>),
+    /// The half space below z = 0; half extents x and y of what is drawn, 0 for no end.
+    Plane([f64; 2]),
+    /// Anything else, in words.
+    Other(String),
+}
+
+impl Body {
+    /// What the world is called.
+    pub const WORLD: &str = "world";
+
+    /// The world, with nothing in it.
+    pub fn world() -> Self {
+        Self {
+            name: Self::WORLD.to_owned(),
+            place: Place { line: 1, column: 1 },
+            parent: None,
+            motion: Motion::Fixed,
+            pose: Isometry3::identity(),
+            solids: Vec::new(),
+            inertial: None,
+        }
+    }
+}
+
+impl Model {
+    /// A body's name; the world's is `world`.
+    pub fn name_of(&self, body: usize) -> &str {
+        self.bodies.get(body).map_or("", |body| &body.name)
+    }
+
+    /// The bodies that hang on `body`, in order.
+    pub fn children(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
+        let hangs = move |index: &usize| self.bodies[*index].parent == Some(body);
+        (0..self.bodies.len()).filter(hangs)
+    }
+
+    /// `body` and everything that is fixed to it, in order.
+    pub fn rigid(&self, body: usize) -> Vec<usize> {
+        let mut group = vec![body];
+        // Parents stand before their children.
+        for index in body + 1..self.bodies.len() {
+            let Body { parent, motion, .. } = &self.bodies[index];
+            if *motion == Motion::Fixed && parent.is_some_and(|parent| group.contains(&parent)) {
+                group.push(index);
+            }
+        }
+        group
+    }
+}

@@ -1,0 +1,119 @@
+//! XML elements with their places, and attributes as numbers.
+
+use roxmltree::{Attribute, Node};
+
+use crate::asset::Place;
+
+use super::fault::Ledger;
+
+/// A file that is being read.
+pub(super) struct Source<'a> {
+    text: &'a str,
+    /// Where its lines begin, bytes.
+    lines: Vec<usize>,
+    /// What is wrong with it so far.
+    pub ledger: Ledger,
+}
+
+impl<'a> Source<'a> {
+    /// The text of a file, without faults so far.
+    pub fn new(text: &'a str, ledger: Ledger) -> Self {
+        let ends = text.match_indices('\n').map(|(at, _)| at + 1);
+        Self { text, lines: std::iter::once(0).chain(ends).collect(), ledger }
+    }
+
+    /// Where an element begins.
+    pub fn place(&self, node: Node<'a, 'a>) -> Place {
+        self.place_at(node.range().start)
+    }
+
+    fn place_at(&self, offset: usize) -> Place {
+        let line = self.lines.partition_point(|start| *start <= offset).max(1);
+        let before = self.text.get(self.lines[line - 1]..offset).unwrap_or_default();
+        Place { line, column: before.chars().count() + 1 }
+    }
+
+    /// Notes a fault of an element.
+    pub fn fault(
+        &mut self,
+        node: Node<'a, 'a>,
+        message: impl Into<String>,
+        advice: impl Into<String>,
+    ) {
+        let place = self.place(node);
+        self.ledger.fault(place, message, advice);
+    }
+
+    /// Notes a fault of an attribute.
+    pub fn fault_of(
+        &mut self,
+        attribute: Attribute<'a, 'a>,
+        message: impl Into<String>,
+        advice: impl Into<String>,
+    ) {
+        let place = self.place_at(attribute.range().start);
+        self.ledger.fault(place, message, advice);
+    }
+
+    /// Notes attributes of an element that are none of `known`.
+    pub fn only(&mut self, node: Node<'a, 'a>, known: &[&[&str]]) {
+        for attribute in node.attributes() {
+            let name = attribute.name();
+            // Those of other namespaces are somebody else's.
+            if attribute.namespace().is_none() && !known.iter().any(|list| list.contains(&name)) {
+                let tag = node.tag_name().name();
+                let message = format!("<{tag}> has an attribute `{name}` that is not known");
+                self.fault_of(attribute, message, "correct its name, or take it out");
+            }
+        }
+    }
+
+    /// All numbers of an attribute; none, with a fault, if one is none or not finite.
+    pub fn list(&mut self, attribute: Attribute<'a, 'a>) -> Option<Vec<f64>> {
+        let mut found = Vec::new();
+        for word in attribute.value().split_whitespace() {
+            match word.parse::<f64>() {
+                Ok(number) if number.is_finite() => found.push(number),
+                _ => {
+                    let message = format!("`{}` has `{word}`, not a number", attribute.name());
+                    self.fault_of(attribute, message, "write numbers with spaces between them");
+                    return None;
+                }
+            }
+        }
+        Some(found)
+    }
+
+    /// Exactly `N` numbers of an attribute.
+    pub fn numbers<const N: usize>(&mut self, attribute: Attribute<'a, 'a>) -> Option<[f64; N]> {
+        let found = self.list(attribute)?;
+        let count = found.len();
+        let numbers = <[f64; N]>::try_from(found).ok();
+        if numbers.is_none() {
+            let many = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
+            let message = format!("`{}` has {count} numbers instead of {many}", attribute.name());
+            self.fault_of(attribute, message, format!("write {many}"));
+        }
+        numbers
+    }
+
+    /// One number of an attribute.
+    pub fn number(&mut self, attribute: Attribute<'a, 'a>) -> Option<f64> {
+        self.numbers::<1>(attribute).map(|[number]| number)
+    }
+
+    /// The attribute of that name, if the element has it.
+    pub fn attribute(&self, node: Node<'a, 'a>, name: &str) -> Option<Attribute<'a, 'a>> {
+        node.attribute_node(name)
+    }
+}
+
+/// Elements below `node`, in order.
+pub(super) fn elements<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(Node::is_element)
+}
+
+/// The first element of that name below `node`.
+pub(super) fn element<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    elements(node).find(|child| child.tag_name().name() == name)
+}

@@ -1,0 +1,108 @@
+//! The lever-ups that a task's rules allow, on a grid.
+
+use crate::scene::{LeverRules, LeverTask, LeverUp, Pivot, Place};
+
+/// Most lever points along the outline.
+const MOST: f64 = 256.0;
+
+/// The axes that are tried where it follows from the plate, in distances of its support line: at
+/// the line itself slips are fewest, a little behind or before it boards come out of pockets that
+/// hold their far edge.
+const AUTO: [f64; 3] = [1.0, 0.85, 1.2];
+
+/// Depths and turns that are tried of the ranges that a task allows.
+const DEPTHS: usize = 3;
+const ANGLES: usize = 6;
+
+/// A lever-up and where it stands on the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeverCandidate {
+    /// Index of the tool.
+    pub tool: usize,
+    /// Which lever point along the outline, depth, axis and turn.
+    pub cell: [usize; 4],
+    /// The lever-up.
+    pub lever: LeverUp,
+}
+
+/// The lever-ups of one tool in a task.
+pub struct LeverGrid<'a> {
+    /// The task.
+    pub task: &'a LeverTask,
+    /// Index of the tool.
+    pub tool: usize,
+    /// How far apart lever points are, metres.
+    pub apart: f64,
+}
+
+impl LeverGrid<'_> {
+    /// All of them, in order. Where no axis follows from the plate, it is no number.
+    pub fn candidates(&self) -> Vec<LeverCandidate> {
+        let (plate, rules) = (self.task.plate(), &self.task.levers);
+        let depths = spread(rules.depth, DEPTHS);
+        let angles = spread(rules.angle, ANGLES);
+        let axes = |place: Place| {
+            rules.pivots.iter().flat_map(move |pivot| match *pivot {
+                Pivot::Auto => {
+                    let line = plate.auto_pivot(place).unwrap_or(f64::NAN);
+                    AUTO.map(|factor| factor * line).to_vec()
+                }
+                Pivot::At(distance) => vec![distance],
+            })
+        };
+        let mut found = Vec::new();
+        for (p, place) in self.places().into_iter().enumerate() {
+            for (d, &depth) in depths.iter().enumerate() {
+                for (q, pivot) in axes(place).enumerate() {
+                    for (a, &angle) in angles.iter().enumerate() {
+                        let lever = LeverUp {
+                            plate: self.task.goal.plate,
+                            place,
+                            depth,
+                            pivot,
+                            angle,
+                            speed: rules.speed,
+                            hold: rules.hold,
+                            retreat: rules.retreat,
+                        };
+                        let cell = [p, d, q, a];
+                        found.push(LeverCandidate { tool: self.tool, cell, lever });
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Lever points along the outline, not too near to its corners and even on each edge.
+    fn places(&self) -> Vec<Place> {
+        let corners = self.task.plate().corners();
+        let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).norm();
+        let around: f64 = (0..corners.len()).map(side).sum();
+        let apart = self.apart.max(around / MOST);
+        let mut places = Vec::new();
+        for edge in 0..corners.len() {
+            let length = side(edge);
+            let free = length - 2.0 * LeverRules::CORNER;
+            if free < 0.0 {
+                continue;
+            }
+            let gaps = (free / apart).floor() as usize;
+            let used = gaps as f64 * apart;
+            let first = LeverRules::CORNER + 0.5 * (free - used);
+            places.extend((0..=gaps).map(|k| {
+                let along = first + k as f64 * apart;
+                Place { edge, fraction: (along / length).clamp(0.0, 1.0) }
+            }));
+        }
+        places
+    }
+}
+
+/// So many numbers from the smallest to the largest; one if both are the same.
+fn spread([low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    if high - low < 1e-12 {
+        return vec![low];
+    }
+    (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
+}

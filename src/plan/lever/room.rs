@@ -1,0 +1,146 @@
+//! What a blade can reach and where it has room.
+
+use std::f64::consts::PI;
+
+use crate::geometry::{Pose3, Solid, Vector, Vector3, cross, perpendicular};
+use crate::scene::{LeverFault, LeverRules, LeverScene, LeverTask, LeverUp};
+
+/// The blade may sink so deep into what is fixed, metres: it slides along floors.
+const SLACK: f64 = 1e-4;
+
+/// The blade's farthest point moves so far between two looks at it, metres.
+const LOOK: f64 = 0.006;
+
+/// Of the way below the plate, a tip goes so far at most: behind it there must be something to
+/// lift.
+const DEEPEST: f64 = 0.8;
+
+/// What stands around a plate that is to be levered.
+pub struct LeverRoom<'a> {
+    task: &'a LeverTask,
+    scene: &'a LeverScene,
+    /// What the blade must not meet, with names.
+    bodies: Vec<(String, Solid)>,
+    /// Above this nothing can be met, metres.
+    top: f64,
+}
+
+impl<'a> LeverRoom<'a> {
+    /// The room around the goal's plate in `scene`, that of `task` with a blade.
+    pub fn new(task: &'a LeverTask, scene: &'a LeverScene) -> Self {
+        let blocks = scene.blocks.iter().map(|block| {
+            let pose = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
+            let top = block.z + block.size[2];
+            (block.name.clone(), Solid::cuboid(block.size, &pose), top)
+        });
+        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goal.plate);
+        let others = others.flat_map(|(_, plate)| {
+            plate.slabs.iter().map(|slab| {
+                let span = [slab.bottom, slab.bottom + slab.height];
+                let solid = Solid::prism(&slab.corners, span, &plate.start());
+                (plate.name.clone(), solid, plate.z + span[1])
+            })
+        });
+        let all: Vec<(String, Solid, f64)> = blocks.chain(others).collect();
+        let top = all.iter().map(|(.., top)| *top).fold(0.0, f64::max);
+        let bodies = all.into_iter().map(|(name, solid, _)| (name, solid)).collect();
+        Self { task, scene, bodies, top }
+    }
+
+    /// Why a lever-up cannot be made; `None` if it can.
+    pub fn fault(&self, lever: &LeverUp) -> Option<LeverFault> {
+        let plate = &self.scene.plates[lever.plate];
+        let corners = plate.corners();
+        let from = corners[lever.place.edge];
+        let side = corners[(lever.place.edge + 1) % corners.len()] - from;
+        let along = lever.place.fraction * side.norm();
+        if along.min(side.norm() - along) < LeverRules::CORNER - 1e-9 {
+            return Some(LeverFault::NearCorner);
+        }
+        if self.scene.blade.thickness > plate.clearance + 1e-9 {
+            return Some(LeverFault::TooThick);
+        }
+        if lever.depth > DEEPEST * self.way_below(corners, from + side * lever.place.fraction, side)
+        {
+            return Some(LeverFault::TooDeep);
+        }
+        // An axis over the blade would press its tip down.
+        let over = (0.0..lever.depth + 1e-3).contains(&lever.pivot);
+        if over || ![lever.pivot, lever.angle, lever.depth].iter().all(|v| v.is_finite()) {
+            return Some(LeverFault::NoSupport);
+        }
+        if lever.duration() > LeverUp::LONGEST {
+            return Some(LeverFault::TooLong);
+        }
+        self.way(lever)
+    }
+
+    /// How far it is below the plate from a point of an edge straight inward, metres.
+    fn way_below(&self, corners: &[Vector], from: Vector, side: Vector) -> f64 {
+        let inward = perpendicular(side).normalize();
+        let sides = (0..corners.len()).map(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+            let along = b - a;
+            let towards = cross(along, inward);
+            // Only sides that the way leaves by.
+            if towards < -1e-9 * along.norm() { cross(along, a - from) / towards } else { f64::MAX }
+        });
+        sides.fold(f64::MAX, f64::min)
+    }
+
+    /// What is wrong on the way in, during the turn or on the way back.
+    fn way(&self, lever: &LeverUp) -> Option<LeverFault> {
+        let blade = &self.scene.blade;
+        let lying = lever.blade(self.scene, 0.0);
+        let end = lever.blade(self.scene, lever.turn_time());
+        let shaft = |pose: &Pose3, back: f64| {
+            let mut pose = *pose;
+            pose.position -= pose.rotation * Vector3::x() * back;
+            pose
+        };
+        let reached = |pose: &Pose3| {
+            let grip = pose.point(Vector3::new(-0.5 * blade.length, 0.0, 0.0));
+            self.task.robot.reaches(grip.xy())
+        };
+        if [&lying, &end].iter().any(|pose| !reached(pose) || !reached(&shaft(pose, lever.retreat)))
+        {
+            return Some(LeverFault::OutOfReach);
+        }
+        // What the blade sweeps when it moves along its shaft is a longer blade.
+        let swept = |pose: &Pose3| {
+            let size = [blade.length + lever.retreat, blade.width, blade.thickness];
+            Solid::cuboid(size, &shaft(pose, 0.5 * lever.retreat))
+        };
+        if let Some(fault) = self.meets(&swept(&lying)).or_else(|| self.meets(&swept(&end))) {
+            return Some(fault);
+        }
+        let farthest =
+            (lever.pivot - lever.depth).abs().max((lever.pivot - lever.depth + blade.length).abs());
+        let looks = (lever.angle * farthest / LOOK).ceil().clamp(1.0, 500.0) as usize;
+        for k in 1..looks {
+            let pose = lever.blade(self.scene, lever.turn_time() * k as f64 / looks as f64);
+            if !reached(&pose) {
+                return Some(LeverFault::OutOfReach);
+            }
+            let size = [blade.length, blade.width, blade.thickness];
+            let solid = Solid::cuboid(size, &pose);
+            // An arc in front rises all the way up to a quarter turn.
+            let rises = lever.pivot > 0.0 && lever.angle <= 0.5 * PI;
+            if rises && solid.lowest() > self.top {
+                break;
+            }
+            if let Some(fault) = self.meets(&solid) {
+                return Some(fault);
+            }
+        }
+        None
+    }
+
+    fn meets(&self, blade: &Solid) -> Option<LeverFault> {
+        if blade.lowest() < -SLACK {
+            return Some(LeverFault::BelowTable);
+        }
+        let met = self.bodies.iter().find(|(_, solid)| solid.depth(blade) > SLACK)?;
+        Some(LeverFault::Meets { body: met.0.clone() })
+    }
+}

@@ -1,0 +1,16 @@
+//! Lever-ups for people: plans, predictions and verdicts in words, tables and pictures.
+
+mod figure;
+mod prediction;
+mod simulation;
+mod solution;
+mod suite;
+mod verdict;
+mod words;
+
+pub use figure::lever_figure;
+pub use prediction::{PredictedLever, lever_prediction_document};
+pub use simulation::lever_simulation_document;
+pub use solution::lever_solution_document;
+pub use suite::lever_tasks_document;
+pub use verdict::{lever_verdict_document, lever_verdict_line};

@@ -1,0 +1,87 @@
+//! Refuses tasks of levering made in code that no file could hold.
+
+use std::sync::Arc;
+
+use crate::scene::{BladeTool, LeverTask};
+use crate::solve::SolveError;
+
+/// Checks every number that planning relies on.
+///
+/// # Errors
+/// The first fault.
+pub(super) fn check(task: &LeverTask, tools: &[Arc<BladeTool>]) -> Result<(), SolveError> {
+    let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    let from_zero = |value: f64| value.is_finite() && value >= 0.0;
+    if task.goal.plate >= task.plates.len() {
+        return fault(format!("the goal names object {}, which does not exist", task.goal.plate));
+    }
+    if task.goal.outside.is_some_and(|block| block >= task.blocks.len()) {
+        return fault("the goal names an obstacle that does not exist".into());
+    }
+    let place = task
+        .goal
+        .place
+        .is_none_or(|(at, tolerance)| at.iter().all(|v| v.is_finite()) && positive(tolerance));
+    if !place || !task.goal.raised.is_none_or(f64::is_finite) {
+        return fault("the goal must be finite, its tolerance positive".into());
+    }
+    for plate in &task.plates {
+        let slabs = plate.slabs.iter().all(|slab| {
+            slab.corners.len() >= 3
+                && slab.corners.iter().all(|c| c.iter().all(|v| v.is_finite()))
+                && positive(slab.volume())
+                && from_zero(slab.bottom)
+        });
+        let sound = !plate.slabs.is_empty()
+            && slabs
+            && positive(plate.mass)
+            && from_zero(plate.friction)
+            && from_zero(plate.clearance)
+            && from_zero(plate.z)
+            && plate.pose.is_finite();
+        if !sound {
+            return fault(format!(
+                "object `{}` needs solids of positive size, a mass and a finite place",
+                plate.name
+            ));
+        }
+    }
+    for block in &task.blocks {
+        let sound = block.size.iter().all(|size| positive(*size))
+            && from_zero(block.z)
+            && from_zero(block.friction)
+            && block.pose.is_finite();
+        if !sound {
+            return fault(format!("obstacle `{}` needs a positive finite size", block.name));
+        }
+    }
+    let rules = &task.levers;
+    let spans = [rules.depth, rules.angle];
+    if !spans.iter().all(|[low, high]| positive(*low) && high.is_finite() && low <= high) {
+        return fault("depths and angles need a smallest and a largest, both positive".into());
+    }
+    if !positive(rules.speed) || !from_zero(rules.hold) || !from_zero(rules.retreat) {
+        return fault("speed, hold and retreat of the blade must be finite and positive".into());
+    }
+    if rules.pivots.is_empty() {
+        return fault("it allows no pivot".into());
+    }
+    if !(positive(task.robot.reach_max) && (0.0..=1.0).contains(&task.robustness)) {
+        return fault("reach and robustness make no sense".into());
+    }
+    if !from_zero(task.table_friction) {
+        return fault("the friction of the table must not be negative".into());
+    }
+    for tool in tools {
+        let blade = &tool.blade;
+        let sizes = [blade.length, blade.width, blade.thickness];
+        if !(sizes.into_iter().all(positive) && from_zero(blade.friction)) {
+            return fault(format!("tool `{}` needs a blade of positive size", tool.name));
+        }
+    }
+    if tools.is_empty() {
+        return fault("it allows no tool with a blade".into());
+    }
+    Ok(())
+}

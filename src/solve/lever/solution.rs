@@ -1,0 +1,72 @@
+//! What comes back from solving a task of levering.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::plan::lever::LeverSearchStatistics;
+use crate::scene::{BladeTool, LeverOutcome, LeverPlan, LeverVerdict};
+use crate::solve::PlanStatus;
+
+/// A lever-up with everything that is known about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankedLever {
+    /// The plan.
+    pub plan: LeverPlan,
+    /// The tool that it names.
+    pub tool: Arc<BladeTool>,
+    /// What comes of it by prediction.
+    pub predicted: LeverOutcome,
+    /// Name of the model that says so.
+    pub by: String,
+    /// By what it was ranked before verification, the smaller the better.
+    pub merit: f64,
+    /// Whether it works in the simulator, if that was tried.
+    pub verdict: Option<LeverVerdict>,
+}
+
+/// Wall-clock time of each stage, seconds. Reported, never used to decide anything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct LeverTiming {
+    /// Search.
+    pub search: f64,
+    /// Coarse simulation of the best.
+    pub simulation: f64,
+    /// Verification.
+    pub verification: f64,
+    /// Everything.
+    pub total: f64,
+}
+
+/// What solving cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct LeverStatistics {
+    /// Of the search.
+    pub search: LeverSearchStatistics,
+    /// Candidates that were simulated coarsely.
+    pub simulated: usize,
+    /// Plans that were verified.
+    pub verified: usize,
+    /// Wall-clock times.
+    pub timing: LeverTiming,
+}
+
+/// The result of [`LeverPlanner::solve`](super::LeverPlanner::solve).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverSolution {
+    /// How it ended.
+    pub status: PlanStatus,
+    /// Whether it was stopped before it was over: the plans are the best so far.
+    pub stopped: bool,
+    /// Ranked plans, the one to use first. Empty only if no lever-up can be made at all.
+    pub plans: Vec<RankedLever>,
+    /// What it cost.
+    pub statistics: LeverStatistics,
+}
+
+impl LeverSolution {
+    /// The plan to use: the verified one if solved, otherwise the nearest.
+    pub fn best(&self) -> Option<&RankedLever> {
+        self.plans.first()
+    }
+}

@@ -1,0 +1,255 @@
+//! The book says what is so: its links lead somewhere, its commands are taken, its files load, and
+//! its tables of keys are those of the schemas.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use pushplan::{Task, Tool};
+use serde_json::Value as Json;
+use serde_yaml::Value as Yaml;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// Writes the tables of keys anew.
+const UPDATE: &str = "PUSHPLAN_BOOK=write cargo test --release --test it -- book";
+
+/// A page with its path below `book/src`.
+type Page = (String, String);
+
+#[test]
+fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
+    let summary = read("SUMMARY.md");
+    let listed: Vec<String> = links(&summary).into_iter().map(|(to, _)| to).collect();
+    let mut there: Vec<String> = fs::read_dir(source())
+        .expect("the book")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .filter(|name| name.ends_with(".md") && name != "SUMMARY.md")
+        .collect();
+    there.sort();
+    let mut pages: Vec<&String> = listed.iter().filter(|path| !path.contains('/')).collect();
+    pages.sort();
+    assert_eq!(there.iter().collect::<Vec<_>>(), pages, "pages beside the summary's");
+
+    let mut wrong = Vec::new();
+    for (path, text) in pages_of(&listed) {
+        for (to, anchor) in links(&text) {
+            let folder = Path::new(&path).parent().expect("a folder");
+            let target = if to.is_empty() { PathBuf::from(&path) } else { folder.join(&to) };
+            let name = plain(&target);
+            let is_page = name.ends_with(".md");
+            // A page outside of the book would be a link to nothing in its HTML.
+            if !source().join(&name).exists() || is_page && !listed.contains(&name) {
+                wrong.push(format!("{path}: {to}"));
+            } else if is_page && !anchor.is_empty() && !headings(&read(&name)).contains(&anchor) {
+                wrong.push(format!("{path}: {to}#{anchor}"));
+            }
+        }
+        for file in text.split("{{#include ").skip(1).filter_map(|rest| rest.split("}}").next()) {
+            let file = file.split(':').next().unwrap_or(file);
+            if !source().join(file).exists() {
+                wrong.push(format!("{path}: includes {file}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// With `--help` behind it a command line is read up to there; scripts of the repository are there.
+#[test]
+fn its_commands_are_taken() {
+    let mut taken = 0;
+    for (path, text) in own_pages() {
+        for block in blocks(&text, "sh") {
+            for line in block.replace("\\\n", " ").lines() {
+                let line = line.split(" #").next().unwrap_or(line).trim();
+                let Some(arguments) = line.strip_prefix("pushplan ") else {
+                    let program = line.split(' ').next().unwrap_or_default();
+                    let known = program == "pip" || Path::new(ROOT).join(program).is_file();
+                    assert!(known, "{path}: {line}");
+                    continue;
+                };
+                let output = Command::new("sh")
+                    .args(["-c", &format!("\"$PUSHPLAN\" {arguments} --help")])
+                    .env("PUSHPLAN", env!("CARGO_BIN_EXE_pushplan"))
+                    .current_dir(ROOT)
+                    .output()
+                    .expect("a shell");
+                let error = String::from_utf8_lossy(&output.stderr);
+                assert_eq!(output.status.code(), Some(0), "{path}: {line}: {error}");
+                // Files of the repository that a command names are there.
+                for file in line.split(' ').filter(|word| word.starts_with("tasks/")) {
+                    assert!(Path::new(ROOT).join(file).exists(), "{path}: {file}");
+                }
+                taken += 1;
+            }
+        }
+    }
+    assert!(taken > 15, "{taken}");
+}
+
+#[test]
+fn its_files_are_right() {
+    let (mut tasks, mut tools, mut worlds) = (0, 0, 0);
+    for (path, text) in own_pages() {
+        for block in blocks(&text, "yaml") {
+            let keys: Yaml = serde_yaml::from_str(&block).expect("YAML");
+            if keys.get("goal").is_some() {
+                Task::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                tasks += 1;
+            } else if keys.get("parts").is_some() {
+                Tool::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                tools += 1;
+            } else {
+                // A world is one of a task: the one on the same page.
+                let task = blocks(&text, "yaml").remove(0);
+                let folder = tempfile::tempdir().expect("a folder");
+                let [world, task] =
+                    [("world.yaml", &block), ("task.yaml", &task)].map(|(name, text)| {
+                        let file = folder.path().join(name);
+                        fs::write(&file, text).expect("a file");
+                        file
+                    });
+                let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+                    .args(["run", "--pushes", "1", "--world"])
+                    .args([&world, &task])
+                    .arg("--out")
+                    .arg(folder.path())
+                    .output()
+                    .expect("the command runs");
+                let error = String::from_utf8_lossy(&output.stderr);
+                assert!(matches!(output.status.code(), Some(0 | 4 | 5)), "{path}: {error}");
+                worlds += 1;
+            }
+        }
+    }
+    assert!(tasks >= 3 && tools >= 2 && worlds >= 1, "{tasks} {tools} {worlds}");
+}
+
+#[test]
+fn its_tables_of_keys_are_those_of_the_schemas() {
+    let write = std::env::var_os("PUSHPLAN_BOOK").is_some();
+    for (kind, page) in [
+        ("task", "tasks.md"),
+        ("tool", "tools.md"),
+        ("world", "closed-loop.md"),
+        ("recording", "recordings.md"),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+            .args(["schema", kind])
+            .output()
+            .expect("the command runs");
+        let schema: Json = serde_json::from_slice(&output.stdout).expect("JSON");
+        let mut table = "| key | meaning |\n| --- | --- |\n".to_owned();
+        rows(&schema, "", &mut table);
+        let text = read(page);
+        let begin = format!("<!-- keys {kind} -->\n");
+        let (before, rest) = text.split_once(&begin).expect("a place for the keys");
+        let (shown, after) = rest.split_once("<!-- end -->").expect("its end");
+        let wanted = format!("\n{table}\n");
+        if write && shown != wanted {
+            let text = format!("{before}{begin}{wanted}<!-- end -->{after}");
+            fs::write(source().join(page), text).expect("a page");
+        } else {
+            assert!(shown == wanted, "the keys of {page} are others by now: {UPDATE}");
+        }
+    }
+}
+
+/// The keys of a schema and of those below them, a row each.
+fn rows(schema: &Json, above: &str, table: &mut String) {
+    let Some(keys) = schema["properties"].as_object() else { return };
+    let required = |key: &str| {
+        schema["required"].as_array().is_some_and(|list| list.iter().any(|name| name == key))
+    };
+    for (key, value) in keys {
+        let star = if required(key) { "\\*" } else { "" };
+        let meaning = value["description"].as_str().unwrap_or_default().replace('|', "\\|");
+        let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
+        let path = format!("{above}{key}");
+        table.push_str(&format!("| `{path}`{star} | {meaning} |\n"));
+        rows(value, &format!("{path}."), table);
+        rows(&value["items"], &format!("{path}[]."), table);
+    }
+}
+
+#[test]
+fn headings_become_anchors_as_browsers_know_them() {
+    let page = "# What it `is`, and (not)\n\n```sh\n# no heading\n```\n## A-b: c\n## A-b: c\n";
+    assert_eq!(headings(page), ["what-it-is-and-not", "a-b-c", "a-b-c-1"]);
+    assert_eq!(links("[a](b.md#c) ![d](e.svg) [f](https://g) `[x](y)`").len(), 2);
+}
+
+/// The book's own pages: those of measured numbers have tests of their own.
+fn own_pages() -> Vec<Page> {
+    let listed: Vec<String> = links(&read("SUMMARY.md")).into_iter().map(|(to, _)| to).collect();
+    let own = listed.into_iter().filter(|path| !path.contains('/')).collect::<Vec<_>>();
+    pages_of(&own)
+}
+
+fn pages_of(paths: &[String]) -> Vec<Page> {
+    paths.iter().map(|path| (path.clone(), read(path))).collect()
+}
+
+fn source() -> PathBuf {
+    Path::new(ROOT).join("book/src")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(source().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// Links within the book, with their anchors; none of code.
+fn links(text: &str) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    let mut code = false;
+    for line in text.lines() {
+        if line.starts_with("```") {
+            code = !code;
+        }
+        // What stands between single backquotes is code as well.
+        let words: String = line.split('`').step_by(2).collect::<Vec<_>>().join("code");
+        let targets = words.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        for target in targets.filter(|target| !code && !target.contains("://")) {
+            let (to, anchor) = target.split_once('#').unwrap_or((target, ""));
+            found.push((to.to_owned(), anchor.to_owned()));
+        }
+    }
+    found
+}
+
+/// Anchors of a page's headings.
+fn headings(text: &str) -> Vec<String> {
+    let (mut found, mut code) = (Vec::<String>::new(), false);
+    for line in text.lines() {
+        code ^= line.starts_with("```");
+        let Some(title) = line.strip_prefix('#').filter(|_| !code) else { continue };
+        let title = title.trim_start_matches('#').trim().to_lowercase();
+        let kept = title.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+        let anchor: String = kept.map(|c| if c == ' ' { '-' } else { c }).collect();
+        let again = found.iter().filter(|other| **other == anchor).count();
+        found.push(if again == 0 { anchor } else { format!("{anchor}-{again}") });
+    }
+    found
+}
+
+/// The contents of a page's code blocks in `language`.
+fn blocks(page: &str, language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    let rest = page.split(&fence).skip(1);
+    rest.filter_map(|rest| rest.split("```").next()).map(str::to_owned).collect()
+}
+
+/// A path without `..`, with slashes.
+fn plain(path: &Path) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    for part in path.components() {
+        match part {
+            std::path::Component::ParentDir => {
+                parts.pop();
+            }
+            part => parts.push(part.as_os_str().to_string_lossy().into_owned()),
+        }
+    }
+    parts.join("/")
+}

@@ -1,0 +1,189 @@
+//! Files that others might have written.
+
+use insta::assert_snapshot;
+use pushplan::import::{Wanted, objects, parse, tool};
+use pushplan::scene::{JointKind, Surface, Task};
+use pushplan::{Shape, Vector};
+
+const KITCHEN: &str = include_str!("../../cmd/import.in/kitchen.xml");
+
+fn scene(text: &str, wanted: &Wanted) -> Task {
+    let (model, ..) = parse(text, "scene.xml").unwrap_or_else(|faults| panic!("{faults}"));
+    let made = objects(&model, "scene.xml", wanted);
+    made.unwrap_or_else(|faults| panic!("{faults}")).value.task
+}
+
+/// Everything that is wrong with a text.
+fn faults(text: &str, as_tool: bool) -> String {
+    let wanted = Wanted::default();
+    let found = parse(text, "f.xml").and_then(|(model, ..)| match as_tool {
+        true => tool(&model, "f.xml", &wanted).map(|_| ()),
+        false => objects(&model, "f.xml", &wanted).map(|_| ()),
+    });
+    found.expect_err("faults").to_string()
+}
+
+fn mjcf(bodies: &str) -> String {
+    format!("<mujoco><worldbody><geom type='plane' size='1 1 1'/>{bodies}</worldbody></mujoco>")
+}
+
+#[test]
+fn a_scene_of_mujoco_becomes_a_task() {
+    let task = scene(KITCHEN, &Wanted::default());
+    assert_snapshot!(task.to_yaml().unwrap());
+    // 2000 kg/m^3 and 6 x 4 x 10 cm, which lies on its largest face but one.
+    let lying = &task.scene.objects[1];
+    assert!((lying.mass - 0.48).abs() < 1e-12 && (lying.shape.height() - 0.06).abs() < 1e-12);
+    // The larger of 0.6 and 0.6 is their mean; that of 0.3 and 0.6 is not.
+    let pair = |name: &str| {
+        let object = task.scene.objects.iter().position(|object| object.name == name);
+        task.scene
+            .frictions
+            .iter()
+            .find(|pair| Some(pair.object) == object && pair.with == Surface::Table)
+    };
+    assert!(pair("can").is_none());
+    assert_eq!(pair("lying-box").map(|pair| pair.coefficient), Some(0.6));
+    let JointKind::Revolute { at, limits: Some(limits) } = task.scene.joints[0].kind else {
+        panic!("{:?}", task.scene.joints)
+    };
+    assert!((at - Vector::new(0.32, -0.2)).norm() < 1e-12);
+    let [low, high] = [limits.low, limits.high].map(f64::to_degrees);
+    assert!((low + 60.0).abs() < 1e-9 && (high - 30.0).abs() < 1e-9, "turned by its axis");
+}
+
+#[test]
+fn chosen_bodies_are_imported_and_everything_can_be_shifted() {
+    let wanted = Wanted {
+        bodies: vec!["can".into(), "lying box".into()],
+        shift: Vector::new(0.1, -0.2),
+        ..Wanted::default()
+    };
+    let scene = scene(KITCHEN, &wanted).scene;
+    let names: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!(names, ["can", "lying-box"]);
+    assert!((scene.objects[0].pose.position - Vector::new(0.5, -0.1)).norm() < 1e-12);
+    assert!((scene.obstacles[0].pose.position - Vector::new(0.9, -0.2)).norm() < 1e-12);
+}
+
+#[test]
+fn a_robot_of_fixed_links_becomes_a_tool() {
+    let text = include_str!("../../cmd/import.in/hook.urdf");
+    let (model, ..) = parse(text, "hook.urdf").unwrap();
+    let made = tool(&model, "hook.urdf", &Wanted::default());
+    // Gazebo's friction is of the handle alone.
+    let text = made.expect_err("two frictions").to_string();
+    assert!(
+        text.contains("hook.urdf:10:5: error: parts have different frictions, 0.4 and 0.5"),
+        "{text}"
+    );
+    let wanted = Wanted { friction: 0.4, name: Some("my-hook".into()), ..Wanted::default() };
+    assert_snapshot!(tool(&model, "hook.urdf", &wanted).unwrap().value.to_yaml().unwrap());
+}
+
+#[test]
+fn a_centre_of_mass_off_the_middle_makes_a_box_a_prism_about_it() {
+    let body = "<body name='b' pos='0.5 0 0.03'><freejoint/>
+        <inertial pos='0.01 0 0' mass='0.4' diaginertia='1e-3 1e-3 1e-3'/>
+        <geom type='box' size='0.04 0.03 0.03'/></body>";
+    let object = &scene(&mjcf(body), &Wanted::default()).scene.objects[0];
+    let Shape::Prism { base, .. } = object.shape else { panic!("{object:?}") };
+    assert!((object.pose.position - Vector::new(0.51, 0.0)).norm() < 1e-12);
+    assert!((base.extent(Vector::x()) - 0.03).abs() < 1e-12);
+    assert!((base.extent(-Vector::x()) - 0.05).abs() < 1e-12);
+}
+
+#[test]
+fn several_solids_of_a_body_are_objects_with_fixed_joints() {
+    let body = "<body name='t' pos='0.5 0 0.03'><freejoint/>
+        <geom name='bar' type='box' size='0.04 0.01 0.03'/>
+        <geom name='stem' type='box' size='0.01 0.04 0.03' pos='0 0.05 0'/></body>";
+    let scene = scene(&mjcf(body), &Wanted::default()).scene;
+    let names: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+    assert_eq!((names, scene.joints[0].kind), (vec!["t-bar", "t-stem"], JointKind::Fixed));
+    assert!((scene.objects[0].mass - 8.0 * 0.04 * 0.01 * 0.03 * 1000.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_has_no_word_is_a_fault_with_its_place() {
+    let text = include_str!("../../cmd/import.in/bad.xml");
+    assert_snapshot!(faults(text, false));
+}
+
+#[test]
+fn each_thing_that_cannot_be_said_is_refused() {
+    let free = |inside: &str| {
+        mjcf(&format!("<body name='b' pos='0.5 0 0.05'><freejoint/>{inside}</body>"))
+    };
+    let box_ = "<geom type='box' size='.05 .05 .05'/>";
+    for (text, expected) in [
+        (free("<geom type='capsule' size='.05 .05'/>"), "is a capsule"),
+        (free("<geom type='sphere' size='.05'/>"), "`b` is a sphere, and rolls"),
+        (free("<site/>"), "`b` has nothing that touches"),
+        (free("<geom type='cylinder' size='.05 .05' euler='90 0 0'/>"), "`b` leans"),
+        (free("<geom type='box' size='.05 .05 .05' euler='10 0 0'/>"), "`b` leans"),
+        (free("<geom type='box' size='.05 .05 .05' class='x'/>"), "there is no class `x`"),
+        (free("<geom type='box' size='.05 .05'/>"), "has 2 sizes"),
+        (free("<geom type='box' size='.05 .05 nan'/>"), "not a number"),
+        (free(&format!("{box_}<composite/>")), "<composite> is not read"),
+        (
+            free(&format!("{box_}<body><joint type='ball'/>{box_}</body>")),
+            "hangs on another body by a ball joint",
+        ),
+        (
+            free(&format!("{box_}<body><joint axis='1 0 0'/>{box_}</body>")),
+            "hangs on another body by a hinge",
+        ),
+        (
+            free(&format!("{box_}<body pos='.2 0 0'><joint stiffness='1'/>{box_}</body>")),
+            "has a spring",
+        ),
+        (mjcf(&format!("<body name='arm'><joint/>{box_}</body>")), "`arm` is held in the world by a hinge"),
+        (mjcf("<body name='can'/>"), "no body of the file moves freely"),
+        (
+            free(box_).replace("</worldbody>", "<body name='c' pos='0.5 0.3 0.4'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>"),
+            "`c` is 300.0 mm above where the lowest object stands",
+        ),
+        (free(box_).replace("0.5 0 0.05", "0.5 0 0.2"), "150.0 mm above this plane"),
+        (free(box_).replace("<worldbody>", "<option gravity='0 0 -1.6'/><worldbody>"), "gravity is 0 0 -1.6"),
+        (free(box_).replace("<worldbody>", "<compiler eulerseq='xyzx'/><worldbody>"), "eulerseq=\"xyzx\" is not supported"),
+        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is nothing that pushplan knows"),
+        (free(&box_.replace("/>", " mass='0'/>")), "`b` has no mass"),
+        (free(&box_.replace("/>", " mass='1e7'/>")), "as a task: expected a mass in kg"),
+        ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "is only seen"),
+        ("<robot name='r'><link name='a'><collision><geometry><box size='1 2'/></geometry></collision></link></robot>".into(), "has 2 numbers instead of 3"),
+        ("<robot><link name='a'/><link name='a'/></robot>".into(), "two links are called `a`"),
+        ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "go in a circle"),
+        (mjcf(&format!("{}{}", "<body>".repeat(20_000), "</body>".repeat(20_000))), "more than 200 bodies"),
+        ("<sdf/>".into(), "<sdf> is neither"),
+        ("<mujoco".into(), "this is not XML"),
+    ] {
+        let found = faults(&text, false);
+        assert!(found.contains(expected), "{text}\n{found}\nnot: {expected}");
+    }
+}
+
+#[test]
+fn tools_that_are_no_tools_are_refused() {
+    let box_ = "<geom type='box' size='.05 .05 .05'/>";
+    for (text, expected) in [
+        (
+            mjcf(&format!("<body name='a'>{box_}</body><body name='b'>{box_}</body>")),
+            "there are 2 bodies, and a tool is one",
+        ),
+        (
+            mjcf(&format!("<body name='a'>{box_}<body name='jaw'><joint/>{box_}</body></body>")),
+            "`jaw` moves against the tool, by a hinge",
+        ),
+        (
+            mjcf(&format!(
+                "<body name='a'>{box_}<geom type='box' size='.05 .05 .05' pos='0 0 .02'/></body>"
+            )),
+            "begins 20.0 mm above the lowest part",
+        ),
+        (mjcf("<body name='a'/>"), "no body of the file touches anything"),
+    ] {
+        let found = faults(&text, true);
+        assert!(found.contains(expected), "{text}\n{found}");
+    }
+}

@@ -1,0 +1,218 @@
+//! Scenes that `pushplan export` wrote, read again.
+
+use std::sync::Arc;
+
+use pushplan::asset::PlanFile;
+use pushplan::export::mjcf;
+use pushplan::import::{Imported, ImportedScene, Wanted, objects, parse, tool};
+use pushplan::scene::{Plan, Push, PushForm, Scene, Task, Tool};
+use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
+
+/// A plan of one push with a shipped tool.
+fn plan(task: Task, tool: &Tool) -> PlanFile {
+    let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
+    let (name, form) = (tool.name.clone(), PushForm::Placed);
+    let plan = Plan { tool: name, grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
+    let tool = Arc::new(tool.clone());
+    PlanFile { task, tool, plan, model: None, predicted: None, verdict: None }
+}
+
+fn tasks() -> Vec<Task> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = paths.filter(|path| path.extension().is_some_and(|end| end == "yaml"));
+    files.map(|path| Task::load(path).unwrap_or_else(|faults| panic!("{faults}"))).collect()
+}
+
+fn near(a: f64, b: f64, what: &str) {
+    assert!((a - b).abs() <= 1e-9, "{what}: {a} and {b}");
+}
+
+fn same_pose(a: &Pose, b: &Pose, what: &str) {
+    assert!((a.position - b.position).norm() <= 1e-9, "{what}: {a:?} and {b:?}");
+    near(pushplan::geometry::wrap_angle(a.heading - b.heading), 0.0, what);
+}
+
+fn same_shape(a: &Shape, b: &Shape, what: &str) {
+    near(a.height(), b.height(), what);
+    match (a, b) {
+        (Shape::Cuboid { size: a }, Shape::Cuboid { size: b }) => {
+            (0..3).for_each(|axis| near(a[axis], b[axis], what));
+        }
+        (Shape::Cylinder { radius: a, .. }, Shape::Cylinder { radius: b, .. }) => {
+            near(*a, *b, what)
+        }
+        (Shape::Prism { base: a, .. }, Shape::Prism { base: b, .. }) => {
+            assert_eq!(a.corners().len(), b.corners().len(), "{what}");
+            for corner in a.corners() {
+                let found = b.corners().iter().any(|other| (other - corner).norm() <= 1e-9);
+                assert!(found, "{what}: {a:?} and {b:?}");
+            }
+        }
+        _ => panic!("{what}: {a:?} and {b:?}"),
+    }
+}
+
+fn same_scene(a: &Scene, b: &Scene, what: &str) {
+    near(a.table_friction, b.table_friction, what);
+    assert_eq!(
+        (a.objects.len(), a.obstacles.len()),
+        (b.objects.len(), b.obstacles.len()),
+        "{what}"
+    );
+    for object in &a.objects {
+        let what = format!("{what}, {}", object.name);
+        let other = b.objects.iter().find(|other| other.name == object.name);
+        let other = other.unwrap_or_else(|| panic!("{what} is missing"));
+        same_shape(&object.shape, &other.shape, &what);
+        same_pose(&object.pose, &other.pose, &what);
+        near(object.mass, other.mass, &what);
+        near(object.friction, other.friction, &what);
+        // A prism's corners may begin at another one.
+        let feet: Vec<(Vector, f64)> = other.feet().each().collect();
+        assert_eq!(object.feet().count, feet.len(), "{what}");
+        for (foot, load) in object.feet().each() {
+            let same = |(at, other): &(Vector, f64)| {
+                (at - foot).norm() <= 1e-6 && (other - load).abs() <= 1e-9
+            };
+            assert!(feet.iter().any(same), "{what}: {foot} carries {load}");
+        }
+    }
+    for (obstacle, other) in a.obstacles.iter().zip(&b.obstacles) {
+        let what = format!("{what}, {}", obstacle.name);
+        assert_eq!(obstacle.name, other.name);
+        same_shape(&obstacle.shape(), &other.shape(), &what);
+        same_pose(&obstacle.pose, &other.pose, &what);
+        near(obstacle.friction, other.friction, &what);
+    }
+    let kind = |scene: &Scene| {
+        let mut kinds: Vec<String> = scene
+            .joints
+            .iter()
+            .map(|joint| {
+                let mut names = joint.between.map(|index| scene.objects[index].name.clone());
+                names.sort();
+                let kind = match joint.kind {
+                    JointKind::Fixed => "fixed".to_owned(),
+                    JointKind::Revolute { at, .. } => format!("revolute {:.6} {:.6}", at.x, at.y),
+                    JointKind::Prismatic { axis, .. } => {
+                        format!("prismatic {:.6}", (axis.y / axis.x).abs())
+                    }
+                };
+                format!("{names:?} {kind}")
+            })
+            .collect();
+        kinds.sort();
+        kinds
+    };
+    assert_eq!(kind(a), kind(b), "{what}");
+    assert_eq!(a.frictions.len(), b.frictions.len(), "{what}: {:?}", b.frictions);
+}
+
+#[test]
+fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
+    let library = ToolLibrary::embedded().unwrap();
+    let stick = library.get("stick").unwrap();
+    let tasks = tasks();
+    assert!(tasks.len() > 10);
+    for task in tasks {
+        let text = mjcf(&plan(task.clone(), stick)).unwrap();
+        let (model, _, notes) =
+            parse(&text, "scene.xml").unwrap_or_else(|faults| panic!("{faults}"));
+        assert_eq!(notes, Vec::<String>::new());
+        let made = objects(&model, "scene.xml", &Wanted::default());
+        let Imported { value, .. } =
+            made.unwrap_or_else(|faults| panic!("{}: {faults}", task.name));
+        let ImportedScene { task: found, has_goal } = value;
+        // Where a table ends, and what presses how high, MJCF has no word for.
+        same_scene(&task.scene, &found.scene, &task.name);
+        assert!(has_goal && found.name == task.name);
+        let goals =
+            [&task, &found].map(|task| (&task.scene.objects[task.goal.object].name, task.goal));
+        assert_eq!(goals[0].0, goals[1].0);
+        near((goals[0].1.position - goals[1].1.position).norm(), 0.0, "goal");
+        near(goals[0].1.tolerance, goals[1].1.tolerance, "tolerance");
+        assert_eq!(goals[0].1.alike, goals[1].1.alike.max(1), "{}", task.name);
+    }
+}
+
+#[test]
+fn limits_of_joints_come_back_whichever_of_the_two_hangs_on_the_other() {
+    let task = "
+scene:
+  objects:
+    - {name: a, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.50, 0.0], yaw_deg: 90}
+    - {name: b, shape: {cuboid: {size: [0.06, 0.06, 0.10]}}, mass: 0.6, friction: 0.3, position: [0.57, 0.0]}
+    - {name: c, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.64, 0.0]}
+  joints:
+    - {between: [b, a], kind: revolute, at: [0.535, 0.0], limits_deg: [-20, 30]}
+    - {between: [c, b], kind: prismatic, axis: [1, 0], limits: [-0.005, 0.04]}
+robot: {reach: {max: 0.9}}
+tools: all
+goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
+";
+    let task = Task::parse(task, "task.yaml").unwrap();
+    let library = ToolLibrary::embedded().unwrap();
+    let text = mjcf(&plan(task.clone(), library.get("stick").unwrap())).unwrap();
+    let (model, ..) = parse(&text, "scene.xml").unwrap();
+    let found = objects(&model, "scene.xml", &Wanted::default()).unwrap().value.task.scene;
+    for joint in &task.scene.joints {
+        let same = |other: &&pushplan::Joint| {
+            let mut pairs = [joint.between, other.between];
+            pairs.iter_mut().for_each(|pair| pair.sort());
+            pairs[0] == pairs[1]
+        };
+        let other = found.joints.iter().find(same).expect("the joint");
+        let (limits, theirs) = (joint.limits().unwrap(), other.limits().unwrap());
+        // Seen from the other one, a turn goes the other way, and so does a shift.
+        let swapped = joint.between != other.between;
+        let along = match (joint.kind, other.kind) {
+            (JointKind::Prismatic { axis: a, .. }, JointKind::Prismatic { axis: b, .. }) => {
+                a.dot(&b)
+            }
+            _ => 1.0,
+        };
+        let turned = swapped != (along < 0.0);
+        let [low, high] =
+            if turned { [-theirs.high, -theirs.low] } else { [theirs.low, theirs.high] };
+        near(limits.low, low, "low");
+        near(limits.high, high, "high");
+    }
+}
+
+#[test]
+fn every_shipped_tool_comes_back_as_wide_as_it_was() {
+    let library = ToolLibrary::embedded().unwrap();
+    let task = tasks().remove(0);
+    for shipped in library.iter() {
+        let text = mjcf(&plan(task.clone(), shipped)).unwrap();
+        let (model, ..) = parse(&text, "scene.xml").unwrap();
+        let found = tool(&model, "scene.xml", &Wanted::default());
+        let Imported { value, .. } =
+            found.unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
+        near(value.friction, shipped.friction, &shipped.name);
+        for k in 0..72 {
+            let angle = f64::to_radians(5.0 * f64::from(k));
+            let direction = Vector::new(angle.cos(), angle.sin());
+            let reach = |tool: &Tool| {
+                let reaches = tool.outline().iter().map(|part| {
+                    let along = part.pose.local_vector(direction);
+                    let own = match part.shape {
+                        Shape::Cylinder { radius, .. } => radius,
+                        Shape::Cuboid { size: [x, y, _] } => {
+                            (x * along.x.abs() + y * along.y.abs()) / 2.0
+                        }
+                        Shape::Prism { base, .. } => base.extent(along),
+                    };
+                    part.pose.position.dot(&direction) + own
+                });
+                reaches.fold(f64::NEG_INFINITY, f64::max)
+            };
+            let (found, stated) = (reach(&value), reach(shipped));
+            let what = format!("{} towards {angle}: {found} and {stated}", shipped.name);
+            // Where two pieces cover each other at an outer corner the export moves both back by
+            // 10 mm, which takes the tip off.
+            assert!((-0.0071..1e-9).contains(&(found - stated)), "{what}");
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! Tasks of levering: their files, what is refused and why, and plans of the shipped ones.
+
+use std::path::{Path, PathBuf};
+
+use pushplan::ToolLibrary;
+use pushplan::asset::{AnyTask, Kind, LeverPlanFile, check, load_any_task};
+use pushplan::effect::SimulatedLevers;
+use pushplan::scene::{
+    BladeTool, LeverFault, LeverPlan, LeverReason, LeverTask, LeverUp, Pivot, Place,
+};
+use pushplan::sim::LeverSimulator;
+use pushplan::solve::lever::{AskedLever, AskedPlace, LeverPlanner, asked_lever};
+use pushplan::solve::{Effort, PlanStatus};
+use pushplan::verify::{LeverVerifier, VerifySettings};
+
+/// A small plate that one lever-up tips over.
+const PLATE: &str = "
+scene:
+  objects:
+    - {name: plate, shape: {cuboid: {size: [0.12, 0.08, 0.008]}}, mass: 0.1, friction: 0.4, \
+clearance: 0.006, position: [0.5, 0]}
+robot: {reach: {min: 0.1, max: 0.9}}
+tools: [screwdriver]
+levers: {pivot: auto}
+goal: {object: plate, flipped: true}
+";
+
+fn library() -> ToolLibrary {
+    ToolLibrary::embedded().expect("the shipped tools")
+}
+
+fn shipped() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
+    let entries = std::fs::read_dir(folder).expect("a folder of tasks");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|end| end == "yaml"));
+    paths.sort();
+    paths
+}
+
+fn load(path: &Path) -> LeverTask {
+    match load_any_task(path, Some(&library())) {
+        Ok(AnyTask::Levers(task)) => task,
+        Ok(AnyTask::Pushes(_)) => panic!("{} is a task of pushes", path.display()),
+        Err(faults) => panic!("{faults}"),
+    }
+}
+
+fn planner(effort: Effort) -> LeverPlanner {
+    LeverPlanner::new(SimulatedLevers { simulator: LeverSimulator::COARSE }, effort)
+}
+
+#[test]
+fn shipped_tasks_are_solved_or_refused_as_they_say() {
+    let paths = shipped();
+    assert!(paths.len() >= 6, "{paths:?}");
+    for path in paths {
+        let task = load(&path);
+        assert_eq!(task.name, path.file_stem().expect("a name").to_string_lossy());
+        let solution = planner(Effort::Standard).solve(&task, &library()).expect("a sound task");
+        if task.description.contains("no solution") {
+            assert_eq!(solution.status, PlanStatus::NoPlan, "{}", task.name);
+            assert!(!solution.statistics.search.refused.is_empty());
+            continue;
+        }
+        assert_eq!(solution.status, PlanStatus::Solved, "{}", task.name);
+        let best = solution.best().expect("a plan");
+        let verdict = best.verdict.as_ref().expect("a verdict");
+        assert!(verdict.passed && verdict.robustness >= Some(0.75), "{}", task.name);
+        // Another seed's draws agree, and the plan is the same after it was written and read.
+        let file = LeverPlanFile {
+            task: task.clone(),
+            tool: best.tool.clone(),
+            plan: best.plan.clone(),
+            model: Some(best.by.clone()),
+            predicted: Some(best.predicted.clone()),
+            verdict: best.verdict.clone(),
+        };
+        let text = serde_json::to_string(&file).expect("numbers");
+        let again = LeverPlanFile::parse(&text, "again.json").unwrap_or_else(|f| panic!("{f}"));
+        assert_eq!(again.task, task, "to the bit");
+        let verifier = LeverVerifier::new(VerifySettings { disturbed: 16, seed: 5 });
+        let verdict = verifier.verify(&again.task, &again.tool, &again.plan);
+        assert!(verdict.works() && verdict.robustness >= Some(0.5), "{}", task.name);
+    }
+}
+
+#[test]
+fn blades_are_no_tools_for_pushes() {
+    let library = library();
+    assert!(library.blade("screwdriver").is_some() && library.blade("scraper").is_some());
+    assert!(library.get("screwdriver").is_none() && library.iter().all(|t| t.name != "scraper"));
+    for tool in library.blades() {
+        let text = serde_json::to_string(&tool.to_json()).expect("numbers");
+        assert_eq!(&BladeTool::parse(&text, "again.yaml").expect("sound"), &**tool);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tools/{}.yaml", tool.name));
+        assert_eq!(&BladeTool::load(&path).expect("named after its tool"), &**tool);
+        assert_eq!(check(&path, None).ok(), Some(Kind::Blade));
+    }
+    let again = library.blades()[0].clone();
+    assert!(library.with_blade(again).is_err(), "names are unique");
+}
+
+#[test]
+fn a_task_is_written_as_it_was_read() {
+    for path in shipped() {
+        let task = load(&path);
+        let text = task.to_yaml().expect("numbers");
+        assert_eq!(LeverTask::parse(&text, "again.yaml").expect("sound"), task);
+        assert_eq!(check(&path, Some(&library())).ok(), Some(Kind::LeverTask));
+    }
+}
+
+/// The faults of `text` with every `from` replaced.
+fn faults(changes: &[(&str, &str)]) -> String {
+    let text = changes.iter().fold(PLATE.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replace(from, to)
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("task.yaml");
+    std::fs::write(&path, text).expect("a file");
+    match load_any_task(&path, Some(&library())) {
+        Ok(_) => String::new(),
+        Err(found) => found
+            .to_string()
+            .replace(&folder.path().display().to_string(), "")
+            .replace("/task", "task"),
+    }
+}
+
+#[test]
+fn faults_of_files_say_what_and_where() {
+    assert_eq!(faults(&[]), "");
+    insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.001")]), @r"
+    task.yaml:6:9: error: `screwdriver` does not fit: its blade is 2 mm thick, but only 1 mm are free below `plate`
+      help: name a thinner tool, or mind the clearance
+    ");
+    insta::assert_snapshot!(faults(&[("clearance: 0.006", "clearance: 0.006, z: 0.02")]), @r"
+    task.yaml:4:114: error: nothing holds `plate` at 0.02 m
+      help: obstacles below it must end at `z` on both sides of its centre of mass; or let it stand on feet: leave `z` out
+    ");
+    insta::assert_snapshot!(faults(&[("[screwdriver]", "[stick]"), ("flipped: true", "raised: 30")]), @r"
+    task.yaml:6:9: error: `stick` has no blade, so it cannot lever
+      help: use `scraper` or `screwdriver`
+    task.yaml:8:31: error: expected a height in metres from 0.001 to 1, found the number 30
+      help: 2 cm is 0.02
+    ");
+    insta::assert_snapshot!(faults(&[("flipped: true", "position: [0.4, 0]")]), @r"
+    task.yaml:8:33: error: a position without a tolerance
+      help: add `tolerance`, in metres
+    ");
+    insta::assert_snapshot!(faults(&[(", flipped: true", ", outside: tray")]), @r"
+    task.yaml:8:32: error: no obstacle is called `tray`
+    ");
+    insta::assert_snapshot!(faults(&[(", flipped: true", "")]), @r"
+    task.yaml:8:7: error: the goal asks for nothing
+      help: add `outside`, `raised`, `flipped`, or `position` with `tolerance`
+    ");
+    insta::assert_snapshot!(faults(&[("levers: {pivot: auto}", "levers: {pivot: front, depth: [0.02, 0.01]}")]), @r#"
+    task.yaml:7:17: error: expected `auto`, a distance in metres from -0.2 to 1 or a list of 1 to 8 pivots, found the text "front"
+      help: use `auto`
+    task.yaml:7:31: error: the smallest, 0.02, is above the largest, 0.01
+      help: swap them
+    "#);
+}
+
+#[test]
+fn what_no_robot_can_do_is_refused_in_words() {
+    let mut task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
+    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let asked = |fraction: f64| AskedLever {
+        place: AskedPlace::Edge(1, fraction),
+        depth: 0.012,
+        angle: 1.5,
+        pivot: Pivot::Auto,
+        speed: None,
+    };
+    let broken = |task: &LeverTask, lever: &AskedLever| {
+        asked_lever(task, &tool, lever).expect("a lever-up").broken
+    };
+    assert_eq!(broken(&task, &asked(0.5)), None);
+    assert_eq!(broken(&task, &asked(0.1)), Some(LeverFault::NearCorner));
+    assert_eq!(broken(&task, &AskedLever { depth: 0.1, ..asked(0.5) }), Some(LeverFault::TooDeep));
+    let pry = AskedLever { pivot: Pivot::At(-0.012), angle: 0.5, ..asked(0.5) };
+    assert_eq!(broken(&task, &pry), Some(LeverFault::BelowTable));
+    let over = AskedLever { pivot: Pivot::At(0.005), ..asked(0.5) };
+    assert_eq!(broken(&task, &over), Some(LeverFault::NoSupport));
+    task.robot.reach_max = 0.5;
+    assert_eq!(broken(&task, &asked(0.5)), Some(LeverFault::OutOfReach));
+    let along = AskedLever { place: AskedPlace::Along(0.16), ..asked(0.5) };
+    let place = asked_lever(&task, &tool, &along).expect("a lever-up").plan.lever.place;
+    assert!(place.edge == 1 && (place.fraction - 0.5).abs() < 1e-9, "{place:?}");
+    assert!(
+        asked_lever(&task, &tool, &AskedLever { place: AskedPlace::Edge(9, 0.5), ..along })
+            .is_err()
+    );
+}
+
+#[test]
+fn verification_finds_by_itself_what_the_planner_would_refuse() {
+    let task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
+    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let lever = LeverUp {
+        plate: 0,
+        place: Place { edge: 1, fraction: 0.5 },
+        depth: 0.012,
+        pivot: 0.12,
+        angle: 1.6,
+        speed: 0.1,
+        hold: 0.2,
+        retreat: 0.1,
+    };
+    let verifier = LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 });
+    let verify = |task: &LeverTask, lever: LeverUp| {
+        verifier.verify(task, &tool, &LeverPlan { tool: tool.name.clone(), lever })
+    };
+    let good = verify(&task, lever);
+    assert!(good.passed, "{:?}", good.reason);
+    assert_eq!(good, verify(&task, lever), "the same again");
+    assert_eq!(good.robustness, Some(1.0));
+    let forbidden = |task: &LeverTask, lever: LeverUp| {
+        let verdict = verify(task, lever);
+        assert!(!verdict.passed && matches!(verdict.reason, Some(LeverReason::Forbidden(_))));
+        verdict.forbidden
+    };
+    let near = Place { edge: 1, fraction: 0.05 };
+    assert_eq!(forbidden(&task, LeverUp { place: near, ..lever }), [LeverFault::NearCorner]);
+    let nowhere = Place { edge: 7, fraction: 0.5 };
+    assert_eq!(forbidden(&task, LeverUp { place: nowhere, ..lever }).len(), 1);
+    assert!(!forbidden(&task, LeverUp { depth: 0.05, ..lever }).is_empty());
+    assert_eq!(forbidden(&task, LeverUp { speed: 1e-4, ..lever }), [LeverFault::TooLong]);
+    let mut short = task.clone();
+    short.robot.reach_max = 0.5;
+    assert_eq!(forbidden(&short, lever), [LeverFault::OutOfReach]);
+    // Turned too little it falls back.
+    let little = verify(&task, LeverUp { angle: 0.6, ..lever });
+    assert_eq!(little.reason, Some(LeverReason::Misses));
+}
+
+#[test]
+fn a_blade_goes_through_no_wall() {
+    let wall = "  obstacles: [{name: wall, size: [0.01, 0.2, 0.02], position: [0.58, 0]}]\nrobot:";
+    let walled = PLATE.replace("robot:", wall);
+    let task = LeverTask::parse(&walled, "plate.yaml").expect("sound");
+    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let lever = AskedLever {
+        place: AskedPlace::Edge(1, 0.5),
+        depth: 0.012,
+        angle: 1.5,
+        pivot: Pivot::Auto,
+        speed: None,
+    };
+    let asked = asked_lever(&task, &tool, &lever).expect("a lever-up");
+    let through = LeverFault::Meets { body: "wall".to_owned() };
+    assert_eq!(asked.broken, Some(through.clone()));
+    let verifier = LeverVerifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    assert_eq!(verifier.verify(&task, &tool, &asked.plan).forbidden, [through]);
+    // From the other side there is no wall.
+    let other = AskedLever { place: AskedPlace::Edge(3, 0.5), ..lever };
+    assert_eq!(asked_lever(&task, &tool, &other).expect("a lever-up").broken, None);
+}
+
+#[test]
+fn plans_are_the_same_for_any_number_of_threads() {
+    let task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
+    let solve = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let solution = pool.install(|| planner(Effort::Draft).solve(&task, &library()));
+        solution.expect("a sound task").plans
+    };
+    assert_eq!(solve(1), solve(3));
+}

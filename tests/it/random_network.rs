@@ -1,0 +1,90 @@
+//! A network of random weights, and a scene that asks everything of it.
+
+use std::sync::Arc;
+
+use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
+use pushplan::dataset::DatasetConfig;
+use pushplan::geometry::{Pose, Shape};
+use pushplan::graph::Batch;
+use pushplan::network::{Card, Config, Normaliser, Parameters, Weights};
+use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
+
+/// Random weights whose last layer is not zero, so that the network matters, nor large, so
+/// that a rollout stays near a push and does not amplify rounding.
+pub fn weights(width: usize) -> Weights {
+    let config = Config { width, steps: 2 };
+    let mut parameters = Parameters::fresh(&config, 3);
+    let like = parameters.values["motion.hidden"].clone();
+    for name in ["motion.even", "motion.odd"] {
+        if let Some(values) = parameters.values.get_mut(name) {
+            let count = values.len();
+            values.iter_mut().zip(&like[..count]).for_each(|(value, x)| *value = 0.02 * x);
+        }
+    }
+    let batch = batch(&scene(), &scene().start(), &stroke());
+    Weights {
+        card: Card {
+            config,
+            normaliser: Normaliser::measure(&batch),
+            ranges: DatasetConfig::default().ranges(),
+            data_seed: 0,
+            episodes: 0,
+            steps: 0,
+            errors: None,
+        },
+        parameters,
+    }
+}
+
+pub fn object(shape: Shape, x: f64, y: f64, heading: f64) -> Object {
+    Object::new(format!("{x} {y}"), shape).friction(0.5).at(x, y, heading)
+}
+
+/// A box against the tool, a cylinder against the box, a heavier box beside both, an obstacle.
+pub fn scene() -> Scene {
+    Scene::new([
+        object(Shape::Cuboid { size: [0.08, 0.05, 0.1] }, 0.075, 0.012, 0.2),
+        object(Shape::Cylinder { radius: 0.04, height: 0.1 }, 0.165, 0.02, 0.0),
+        object(Shape::Cuboid { size: [0.05, 0.05, 0.1] }, 0.12, 0.09, 0.7).mass(1.1),
+    ])
+    .on_table(0.4)
+    .with_obstacle(
+        Obstacle::new("wall", [0.02, 0.2, 0.1], Pose::new(0.22, -0.05, 0.1)).friction(0.3),
+    )
+}
+
+pub fn tool() -> Arc<Tool> {
+    let part = |name: &str, size, pose| Part::cuboid(name, size, pose);
+    let parts = vec![
+        part("bar", [0.04, 0.16, 0.05], Pose::default()),
+        part("side", [0.06, 0.03, 0.05], Pose::new(0.05, -0.065, 0.0)),
+    ];
+    let joints = [[0, 1]];
+    Arc::new(Tool::joined("t", parts, &joints).expect("one piece").friction(0.6))
+}
+
+pub fn stroke() -> Stroke {
+    let to = Pose::new(0.1, 0.02, 0.0);
+    Stroke { from: Pose::default(), to, duration: 1.0, settle: true }
+}
+
+/// Half the way, before the wall is met: when things are jammed, a random network soon makes
+/// centimetres of the last bit's rounding.
+pub fn half_stroke() -> Stroke {
+    Stroke { to: Pose::new(0.05, 0.01, 0.0), duration: 0.5, settle: false, ..stroke() }
+}
+
+pub fn batch(scene: &Scene, state: &State, stroke: &Stroke) -> Batch {
+    let mut batch = Batch::default();
+    let bodies = Bodies::new(scene, &tool(), 0.002, &Physics::stated(scene));
+    let axis = (stroke.to.position - stroke.from.position).normalize();
+    add_graph(&mut batch, 0, FrameProblem { bodies: &bodies, state, step: &stroke.frame(0), axis });
+    batch
+}
+
+/// Adds the graph of a frame.
+pub fn add_graph(batch: &mut Batch, graph: u32, problem: FrameProblem<'_>) {
+    let mut solver = FrameSolver::default();
+    let (frame, forces) = solver.solve_with_forces(problem);
+    batch.add(graph, &frame, &forces);
+}
