@@ -118,6 +118,22 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     assert!(LeverWeights::from_bytes(&bytes[..bytes.len() - 4]).is_err());
 }
 
+/// On other lever-ups than those that the page of results shows.
+#[test]
+fn the_shipped_network_is_small_and_better_than_what_it_corrects_and_than_the_prior() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/models/lever.safetensors");
+    assert!(std::fs::metadata(file).expect("a file").len() < 150_000);
+    let network = LeverNetwork::shipped().expect("sound weights");
+    for preset in [LeverPreset::Fixed, LeverPreset::Varied] {
+        let drawn = episodes(preset, 12, 240);
+        let models: [&dyn LeverModel; 3] = [&network, &LeverNetwork::PRIOR, &LeverPrior::default()];
+        let report = lever_report((preset, 12), drawn.episodes(), &models);
+        let lift: Vec<f64> =
+            report.rows.iter().map(|row| row.lift.as_ref().expect("errors").mean).collect();
+        assert!(lift[0] < 0.95 * lift[1] && lift[0] < 0.95 * lift[2], "{preset}: {lift:?} m");
+    }
+}
+
 #[test]
 fn the_prior_is_better_than_nothing_and_the_lever_point_is_found() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");

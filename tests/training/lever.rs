@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
 use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
-use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork, LeverPrior};
+use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
 use pushplan::judge::lever_error;
 use pushplan::network::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
@@ -82,7 +82,7 @@ fn an_untrained_network_leaves_the_way_of_the_prior_as_it_is() {
     let sizes = LeverInputs::sizes(features, true, 8);
     let network = LeverNetwork::new(&weights(features, sizes, fresh_lever(&sizes, 1)));
     let network = network.expect("a network");
-    for (a, b) in network.rollout(&jobs).iter().zip(LeverPrior::default().rollout(&jobs)) {
+    for (a, b) in network.rollout(&jobs).iter().zip(LeverNetwork::PRIOR.rollout(&jobs)) {
         for (a, b) in a.lift.iter().zip(&b.lift) {
             // Single precision.
             let apart = (a.position - b.position).norm();

@@ -8,7 +8,12 @@ use thiserror::Error;
 use crate::network::{LEVER_POSE, LeverCell, LeverWeights, WeightsError};
 use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
 
-use super::{LeverInputs, LeverModel, LeverPrior, LeverTrust, LeverView, lever_inputs};
+use super::{
+    LeverInputs, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, lever_inputs,
+};
+
+/// The trained weights that are part of the library; `models/lever.md` says what they are.
+const WEIGHTS: &[u8] = include_bytes!("../../../models/lever.safetensors");
 
 /// Why weights of lever-ups cannot be used.
 #[derive(Debug, Error)]
@@ -43,6 +48,9 @@ pub struct LeverNetwork {
 }
 
 impl LeverNetwork {
+    /// What is corrected.
+    pub const PRIOR: LeverPrior = LeverPrior { settings: PriorSettings::CORRECTED };
+
     /// Of these weights.
     ///
     /// # Errors
@@ -55,8 +63,19 @@ impl LeverNetwork {
         Ok(Self {
             cell: LeverCell::new(weights),
             features: card.features,
-            prior: card.prior.then(LeverPrior::default),
+            prior: card.prior.then_some(Self::PRIOR),
         })
+    }
+
+    /// The shipped network.
+    ///
+    /// # Errors
+    /// [`LeverNetworkError`] if the library was built around a damaged file.
+    pub fn shipped() -> Result<Self, LeverNetworkError> {
+        let weights = LeverWeights::from_bytes(WEIGHTS).map_err(|error| {
+            LeverNetworkError::Weights { path: "lever.safetensors".to_owned(), error }
+        })?;
+        Self::new(&weights)
     }
 
     /// Reads a weights file.

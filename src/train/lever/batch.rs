@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::{
     dataset::LeverEpisode,
-    effect::{LeverInputs, LeverModel, LeverPrior, LeverView, lever_inputs},
+    effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs},
     network::{LEVER_POSE, LeverGraph, LeverTensors, Statistics},
     scene::{Ending, LEVER_FRAMES},
     train::lever::settings::LeverSettings,
@@ -41,7 +41,7 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
     let job = episode.job();
     let prior = settings
         .prior
-        .then(|| LeverPrior::default().rollout(std::slice::from_ref(&job)))
+        .then(|| LeverNetwork::PRIOR.rollout(std::slice::from_ref(&job)))
         .and_then(|mut said| said.pop());
     let inputs = lever_inputs(settings.features, &job, prior.as_ref());
     let view = LeverView::new(&job);

@@ -36,12 +36,12 @@ impl Default for LeverSettings {
         Self {
             features: LeverFeatures::Shape,
             prior: true,
-            width: 64,
+            width: 56,
             seed: 1,
             batch: 64,
-            evaluate_every: 250,
+            evaluate_every: 1000,
             descent: Descent {
-                steps: 4000,
+                steps: 8000,
                 learning_rate: 3e-3,
                 warm_up: 200,
                 weight_decay: 0.02,

@@ -113,7 +113,7 @@ fn open(
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let sizes = LeverInputs::sizes(settings.features, settings.prior, settings.width);
             let table = |of: &dyn Fn(&Example) -> &[f32]| -> Vec<f32> {
-                examples.iter().flat_map(|example| of(example)).copied().collect()
+                examples.iter().flat_map(of).copied().collect()
             };
             let still = Statistics::measure(&table(&|e| &e.inputs.still), sizes.still, true);
             let moving = Statistics::measure(&table(&|e| &e.inputs.moving), sizes.moving, true);
