@@ -18,6 +18,16 @@ const BESIDE: i32 = 3;
 /// Rounds after the first: places are then 0.16 mm apart.
 const ROUNDS: usize = 3;
 
+/// Every place on an outline, to be told apart as frames come in.
+pub struct LeverSearch<'a> {
+    model: &'a dyn LeverModel,
+    job: &'a LeverJob,
+    /// Places at these lengths along the outline, metres, and what the model says of them.
+    known: Vec<(f64, Place, LeverTrajectory)>,
+    /// Their distance, metres.
+    spacing: f64,
+}
+
 /// What the first frames say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverPoint {
@@ -29,25 +39,38 @@ pub struct LeverPoint {
     pub told: LeverTrajectory,
 }
 
-impl LeverPoint {
-    /// The place on the outline of the plate of `job` from which `model` moves it most nearly as it
-    /// is `seen`, frame by frame from the first; the job's own place is not looked at, but the rest
-    /// of its motion is known. `None` if nothing is seen.
-    pub fn infer(model: &dyn LeverModel, job: &LeverJob, seen: &[Pose3]) -> Option<Self> {
+impl<'a> LeverSearch<'a> {
+    /// Of the plate of `job`, whose own place is not looked at; the rest of its motion is known.
+    pub fn new(model: &'a dyn LeverModel, job: &'a LeverJob) -> Self {
+        let outline = length(job.scene.plates[job.lever.plate].corners());
+        let count = (outline / SPACING).ceil().max(1.0);
+        let spacing = outline / count;
+        let lengths: Vec<f64> = (0..count as usize).map(|k| k as f64 * spacing).collect();
+        Self { model, job, known: roll(model, job, &lengths), spacing }
+    }
+
+    /// The place from which the model moves the plate most nearly as it is `seen`, frame by frame
+    /// from the first. `None` if nothing is seen.
+    pub fn infer(&self, seen: &[Pose3]) -> Option<LeverPoint> {
         if seen.is_empty() {
             return None;
         }
-        let corners = job.scene.plates[job.lever.plate].corners();
-        let outline = length(corners);
-        let count = (outline / SPACING).ceil().max(1.0);
-        let mut spacing = outline / count;
-        let places = (0..count as usize).map(|k| k as f64 * spacing).collect::<Vec<_>>();
-        let (mut at, mut best) = nearest(model, job, seen, &places)?;
+        let corners = self.job.scene.plates[self.job.lever.plate].corners();
+        let nearest = |known: &[(f64, Place, LeverTrajectory)]| {
+            let off = |told: &LeverTrajectory| misfit(corners, seen, &told.lift);
+            let all = known.iter().map(|(at, place, told)| (*at, *place, off(told), told));
+            let best = all.min_by(|a, b| a.2.total_cmp(&b.2));
+            best.map(|(at, place, misfit, told)| {
+                (at, LeverPoint { place, misfit, told: told.clone() })
+            })
+        };
+        let (mut at, mut best) = nearest(&self.known)?;
+        let mut spacing = self.spacing;
         for _ in 0..ROUNDS {
             spacing /= f64::from(BESIDE + 1);
             let beside = (-BESIDE..=BESIDE).filter(|k| *k != 0);
-            let places: Vec<f64> = beside.map(|k| at + f64::from(k) * spacing).collect();
-            if let Some((place, found)) = nearest(model, job, seen, &places)
+            let lengths: Vec<f64> = beside.map(|k| at + f64::from(k) * spacing).collect();
+            if let Some((place, found)) = nearest(&roll(self.model, self.job, &lengths))
                 && found.misfit < best.misfit
             {
                 (at, best) = (place, found);
@@ -55,7 +78,9 @@ impl LeverPoint {
         }
         Some(best)
     }
+}
 
+impl LeverPoint {
     /// How far it is from the job's own place: the angle between both as seen from the centre of
     /// mass, radians, 0 to pi.
     pub fn off(&self, job: &LeverJob) -> f64 {
@@ -90,28 +115,21 @@ impl LeverPoint {
     }
 }
 
-/// Of places at these lengths along the outline the best, by its length.
-fn nearest(
+/// What the model says of the places at these lengths along the outline, metres.
+fn roll(
     model: &dyn LeverModel,
     job: &LeverJob,
-    seen: &[Pose3],
     lengths: &[f64],
-) -> Option<(f64, LeverPoint)> {
+) -> Vec<(f64, Place, LeverTrajectory)> {
     let corners = job.scene.plates[job.lever.plate].corners();
-    let jobs: Vec<LeverJob> = lengths
-        .iter()
-        .map(|length| LeverJob {
-            scene: job.scene.clone(),
-            lever: LeverUp { place: place(corners, *length), ..job.lever },
-        })
-        .collect();
+    let at = |length: &f64| LeverJob {
+        scene: job.scene.clone(),
+        lever: LeverUp { place: place(corners, *length), ..job.lever },
+    };
+    let jobs: Vec<LeverJob> = lengths.iter().map(at).collect();
     let told = model.rollout(&jobs);
-    let points = jobs.iter().zip(told).map(|(job, told)| LeverPoint {
-        place: job.lever.place,
-        misfit: misfit(corners, seen, &told.lift),
-        told,
-    });
-    lengths.iter().copied().zip(points).min_by(|(_, a), (_, b)| a.misfit.total_cmp(&b.misfit))
+    let places = jobs.iter().map(|job| job.lever.place);
+    lengths.iter().zip(places).zip(told).map(|((at, place), told)| (*at, place, told)).collect()
 }
 
 /// Root mean square distance of corners between poses of the frame, metres.
@@ -193,10 +211,11 @@ mod tests {
         let shown = model.rollout(std::slice::from_ref(&job)).remove(0);
         let elsewhere = LeverUp { place: Place { edge: 3, fraction: 0.5 }, ..job.lever };
         let asked = LeverJob { scene: job.scene.clone(), lever: elsewhere };
-        let found = LeverPoint::infer(&model, &asked, &shown.lift[..1]).expect("a frame");
+        let search = LeverSearch::new(&model, &asked);
+        let found = search.infer(&shown.lift[..1]).expect("a frame");
         assert!(found.off(&job) < 0.01, "{} rad, {found:?}", found.off(&job));
         assert!(found.off(&asked) > 1.0);
-        assert!(LeverPoint::infer(&model, &asked, &[]).is_none());
+        assert!(search.infer(&[]).is_none());
     }
 
     #[test]

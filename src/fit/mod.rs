@@ -4,7 +4,7 @@
 //! numbers, the *spread* of the support and the coefficient of friction of pusher and object, and for
 //! every cell how far an effect model told these two ends from what was recorded: with a law of the
 //! noise that is a posterior. Of the first frames of a lever-up: where the blade is, see
-//! [`LeverPoint`]. It draws nothing and reads no files.
+//! [`LeverSearch`]. It draws nothing and reads no files.
 
 mod grid;
 mod lever_point;
@@ -13,7 +13,7 @@ mod posterior;
 mod run;
 
 pub use grid::{Axis, Grid};
-pub use lever_point::LeverPoint;
+pub use lever_point::{LeverPoint, LeverSearch};
 pub use likelihood::NoiseLaw;
 pub use posterior::{Estimate, Posterior};
 pub use run::{Fit, FitSettings, SupportError, fit};

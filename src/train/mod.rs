@@ -23,7 +23,7 @@ mod trainer;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use descent::Descent;
 pub use example::{Examples, Exposure, Noise};
-pub use lever::{LeverCheckpoint, LeverLine, LeverSettings, train_lever};
+pub use lever::{LeverCheckpoint, LeverLine, LeverScore, LeverSettings, train_lever};
 pub use metrics::{HeldOutError, MetricLine};
 pub use optimiser::AdamW;
 pub use regulator::{

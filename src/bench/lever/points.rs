@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dataset::{LeverEpisode, LeverPreset};
 use crate::effect::LeverModel;
-use crate::fit::LeverPoint;
+use crate::fit::LeverSearch;
 use crate::geometry::Pose3;
 use crate::judge::Summary;
 use crate::scene::LEVER_FRAMES;
@@ -77,9 +77,10 @@ fn measure(model: &dyn LeverModel, episode: &LeverEpisode) -> Vec<Found> {
         (apart.iter().map(|far| far * far).sum::<f64>() / apart.len().max(1) as f64).sqrt()
     };
     let alone = model.rollout(std::slice::from_ref(&job));
+    let search = LeverSearch::new(model, &job);
     let one = |seen: usize| {
         let (before, after) = lift.split_at(seen);
-        let point = LeverPoint::infer(model, &job, before)?;
+        let point = search.infer(before)?;
         let off = apart(after, &point.rest(&job, before));
         let alone = alone.first().map_or_else(Vec::new, |told| apart(after, &told.lift[seen..]));
         Some([point.off(&job), over(&off), *off.last()?, over(&alone)])

@@ -8,5 +8,5 @@ mod settings;
 mod trainer;
 
 pub use checkpoint::LeverCheckpoint;
-pub use settings::{LeverLine, LeverSettings};
+pub use settings::{LeverLine, LeverScore, LeverSettings};
 pub use trainer::train_lever;
