@@ -137,15 +137,19 @@ fn the_shipped_network_is_small_and_better_than_what_it_corrects_and_than_the_pr
 #[test]
 fn the_prior_is_better_than_nothing_and_the_lever_point_is_found() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
-    let drawn = episodes(LeverPreset::Disc, 6, 20);
+    let drawn = episodes(LeverPreset::Board, 6, 20);
     let prior = LeverPrior::default();
-    let report = lever_report((LeverPreset::Disc, 6), drawn.episodes(), &[&prior]);
+    let report = lever_report((LeverPreset::Board, 6), drawn.episodes(), &[&prior]);
     let lift = report.rows[0].lift.as_ref().expect("errors").mean;
     assert!(lift < 0.1 * report.motion, "{lift} of {} m", report.motion);
 
-    let points = point_report((LeverPreset::Disc, 6), drawn.episodes(), &prior);
-    let again = pool.install(|| point_report((LeverPreset::Disc, 6), drawn.episodes(), &prior));
+    let points = point_report((LeverPreset::Board, 6), drawn.episodes(), &prior);
+    let again = pool.install(|| point_report((LeverPreset::Board, 6), drawn.episodes(), &prior));
     assert_eq!(points, again);
+
+    // A disc is a hundred corners, each of which may touch: few are enough.
+    let drawn = episodes(LeverPreset::Disc, 6, 2);
+    let points = point_report((LeverPreset::Disc, 6), drawn.episodes(), &prior);
     for (seen, most) in [(1, 10.0_f64), (3, 4.0), (7, 2.0)] {
         let row = &points.rows[seen - 1];
         assert_eq!(row.seen, seen);
