@@ -18,11 +18,11 @@ const AHEAD: [usize; 5] = [2, 5, 8, 11, 14];
 /// A lever-up in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverInputs {
-    /// Features of the whole: [S].
+    /// Features of the whole, `[S]`.
     pub still: Vec<f32>,
     /// Features of every frame: [T, M].
     pub moving: Vec<f32>,
-    /// What predictions are added to: poses [T, 9] and that at rest [9].
+    /// What predictions are added to: poses `[T, 9]` and that at rest, `[9]`.
     pub base: Vec<f32>,
 }
 

@@ -46,7 +46,7 @@ impl LeverCell {
         }
     }
 
-    /// Predicts from features `still` [S] of the lever-up and `moving` [T, M] of its frames.
+    /// Predicts from features `still`, `[S]`, of the lever-up and `moving`, `[T, M]`, of its frames.
     pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverTold {
         let (still, moving) = (scaled(&self.still, still), scaled(&self.moving, moving));
         Arch::new().dispatch(Run { cell: self, still: &still, moving: &moving })
