@@ -41,7 +41,8 @@ pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
     ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
-    LeverSuite, Neighbour, Setting, SupportRow, convergence, lever_report, support_rows,
+    LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow, convergence, lever_report,
+    point_report, support_rows,
 };
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,

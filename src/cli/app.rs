@@ -18,7 +18,7 @@ use super::{
     simulate, solve, tradeoff, verify,
 };
 #[cfg(feature = "train")]
-use super::{train, train_regulator};
+use super::{train, train_lever, train_regulator};
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
@@ -47,12 +47,17 @@ enum Command {
     Train(train::TrainArgs),
     #[cfg(feature = "train")]
     TrainRegulator(train_regulator::TrainRegulatorArgs),
+    #[cfg(feature = "train")]
+    TrainLever(train_lever::TrainLeverArgs),
     /// Train the network, in a build with the feature `train`
     #[cfg(not(feature = "train"))]
     Train(untrained::UntrainedArgs),
     /// Train the belief regulator, in a build with the feature `train`
     #[cfg(not(feature = "train"))]
     TrainRegulator(untrained::UntrainedArgs),
+    /// Train a network of lever-ups, in a build with the feature `train`
+    #[cfg(not(feature = "train"))]
+    TrainLever(untrained::UntrainedArgs),
     Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
@@ -100,8 +105,12 @@ fn execute(cli: &Cli) -> Result<u8, CliError> {
         Command::Train(args) => train::run(args, &session),
         #[cfg(feature = "train")]
         Command::TrainRegulator(args) => train_regulator::run(args, &session),
+        #[cfg(feature = "train")]
+        Command::TrainLever(args) => train_lever::run(args, &session),
         #[cfg(not(feature = "train"))]
-        Command::Train(_) | Command::TrainRegulator(_) => Err(untrained::run()),
+        Command::Train(_) | Command::TrainRegulator(_) | Command::TrainLever(_) => {
+            Err(untrained::run())
+        }
         Command::Evaluate(args) => evaluate::run(args, &session),
         Command::Fit(args) => fit::run(args, &session),
         Command::Infer(args) => infer::run(args, &session),

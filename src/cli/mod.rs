@@ -38,6 +38,8 @@ mod tradeoff;
 #[cfg(feature = "train")]
 mod train;
 #[cfg(feature = "train")]
+mod train_lever;
+#[cfg(feature = "train")]
 mod train_regulator;
 #[cfg(not(feature = "train"))]
 mod untrained;

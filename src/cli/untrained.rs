@@ -1,4 +1,4 @@
-//! `pushplan train` and `pushplan train-regulator` in builds without candle: how to get them.
+//! `pushplan train`, `train-regulator` and `train-lever` in builds without candle: how to get them.
 
 use std::ffi::OsString;
 

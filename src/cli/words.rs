@@ -8,6 +8,8 @@ use crate::dataset::{JointRule, LeverPreset, Preset, Solids};
 use crate::effect::Outside;
 use crate::report::PageView;
 use crate::scene::Engine;
+#[cfg(feature = "train")]
+use crate::scene::LeverFeatures;
 use crate::solve::Effort;
 #[cfg(feature = "train")]
 use crate::train::Exposure;
@@ -64,6 +66,16 @@ pub static LEVER_PRESETS: [(&str, LeverPreset, &str); 6] = [
     ("pcb", LeverPreset::Board, "A circuit board's outline levered up at any place"),
     ("hdd", LeverPreset::Drive, "Boards lifted or pried out of drives built of cuboids"),
     ("lying", LeverPreset::Lying, "Boxes and lying cylinders, alike from above"),
+];
+
+/// What a network of lever-ups is told of the shape.
+#[cfg(feature = "train")]
+pub static LEVER_FEATURES: [(&str, LeverFeatures, &str); 5] = [
+    ("nothing", LeverFeatures::Nothing, "Nothing"),
+    ("shape-context", LeverFeatures::ShapeContext, "Counts of outline points in rings and wedges"),
+    ("corners", LeverFeatures::Corners, "Corners and centre of mass"),
+    ("support", LeverFeatures::Support, "The support edge and the centre of mass"),
+    ("shape", LeverFeatures::Shape, "All of the last two"),
 ];
 
 /// What data can be made of.

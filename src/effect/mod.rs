@@ -21,8 +21,8 @@ pub use crate::scene::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{
-    LeverFeatures, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, SimulatedLevers,
-    lever_action, lever_features,
+    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
+    PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

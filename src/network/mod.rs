@@ -8,6 +8,7 @@
 
 mod config;
 mod forward;
+mod lever;
 mod normaliser;
 #[cfg(feature = "train")]
 mod operations;
@@ -21,6 +22,12 @@ mod weights;
 
 pub use config::Config;
 pub use forward::{Buffers, Forward, matrix_product};
+pub use lever::{
+    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
+    lever_layout,
+};
+#[cfg(feature = "train")]
+pub use lever::{LeverGraph, LeverTensors};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 #[cfg(feature = "train")]

@@ -17,6 +17,7 @@ mod joints;
 mod keyframes;
 mod labels;
 mod lever;
+mod lever_points;
 mod levers;
 mod number;
 mod page;
@@ -54,6 +55,7 @@ pub use lever::{
     PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
     lever_solution_document, lever_tasks_document, lever_verdict_document, lever_verdict_line,
 };
+pub use lever_points::lever_points_document;
 pub use levers::levers_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{

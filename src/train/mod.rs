@@ -9,6 +9,7 @@ mod checkpoint;
 mod descent;
 mod example;
 mod gradients;
+mod lever;
 mod log;
 mod loss;
 mod metrics;
@@ -22,6 +23,7 @@ mod trainer;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use descent::Descent;
 pub use example::{Examples, Exposure, Noise};
+pub use lever::{LeverCheckpoint, LeverLine, LeverScore, LeverSettings, train_lever};
 pub use metrics::{HeldOutError, MetricLine};
 pub use optimiser::AdamW;
 pub use regulator::{

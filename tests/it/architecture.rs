@@ -19,7 +19,7 @@ const ROOMS: [(&str, &[&str]); 25] = [
     ("rollout", &["geometry", "scene", "contact", "graph"]),
     ("effect", &["geometry", "scene", "sim", "graph", "network", "rollout"]),
     ("judge", &["geometry", "scene", "recording", "effect"]),
-    ("fit", &["scene", "effect", "judge"]),
+    ("fit", &["geometry", "scene", "effect", "judge"]),
     ("belief", &["geometry", "scene", "network", "effect"]),
     ("plan", &["geometry", "scene", "effect"]),
     // Not `plan`: the check shares no code with what it checks.
@@ -49,6 +49,7 @@ const ROOMS: [(&str, &[&str]); 25] = [
             "rollout",
             "effect",
             "judge",
+            "fit",
             "belief",
             "plan",
             "verify",

@@ -293,7 +293,7 @@ fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
 #[cfg(not(feature = "train"))]
 #[test]
 fn a_build_without_training_says_how_to_get_one_with_it() {
-    for command in ["train", "train-regulator"] {
+    for command in ["train", "train-regulator", "train-lever"] {
         let output = pushplan(&[command, "runs/any", "--steps", "9"]);
         assert_eq!(output.status.code(), Some(2));
         let said = stderr(&output);

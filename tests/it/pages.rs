@@ -8,6 +8,7 @@ pub fn commands() -> Vec<String> {
         include_str!("../../models/results.md"),
         include_str!("../../models/brdpn.md"),
         include_str!("../../models/regulator.md"),
+        include_str!("../../models/lever.md"),
         include_str!("../../models/diary.md"),
     ];
     let mut commands = Vec::new();

@@ -2,6 +2,7 @@
 
 mod command;
 mod descent;
+mod lever;
 mod predictor;
 mod regulator;
 

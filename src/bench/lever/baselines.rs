@@ -4,9 +4,9 @@ use rand::Rng;
 use rayon::prelude::*;
 
 use crate::dataset::{LeverEpisode, generator};
-use crate::effect::{LeverFeatures, LeverModel, LeverTrust, LeverView, lever_features};
+use crate::effect::{LeverModel, LeverTrust, LeverView, lever_features};
 use crate::geometry::Pose3;
-use crate::scene::{Ending, LEVER_FRAMES, LeverJob, LeverTrajectory};
+use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
 
 /// What decides which lever-up is alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

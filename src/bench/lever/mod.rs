@@ -3,11 +3,13 @@
 mod accuracy;
 mod baselines;
 mod convergence;
+mod points;
 mod suite;
 mod supports;
 
 pub use accuracy::{LeverReport, LeverRow, lever_report};
 pub use baselines::{LeverBaseline, Neighbour};
 pub use convergence::{ConvergenceReport, ConvergenceRow, Setting, convergence};
+pub use points::{PointReport, PointRow, point_report};
 pub use suite::{LeverRecord, LeverSuite};
 pub use supports::{SupportRow, support_rows};

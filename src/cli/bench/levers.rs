@@ -1,5 +1,7 @@
 //! `pushplan bench levers`: errors of models of lever-ups.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 
 use crate::bench::{LeverBaseline, Neighbour, lever_report};
@@ -9,12 +11,16 @@ use crate::cli::{
     form::Form,
     generate::data_error,
     interrupt,
+    lever::lever_network,
     session::Session,
     words::{LEVER_PRESETS, words},
 };
-use crate::dataset::{LeverConfig, LeverDataset, LeverPreset};
-use crate::effect::{LeverFeatures, LeverModel, LeverPrior, PriorSettings, SimulatedLevers};
+use crate::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use crate::effect::{
+    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
+};
 use crate::report::levers_document;
+use crate::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use crate::sim::LeverSimulator;
 
 /// Models of lever-ups against the 3-D engine, on plates that none has seen
@@ -37,6 +43,12 @@ pub struct LeversArgs {
     /// Their seed; must differ from that of the others
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
+    /// Weights of networks to measure beside the shipped one, see `pushplan train-lever`
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    network: Vec<PathBuf>,
+    /// Only plates of this many corners, of all lever-ups
+    #[arg(long, value_name = "N")]
+    corners: Option<usize>,
     #[command(flatten)]
     form: Form,
 }
@@ -46,6 +58,9 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         let message = "the lever-ups that are remembered have the seed of the others";
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
+    let others =
+        args.network.iter().map(|path| Named::load(path)).collect::<Result<Vec<_>, _>>()?;
+    let shipped = lever_network(None)?;
     interrupt::watch();
     let usual = [LeverPreset::Fixed, LeverPreset::Varied];
     let families = if args.families.is_empty() { &usual[..] } else { &args.families };
@@ -59,12 +74,15 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
             drawn.map_err(data_error)
         };
         let known = draw((args.known_seed, args.known))?;
-        let asked = draw((args.seed, args.cases))?;
+        let mut asked = draw((args.seed, args.cases))?.episodes().to_vec();
+        asked.retain(|episode| args.corners.is_none_or(|corners| corners_of(episode) == corners));
         let spinner = session.spinner("predicting");
         reports.push(session.compute(|| {
             let models = models(&known);
-            let models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
-            lever_report((*preset, args.seed), asked.episodes(), &models)
+            let mut models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            models.push(&shipped);
+            models.extend(others.iter().map(|network| network as &dyn LeverModel));
+            lever_report((*preset, args.seed), &asked, &models)
         }));
         spinner.finish_and_clear();
     }
@@ -88,4 +106,34 @@ fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
         Box::new(LeverPrior { settings: PriorSettings::FINE }),
         Box::new(SimulatedLevers { simulator: LeverSimulator::COARSE }),
     ]
+}
+
+fn corners_of(episode: &LeverEpisode) -> usize {
+    episode.scene.plates[episode.lever.plate].corners().len()
+}
+
+/// A network that is called after its file.
+struct Named {
+    network: LeverNetwork,
+    path: String,
+}
+
+impl Named {
+    fn load(path: &Path) -> Result<Self, CliError> {
+        Ok(Self { network: lever_network(Some(path))?, path: path.display().to_string() })
+    }
+}
+
+impl LeverModel for Named {
+    fn name(&self) -> String {
+        format!("{}, {}", self.network.name(), self.path)
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        self.network.trust(job)
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        self.network.rollout(jobs)
+    }
 }

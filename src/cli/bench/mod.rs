@@ -6,6 +6,7 @@ mod convergence;
 mod cost;
 mod joints;
 mod keep;
+mod lever_points;
 mod lever_tasks;
 mod levers;
 mod page;

@@ -1,73 +1,18 @@
 //! What is told of a plate's shape, in numbers of a fixed count.
 
-use std::fmt;
-
-use serde::{Deserialize, Serialize};
-
 use crate::geometry::Vector;
-use crate::scene::LeverJob;
+use crate::scene::{LeverFeatures, LeverJob};
 
 use super::LeverView;
 
-/// Most corners that are told; of outlines with more, so many at even distances.
-const CORNERS: usize = 10;
-
 /// Points of the outline that a shape context counts.
 const POINTS: usize = 500;
-
-/// Rings and wedges of a shape context.
-const BINS: [usize; 2] = [10, 11];
 
 /// The outermost ring ends at this distance, log(1 + r) in mean distances of the corners.
 const FARTHEST: f64 = 2.2;
 
 /// Unit of lengths, metres: the size of a plate.
 const LENGTH: f64 = 0.1;
-
-/// Shape features (Tekden 2020, chapter 6).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LeverFeatures {
-    /// Nothing of the shape.
-    Nothing,
-    /// Counts of outline points in 10 rings and 11 wedges of the half-plane before the lever
-    /// point; they do not say how large the plate is.
-    ShapeContext,
-    /// Up to 10 corners, counter-clockwise from the end of the levered edge, and the centre of mass.
-    Corners,
-    /// The ends of the support edge, and the centre of mass.
-    Support,
-    /// Corners and support.
-    Shape,
-}
-
-impl LeverFeatures {
-    /// How many numbers the action has.
-    pub const ACTION: usize = 6;
-
-    /// How many numbers [`lever_features`] gives.
-    pub fn count(self) -> usize {
-        match self {
-            Self::Nothing => 0,
-            Self::ShapeContext => BINS[0] * BINS[1],
-            Self::Corners => 2 * CORNERS + 2,
-            Self::Support => 7,
-            Self::Shape => 2 * CORNERS + 9,
-        }
-    }
-}
-
-impl fmt::Display for LeverFeatures {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Nothing => "no shape",
-            Self::ShapeContext => "shape context",
-            Self::Corners => "corners",
-            Self::Support => "support points",
-            Self::Shape => "corners and support points",
-        })
-    }
-}
 
 /// The features of a job's plate as seen in `view`: lengths in tenths of a metre, shares from 0 to 1.
 pub fn lever_features(features: LeverFeatures, job: &LeverJob, view: &LeverView) -> Vec<f32> {
@@ -107,10 +52,10 @@ fn outline(job: &LeverJob, view: &LeverView) -> Vec<Vector> {
 
 fn corners(job: &LeverJob, view: &LeverView) -> Vec<f32> {
     let outline = outline(job, view);
-    let count = outline.len();
+    let (count, most) = (outline.len(), LeverFeatures::CORNERS);
     // The last corner, where the levered edge begins, stands for those that are missing.
-    let nth = |k: usize| if count > CORNERS { k * count / CORNERS } else { k.min(count - 1) };
-    let mut told: Vec<f32> = (0..CORNERS).flat_map(|k| pair(outline[nth(k)])).collect();
+    let nth = |k: usize| if count > most { k * count / most } else { k.min(count - 1) };
+    let mut told: Vec<f32> = (0..most).flat_map(|k| pair(outline[nth(k)])).collect();
     told.extend(pair(view.point(job, Vector::zeros())));
     told
 }
@@ -140,7 +85,7 @@ fn pair(at: Vector) -> [f32; 2] {
 /// Shares of [`POINTS`] points at even distances along an outline in rings and wedges about the
 /// origin (Belongie, Malik and Puzicha 2002; here the inward half-plane), times their number of bins.
 fn shape_context(outline: &[Vector]) -> Vec<f32> {
-    let [rings, wedges] = BINS;
+    let [rings, wedges] = LeverFeatures::BINS;
     let mut counts = vec![0.0; rings * wedges];
     let size = outline.iter().map(|c| c.norm()).sum::<f64>() / outline.len().max(1) as f64;
     let next = |k: usize| outline[(k + 1) % outline.len()];

@@ -65,6 +65,19 @@ impl LeverView {
         [way.x, way.y, way.z, x.x, x.y, x.z, z.x, z.y, z.z]
     }
 
+    /// The middle of the blade's tip when it has made `share` of its turn, as seen from the plate if
+    /// that is in `pose`: x how far behind the levered edge, y aside, z above the underside, metres.
+    pub fn tip(&self, job: &LeverJob, share: f64, pose: &Pose3) -> [f64; 3] {
+        let lever = &job.lever;
+        let angle = lever.angle * share;
+        let (sin, cos) = if lever.pivot < 0.0 { -angle } else { angle }.sin_cos();
+        let along = Vector3::new(cos, 0.0, -sin);
+        let tip = Vector3::new(lever.pivot, 0.0, 0.0) + along * (lever.depth - lever.pivot);
+        // Back to where the plate was, with the plate.
+        let on_plate = self.start.point(pose.inverse().point(self.frame.point(tip)));
+        self.mirror(self.frame.inverse().point(on_plate)).into()
+    }
+
     /// The pose in the world that is seen so; of numbers that are no turn the nearest one that
     /// keeps the z-axis.
     pub fn pose(&self, seen: &[f64; Self::NUMBERS]) -> Pose3 {

@@ -5,6 +5,7 @@
 //! planar ones.
 
 mod action;
+mod features;
 mod goal;
 mod motion;
 mod outcome;
@@ -17,6 +18,7 @@ mod verdict;
 mod weight;
 
 pub use action::{LeverJob, LeverUp, Place, lever_frame};
+pub use features::LeverFeatures;
 pub use goal::{LeverGoal, LeverOutcome};
 pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};

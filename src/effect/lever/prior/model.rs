@@ -18,12 +18,16 @@ pub struct LeverPrior {
 
 impl LeverModel for LeverPrior {
     fn name(&self) -> String {
-        let PriorSettings { step, inertia, .. } = self.settings;
-        match (inertia, self.settings == PriorSettings::default()) {
-            (_, true) => "prior".to_owned(),
-            (true, _) => format!("prior,step=1/{:.0}", 1.0 / step),
-            (false, _) => format!("prior from rest,step=1/{:.0}", 1.0 / step),
+        let PriorSettings { step, sweeps, inertia, .. } = self.settings;
+        let usual = PriorSettings::default();
+        let mut name = if inertia { "prior" } else { "prior from rest" }.to_owned();
+        if step != usual.step {
+            name += &format!(",step=1/{:.0}", 1.0 / step);
         }
+        if inertia && sweeps != usual.sweeps {
+            name += &format!(",sweeps={sweeps}");
+        }
+        name
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {

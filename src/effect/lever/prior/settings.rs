@@ -23,6 +23,8 @@ impl PriorSettings {
     /// For search.
     pub const USUAL: Self =
         Self { step: 1.0 / 30.0, travel: 0.01, shortest: 1.0 / 120.0, sweeps: 40, inertia: true };
+    /// Below a network, which makes up for what fewer sweeps leave: about a sixth faster.
+    pub const CORRECTED: Self = Self { sweeps: 20, ..Self::USUAL };
     /// Steps beyond which finer ones bring nothing.
     pub const FINE: Self =
         Self { step: 1.0 / 240.0, travel: 0.002, shortest: 1.0 / 480.0, sweeps: 40, inertia: true };

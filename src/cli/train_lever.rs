@@ -1,0 +1,133 @@
+//! `pushplan train-lever`: a network of lever-ups, in a folder that holds the whole run.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::dataset::{LeverDataset, LeverEpisode};
+use crate::scene::LeverFeatures;
+use crate::store::FolderLock;
+use crate::train::{Descent, LeverSettings, train_lever};
+
+use super::{
+    error::CliError,
+    exit_code,
+    follow::Following,
+    generate::data_error,
+    interrupt,
+    session::Session,
+    train::train_error,
+    words::{LEVER_FEATURES, words},
+};
+
+/// Train a network of lever-ups; the same command goes on with an interrupted run
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Lever-ups are those of `pushplan generate --preset levers`. In the folder lie checkpoint.safetensors
+to go on from, metrics.jsonl, and best.safetensors, the weights with the lowest held-out error.
+Ctrl-C saves and stops; the same command then goes on, to the same bits as a run that never stopped.
+
+Examples:
+  pushplan generate data/levers --preset levers --episodes 8000 --seed 1
+  pushplan generate data/levers-held-out --preset levers --episodes 1000 --seed 2
+  pushplan train-lever runs/context --data data/levers --held-out data/levers-held-out \\
+      --features shape-context --no-prior
+  pushplan bench levers --network runs/context/best.safetensors"
+)]
+pub struct TrainLeverArgs {
+    /// Folder of the run
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Folders of lever-ups to learn from
+    #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
+    data: Vec<PathBuf>,
+    /// Folders of held-out lever-ups, of other seeds
+    #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
+    held_out: Vec<PathBuf>,
+    /// What the network is told of the shape
+    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "shape")]
+    features: LeverFeatures,
+    /// Predict everything, and correct no prior
+    #[arg(long)]
+    no_prior: bool,
+    /// Learn from this share of every folder only, its first lever-ups
+    #[arg(long, value_name = "PERCENT", default_value_t = 100,
+          value_parser = clap::value_parser!(u8).range(1..=100))]
+    share: u8,
+    /// Leave out plates of this many corners
+    #[arg(long, value_name = "CORNERS")]
+    leave_out: Option<usize>,
+    /// Steps of the whole schedule
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.steps,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Steps between held-out evaluations and checkpoints
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().evaluate_every,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    evaluate_every: u64,
+    /// Width of the hidden state
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().width as u32,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    width: u32,
+    /// Seed of first weights and batches
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().seed)]
+    seed: u64,
+}
+
+pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
+    let read = |folders: &[PathBuf]| {
+        let open = |folder: &PathBuf| LeverDataset::open(folder).map_err(data_error);
+        folders.iter().map(open).collect::<Result<Vec<_>, CliError>>()
+    };
+    let (data, held_out) = (read(&args.data)?, read(&args.held_out)?);
+    let seeds =
+        |sets: &[LeverDataset]| sets.iter().map(|set| set.config().seed).collect::<Vec<_>>();
+    if seeds(&data).iter().any(|seed| seeds(&held_out).contains(seed)) {
+        let message = "held-out lever-ups have the seed of others";
+        return Err(CliError::usage(message, "generate them with another --seed"));
+    }
+    let default = LeverSettings::default();
+    let share = |count: usize| (count * usize::from(args.share)).div_ceil(100);
+    let settings = LeverSettings {
+        features: args.features,
+        prior: !args.no_prior,
+        width: args.width as usize,
+        seed: args.seed,
+        evaluate_every: args.evaluate_every,
+        descent: Descent {
+            steps: args.steps,
+            // A short run must get past its warm-up as well.
+            warm_up: default.descent.warm_up.min(args.steps / 10),
+            ..default.descent
+        },
+        data: data
+            .iter()
+            .map(|set| set.config().split(set.config().seed, share(set.episodes().len()) as u64))
+            .collect(),
+        left_out: args.leave_out,
+        ..default
+    };
+    let corners =
+        |episode: &LeverEpisode| episode.scene.plates[episode.lever.plate].corners().len();
+    let kept = |set: &LeverDataset| {
+        let some = set.episodes().iter().take(share(set.episodes().len()));
+        some.filter(|episode| Some(corners(episode)) != args.leave_out).cloned().collect::<Vec<_>>()
+    };
+    let known: Vec<LeverEpisode> = data.iter().flat_map(kept).collect();
+    let asked: Vec<LeverEpisode> =
+        held_out.iter().flat_map(|set| set.episodes().to_vec()).collect();
+    interrupt::watch();
+    let folder = FolderLock::take(&args.folder, &Following::bar(session, "folder"))?;
+    let following = Following::bar(session, "steps");
+    let best = session.compute(|| train_lever(&settings, &known, &asked, &folder, &following));
+    following.finish()?;
+    let best = best.map_err(train_error)?;
+    if interrupt::requested() {
+        let message = "stopped; the run is saved, the same command goes on with it";
+        return Err(CliError::Interrupted(message.to_owned()));
+    }
+    if let Some(best) = best {
+        session.print(&format!("wrote {}\n", best.display()))?;
+    }
+    Ok(exit_code::DONE)
+}

@@ -1,0 +1,100 @@
+//! What a network is told of a lever-up, and to what it adds.
+
+use crate::network::{LEVER_POSE, LeverSizes};
+use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
+
+use super::{LeverView, lever_action, lever_features};
+
+/// Unit of ways that the network predicts, metres.
+const WAY: f64 = 0.05;
+
+/// Unit of where the blade's tip is, metres: how far it goes under an edge.
+const TIP: f64 = 0.02;
+
+/// Frames of the prior whose ways are told from the first step on, so that it knows what comes: when
+/// the prior slips a little too late, the correction must begin before.
+const AHEAD: [usize; 5] = [2, 5, 8, 11, 14];
+
+/// A lever-up in numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverInputs {
+    /// Features of the whole, `[S]`.
+    pub still: Vec<f32>,
+    /// Features of every frame: [T, M].
+    pub moving: Vec<f32>,
+    /// What predictions are added to: poses `[T, 9]` and that at rest, `[9]`.
+    pub base: Vec<f32>,
+}
+
+impl LeverInputs {
+    /// Widths of the inputs, with a hidden state of `width`.
+    pub fn sizes(features: LeverFeatures, prior: bool, width: usize) -> LeverSizes {
+        // Slip, endings, rest, what comes, and how long it is held.
+        let whole = if prior { 4 + LEVER_POSE + 3 * AHEAD.len() + 1 } else { 0 };
+        LeverSizes {
+            still: LeverFeatures::ACTION + features.count() + whole,
+            // Pose, whether it is held, and the blade's tip.
+            moving: 3 + if prior { LEVER_POSE + 1 + 3 } else { 0 },
+            width,
+        }
+    }
+
+    /// The numbers of a pose in the unit of predictions.
+    pub fn told(seen: [f64; LEVER_POSE]) -> [f32; LEVER_POSE] {
+        std::array::from_fn(|k| (seen[k] / unit(k)) as f32)
+    }
+
+    /// The pose behind such numbers.
+    pub fn seen(told: &[f32]) -> [f64; LEVER_POSE] {
+        std::array::from_fn(|k| f64::from(told[k]) * unit(k))
+    }
+}
+
+/// The inputs of a job, with what the prior says of it if that is corrected.
+pub fn lever_inputs(
+    features: LeverFeatures,
+    job: &LeverJob,
+    prior: Option<&LeverTrajectory>,
+) -> LeverInputs {
+    let view = LeverView::new(job);
+    let mut still = lever_action(job).to_vec();
+    still.extend(lever_features(features, job, &view));
+    let start = LeverInputs::told(view.see(&job.scene.plates[job.lever.plate].start()));
+    let (mut moving, mut base) = (Vec::new(), Vec::new());
+    for frame in 0..LEVER_FRAMES {
+        let share = (frame + 1) as f64 / LEVER_FRAMES as f64;
+        let (sin, cos) = (share * job.lever.angle).sin_cos();
+        moving.extend([share, sin, cos].map(|value| value as f32));
+        let Some(prior) = prior else {
+            base.extend(start);
+            continue;
+        };
+        let told = LeverInputs::told(view.see(&prior.lift[frame]));
+        base.extend(told);
+        moving.extend(told);
+        moving.push(is(prior.held[frame]));
+        moving.extend(view.tip(job, share, &prior.lift[frame]).map(|x| (x / TIP) as f32));
+    }
+    let Some(prior) = prior else {
+        base.extend(start);
+        return LeverInputs { still, moving, base };
+    };
+    let rest = LeverInputs::told(view.see(&prior.rest));
+    still.push(is(prior.slipped()));
+    still.extend([Ending::Back, Ending::Flipped, Ending::Leaning].map(|e| is(prior.ending == e)));
+    still.extend(rest);
+    still.extend(AHEAD.iter().flat_map(|frame| &base[frame * LEVER_POSE..][..3]));
+    let held = prior.held.iter().rposition(|held| *held).map_or(0, |frame| frame + 1);
+    still.push(held as f32 / LEVER_FRAMES as f32);
+    base.extend(rest);
+    LeverInputs { still, moving, base }
+}
+
+/// Unit of a pose's number `k`: its way comes first.
+fn unit(k: usize) -> f64 {
+    if k < 3 { WAY } else { 1.0 }
+}
+
+fn is(is: bool) -> f32 {
+    f32::from(u8::from(is))
+}

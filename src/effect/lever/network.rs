@@ -1,0 +1,143 @@
+//! Trained networks as models of lever-ups.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::network::{LEVER_POSE, LeverCell, LeverWeights, WeightsError};
+use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
+
+use super::{
+    LeverInputs, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, lever_inputs,
+};
+
+/// The trained weights that are part of the library; `models/lever.md` says what they are.
+const WEIGHTS: &[u8] = include_bytes!("../../../models/lever.safetensors");
+
+/// Why weights of lever-ups cannot be used.
+#[derive(Debug, Error)]
+pub enum LeverNetworkError {
+    /// They cannot be read.
+    #[error("cannot read {path}: {error}")]
+    File {
+        /// Of the file.
+        path: String,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// They are no such weights.
+    #[error("{path}: {error}")]
+    Weights {
+        /// Of the file.
+        path: String,
+        /// Why.
+        error: WeightsError,
+    },
+    /// They are told other features than these.
+    #[error("the weights have other inputs than their card says")]
+    Inputs,
+}
+
+/// A network, alone or as a correction of the prior.
+#[derive(Clone, Debug)]
+pub struct LeverNetwork {
+    cell: LeverCell,
+    features: LeverFeatures,
+    prior: Option<LeverPrior>,
+}
+
+impl LeverNetwork {
+    /// What is corrected.
+    pub const PRIOR: LeverPrior = LeverPrior { settings: PriorSettings::CORRECTED };
+
+    /// Of these weights.
+    ///
+    /// # Errors
+    /// [`LeverNetworkError::Inputs`] if their widths do not fit what the card says they are told.
+    pub fn new(weights: &LeverWeights) -> Result<Self, LeverNetworkError> {
+        let card = &weights.card;
+        if LeverInputs::sizes(card.features, card.prior, card.sizes.width) != card.sizes {
+            return Err(LeverNetworkError::Inputs);
+        }
+        Ok(Self {
+            cell: LeverCell::new(weights),
+            features: card.features,
+            prior: card.prior.then_some(Self::PRIOR),
+        })
+    }
+
+    /// The shipped network.
+    ///
+    /// # Errors
+    /// [`LeverNetworkError`] if the library was built around a damaged file.
+    pub fn shipped() -> Result<Self, LeverNetworkError> {
+        let weights = LeverWeights::from_bytes(WEIGHTS).map_err(|error| {
+            LeverNetworkError::Weights { path: "lever.safetensors".to_owned(), error }
+        })?;
+        Self::new(&weights)
+    }
+
+    /// Reads a weights file.
+    ///
+    /// # Errors
+    /// [`LeverNetworkError`] if it cannot be used.
+    pub fn load(path: &Path) -> Result<Self, LeverNetworkError> {
+        let name = || path.display().to_string();
+        let bytes =
+            std::fs::read(path).map_err(|error| LeverNetworkError::File { path: name(), error })?;
+        let weights = LeverWeights::from_bytes(&bytes)
+            .map_err(|error| LeverNetworkError::Weights { path: name(), error })?;
+        Self::new(&weights)
+    }
+
+    fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
+        let inputs = lever_inputs(self.features, job, prior);
+        let told = self.cell.predict(&inputs.still, &inputs.moving);
+        let view = LeverView::new(job);
+        let pose = |base: &[f32], told: &[f32]| {
+            let sum: Vec<f32> = base.iter().zip(told).map(|(base, told)| base + told).collect();
+            view.pose(&LeverInputs::seen(&sum))
+        };
+        let frames = LEVER_FRAMES * LEVER_POSE;
+        let lift = inputs.base[..frames]
+            .chunks_exact(LEVER_POSE)
+            .zip(told.poses.chunks_exact(LEVER_POSE))
+            .map(|(base, told)| pose(base, told))
+            .collect();
+        let slips = told.end[0] > 0.0;
+        let endings = [Ending::Back, Ending::Flipped, Ending::Leaning];
+        let best = (0..3).max_by(|a, b| told.end[1 + a].total_cmp(&told.end[1 + b]));
+        LeverTrajectory {
+            lift,
+            held: prior.map_or_else(|| vec![!slips; LEVER_FRAMES], |prior| prior.held.clone()),
+            rest: pose(&inputs.base[frames..], &told.end[4..]),
+            ending: best.map_or(Ending::Back, |best| endings[best]),
+            warnings: if slips { vec![LeverWarning::Slipped] } else { Vec::new() },
+        }
+    }
+}
+
+impl LeverModel for LeverNetwork {
+    fn name(&self) -> String {
+        let prior = if self.prior.is_some() { "prior + " } else { "" };
+        format!("{prior}LSTM, {}", self.features)
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        LeverPrior::default().trust(job)
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        match &self.prior {
+            Some(prior) => {
+                let said = prior.rollout(jobs);
+                jobs.par_iter()
+                    .zip(&said)
+                    .map(|(job, said)| self.predict(job, Some(said)))
+                    .collect()
+            }
+            None => jobs.par_iter().map(|job| self.predict(job, None)).collect(),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Parameters of the network of lever-ups by name and shape, and their first values.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+
+use crate::network::Parameters;
+
+/// Numbers of a pose.
+pub const LEVER_POSE: usize = 9;
+
+/// Numbers of the end: the logit of a slip, those of three endings, the pose at rest.
+pub const LEVER_ENDS: usize = 4 + LEVER_POSE;
+
+/// Widths of a network.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LeverSizes {
+    /// Features of a lever-up, S.
+    pub still: usize,
+    /// Features of a frame, M.
+    pub moving: usize,
+    /// Hidden state, H.
+    pub width: usize,
+}
+
+/// Names and shapes of all parameters. Of every row of four gates the order is input, forget, new,
+/// output.
+pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
+    let LeverSizes { still, moving, width } = *sizes;
+    vec![
+        ("gates.still", vec![still, 4 * width]),
+        ("gates.moving", vec![moving, 4 * width]),
+        ("gates.hidden", vec![width, 4 * width]),
+        ("gates.bias", vec![4 * width]),
+        ("pose.hidden", vec![width, LEVER_POSE]),
+        ("pose.bias", vec![LEVER_POSE]),
+        ("end.hidden", vec![width, width]),
+        ("end.hidden_bias", vec![width]),
+        ("end.told", vec![width, LEVER_ENDS]),
+        ("end.told_bias", vec![LEVER_ENDS]),
+    ]
+}
+
+/// Random first values from `seed`: uniform with the variance 1 / fan-in; what gives poses and the
+/// end is zero, so that an untrained network leaves the prior as it is. Forget gates begin open.
+pub fn fresh_lever(sizes: &LeverSizes, seed: u64) -> Parameters {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let values = lever_layout(sizes).into_iter().map(|(name, shape)| {
+        let zero = shape.len() == 1 || name == "pose.hidden" || name == "end.told";
+        let bound = (3.0 / shape[0].max(1) as f32).sqrt();
+        let count: usize = shape.iter().product();
+        let value = |k: usize| match name {
+            "gates.bias" if k / sizes.width == 1 => 1.0,
+            _ if zero => 0.0,
+            // Three products add up to a gate.
+            _ if name.starts_with("gates") => random.random_range(-bound..bound) * 0.577,
+            _ => random.random_range(-bound..bound),
+        };
+        (name.to_owned(), (0..count).map(value).collect())
+    });
+    Parameters { values: values.collect() }
+}

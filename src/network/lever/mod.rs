@@ -1,0 +1,26 @@
+//! The network of lever-ups: what it is made of, how it computes and how it is kept.
+//!
+//! A long short-term memory (Hochreiter and Schmidhuber 1997; Tekden 2020, chapter 6) that is told
+//! the same features in every frame and predicts every pose at once, never fed with its own
+//! predictions. With features s [S] of a lever-up, x_t [M] of a frame, and hidden states h_t [H]:
+//!
+//! ```text
+//! i, f, g, o = s W_s + x_t W_x + h_{t-1} W_h + b
+//! c_t = sigmoid(f) c_{t-1} + sigmoid(i) tanh(g)      h_t = sigmoid(o) tanh(c_t)
+//! pose_t = base_t + h_t V + a                        end = base + relu(h_T U + b_u) V_e + a_e
+//! ```
+//!
+//! `base` is what the prior says, or the start. The end is slip and ending as logits, and the pose at
+//! rest.
+
+mod cell;
+#[cfg(feature = "train")]
+mod graph;
+mod layout;
+mod weights;
+
+pub use cell::{LeverCell, LeverTold};
+#[cfg(feature = "train")]
+pub use graph::{LeverGraph, LeverTensors};
+pub use layout::{LEVER_ENDS, LEVER_POSE, LeverSizes, fresh_lever, lever_layout};
+pub use weights::{LeverCard, LeverWeights};

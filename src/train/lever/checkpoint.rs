@@ -1,0 +1,96 @@
+//! Everything that the training of a network of lever-ups needs to resume bit-exactly, in one safetensors file.
+
+use safetensors::SafeTensors;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    network::{
+        LeverSizes, Statistics, decode_parameters, encode_parameters, file_metadata, lever_layout,
+    },
+    train::{AdamW, CheckpointError},
+};
+
+use super::settings::{LeverScore, LeverSettings};
+
+/// Key of the header in the file's metadata.
+const KEY: &str = "pushplan-lever-checkpoint";
+
+/// The state of a run after some step. Batches are functions of (seed, step), so there is no
+/// generator to save.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverCheckpoint {
+    /// What decides the run.
+    pub settings: LeverSettings,
+    /// Widths of the network.
+    pub sizes: LeverSizes,
+    /// Scales of features of a lever-up, and of a frame.
+    pub scales: [Statistics; 2],
+    /// Weights, moments and average.
+    pub optimiser: AdamW,
+    /// Lowest held-out error so far.
+    pub best: Option<LeverScore>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Header {
+    settings: LeverSettings,
+    sizes: LeverSizes,
+    scales: [Statistics; 2],
+    step: u64,
+    best: Option<LeverScore>,
+}
+
+impl LeverCheckpoint {
+    /// The file's bytes.
+    ///
+    /// # Errors
+    /// If a tensor does not fit its shape.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
+        let header = Header {
+            settings: self.settings.clone(),
+            sizes: self.sizes,
+            scales: self.scales.clone(),
+            step: self.optimiser.step,
+            best: self.best,
+        };
+        let header = serde_json::to_string(&header)?;
+        let groups = [
+            ("weights/", &self.optimiser.weights),
+            ("first/", &self.optimiser.first),
+            ("second/", &self.optimiser.second),
+            ("average/", &self.optimiser.average),
+        ];
+        let layout = lever_layout(&self.sizes);
+        Ok(encode_parameters(&layout, &groups, (KEY, header))?)
+    }
+
+    /// Reads a file's bytes.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if they are not a complete checkpoint, or that of a run with other
+    /// `settings`.
+    pub fn from_bytes(bytes: &[u8], settings: &LeverSettings) -> Result<Self, CheckpointError> {
+        let text = file_metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
+        let header: Header = serde_json::from_str(&text)?;
+        if header.settings != *settings {
+            return Err(CheckpointError::Other("settings"));
+        }
+        let layout = lever_layout(&header.sizes);
+        let file = SafeTensors::deserialize(bytes)?;
+        let group = |prefix: &str| decode_parameters(&file, &layout, prefix);
+        let optimiser = AdamW {
+            weights: group("weights/")?,
+            first: group("first/")?,
+            second: group("second/")?,
+            average: group("average/")?,
+            step: header.step,
+        };
+        Ok(Self {
+            settings: header.settings,
+            sizes: header.sizes,
+            scales: header.scales,
+            optimiser,
+            best: header.best,
+        })
+    }
+}

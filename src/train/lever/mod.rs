@@ -1,0 +1,12 @@
+//! Training of networks of lever-ups on episodes, see [`crate::dataset::LeverEpisode`].
+//!
+//! A run is a folder as that of the physics predictor.
+
+mod batch;
+mod checkpoint;
+mod settings;
+mod trainer;
+
+pub use checkpoint::LeverCheckpoint;
+pub use settings::{LeverLine, LeverScore, LeverSettings};
+pub use trainer::train_lever;
