@@ -18,6 +18,7 @@ mod forces;
 mod hold;
 mod index;
 mod joint;
+mod limb;
 mod march;
 mod midway;
 mod motion;

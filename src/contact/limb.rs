@@ -1,0 +1,107 @@
+//! A joint by which a group hangs from another, and what the two feel of each other through it; see
+//! [`super::eliminated`] for the letters.
+
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use super::{
+    constraint::{Tie, apply, product},
+    unknown::Unknown,
+};
+
+/// A tie, and how the group that hangs from it answers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limb {
+    pub tie: usize,
+    pub parent: usize,
+    pub child: usize,
+    /// Whether the child is the tie's first group, which turns its equations' sign.
+    pub turned: bool,
+    /// P.
+    pub on_parent: [Vector3<f64>; 2],
+    /// C.
+    pub on_child: [Vector3<f64>; 2],
+    /// S.
+    pub stiffness: Matrix2<f64>,
+    /// The columns of W, and of W S.
+    pub answer: [Vector3<f64>; 2],
+    pub drawn: [Vector3<f64>; 2],
+    /// Twists by forces while the parent stays where it is.
+    pub held: Matrix3<f64>,
+    /// G: the child's twist by its parent's.
+    pub carried: Matrix3<f64>,
+    /// What is left to ask of the joint where all groups move freely, metres.
+    pub left: Vector2<f64>,
+}
+
+impl Limb {
+    /// Of the tie with this index; it has not been weighed yet.
+    pub fn new(tie: usize, [parent, child]: [usize; 2], turned: bool) -> Self {
+        let (rows, none) = ([Vector3::zeros(); 2], Matrix3::zeros());
+        Self {
+            tie,
+            parent,
+            child,
+            turned,
+            on_parent: rows,
+            on_child: rows,
+            stiffness: Matrix2::zeros(),
+            answer: rows,
+            drawn: rows,
+            held: none,
+            carried: none,
+            left: Vector2::zeros(),
+        }
+    }
+
+    /// Takes how the child answers, whose resistance with all that hangs from it has this inverse;
+    /// returns what the parent feels of that as a resistance of its own.
+    pub fn weigh(&mut self, tie: &Tie, inverse: &Matrix3<f64>) -> Matrix3<f64> {
+        (self.on_parent, self.on_child) =
+            if self.turned { (tie.to, tie.from) } else { (tie.from, tie.to) };
+        self.answer = self.on_child.map(|row| inverse * row);
+        let k = product(&self.on_child, &self.answer);
+        let det = k.m11 * k.m22 - k.m12 * k.m12;
+        self.stiffness = Matrix2::new(k.m22, -k.m12, -k.m12, k.m11) / det;
+        self.drawn = times(&self.answer, &self.stiffness);
+        self.held = inverse - outer(&self.drawn, &self.answer);
+        self.carried = outer(&self.drawn, &self.on_parent);
+        outer(&times(&self.on_parent, &self.stiffness), &self.on_parent)
+    }
+
+    /// Takes what is left to ask of its tie where all groups move freely.
+    pub fn ask(&mut self, tie: &Tie, unknowns: &[Unknown]) {
+        let target = Vector2::from(tie.target) * if self.turned { -1.0 } else { 1.0 };
+        self.left = target - apply(&self.on_child, &unknowns[self.child].free)
+            + apply(&self.on_parent, &unknowns[self.parent].free);
+    }
+}
+
+/// The inverse of a resistance to shifts and turns.
+pub(super) fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
+    let det = weight.m11 * weight.m22 - weight.m12 * weight.m12;
+    let shifts = Matrix2::new(weight.m22, -weight.m12, -weight.m12, weight.m11) / det;
+    let coupled = Vector2::new(weight.m13, weight.m23);
+    // Turning about the point that turning alone leaves in place.
+    let about = -shifts * coupled;
+    let turn = 1.0 / (weight.m33 + coupled.dot(&about));
+    let shifts = shifts + about * about.transpose() * turn;
+    let about = about * turn;
+    Matrix3::new(
+        shifts.m11, shifts.m12, about.x, shifts.m21, shifts.m22, about.y, about.x, about.y, turn,
+    )
+}
+
+/// J^T force.
+pub(super) fn pull(j: &[Vector3<f64>; 2], force: &Vector2<f64>) -> Vector3<f64> {
+    j[0] * force.x + j[1] * force.y
+}
+
+/// The columns of J^T S.
+fn times(j: &[Vector3<f64>; 2], s: &Matrix2<f64>) -> [Vector3<f64>; 2] {
+    [pull(j, &s.column(0).into_owned()), pull(j, &s.column(1).into_owned())]
+}
+
+/// The sum of u v^T over two columns of each.
+fn outer(u: &[Vector3<f64>; 2], v: &[Vector3<f64>; 2]) -> Matrix3<f64> {
+    u[0] * v[0].transpose() + u[1] * v[1].transpose()
+}
