@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::scene::{Physics, Scene, Tool, Unknowns};
+use crate::scene::{Physics, Scene, Span, Tool, Unknowns};
 
 use super::{
     filter::Belief,
+    masses::{MassShares, Masses},
     particles::{Numbers, Particles},
     settings::BeliefSettings,
 };
@@ -28,6 +29,20 @@ impl Belief {
         }
         belief.particles = Particles::new(scene.objects.len(), unknown, seed);
         belief
+    }
+
+    /// The belief where every mass is in one of these ranges, kg, as likely in each before anything has
+    /// touched another, whatever the scene states; no ranges, and it is the belief as it was. Which
+    /// range is then told by pushes in which objects touch each other.
+    pub fn with_mass_ranges(mut self, ranges: &[Span]) -> Self {
+        self.masses = (!ranges.is_empty()).then(|| Masses::new(self.scene.objects.len(), ranges));
+        self
+    }
+
+    /// What is believed of masses that are in one of some ranges; `None` without
+    /// [`Self::with_mass_ranges`].
+    pub fn mass_shares(&self) -> Option<MassShares> {
+        self.masses.as_ref().map(Masses::shares)
     }
 
     /// Takes another tool, its underside `lift` metres above the table, for what comes. Everything

@@ -15,6 +15,7 @@ use super::{
     group::{Push, has_unseen_headings, is_lifted},
     joints::{carried, likeliest, of_types},
     look::{Looked, Told},
+    masses::Masses,
     pair::{JointType, PairBelief},
     particles::Particles,
     regulation::{BeliefRegulator, Regulation},
@@ -41,6 +42,7 @@ pub struct Belief {
     /// Joints that are not to be found out, where the scene states its objects.
     pub(super) known: Vec<Joint>,
     pub(super) particles: Particles,
+    pub(super) masses: Option<Masses>,
     pub(super) stretch: Option<Stretch>,
     pub(super) push: Option<Push>,
     /// Not looked at yet.
@@ -90,6 +92,7 @@ impl Belief {
             track,
             known: Vec::new(),
             particles,
+            masses: None,
             stretch: None,
             push: None,
             window: Vec::new(),
@@ -167,7 +170,7 @@ impl Belief {
             looked = again;
         }
         weigh(&mut self.pairs, &looked.told, self.settings.tempering);
-        self.weigh_particles(model, window);
+        self.weigh_numbers(model, window);
         let played = (self.scene_now(), self.job(window, map));
         self.learn(window, &looked);
         let of = |(pair, told): (&PairBelief, &Told)| {
@@ -258,7 +261,16 @@ impl Belief {
     /// These joints of near pairs with all that is believed besides.
     fn with_known(&self, mut physics: Physics) -> Physics {
         physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
-        self.particles.mean(&self.scene, physics)
+        self.with_numbers(physics)
+    }
+
+    /// The likeliest masses, frictions and supports.
+    pub(super) fn with_numbers(&self, physics: Physics) -> Physics {
+        let physics = self.particles.mean(&self.scene, physics);
+        match &self.masses {
+            Some(masses) => masses.likeliest(physics),
+            None => physics,
+        }
     }
 
     pub(super) fn scene_now(&self) -> Scene {

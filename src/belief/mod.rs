@@ -15,7 +15,8 @@
 //! window told of a pair (`testimony`).
 //!
 //! Beside it, where these are unknown, particles of masses, frictions and supports, weighed after
-//! every push under the joints that are likeliest then.
+//! every push under the joints that are likeliest then; and masses that are in one of a few ranges far
+//! apart (`masses`).
 
 mod about;
 mod chance;
@@ -25,6 +26,7 @@ mod fit;
 mod group;
 mod joints;
 mod look;
+mod masses;
 mod pair;
 mod particles;
 mod regulation;
@@ -41,6 +43,7 @@ mod window;
 pub use chance::{generator, normal};
 pub use filter::{Belief, Step};
 pub use joints::carried;
+pub use masses::{MassRatio, MassShares};
 pub use pair::JointType;
 pub use particles::Numbers;
 pub use regulation::{BeliefRegulator, RegulatorError};

@@ -37,7 +37,11 @@ impl Belief {
         }
         physics.joints.sort_by_key(|joint| joint.between);
         physics.joints.extend(carried(&self.known, &self.scene, state));
-        self.particles.sample(&self.scene, physics, rng)
+        let physics = self.particles.sample(&self.scene, physics, rng);
+        match &self.masses {
+            Some(masses) => masses.sample(physics, rng),
+            None => physics,
+        }
     }
 
     /// The scene as [`Self::sample`] draws it, its objects where they are thought to be now.

@@ -1,15 +1,16 @@
-//! How what was seen of a whole push weighs the particles.
+//! How what was seen of a whole push weighs particles and masses.
 
 use std::sync::Arc;
 
 use crate::{
     effect::EffectModel,
-    scene::{Job, Observation, Record, State, Stroke, ToolMotion},
+    scene::{Job, Observation, Physics, Record, State, Stroke, ToolMotion, Trajectory},
 };
 
 use super::{
     filter::Belief,
     joints::{carried, likeliest},
+    masses::Replay,
     rolled::Rolled,
     track::{ARM, Track},
 };
@@ -37,9 +38,9 @@ pub(super) struct Stretch {
 }
 
 impl Belief {
-    /// Takes a window into the particles; they are weighed once the tool is lifted.
-    pub(super) fn weigh_particles(&mut self, model: &dyn EffectModel, window: &[Observation]) {
-        if self.particles.is_empty() {
+    /// Takes a window into what is believed of numbers; that is weighed once the tool is lifted.
+    pub(super) fn weigh_numbers(&mut self, model: &dyn EffectModel, window: &[Observation]) {
+        if self.particles.is_empty() && self.masses.is_none() {
             return;
         }
         let before = || Stretch { before: self.track.clone(), seen: Vec::new() };
@@ -57,19 +58,32 @@ impl Belief {
         physics.joints.extend(carried(&self.known, &self.scene, start));
         let strokes: Vec<Stroke> = seen.iter().flat_map(|seen| seen.strokes.clone()).collect();
         let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
-        let each = self.particles.each(&self.scene, &physics);
+        let scene = self.scene_at(start);
         let job = |physics| Job {
             start: start.clone(),
             motion: motion.clone(),
             physics: Arc::new(physics),
         };
-        let jobs: Vec<Job> = each.into_iter().map(job).collect();
-        let rolled = model.rollout(&self.scene_at(start), &jobs, Record::Frames);
-        let logs: Vec<f64> = rolled
-            .iter()
-            .map(|trajectory| likelihood(before, &Rolled::new(trajectory, seen, start), seen))
-            .collect();
-        self.particles.weigh(&logs);
+        let roll = |each: Vec<Physics>| {
+            let jobs: Vec<Job> = each.into_iter().map(job).collect();
+            model.rollout(&scene, &jobs, Record::Frames)
+        };
+        let score = |trajectory: &Trajectory| {
+            likelihood(before, &Rolled::new(trajectory, seen, start), seen)
+        };
+        if !self.particles.is_empty() {
+            let physics = match &self.masses {
+                Some(masses) => masses.likeliest(physics.clone()),
+                None => physics.clone(),
+            };
+            let rolled = roll(self.particles.each(&self.scene, &physics));
+            self.particles.weigh(&rolled.iter().map(score).collect::<Vec<_>>());
+        }
+        if let Some(mut masses) = self.masses.take() {
+            let physics = self.particles.mean(&self.scene, physics);
+            masses.weigh(&physics, &Replay { roll: &roll, score: &score });
+            self.masses = Some(masses);
+        }
     }
 }
 

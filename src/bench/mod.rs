@@ -15,6 +15,7 @@ mod far;
 mod heldout;
 mod inference;
 mod lever;
+mod masses;
 mod random;
 mod refinement;
 mod solved;
@@ -26,8 +27,8 @@ mod tradeoff;
 pub use baselines::{assumed, crowd_baselines, push_baselines};
 pub use belief::{
     Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,
-    JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When, belief_steps, follow,
-    summarise_beliefs, update_times,
+    Circumstances, JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When,
+    belief_steps, follow, summarise_beliefs, update_times,
 };
 pub use closed::{ClosedRecord, Left};
 pub use crowd::{
@@ -43,6 +44,9 @@ pub use lever::{
     ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
     LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow, convergence, lever_report,
     point_report, support_rows,
+};
+pub use masses::{
+    MassCase, MassRecord, MassSuite, MassSummary, SeenMass, SeenRatio, summarise_masses,
 };
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,

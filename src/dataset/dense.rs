@@ -67,7 +67,7 @@ pub(super) fn dense(
 
 /// Objects in the cells of a grid along x and y: the middle one first, the others brought in
 /// towards it, each straight along the line of its cell until it almost touches.
-fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
+pub(super) fn grid(rng: &mut Pcg64, ranges: &Ranges, block: &Block) -> Scene {
     let count = object_count(rng, ranges);
     let mut cells = cells(rng, count).into_iter();
     crowd(rng, ranges, block, count, |rng, objects, footprint| {

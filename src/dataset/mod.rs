@@ -19,6 +19,7 @@ mod episode;
 mod error;
 mod generate;
 mod hand;
+mod heavy;
 mod jam;
 mod joints;
 mod lesson;
@@ -45,6 +46,7 @@ pub use episode::{Episode, sample};
 pub use error::DatasetError;
 pub use generate::{generate, merge_data};
 pub use hand::HAND_RADIUS;
+pub use heavy::{MASS_RANGES, MassEpisode, MassSetup, Touched};
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
 pub use lever::{

@@ -144,7 +144,7 @@ fn neighbour(rng: &mut Pcg64, objects: &[Object], footprint: &Footprint) -> Opti
 }
 
 /// A stroke that meets an object, one not touched so far if any can be aimed at.
-fn aimed(
+pub(super) fn aimed(
     rng: &mut Pcg64,
     scene: &Scene,
     play: &HandPlay<'_>,

@@ -7,6 +7,7 @@
 //! which is why the room comes right after `effect`. It draws no scenes, makes no truth and
 //! prints nothing.
 
+mod calibration;
 mod comparison;
 mod error;
 mod lever;
@@ -14,6 +15,7 @@ mod physical;
 mod statistics;
 mod trial;
 
+pub use calibration::Calibration;
 pub use comparison::Comparison;
 pub use error::{MOVED, ObjectError, object_errors};
 pub use lever::{LeverError, lever_error};

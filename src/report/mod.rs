@@ -19,6 +19,7 @@ mod labels;
 mod lever;
 mod lever_points;
 mod levers;
+mod masses;
 mod number;
 mod page;
 mod picture;
@@ -57,6 +58,7 @@ pub use lever::{
 };
 pub use lever_points::lever_points_document;
 pub use levers::levers_document;
+pub use masses::masses_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{
     Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, run_page,

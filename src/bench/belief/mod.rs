@@ -5,11 +5,13 @@
 //! is known without looking (no joints, all contacts fixed), what the last window says alone, and
 //! geometric residual tests.
 
+mod circumstances;
 mod follow;
 mod record;
 mod suite;
 mod summary;
 
+pub use circumstances::Circumstances;
 pub use follow::{Asked, follow};
 pub use record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 pub use suite::{BeliefCase, BeliefSuite, Sighting};

@@ -13,6 +13,7 @@ use crate::{
 };
 
 use super::{
+    circumstances::Circumstances,
     follow::{Asked, follow},
     record::BeliefRecord,
 };
@@ -52,7 +53,8 @@ impl Sighting {
         }
     }
 
-    fn seeing(self) -> Seeing {
+    /// The noise, and whether headings of what is round are seen.
+    pub fn seeing(self) -> Seeing {
         let (position, degrees) = match self {
             Self::Exact | Self::Unmarked => (0.0, 0.0),
             Self::Fine | Self::UnmarkedFine => (1e-3, 0.5f64),
@@ -86,11 +88,12 @@ pub struct BeliefSuite {
     seed: u64,
     regulator: Option<BeliefRegulator>,
     rest: bool,
+    circumstances: Circumstances,
 }
 
 impl BeliefSuite {
     /// Version of the measurement; another one gives other records for the same settings.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// Every set of these families, numbers of objects and joints, seen in each of these ways. With
     /// `rest` the rest of the way is predicted as well, which costs more than the beliefs.
@@ -110,7 +113,12 @@ impl BeliefSuite {
                 cases.extend(seen.map(|sight| BeliefCase { set, sight: *sight }));
             }
         }
-        Self { cases, seed, regulator, rest }
+        Self { cases, seed, regulator, rest, circumstances: Circumstances::USUAL }
+    }
+
+    /// The same under other circumstances.
+    pub fn under(self, circumstances: Circumstances) -> Self {
+        Self { circumstances, ..self }
     }
 
     /// What is measured.
@@ -124,13 +132,16 @@ impl BeliefSuite {
         let case = index % self.cases.len();
         let BeliefCase { set, sight } = self.cases[case];
         let trajectory = (index / self.cases.len()) as u64;
-        let Episode { scene, motion, frames, .. } = set.episode(self.seed, trajectory);
-        let recording = Recording::of_frames("drawn", &scene, &motion, &frames);
+        let episode = set.episode(self.seed, trajectory);
+        let frames = self.circumstances.frames(&episode);
+        let Episode { scene, motion, .. } = &episode;
+        let recording = Recording::of_frames("drawn", scene, motion, &frames);
         let by = (model, self.regulator.as_ref(), self.rest);
         let seeing = sight.seeing();
         // Noise of its own for every case and trajectory.
         let mut rng = generator(self.seed ^ SALT, index as u64);
         let (seen, observations) = seeing.observe(&recording, &mut rng);
+        let seen = self.circumstances.told(seen);
         let seen = (&seen, &observations[..], seeing.noise);
         let (record, spent) = follow(&recording, seen, by, Asked::OnTheWay, case);
         let alone = rayon::current_num_threads() == 1;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     belief::JointType,
-    judge::{Summary, mean, percentile},
+    judge::{Calibration, Summary, mean, percentile},
 };
 
 use crate::store::Finished;
@@ -13,9 +13,6 @@ use super::{
     record::{BeliefRecord, Checkpoint, JointMethod, When},
     suite::BeliefCase,
 };
-
-/// Bins of probabilities over which calibration is measured.
-const BINS: usize = 10;
 
 /// What was measured on one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -225,7 +222,7 @@ fn right(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Right {
 
 fn sure(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Sure {
     let mut logs = Vec::new();
-    let mut bins = [[0.0; 3]; BINS];
+    let mut calibration = Calibration::default();
     for (record, one) in at {
         let found = one.probabilities.iter().find(|(method, _)| *method == by);
         let Some((_, shares)) = found else { continue };
@@ -234,20 +231,12 @@ fn sure(by: JointMethod, at: &[(&BeliefRecord, &Checkpoint)]) -> Sure {
                 continue;
             }
             logs.push(-shares[*truth as usize].max(1e-9).ln());
-            for (kind, share) in shares.iter().enumerate() {
-                let bin = ((share * BINS as f64) as usize).min(BINS - 1);
-                let hit = if kind == *truth as usize { 1.0 } else { 0.0 };
-                bins[bin][0] += 1.0;
-                bins[bin][1] += share;
-                bins[bin][2] += hit;
-            }
+            calibration.count(shares, *truth as usize);
         }
     }
-    let count: f64 = bins.iter().map(|[n, ..]| n).sum();
-    let apart: f64 = bins.iter().map(|[_, share, hit]| (share - hit).abs()).sum();
     Sure {
         by,
         nll: if logs.is_empty() { 0.0 } else { mean(&logs) },
-        calibration: if count > 0.0 { apart / count } else { 0.0 },
+        calibration: calibration.error(),
     }
 }

@@ -5,8 +5,8 @@ use clap::{Args, Subcommand};
 use crate::cli::{error::CliError, exit_code, session::Session};
 
 use super::{
-    convergence, cost, joints, lever_points, lever_tasks, levers, random, refinement, saved,
-    status, tasks, tools,
+    convergence, cost, joints, lever_points, lever_tasks, levers, masses, random, refinement,
+    saved, status, tasks, tools,
 };
 
 /// Measure what solving brings and what pushes and searches cost
@@ -27,6 +27,7 @@ enum What {
     Levers(levers::LeversArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
+    Masses(masses::MassesArgs),
     LeverTasks(lever_tasks::LeverTasksArgs),
     LeverPoints(lever_points::LeverPointsArgs),
     Merge(saved::MergeArgs),
@@ -45,6 +46,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Levers(args) => levers::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
+        What::Masses(args) => masses::run(args, session)?,
         What::LeverTasks(args) => lever_tasks::run(args, session)?,
         What::LeverPoints(args) => lever_points::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,

@@ -4,7 +4,8 @@ use clap::Args;
 use serde_json::json;
 
 use crate::bench::{
-    BeliefCase, BeliefRecord, BeliefSuite, CrowdFamily, Sighting, summarise_beliefs, update_times,
+    BeliefCase, BeliefRecord, BeliefSuite, Circumstances, CrowdFamily, Sighting, summarise_beliefs,
+    update_times,
 };
 use crate::cli::{
     error::CliError,
@@ -12,11 +13,11 @@ use crate::cli::{
     model,
     regulator::RegulatorArgs,
     session::Session,
-    words::{FAMILIES, JOINTS, SIGHTINGS, words},
+    words::{ENGINES, FAMILIES, JOINTS, SIGHTINGS, words},
 };
 use crate::dataset::JointRule;
 use crate::report::{Document, joints_document};
-use crate::scene::ModelSpec;
+use crate::scene::{Engine, ModelSpec};
 use crate::store::{Finished, RunManifest};
 
 use super::keep::{self, KeepArgs};
@@ -51,6 +52,13 @@ pub struct JointsArgs {
     /// Seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
+    /// Engine of the trajectories
+    #[arg(long, value_parser = words(&ENGINES), value_name = "ENGINE", default_value = "planar")]
+    engine: Engine,
+    /// Mislead the observer: friction values of objects 0.6 times, of the table 1.3 times what they
+    /// are, 0.6 kg for every mass
+    #[arg(long)]
+    misled: bool,
     /// What rolls out hypotheses and the rest of the way
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
@@ -76,7 +84,9 @@ pub fn run(args: &JointsArgs, session: &Session) -> Result<(), CliError> {
         None => (None, None),
     };
     let sets = (families, &args.objects[..], args.joints);
-    let suite = BeliefSuite::new(sets, sights, args.seed, (regulator, !args.types_only));
+    let circumstances = Circumstances { engine: args.engine, misled: args.misled };
+    let suite = BeliefSuite::new(sets, sights, args.seed, (regulator, !args.types_only))
+        .under(circumstances);
     if suite.cases().is_empty() {
         return Err(CliError::usage(
             "no set has that many objects",
@@ -88,6 +98,7 @@ pub fn run(args: &JointsArgs, session: &Session) -> Result<(), CliError> {
         "version": BeliefSuite::VERSION,
         "cases": suite.cases(),
         "rest": !args.types_only,
+        "circumstances": circumstances,
     });
     let count = args.count as usize * suite.cases().len();
     let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())

@@ -9,6 +9,7 @@ mod keep;
 mod lever_points;
 mod lever_tasks;
 mod levers;
+mod masses;
 mod page;
 mod random;
 mod refinement;

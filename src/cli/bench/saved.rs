@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::bench::{
-    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, RandomRecord, RefinedTask,
-    SolvedTask, ToolRecord, TradeOff, by_kind,
+    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, MassCase, MassRecord,
+    RandomRecord, RefinedTask, SolvedTask, ToolRecord, TradeOff, by_kind,
 };
 use crate::cli::{
     error::CliError, evaluate, form::Form, generate::data_error, output, session::Session,
@@ -19,7 +19,7 @@ use crate::report::{
 use crate::store::{self, Finished, RunManifest, Store, StoreError, line_index, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, lever_tasks, random, refinement, tasks, tools};
+use super::{joints, keep, lever_tasks, masses, random, refinement, tasks, tools};
 
 /// Put the shards of a benchmark or of training data together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -120,6 +120,12 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<BeliefCase> = cases.unwrap_or_default();
             Ok(joints::document(&cases, store.finished()))
         }
+        (masses::SUITE, [dir]) => {
+            let store = Store::<MassRecord>::load(dir)?;
+            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
+            let cases: Vec<MassCase> = cases.unwrap_or_default();
+            Ok(masses::document(&cases, store.finished()))
+        }
         (lever_tasks::SUITE, [dir]) => {
             let store = Store::<LeverRecord>::load(dir)?;
             Ok(lever_tasks_document(store.manifest(), store.finished()))
@@ -149,6 +155,7 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             tasks::SUITE
             | tools::SUITE
             | joints::SUITE
+            | masses::SUITE
             | refinement::SUITE
             | evaluate::SUITE
             | lever_tasks::SUITE,

@@ -1,0 +1,293 @@
+//! Which of a few ranges every object's mass is in, from pushes in which objects touch each other.
+//!
+//! Where no force is measured everything scales with mass, so a push tells ratios of masses in a group of
+//! objects that touch, never the scale. Ranges that lie far apart tell the scale now and then, too, as
+//! not every ratio fits all of them (thesis, section 8.3). So whole assignments of ranges to objects are
+//! weighed, not objects one by one: that one is heavier than another is known long before either mass is.
+//! Of what no other object has touched nothing is known.
+
+use rand::Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Body, Physics, Span, Trajectory};
+
+use super::{chance::weighted, density::log_sum};
+
+/// Most assignments that are kept: all of those of four objects and three ranges.
+const KEPT: usize = 81;
+
+/// What is believed of masses that are in one of some ranges.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MassShares {
+    /// Of every object the probability of each range; `None` where it touched no other object, so
+    /// that its mass cannot be told.
+    pub objects: Vec<Option<Vec<f64>>>,
+    /// Of pairs that touched each other, in the order of their indices.
+    pub ratios: Vec<MassRatio>,
+}
+
+/// How heavy the first of two objects is beside the second.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MassRatio {
+    /// The two, the lower index first.
+    pub between: [usize; 2],
+    /// Mean and standard deviation of the natural logarithm of their masses' ratio.
+    pub log: [f64; 2],
+}
+
+/// A range for every object that has touched another.
+#[derive(Clone, Debug, PartialEq)]
+struct Assignment {
+    ranges: Vec<usize>,
+    /// Logarithms of how likely it is: before the push that is looked at, and now.
+    before: f64,
+    now: f64,
+}
+
+/// What plays a push with given physics, and the logarithm of how likely what was seen is where it went
+/// like that.
+pub(super) struct Replay<'a> {
+    pub roll: &'a dyn Fn(Vec<Physics>) -> Vec<Trajectory>,
+    pub score: &'a dyn Fn(&Trajectory) -> f64,
+}
+
+/// Assignments of ranges to objects.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Masses {
+    /// Geometric means of the ranges, kg.
+    middles: Vec<f64>,
+    /// Variances of the logarithms of masses in them, which is where all are as likely.
+    widths: Vec<f64>,
+    /// Number of objects in the scene.
+    count: usize,
+    /// Those that have touched another, in the order in which they did.
+    objects: Vec<usize>,
+    /// Pairs that touched each other, the lower index first.
+    met: Vec<[usize; 2]>,
+    /// The likeliest first.
+    all: Vec<Assignment>,
+}
+
+impl Masses {
+    /// Of `count` objects that have not moved yet.
+    pub fn new(count: usize, ranges: &[Span]) -> Self {
+        Self {
+            middles: ranges.iter().map(|range| (range.low * range.high).sqrt()).collect(),
+            widths: ranges
+                .iter()
+                .map(|range| (range.high / range.low).ln().powi(2) / 12.0)
+                .collect(),
+            count,
+            objects: Vec::new(),
+            met: Vec::new(),
+            all: vec![Assignment { ranges: Vec::new(), before: 0.0, now: 0.0 }],
+        }
+    }
+
+    /// Takes a push in which everything else is as in `physics`.
+    pub fn weigh(&mut self, physics: &Physics, replay: &Replay<'_>) {
+        let played = (replay.roll)(vec![self.likeliest(physics.clone())]);
+        let met: Vec<[usize; 2]> = played.iter().flat_map(pairs).collect();
+        if met.is_empty() {
+            return;
+        }
+        let known = self.objects.len();
+        for object in met.iter().flatten() {
+            if self.objects.contains(object) {
+                continue;
+            }
+            // What it comes to with each range is what decides which assignments are kept.
+            self.objects.push(*object);
+            let each = std::mem::take(&mut self.all);
+            let middles = 0..self.middles.len();
+            let with = |one: &Assignment, range| Assignment {
+                ranges: [&one.ranges[..], &[range]].concat(),
+                ..*one
+            };
+            self.all = each
+                .iter()
+                .flat_map(|one| middles.clone().map(move |range| with(one, range)))
+                .collect();
+            self.play(physics, &met, replay);
+        }
+        if self.objects.len() == known {
+            self.play(physics, &met, replay);
+        }
+        let all = log_sum(self.all.iter().map(|one| one.now));
+        for one in &mut self.all {
+            one.now -= all;
+            one.before = one.now;
+        }
+        self.met.extend(met);
+        self.met.sort_unstable();
+        self.met.dedup();
+    }
+
+    /// Plays a push, in which these objects `met`, under all assignments; keeps the likeliest.
+    fn play(&mut self, physics: &Physics, met: &[[usize; 2]], replay: &Replay<'_>) {
+        // Where assignments differ in objects that have no part in the push, it goes the same way.
+        let part = |k: &usize| met.as_flattened().contains(k);
+        let key = |one: &Assignment| -> Vec<usize> {
+            let both = self.objects.iter().zip(&one.ranges);
+            both.filter(|(k, _)| part(k)).map(|(_, range)| *range).collect()
+        };
+        let keys: Vec<Vec<usize>> = self.all.iter().map(key).collect();
+        let mut different = keys.clone();
+        different.sort_unstable();
+        different.dedup();
+        let place = |key: &Vec<usize>| different.binary_search(key).unwrap_or_default();
+        let mut of: Vec<Physics> = vec![physics.clone(); different.len()];
+        for (one, key) in self.all.iter().zip(&keys) {
+            of[place(key)] = self.assigned(physics.clone(), &one.ranges);
+        }
+        let scores: Vec<f64> = (replay.roll)(of).iter().map(replay.score).collect();
+        for (one, key) in self.all.iter_mut().zip(&keys) {
+            // A rollout that broke off is no evidence for its assignment.
+            let score = scores.get(place(key)).copied().filter(|score| !score.is_nan());
+            one.now = one.before + score.unwrap_or(f64::NEG_INFINITY);
+        }
+        if self.all.iter().all(|one| one.now == f64::NEG_INFINITY) {
+            self.all.iter_mut().for_each(|one| one.now = one.before);
+        }
+        self.all.sort_by(|a, b| b.now.total_cmp(&a.now));
+        self.all.truncate(KEPT);
+    }
+
+    /// `physics` with the likeliest masses; those of what touched no other object are the middle ones.
+    pub fn likeliest(&self, physics: Physics) -> Physics {
+        self.assigned(physics, self.all.first().map_or(&[][..], |best| &best.ranges))
+    }
+
+    /// `physics` with masses that are drawn.
+    pub fn sample(&self, physics: Physics, rng: &mut impl Rng) -> Physics {
+        let drawn = self.all.get(weighted(rng, &self.weights()));
+        let mut physics = self.assigned(physics, drawn.map_or(&[][..], |one| &one.ranges));
+        for k in (0..self.count).filter(|k| !self.objects.contains(k)) {
+            physics.masses[k] = self.middles[rng.random_range(0..self.middles.len())];
+        }
+        physics
+    }
+
+    /// What is believed.
+    pub fn shares(&self) -> MassShares {
+        let weights = self.weights();
+        let place = |object: usize| self.objects.iter().position(|k| *k == object);
+        let objects = (0..self.count).map(|object| {
+            let place = place(object)?;
+            let mut shares = vec![0.0; self.middles.len()];
+            for (one, weight) in self.all.iter().zip(&weights) {
+                shares[one.ranges[place]] += weight;
+            }
+            Some(shares)
+        });
+        let ratios = self.met.iter().filter_map(|&between| {
+            let [first, second] = between.map(place);
+            let (first, second) = (first?, second?);
+            let log = |one: &Assignment| {
+                (self.middles[one.ranges[first]] / self.middles[one.ranges[second]]).ln()
+            };
+            let wide = |one: &Assignment| [first, second].map(|k| self.widths[one.ranges[k]]);
+            let both = || self.all.iter().zip(&weights);
+            let mean: f64 = both().map(|(one, weight)| weight * log(one)).sum();
+            let square = |one| (log(one) - mean).powi(2) + wide(one).iter().sum::<f64>();
+            let variance: f64 = both().map(|(one, weight)| weight * square(one)).sum();
+            Some(MassRatio { between, log: [mean, variance.sqrt()] })
+        });
+        MassShares { objects: objects.collect(), ratios: ratios.collect() }
+    }
+
+    fn weights(&self) -> Vec<f64> {
+        let all = log_sum(self.all.iter().map(|one| one.now));
+        self.all.iter().map(|one| (one.now - all).exp()).collect()
+    }
+
+    /// `physics` with masses in the middle of these ranges, and of the middle one for what touched no
+    /// other object.
+    fn assigned(&self, mut physics: Physics, ranges: &[usize]) -> Physics {
+        physics.masses.fill(self.middles[self.middles.len() / 2]);
+        for (object, range) in self.objects.iter().zip(ranges) {
+            physics.masses[*object] = self.middles[*range];
+        }
+        physics
+    }
+}
+
+/// Pairs of objects that touched each other, the lower index first, in order of time.
+fn pairs(trajectory: &Trajectory) -> impl Iterator<Item = [usize; 2]> {
+    trajectory.contacts.iter().filter_map(|contact| match contact.with {
+        Body::Object(other) => Some([contact.object.min(other), contact.object.max(other)]),
+        _ => None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Contact, ModelKind, Object, Scene};
+
+    const RANGES: [Span; 3] = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
+
+    /// A trajectory in which these touch.
+    fn touching(pairs: &[[usize; 2]]) -> Trajectory {
+        let contact = |[object, other]: &[usize; 2]| Contact {
+            frame: 1,
+            object: *object,
+            with: Body::Object(*other),
+        };
+        let contacts = pairs.iter().map(contact).collect();
+        Trajectory { contacts, ..Trajectory::new(ModelKind::PRIOR.into()) }
+    }
+
+    /// Of three objects, after a push in which these touch and a ratio of the first two is as likely as
+    /// `score` says.
+    fn told(pairs: &'static [[usize; 2]], score: fn(f64) -> f64) -> Masses {
+        let object = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
+        let scene = Scene::new([object("a", 0.0), object("b", 0.11), object("c", 0.5)]);
+        let mut masses = Masses::new(3, &RANGES);
+        // The time of a trajectory's only frame tells the ratio that it was played with.
+        let roll = |each: Vec<Physics>| {
+            let of = |physics: Physics| {
+                let mut trajectory = touching(pairs);
+                let frame = Trajectory::standing(
+                    ModelKind::PRIOR.into(),
+                    Default::default(),
+                    scene.start(),
+                );
+                trajectory.frames = frame.frames;
+                trajectory.frames[0].time = (physics.masses[0] / physics.masses[1]).ln();
+                trajectory
+            };
+            each.into_iter().map(of).collect()
+        };
+        let score = |trajectory: &Trajectory| score(trajectory.frames[0].time);
+        masses.weigh(&Physics::stated(&scene), &Replay { roll: &roll, score: &score });
+        masses
+    }
+
+    #[test]
+    fn a_push_tells_the_ratio_before_it_tells_either_mass() {
+        // Twice as light to four times: only light beside middling, and middling beside heavy.
+        let shares = told(&[[0, 1]], |log| -4.0 * (log + 1.6).powi(2)).shares();
+        let [first, second] = [0, 1].map(|k| shares.objects[k].clone().expect("they touched"));
+        assert!(first[0] > 0.3 && first[1] > 0.3 && first[2] < 0.01, "{first:?}");
+        assert!(second[1] > 0.3 && second[2] > 0.3 && second[0] < 0.01, "{second:?}");
+        assert_eq!(shares.objects[2], None, "nothing has touched it");
+        let [MassRatio { between: [0, 1], log: [mean, sd] }] = shares.ratios[..] else { panic!() };
+        assert!((mean + 1.6).abs() < 0.3 && sd < 0.5, "{mean} {sd}");
+    }
+
+    #[test]
+    fn what_fits_one_pair_of_ranges_alone_tells_both() {
+        let shares = told(&[[1, 0]], |log| -4.0 * (log + 3.3).powi(2)).shares();
+        assert!(shares.objects[0].as_ref().is_some_and(|of| of[0] > 0.99), "{shares:?}");
+        assert!(shares.objects[1].as_ref().is_some_and(|of| of[2] > 0.99), "{shares:?}");
+    }
+
+    #[test]
+    fn a_push_in_which_nothing_touches_and_one_that_broke_off_say_nothing() {
+        assert_eq!(told(&[], |_| 0.0), Masses::new(3, &RANGES));
+        let shares = told(&[[0, 1]], |_| f64::NAN).shares();
+        let even = |of: &Vec<f64>| of.iter().all(|share| (share - 1.0 / 3.0).abs() < 1e-12);
+        assert!(shares.objects[0].as_ref().is_some_and(even), "{shares:?}");
+    }
+}

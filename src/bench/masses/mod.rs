@@ -1,0 +1,7 @@
+//! How well masses are told from pushes in which objects touch each other (thesis, section 8.3).
+
+mod suite;
+mod summary;
+
+pub use suite::{MassCase, MassRecord, MassSuite, SeenMass, SeenRatio};
+pub use summary::{MassSummary, summarise_masses};

@@ -1,0 +1,95 @@
+//! `pushplan bench masses`: how well masses are told from pushes.
+
+use clap::Args;
+use serde_json::json;
+
+use crate::bench::{MassCase, MassRecord, MassSuite, Sighting, summarise_masses};
+use crate::cli::{
+    error::CliError,
+    form::Form,
+    model,
+    session::Session,
+    words::{SIGHTINGS, words},
+};
+use crate::dataset::MassSetup;
+use crate::report::{Document, masses_document};
+use crate::scene::ModelSpec;
+use crate::store::{Finished, RunManifest};
+
+use super::keep::{self, KeepArgs};
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "masses";
+
+/// Tell which of three ranges masses are in, from pushes in which objects touch
+#[derive(Args, Debug)]
+#[command(after_help = format!("Examples:
+  pushplan bench masses --count 100
+  pushplan bench masses --touching 2 3 --crowds 9 --seen exact --seen fine
+
+{}", keep::HELP))]
+pub struct MassesArgs {
+    /// Numbers of cylinders that touch each other, pushed once
+    #[arg(long, value_name = "N", num_args = 0.., default_values_t = [2, 3, 4],
+          value_parser = clap::value_parser!(u8).range(1..=8))]
+    touching: Vec<u8>,
+    /// Numbers of cylinders in a grid, pushed three times
+    #[arg(long, value_name = "N", num_args = 0..,
+          value_parser = clap::value_parser!(u8).range(2..=12))]
+    crowds: Vec<u8>,
+    /// How things are seen; may be given several times [default: exact, fine and coarse]
+    #[arg(long, num_args = 1.., value_parser = words(&SIGHTINGS), value_name = "HOW")]
+    seen: Vec<Sighting>,
+    /// Friction values of the objects and the table are not known either
+    #[arg(long)]
+    frictions: bool,
+    /// Trajectories of each
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    count: u32,
+    /// Seed of the scenes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// What plays pushes again with other masses
+    #[arg(long, value_name = "MODEL", default_value = "prior")]
+    model: ModelSpec,
+    #[command(flatten)]
+    keep: KeepArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &MassesArgs, session: &Session) -> Result<(), CliError> {
+    let touching = args.touching.iter().map(|count| MassSetup::Touching((*count).into()));
+    let crowds = args.crowds.iter().map(|count| MassSetup::Crowd((*count).into()));
+    let setups: Vec<MassSetup> = touching.chain(crowds).collect();
+    let sights = match &args.seen[..] {
+        [] => &[Sighting::Exact, Sighting::Fine, Sighting::Coarse][..],
+        some => some,
+    };
+    let suite = MassSuite::new(&setups, sights, args.seed, args.frictions);
+    if suite.cases().is_empty() {
+        return Err(CliError::usage("no scenes", "name numbers of cylinders: --crowds 9"));
+    }
+    let model = model::load(&args.model)?;
+    let settings = json!({
+        "version": MassSuite::VERSION,
+        "cases": suite.cases(),
+        "frictions": args.frictions,
+    });
+    let count = args.count as usize * suite.cases().len();
+    let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
+        .with_weights(keep::weights_digest(&args.model)?)
+        .with_settings(settings);
+    let store = args
+        .keep
+        .measure(session, manifest, |index| Ok(session.compute(|| suite.measure(&model, index))))?;
+    let document = document(suite.cases(), store.finished());
+    keep::show(args.form, session, &document, args.keep.out.as_deref())
+}
+
+/// The report of what was measured of these cases.
+pub fn document(cases: &[MassCase], finished: &[Finished<MassRecord>]) -> Document {
+    let records: Vec<&MassRecord> = finished.iter().map(|one| &one.record).collect();
+    masses_document(&summarise_masses(cases, &records))
+}
