@@ -446,6 +446,7 @@ def infer(
     model: str = "prior",
     noise: float = 0.001,
     heading_noise: float = 0.01,
+    mass_ranges: Sequence[tuple[float, float]] = [],
     threads: int = 0,
 ) -> Belief: ...
 def import_tool(

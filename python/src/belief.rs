@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use numpy::{PyArray1, PyArray2, PyArray3};
-use pushplan::belief::{Belief, BeliefSettings};
+use pushplan::belief::{Belief, BeliefRegulator, BeliefSettings};
 use pushplan::recording::Recording;
 use pushplan::report::belief_document;
-use pushplan::scene::Noise;
+use pushplan::scene::{Noise, Span};
 use pushplan::watch::Watch;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
@@ -81,6 +81,7 @@ impl PyRecording {
 pub struct PyBelief {
     name: String,
     objects: Vec<String>,
+    ranges: Vec<Span>,
     belief: Belief,
 }
 
@@ -134,33 +135,49 @@ impl PyBelief {
 impl PyBelief {
     fn document(&self) -> pushplan::report::Document {
         let names: Vec<&str> = self.objects.iter().map(String::as_str).collect();
-        belief_document(&self.name, &self.belief, &names)
+        belief_document(&self.name, &self.belief, &names, &self.ranges)
     }
 }
 
 /// Infers from a recording which objects hang together by which joints.
 ///
 /// `model` rolls hypotheses out; `noise` (metres) and `heading_noise` (radians) are the standard
-/// deviations of what was recorded. Joints that the recording states are not read.
+/// deviations of what was recorded. Joints that the recording states are not read. With `mass_ranges`,
+/// pairs of kilograms, lightest first, it also tells which of them every mass is in, of objects that
+/// another object touched; what the recording says of masses is then not read.
 #[pyfunction]
-#[pyo3(signature = (recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, threads = 0))]
+#[pyo3(signature = (
+    recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = vec![], threads = 0
+))]
 pub fn infer(
     py: Python<'_>,
     recording: &PyRecording,
     model: &str,
     noise: f64,
     heading_noise: f64,
+    mass_ranges: Vec<(f64, f64)>,
     threads: usize,
 ) -> PyResult<PyBelief> {
     if ![noise, heading_noise].iter().all(|value| (0.0..=0.5).contains(value)) {
         return Err(PyValueError::new_err("`noise` and `heading_noise` are 0 to 0.5"));
     }
+    let sound = |(low, high): &(f64, f64)| 1e-3 <= *low && low < high && *high <= 1e3;
+    if !mass_ranges.iter().all(sound) {
+        return Err(PyValueError::new_err(
+            "`mass_ranges` are pairs that rise, from 0.001 kg to 1000 kg: (0.2, 0.5)",
+        ));
+    }
+    let ranges: Vec<Span> = mass_ranges.iter().map(|(low, high)| Span::new(*low, *high)).collect();
     let model = words::model(py, model, Default::default())?;
+    let regulator = BeliefRegulator::shipped()
+        .map_err(|error| PyRuntimeError::new_err(format!("the shipped regulator: {error}")))?;
     let recording = &recording.0;
     let settings = BeliefSettings::new(Noise { position: noise, heading: heading_noise });
     let belief = work::run(py, words::threads(threads)?, |cancel| {
         let (tool, lift) = (recording.tool.clone(), recording.lift);
-        let mut belief = Belief::new(&recording.scene, tool, lift, settings);
+        let mut belief = Belief::new(&recording.scene, tool, lift, settings)
+            .with_mass_ranges(&ranges)
+            .regulated(regulator);
         for observation in recording.observations() {
             if cancel.cancelled() {
                 break;
@@ -171,5 +188,5 @@ pub fn infer(
         belief
     })?;
     let objects = recording.scene.objects.iter().map(|object| object.name.clone()).collect();
-    Ok(PyBelief { name: recording.name.clone(), objects, belief })
+    Ok(PyBelief { name: recording.name.clone(), objects, ranges, belief })
 }

@@ -70,6 +70,23 @@ def test_beliefs_are_those_of_the_command(root: Path, command: Any, tmp_path: Pa
     assert one.to_dict() == three.to_dict() == json.loads(ran.stdout)
 
 
+def test_a_regulated_belief_and_masses_are_those_of_the_command(
+    root: Path, command: Any, tmp_path: Path
+) -> None:
+    keys = recorded(pushplan.Task.load(root / "tasks/jointed-pair.yaml"))
+    path = tmp_path / "pair.recording.json"
+    path.write_text(json.dumps(keys, default=lambda array: array.tolist()), encoding="utf-8")
+    ran = command("infer", path, "--json", "--mass-ranges", "0.2-0.5", "1-2")
+    assert ran.returncode == 0, ran.stderr
+    ranges = [(0.2, 0.5), (1.0, 2.0)]
+    found = pushplan.infer(pushplan.Recording.load(path), mass_ranges=ranges).to_dict()
+    assert found == json.loads(ran.stdout)
+    assert found["masses"]["ranges"] == [[0.2, 0.5], [1.0, 2.0]]
+    assert len(found["masses"]["objects"]) == len(found["objects"])
+    with pytest.raises(ValueError, match="mass_ranges"):
+        pushplan.infer(pushplan.Recording.load(path), mass_ranges=[(2.0, 1.0)])
+
+
 def test_faults_of_recordings_name_their_keys(root: Path) -> None:
     keys = recorded(pushplan.Task.load(root / "tasks/jointed-pair.yaml"))
     keys["frames"][3]["objects"] = keys["frames"][3]["objects"][:1]

@@ -11,7 +11,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Body, Physics, Span, Trajectory};
 
-use super::{chance::weighted, density::log_sum};
+use super::{
+    chance::{generator, weighted},
+    density::log_sum,
+};
 
 /// Most assignments that are kept: all of those of four objects and three ranges.
 const KEPT: usize = 81;
@@ -44,11 +47,14 @@ struct Assignment {
     now: f64,
 }
 
-/// What plays a push with given physics, and the logarithm of how likely what was seen is where it went
-/// like that.
+/// A push that was seen and can be played again, from several states that may have been its start.
 pub(super) struct Replay<'a> {
-    pub roll: &'a dyn Fn(Vec<Physics>) -> Vec<Trajectory>,
-    pub score: &'a dyn Fn(&Trajectory) -> f64,
+    /// How many these are.
+    pub starts: usize,
+    /// Where it goes from each of them with these physics.
+    pub play: &'a dyn Fn(Physics) -> Vec<Trajectory>,
+    /// Logarithms of how likely what was seen is with each of these: physics for every start.
+    pub score: &'a dyn Fn(Vec<Vec<Physics>>) -> Vec<f64>,
 }
 
 /// Assignments of ranges to objects.
@@ -56,7 +62,7 @@ pub(super) struct Replay<'a> {
 pub(super) struct Masses {
     /// Geometric means of the ranges, kg.
     middles: Vec<f64>,
-    /// Variances of the logarithms of masses in them, which is where all are as likely.
+    /// Their widths, as differences of logarithms, which are as likely anywhere in them.
     widths: Vec<f64>,
     /// Number of objects in the scene.
     count: usize,
@@ -73,10 +79,7 @@ impl Masses {
     pub fn new(count: usize, ranges: &[Span]) -> Self {
         Self {
             middles: ranges.iter().map(|range| (range.low * range.high).sqrt()).collect(),
-            widths: ranges
-                .iter()
-                .map(|range| (range.high / range.low).ln().powi(2) / 12.0)
-                .collect(),
+            widths: ranges.iter().map(|range| (range.high / range.low).ln()).collect(),
             count,
             objects: Vec::new(),
             met: Vec::new(),
@@ -86,8 +89,7 @@ impl Masses {
 
     /// Takes a push in which everything else is as in `physics`.
     pub fn weigh(&mut self, physics: &Physics, replay: &Replay<'_>) {
-        let played = (replay.roll)(vec![self.likeliest(physics.clone())]);
-        let met: Vec<[usize; 2]> = played.iter().flat_map(pairs).collect();
+        let met = met(&(replay.play)(self.likeliest(physics.clone())));
         if met.is_empty() {
             return;
         }
@@ -136,11 +138,16 @@ impl Masses {
         different.sort_unstable();
         different.dedup();
         let place = |key: &Vec<usize>| different.binary_search(key).unwrap_or_default();
-        let mut of: Vec<Physics> = vec![physics.clone(); different.len()];
+        let mut of = vec![Vec::new(); different.len()];
         for (one, key) in self.all.iter().zip(&keys) {
-            of[place(key)] = self.assigned(physics.clone(), &one.ranges);
+            let at = &mut of[place(key)];
+            if at.is_empty() {
+                let start =
+                    |start| self.within(self.assigned(physics.clone(), &one.ranges), one, start);
+                *at = (0..replay.starts).map(start).collect();
+            }
         }
-        let scores: Vec<f64> = (replay.roll)(of).iter().map(replay.score).collect();
+        let scores = (replay.score)(of);
         for (one, key) in self.all.iter_mut().zip(&keys) {
             // A rollout that broke off is no evidence for its assignment.
             let score = scores.get(place(key)).copied().filter(|score| !score.is_nan());
@@ -186,7 +193,9 @@ impl Masses {
             let log = |one: &Assignment| {
                 (self.middles[one.ranges[first]] / self.middles[one.ranges[second]]).ln()
             };
-            let wide = |one: &Assignment| [first, second].map(|k| self.widths[one.ranges[k]]);
+            let wide = |one: &Assignment| {
+                [first, second].map(|k| self.widths[one.ranges[k]].powi(2) / 12.0)
+            };
             let both = || self.all.iter().zip(&weights);
             let mean: f64 = both().map(|(one, weight)| weight * log(one)).sum();
             let square = |one| (log(one) - mean).powi(2) + wide(one).iter().sum::<f64>();
@@ -201,6 +210,19 @@ impl Masses {
         self.all.iter().map(|one| (one.now - all).exp()).collect()
     }
 
+    /// `physics` with masses anywhere in the ranges of an assignment, by the number of a start: in the
+    /// middle for the first.
+    fn within(&self, mut physics: Physics, one: &Assignment, start: usize) -> Physics {
+        if start > 0 {
+            let mut rng = generator(start as u64, 0);
+            let shares: Vec<f64> = (0..self.count).map(|_| rng.random::<f64>() - 0.5).collect();
+            for (object, range) in self.objects.iter().zip(&one.ranges) {
+                physics.masses[*object] *= (shares[*object] * self.widths[*range]).exp();
+            }
+        }
+        physics
+    }
+
     /// `physics` with masses in the middle of these ranges, and of the middle one for what touched no
     /// other object.
     fn assigned(&self, mut physics: Physics, ranges: &[usize]) -> Physics {
@@ -210,6 +232,19 @@ impl Masses {
         }
         physics
     }
+}
+
+/// Pairs that touched each other in at least half of these, in the order of the first.
+fn met(played: &[Trajectory]) -> Vec<[usize; 2]> {
+    let each: Vec<Vec<[usize; 2]>> = played.iter().map(|one| pairs(one).collect()).collect();
+    let mut met: Vec<[usize; 2]> = Vec::new();
+    for pair in each.iter().flatten() {
+        let in_many = 2 * each.iter().filter(|pairs| pairs.contains(pair)).count() >= each.len();
+        if in_many && !met.contains(pair) {
+            met.push(*pair);
+        }
+    }
+    met
 }
 
 /// Pairs of objects that touched each other, the lower index first, in order of time.
@@ -244,23 +279,13 @@ mod tests {
         let object = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
         let scene = Scene::new([object("a", 0.0), object("b", 0.11), object("c", 0.5)]);
         let mut masses = Masses::new(3, &RANGES);
-        // The time of a trajectory's only frame tells the ratio that it was played with.
-        let roll = |each: Vec<Physics>| {
-            let of = |physics: Physics| {
-                let mut trajectory = touching(pairs);
-                let frame = Trajectory::standing(
-                    ModelKind::PRIOR.into(),
-                    Default::default(),
-                    scene.start(),
-                );
-                trajectory.frames = frame.frames;
-                trajectory.frames[0].time = (physics.masses[0] / physics.masses[1]).ln();
-                trajectory
-            };
-            each.into_iter().map(of).collect()
+        let ratio = |physics: &Physics| (physics.masses[0] / physics.masses[1]).ln();
+        let replay = Replay {
+            starts: 1,
+            play: &|_| vec![touching(pairs)],
+            score: &|each| each.iter().map(|physics| score(ratio(&physics[0]))).collect(),
         };
-        let score = |trajectory: &Trajectory| score(trajectory.frames[0].time);
-        masses.weigh(&Physics::stated(&scene), &Replay { roll: &roll, score: &score });
+        masses.weigh(&Physics::stated(&scene), &replay);
         masses
     }
 

@@ -1,17 +1,23 @@
 //! Where every object is thought to be, from where it was rolled out to and where it was seen.
 
 use crate::{
-    geometry::{Pose, wrap_angle},
-    scene::{Noise, Observation, Sight, State},
+    geometry::{Pose, Vector, contact_points, wrap_angle},
+    scene::{Noise, Observation, Scene, Sight, State},
 };
 
-use super::rolled::Rolled;
+use super::{
+    chance::{generator, normal},
+    rolled::Rolled,
+};
 
 /// What moves by less in a window says nothing, metres.
 const STILL: f64 = 2e-4;
 
 /// Error of a rollout over a window for an object by itself: metres, and a share of its motion.
 const ASTRAY: [f64; 2] = [2e-4, 0.05];
+
+/// Draws of which the one counts in which objects overlap least.
+const TRIES: usize = 16;
 
 /// Headings count like positions at this arm, metres.
 pub(super) const ARM: f64 = 0.04;
@@ -93,6 +99,33 @@ impl Track {
         log
     }
 
+    /// `count` states that this may be, the likeliest first. Those drawn beside it are the ones of a few
+    /// in which objects overlap least, as things do not.
+    pub fn starts(&self, scene: &Scene, count: usize) -> Vec<State> {
+        let mut rng = generator(scene.objects.len() as u64, count as u64);
+        let mut draw = || {
+            let mut state = self.state.clone();
+            for (pose, [place, turn]) in state.poses.iter_mut().zip(&self.variance) {
+                let off = Vector::new(normal(&mut rng), normal(&mut rng));
+                pose.position += place.sqrt() * off;
+                pose.heading += turn.sqrt() * normal(&mut rng);
+            }
+            (overlap(scene, &state), state)
+        };
+        let mut drawn = || {
+            let mut best = draw();
+            for _ in 1..TRIES {
+                let other = draw();
+                if other.0 < best.0 {
+                    best = other;
+                }
+            }
+            best.1
+        };
+        let others = (1..count).map(|_| drawn());
+        std::iter::once(self.state.clone()).chain(others).collect()
+    }
+
     /// Goes to the end of a window: where things were rolled out to, corrected by where they were
     /// seen, as far as that is surer.
     pub fn follow(&mut self, rolled: &Rolled, window: &[Observation]) {
@@ -129,6 +162,20 @@ impl Track {
             self.variance[k] = variance;
         }
     }
+}
+
+/// How deep objects overlap, summed over pairs, metres.
+fn overlap(scene: &Scene, state: &State) -> f64 {
+    let prints: Vec<_> = scene.objects.iter().map(|object| object.shape.footprint()).collect();
+    let mut sum = 0.0;
+    for (a, first) in prints.iter().enumerate() {
+        for (b, second) in prints.iter().enumerate().take(a) {
+            let (points, _) =
+                contact_points((first, &state.poses[a]), (second, &state.poses[b]), 0.0);
+            sum -= points[0].map_or(0.0, |point| point.gap);
+        }
+    }
+    sum
 }
 
 /// By how much an observation moves an estimate of this variance.

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::belief::{Belief, BeliefSettings};
 use crate::recording::Recording;
 use crate::report::belief_document;
-use crate::scene::ModelSpec;
+use crate::scene::{ModelSpec, Span};
 use crate::watch::Count;
 
 use super::{
@@ -27,9 +27,13 @@ and frictions, is taken for true but hardly matters. Headings that are not recor
 where objects are pushed about one by one nearly as many joints are found as with headings, in a
 tight crowd about a fifth of the pairs are mistaken.
 
+Masses can only be told of objects that another object touched: without a force that is measured
+motion shows their ratios, and which range each is in as far as ratios tell it (--mass-ranges).
+
 Examples:
   pushplan infer pushes.recording.json
-  pushplan infer pushes.recording.json --noise 0.003 --heading-noise 0.03 --out plans"
+  pushplan infer pushes.recording.json --noise 0.003 --heading-noise 0.03 --out plans
+  pushplan infer pushes.recording.json --mass-ranges 0.2-0.5 1-2 8-10"
 )]
 pub struct InferArgs {
     /// A recording, or a trajectory file
@@ -40,6 +44,10 @@ pub struct InferArgs {
     model: ModelSpec,
     #[command(flatten)]
     noise: NoiseArgs,
+    /// Also tell which of these ranges every mass is in, lightest first, kg; what the recording says
+    /// of masses is then not read
+    #[arg(long, value_name = "LOW-HIGH", num_args = 2.., value_parser = mass_range)]
+    mass_ranges: Vec<Span>,
     /// Folder for belief.json and belief.svg
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -62,7 +70,8 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     }
     let noise = args.noise.noise();
     let (tool, lift) = (recording.tool.clone(), recording.lift);
-    let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise));
+    let mut belief = Belief::new(&recording.scene, tool, lift, BeliefSettings::new(noise))
+        .with_mass_ranges(&args.mass_ranges);
     if let Some((regulator, _)) = args.regulator.load()? {
         belief = belief.regulated(regulator);
     }
@@ -79,11 +88,20 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     following.finish()?;
     let names: Vec<&str> =
         recording.scene.objects.iter().map(|object| object.name.as_str()).collect();
-    let document = belief_document(&recording.name, &belief, &names);
+    let document = belief_document(&recording.name, &belief, &names, &args.mass_ranges);
     if let Some(folder) = &args.out {
         output::write(folder, "belief.json", document.to_json().as_bytes())?;
         output::write_figures(folder, document.figures())?;
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)
+}
+
+fn mass_range(text: &str) -> Result<Span, String> {
+    let range = text.split_once('-').and_then(|(low, high)| {
+        Some(Span::new(low.trim().parse().ok()?, high.trim().parse().ok()?))
+    });
+    let range = range.ok_or_else(|| "200 to 500 g is 0.2-0.5".to_owned())?;
+    let sound = 1e-3 <= range.low && range.low < range.high && range.high <= 1e3;
+    sound.then_some(range).ok_or_else(|| "it must rise, from 0.001 kg to 1000 kg".to_owned())
 }

@@ -2,8 +2,8 @@
 
 use serde_json::json;
 
-use crate::belief::{Belief, JointType};
-use crate::scene::{Joint, JointKind};
+use crate::belief::{Belief, JointType, MassShares};
+use crate::scene::{Joint, JointKind, Span};
 
 use super::chart::{Axis, Chart, Mark, Series};
 use super::document::{Document, Drawing, Figure, Section};
@@ -13,8 +13,12 @@ use super::table::{
     NONE, Table,
 };
 
-/// The belief about the objects called `names` that hold a recording of this title.
-pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document {
+/// Nine in ten normal numbers lie within so many standard deviations.
+const NINE_IN_TEN: f64 = 1.645;
+
+/// The belief about the objects called `names` of a recording of this title; `ranges` are those that masses
+/// may be in, if they were to be told.
+pub fn belief_document(title: &str, belief: &Belief, names: &[&str], ranges: &[Span]) -> Document {
     let now = belief.situation();
     let probabilities = belief.probabilities();
     let name = |[a, b]: [usize; 2]| format!("{} and {}", names[a], names[b]);
@@ -48,7 +52,12 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document
     };
     let title = format!("{title}: {observations} observations; {pairs} near enough to be joined");
     let figures = if rows.is_empty() { Vec::new() } else { vec![over_time(belief, &name)] };
-    let json = json!({
+    let mut sections = vec![Section { table, figures, ..Section::default() }];
+    let masses = belief.mass_shares();
+    if let Some(masses) = &masses {
+        sections.extend(mass_sections(masses, names, ranges));
+    }
+    let mut json = json!({
         "objects": names,
         "pairs": rows.iter().map(|(_, between)| between).collect::<Vec<_>>(),
         "types": JointType::ALL,
@@ -56,12 +65,53 @@ pub fn belief_document(title: &str, belief: &Belief, names: &[&str]) -> Document
         "joints": now.physics.joints,
         "history": belief.history(),
     });
-    Document {
-        title,
-        sections: vec![Section { table, figures, ..Section::default() }],
-        json,
-        ..Document::default()
+    if let Some(masses) = masses {
+        json["masses"] = json!({
+            "ranges": ranges.iter().map(|range| [range.low, range.high]).collect::<Vec<_>>(),
+            "objects": masses.objects,
+            "ratios": masses.ratios,
+        });
     }
+    Document { title, sections, json, ..Document::default() }
+}
+
+/// Masses by range, and ratios of those that touched.
+fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Section> {
+    let titles: Vec<String> =
+        ranges.iter().map(|range| format!("{} to {} kg", range.low, range.high)).collect();
+    let mut columns = vec![("object", Left)];
+    columns.extend(titles.iter().map(|title| (title.as_str(), Right)));
+    columns.push(("known", Left));
+    let mut table = Table::new(columns);
+    for (name, shares) in names.iter().zip(&masses.objects) {
+        let mut cells = vec![(*name).to_owned()];
+        let shares_of = |share: &f64| format!("{:.1} %", 1e2 * share);
+        cells.extend(
+            (0..ranges.len())
+                .map(|k| shares.as_ref().map_or(NONE.to_owned(), |shares| shares_of(&shares[k]))),
+        );
+        let known = if shares.is_some() { "by what it touched" } else { "no: touched no other" };
+        cells.push(known.to_owned());
+        table.row(cells);
+    }
+    let mut sections = vec![Section { title: "Masses".into(), table, ..Section::default() }];
+    if !masses.ratios.is_empty() {
+        let mut table =
+            Table::new([("objects", Left), ("ratio of masses", Right), ("nine in ten", Right)]);
+        for ratio in &masses.ratios {
+            let [a, b] = ratio.between.map(|k| names[k]);
+            let [mean, sd] = ratio.log;
+            let [low, high] = [-NINE_IN_TEN, NINE_IN_TEN].map(|far| (mean + far * sd).exp());
+            let cells = [
+                format!("{a} to {b}"),
+                format!("{:.2}", mean.exp()),
+                format!("{low:.2} to {high:.2}"),
+            ];
+            table.row(cells);
+        }
+        sections.push(Section { title: "Ratios of masses".into(), table, ..Section::default() });
+    }
+    sections
 }
 
 /// Where a joint is while the objects are where they were seen last.

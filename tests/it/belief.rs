@@ -10,7 +10,7 @@ use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::recording::Recording;
 use pushplan::scene::{
     Engine, Job, Joint, JointKind, Noise, Object, Observation, Part, Push, Rate, Record, Scene,
-    Tool, ToolMotion,
+    Span, Tool, ToolMotion,
 };
 use pushplan::sim::Simulator;
 use rand::{Rng, SeedableRng};
@@ -301,4 +301,38 @@ fn the_command_infers_from_a_simulated_trajectory() {
     );
     let wrong = pushplan(&["infer", file, "--noise", "-1"]);
     assert_eq!(wrong.status.code(), Some(2));
+}
+
+#[test]
+fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
+    let ranges = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
+    let log = |masses: [f64; 2]| {
+        let (mut scene, motion) = cylinders(None);
+        // The second stands in the way of the first, a little aside.
+        scene.objects[1].pose = Pose::new(0.6, 0.02, 0.0);
+        scene.objects.iter_mut().zip(masses).for_each(|(object, mass)| object.mass = mass);
+        let recording = recorded(&scene, &motion, Engine::Planar);
+        let settings = BeliefSettings::new(EXACT);
+        let mut belief = Belief::new(&scene, motion.tool, motion.lift, settings);
+        assert_eq!(belief.mass_shares(), None);
+        belief = belief.with_mass_ranges(&ranges);
+        assert!(belief.mass_shares().is_some_and(|shares| shares.objects == [None, None]));
+        let prior = Prior::default();
+        for observation in recording.observations() {
+            belief.update(&prior, observation);
+        }
+        belief.settle(&prior);
+        let shares = belief.mass_shares().expect("asked for");
+        for of in shares.objects.iter().flatten() {
+            assert!((of.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{of:?}");
+        }
+        let [ratio] = shares.ratios[..] else { panic!("they met: {shares:?}") };
+        assert_eq!(ratio.between, [0, 1]);
+        // What is planned with follows.
+        let planned = belief.map().masses;
+        assert_eq!(planned[0] < planned[1], ratio.log[0] < 0.0, "{planned:?} {ratio:?}");
+        ratio.log[0]
+    };
+    let (lighter, heavier) = (log([0.3, 9.0]), log([9.0, 0.3]));
+    assert!(lighter < -1.0 && heavier > 1.0, "{lighter} {heavier}");
 }

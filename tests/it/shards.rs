@@ -71,6 +71,11 @@ fn of_inferred_joints() {
 }
 
 #[test]
+fn of_masses() {
+    shards_make_the_same_bytes("bench masses --count 2 --touching 2 --crowds 4 --seen fine", 2);
+}
+
+#[test]
 fn of_evaluations() {
     let on = "--on single sparse-line --objects 6 --joints mixed --no-baselines";
     let home = shards_make_the_same_bytes(&format!("evaluate prior {on} --pushes 6 --count 1"), 2);
