@@ -53,7 +53,7 @@ pub(super) struct Replay<'a> {
     pub starts: usize,
     /// Where it goes from each of them with these physics.
     pub play: &'a dyn Fn(Physics) -> Vec<Trajectory>,
-    /// Logarithms of how likely what was seen is with each of these: physics for every start.
+    /// Logarithms of how likely what was seen is with each of these: physics for the first starts.
     pub score: &'a dyn Fn(Vec<Vec<Physics>>) -> Vec<f64>,
 }
 
@@ -93,12 +93,11 @@ impl Masses {
         if met.is_empty() {
             return;
         }
-        let known = self.objects.len();
         for object in met.iter().flatten() {
             if self.objects.contains(object) {
                 continue;
             }
-            // What it comes to with each range is what decides which assignments are kept.
+            // What the likeliest start comes to with each range decides which assignments are kept.
             self.objects.push(*object);
             let each = std::mem::take(&mut self.all);
             let middles = 0..self.middles.len();
@@ -110,11 +109,9 @@ impl Masses {
                 .iter()
                 .flat_map(|one| middles.clone().map(move |range| with(one, range)))
                 .collect();
-            self.play(physics, &met, replay);
+            self.play(physics, &met, replay, 1);
         }
-        if self.objects.len() == known {
-            self.play(physics, &met, replay);
-        }
+        self.play(physics, &met, replay, replay.starts);
         let all = log_sum(self.all.iter().map(|one| one.now));
         for one in &mut self.all {
             one.now -= all;
@@ -125,8 +122,9 @@ impl Masses {
         self.met.dedup();
     }
 
-    /// Plays a push, in which these objects `met`, under all assignments; keeps the likeliest.
-    fn play(&mut self, physics: &Physics, met: &[[usize; 2]], replay: &Replay<'_>) {
+    /// Plays a push, in which these objects `met`, from the first `starts` under all assignments; keeps
+    /// the likeliest.
+    fn play(&mut self, physics: &Physics, met: &[[usize; 2]], replay: &Replay<'_>, starts: usize) {
         // Where assignments differ in objects that have no part in the push, it goes the same way.
         let part = |k: &usize| met.as_flattened().contains(k);
         let key = |one: &Assignment| -> Vec<usize> {
@@ -144,7 +142,7 @@ impl Masses {
             if at.is_empty() {
                 let start =
                     |start| self.within(self.assigned(physics.clone(), &one.ranges), one, start);
-                *at = (0..replay.starts).map(start).collect();
+                *at = (0..starts).map(start).collect();
             }
         }
         let scores = (replay.score)(of);

@@ -101,6 +101,7 @@ impl Belief {
                 model.rollout(&scene, &jobs, Record::Frames)
             };
             let score = |each: Vec<Vec<Physics>>| -> Vec<f64> {
+                let played = each.first().map_or(1, Vec::len);
                 let jobs: Vec<Job> =
                     each.into_iter().flat_map(|physics| from(&starts, physics)).collect();
                 let rolled = model.rollout(&scene, &jobs, Record::Frames);
@@ -108,9 +109,9 @@ impl Belief {
                     likelihood(before, &Rolled::new(trajectory, seen, &job.start), seen)
                 };
                 let logs: Vec<f64> = rolled.iter().zip(&jobs).map(log).collect();
-                // The mean over all starts.
+                // The mean over the starts.
                 let mean = |logs: &[f64]| log_sum(logs.iter().copied().filter(|log| !log.is_nan()));
-                logs.chunks(starts.len()).map(|logs| OF_MASSES * mean(logs)).collect()
+                logs.chunks(played).map(|logs| OF_MASSES * mean(logs)).collect()
             };
             let replay = Replay { starts: starts.len(), play: &play, score: &score };
             masses.weigh(&physics, &replay);

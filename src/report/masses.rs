@@ -3,7 +3,6 @@
 use serde_json::json;
 
 use crate::bench::MassSummary;
-use crate::dataset::MassSetup;
 
 use super::document::{Document, Section};
 use super::table::{
@@ -38,12 +37,8 @@ pub fn masses_document(summaries: &[MassSummary]) -> Document {
     ]);
     let percent = |share: f64| format!("{:.1}", 1e2 * share);
     for one in summaries {
-        let setup = match one.case.setup {
-            MassSetup::Touching(count) => format!("{count} touching, 1 stroke"),
-            MassSetup::Crowd(count) => format!("crowd of {count}, 3 strokes"),
-        };
         table.row([
-            setup,
+            one.case.scenes(),
             one.case.sight.title().to_owned(),
             one.touched.to_string(),
             percent(one.right),

@@ -308,6 +308,9 @@ fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
     let ranges = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];
     let log = |masses: [f64; 2]| {
         let (mut scene, motion) = cylinders(None);
+        let straight =
+            Push { start: Vector::new(0.44, 0.0), direction: 0.0, length: 0.3, speed: 0.1 };
+        let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[straight], false);
         // The second stands in the way of the first, a little aside.
         scene.objects[1].pose = Pose::new(0.6, 0.02, 0.0);
         scene.objects.iter_mut().zip(masses).for_each(|(object, mass)| object.mass = mass);

@@ -24,6 +24,16 @@ pub struct MassCase {
     pub sight: Sighting,
 }
 
+impl MassCase {
+    /// The scenes, for tables.
+    pub fn scenes(&self) -> String {
+        match self.setup {
+            MassSetup::Touching(count) => format!("{count} touching, 1 stroke"),
+            MassSetup::Crowd(count) => format!("crowd of {count}, 3 strokes"),
+        }
+    }
+}
+
 /// What is believed of an object in the end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeenMass {
