@@ -41,9 +41,9 @@ pub use far::{FAR_COUNTS, FarCost, far_costs};
 pub use heldout::{DISTURBANCE, ErrorRow, HeldOut, HeldOutErrors, HeldOutReport};
 pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
-    ConvergenceReport, ConvergenceRow, LeverBaseline, LeverRecord, LeverReport, LeverRow,
-    LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow, convergence, lever_report,
-    point_report, support_rows,
+    ConvergenceReport, ConvergenceRow, DriveReport, DriveRow, LeverBaseline, LeverRecord,
+    LeverReport, LeverRow, LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow,
+    convergence, drive_report, lever_report, point_report, support_rows,
 };
 pub use masses::{
     MassCase, MassRecord, MassSuite, MassSummary, SeenMass, SeenRatio, summarise_masses,

@@ -45,7 +45,7 @@ pub struct TrainLeverArgs {
     #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
     held_out: Vec<PathBuf>,
     /// What the network is told of the shape
-    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "shape")]
+    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support")]
     features: LeverFeatures,
     /// Predict everything, and correct no prior
     #[arg(long)]

@@ -6,6 +6,7 @@
 mod cast;
 mod clearance;
 mod contact;
+mod cuboids;
 mod flat;
 mod outline;
 mod polygon;
@@ -20,6 +21,7 @@ mod turn;
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
 pub use contact::{ContactPoint, Follows, contact_points};
+pub use cuboids::{Box3, BoxContact};
 pub use outline::{Extent, OutlinePiece, outline};
 pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};
 pub use pose::{Pose, Vector, cross, perpendicular, wrap_angle};

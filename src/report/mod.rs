@@ -11,6 +11,7 @@ mod cost;
 mod crowd;
 mod document;
 mod fit;
+mod hdd;
 mod heldout;
 mod html;
 mod joints;
@@ -50,6 +51,7 @@ pub use cost::{cost_document, crowd_cost_document, equation_document, far_docume
 pub use crowd::{crowd_document, evaluation_document};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
+pub use hdd::hdd_document;
 pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
 pub use lever::{

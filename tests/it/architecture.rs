@@ -96,8 +96,9 @@ const ROOMS: [(&str, &[&str]); 25] = [
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
-const DOORS: [(&str, &[&str]); 20] = [
+const DOORS: [(&str, &[&str]); 21] = [
     ("parry2d_f64", &["geometry"]),
+    ("parry3d_f64", &["geometry"]),
     ("serde_yaml", &["asset"]),
     ("rapier2d", &["sim"]),
     ("rapier3d_f64", &["sim"]),

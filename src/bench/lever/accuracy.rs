@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::dataset::{LeverEpisode, LeverPreset};
 use crate::effect::{LeverModel, LeverTrust};
 use crate::judge::{LeverError, Summary, lever_error};
-use crate::scene::{Ending, LeverJob};
+use crate::scene::{Ending, LeverJob, LeverTrajectory};
 
 use super::super::cpu_clock::timed;
 use super::baselines::LeverBaseline;
@@ -101,12 +101,7 @@ fn row(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> LeverRow {
         .map(|episode| (episode, episode.job()))
         .filter(|(_, job)| takes(job))
         .unzip();
-    // One core, so that its time is that of one core.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let (predicted, time) = match pool {
-        Ok(pool) => pool.install(|| timed(|| model.rollout(&jobs))),
-        Err(_) => timed(|| model.rollout(&jobs)),
-    };
+    let (predicted, time) = on_one_core(model, &jobs);
     let errors: Vec<_> = mine
         .iter()
         .zip(&jobs)
@@ -134,6 +129,19 @@ fn row(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> LeverRow {
         rest: over(&all, &|error| error.rest),
         slips: share(&|error| error.same_slip),
         endings: share(&|error| error.same_ending),
-        time: time.as_secs_f64() / jobs.len().max(1) as f64,
+        time,
     }
+}
+
+/// What `model` says of `jobs`, and the processor time of a job on one core, seconds.
+pub(super) fn on_one_core(
+    model: &dyn LeverModel,
+    jobs: &[LeverJob],
+) -> (Vec<LeverTrajectory>, f64) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let (predicted, time) = match pool {
+        Ok(pool) => pool.install(|| timed(|| model.rollout(jobs))),
+        Err(_) => timed(|| model.rollout(jobs)),
+    };
+    (predicted, time.as_secs_f64() / jobs.len().max(1) as f64)
 }

@@ -3,6 +3,7 @@
 mod accuracy;
 mod baselines;
 mod convergence;
+mod drives;
 mod points;
 mod suite;
 mod supports;
@@ -10,6 +11,7 @@ mod supports;
 pub use accuracy::{LeverReport, LeverRow, lever_report};
 pub use baselines::{LeverBaseline, Neighbour};
 pub use convergence::{ConvergenceReport, ConvergenceRow, Setting, convergence};
+pub use drives::{DriveReport, DriveRow, drive_report};
 pub use points::{PointReport, PointRow, point_report};
 pub use suite::{LeverRecord, LeverSuite};
 pub use supports::{SupportRow, support_rows};

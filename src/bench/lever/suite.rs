@@ -126,7 +126,7 @@ impl LeverSuite {
 }
 
 /// The floor between the walls, as a body of its own: what must be left.
-fn pocket(blocks: &[Block]) -> Block {
+pub(super) fn pocket(blocks: &[Block]) -> Block {
     let floor = &blocks[0];
     let mut inner = [f64::INFINITY; 2];
     for wall in blocks.iter().filter(|block| block.name.starts_with("wall-")) {

@@ -5,7 +5,7 @@ use clap::{Args, Subcommand};
 use crate::cli::{error::CliError, exit_code, session::Session};
 
 use super::{
-    convergence, cost, joints, lever_points, lever_tasks, levers, masses, random, refinement,
+    convergence, cost, hdd, joints, lever_points, lever_tasks, levers, masses, random, refinement,
     saved, status, tasks, tools,
 };
 
@@ -25,6 +25,7 @@ enum What {
     Cost(cost::CostArgs),
     Convergence(convergence::ConvergenceArgs),
     Levers(levers::LeversArgs),
+    Hdd(hdd::HddArgs),
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
     Masses(masses::MassesArgs),
@@ -44,6 +45,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Cost(args) => cost::run(args, session)?,
         What::Convergence(args) => convergence::run(args, session)?,
         What::Levers(args) => levers::run(args, session)?,
+        What::Hdd(args) => hdd::run(args, session)?,
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
         What::Masses(args) => masses::run(args, session)?,

@@ -59,7 +59,7 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
     let others =
-        args.network.iter().map(|path| Named::load(path)).collect::<Result<Vec<_>, _>>()?;
+        args.network.iter().map(|path| Named::load(path, false)).collect::<Result<Vec<_>, _>>()?;
     let shipped = lever_network(None)?;
     interrupt::watch();
     let usual = [LeverPreset::Fixed, LeverPreset::Varied];
@@ -113,14 +113,21 @@ fn corners_of(episode: &LeverEpisode) -> usize {
 }
 
 /// A network that is called after its file.
-struct Named {
+pub(super) struct Named {
     network: LeverNetwork,
     path: String,
+    /// Whether it is measured among blocks too, of which shipped networks know nothing.
+    among_blocks: bool,
 }
 
 impl Named {
-    fn load(path: &Path) -> Result<Self, CliError> {
-        Ok(Self { network: lever_network(Some(path))?, path: path.display().to_string() })
+    /// Reads weights.
+    ///
+    /// # Errors
+    /// [`CliError::File`] for weights that cannot be used.
+    pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
+        let network = lever_network(Some(path))?;
+        Ok(Self { network, path: path.display().to_string(), among_blocks })
     }
 }
 
@@ -130,7 +137,7 @@ impl LeverModel for Named {
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {
-        self.network.trust(job)
+        if self.among_blocks { LeverTrust::Mine { p95: None } } else { self.network.trust(job) }
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

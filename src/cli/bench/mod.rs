@@ -4,6 +4,7 @@ mod command;
 mod common;
 mod convergence;
 mod cost;
+mod hdd;
 mod joints;
 mod keep;
 mod lever_points;

@@ -125,7 +125,9 @@ impl LeverModel for LeverNetwork {
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {
-        LeverPrior::default().trust(job)
+        // It has learned of plates on a plain table.
+        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
+        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {

@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Pose3, Vector};
+use crate::geometry::{Pose, Pose3, Vector, cross};
+
+/// How far from a right angle a rectangle's corners may be: the sine.
+const SQUARE: f64 = 1e-9;
 
 /// An upright convex prism, part of a plate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,6 +16,20 @@ pub struct Slab {
     pub bottom: f64,
     /// Height, metres.
     pub height: f64,
+}
+
+impl Slab {
+    /// Of a cuboid the middle seen from above (metres), the heading (radians) and the extents along
+    /// and across it (metres), plate frame; of other outlines none.
+    pub fn rectangle(&self) -> Option<(Vector, f64, [f64; 2])> {
+        let [a, b, c, d] = *self.corners else { return None };
+        let (x, y) = (b - a, d - a);
+        let (length, width) = (x.norm(), y.norm());
+        let square = x.dot(&y).abs() <= SQUARE * length * width;
+        let closed = (c - b - y).norm() <= SQUARE * (length + width);
+        (square && closed && cross(x, y) > 0.0)
+            .then(|| (0.5 * (a + c), x.y.atan2(x.x), [length, width]))
+    }
 }
 
 /// A rigid body with a flat underside: a convex plate and whatever is fixed on it.
@@ -51,5 +68,29 @@ impl Plate {
     /// Whether it stands on feet of its own.
     pub fn has_feet(&self) -> bool {
         self.z <= self.clearance + 1e-9
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_rectangles_are_cuboids() {
+        let corner = |x: f64, y: f64| {
+            let turn: f64 = 0.4;
+            Vector::new(1.0 + turn.cos() * x - turn.sin() * y, turn.sin() * x + turn.cos() * y)
+        };
+        let corners = [(0.0, 0.0), (0.06, 0.0), (0.06, 0.03), (0.0, 0.03)];
+        let corners = corners.map(|(x, y)| corner(x, y)).to_vec();
+        let slab = Slab { corners, bottom: 0.0, height: 0.002 };
+        let (centre, turn, [x, y]) = slab.rectangle().expect("a rectangle");
+        assert!((centre - corner(0.03, 0.015)).norm() < 1e-12);
+        assert!((turn - 0.4).abs() < 1e-12 && (x - 0.06).abs() < 1e-12 && (y - 0.03).abs() < 1e-12);
+        let mut skew = slab.clone();
+        skew.corners[2].x += 1e-4;
+        assert!(skew.rectangle().is_none());
+        skew.corners.pop();
+        assert!(skew.rectangle().is_none());
     }
 }

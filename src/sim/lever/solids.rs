@@ -3,7 +3,7 @@
 use rapier3d_f64::math::Matrix;
 use rapier3d_f64::prelude::{ColliderBuilder, MassProperties, Pose3, Rotation, Vector};
 
-use crate::geometry::{Vector as Planar, cross};
+use crate::geometry::Vector as Planar;
 use crate::scene::{Blade, Plate, Slab};
 
 use super::super::solids::{cut, prism, rubbing};
@@ -16,9 +16,6 @@ const FOOT: f64 = 1e-3;
 
 /// Outlines of more corners are cut about their middle: from a corner they give needles.
 const MANY: usize = 12;
-
-/// How far from a right angle a rectangle's corners may be: the sine.
-const SQUARE: f64 = 1e-9;
 
 /// The table with its top at z = 0. On a half-space parry looks at four corners of a face, which
 /// need not be those that carry.
@@ -60,7 +57,7 @@ pub(super) fn weight(plate: &Plate) -> MassProperties {
 
 fn slab_parts(slab: &Slab, friction: f64) -> Vec<ColliderBuilder> {
     let middle = slab.bottom + 0.5 * slab.height;
-    if let Some((centre, turn, [x, y])) = rectangle(&slab.corners) {
+    if let Some((centre, turn, [x, y])) = slab.rectangle() {
         let at = Vector::new(centre.x, centre.y, middle);
         let pose = Pose3::from_parts(at, Rotation::from_rotation_z(turn));
         return vec![cuboid([x, y, slab.height], friction).position(pose)];
@@ -96,36 +93,4 @@ fn feet(plate: &Plate) -> Vec<ColliderBuilder> {
         rubbing(ColliderBuilder::ball(radius), plate.friction).translation(at)
     };
     plate.corners().iter().map(foot).collect()
-}
-
-/// Centre, heading and extents of a rectangle; of other outlines none.
-fn rectangle(corners: &[Planar]) -> Option<(Planar, f64, [f64; 2])> {
-    let [a, b, c, d] = *corners else { return None };
-    let (x, y) = (b - a, d - a);
-    let (length, width) = (x.norm(), y.norm());
-    let square = x.dot(&y).abs() <= SQUARE * length * width;
-    let closed = (c - b - y).norm() <= SQUARE * (length + width);
-    (square && closed && cross(x, y) > 0.0)
-        .then(|| (0.5 * (a + c), x.y.atan2(x.x), [length, width]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_rectangles_are_cuboids() {
-        let corner = |x: f64, y: f64| {
-            let turn: f64 = 0.4;
-            Planar::new(1.0 + turn.cos() * x - turn.sin() * y, turn.sin() * x + turn.cos() * y)
-        };
-        let rectangle_at = [(0.0, 0.0), (0.06, 0.0), (0.06, 0.03), (0.0, 0.03)];
-        let corners = rectangle_at.map(|(x, y)| corner(x, y));
-        let (centre, turn, [x, y]) = rectangle(&corners).expect("a rectangle");
-        assert!((centre - corner(0.03, 0.015)).norm() < 1e-12);
-        assert!((turn - 0.4).abs() < 1e-12 && (x - 0.06).abs() < 1e-12 && (y - 0.03).abs() < 1e-12);
-        let mut skew = corners;
-        skew[2].x += 1e-4;
-        assert!(rectangle(&skew).is_none() && rectangle(&corners[..3]).is_none());
-    }
 }

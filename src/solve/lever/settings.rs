@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::solve::Effort;
 
 /// Budgets, all counted and none in seconds, so that results do not depend on the machine. A
-/// lever-up costs about 0.3 ms of one core in the prior, 1.6 ms in coarse and 5.6 ms in fine
-/// simulation, and three times as much among the parts of a drive.
+/// lever-up costs about 0.2 ms of one core in the prior, 1.8 ms in coarse and 7 ms in fine
+/// simulation; among the parts of a drive 1, 2.5 and 9 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeverSettings {
     /// Candidates that are simulated coarsely.

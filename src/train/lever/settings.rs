@@ -34,7 +34,7 @@ pub struct LeverSettings {
 impl Default for LeverSettings {
     fn default() -> Self {
         Self {
-            features: LeverFeatures::Shape,
+            features: LeverFeatures::Support,
             prior: true,
             width: 56,
             seed: 1,

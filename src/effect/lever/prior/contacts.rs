@@ -1,6 +1,6 @@
 //! Where the plate touches table and blade, or soon will.
 
-use crate::geometry::{Vector, Vector3};
+use crate::geometry::{Box3, Pose3, Vector, Vector3};
 use crate::scene::GRAVITY;
 
 use super::body::Body;
@@ -41,6 +41,45 @@ pub(super) fn find(
     found.clear();
     on_blade(setup, body, (now, next), step, found);
     on_table(setup, body, step, found);
+    on_blocks(setup, body, step, found);
+}
+
+/// Most points of one pair of cuboids: two rectangles have at most eight corners in common.
+const OF_A_PAIR: usize = 8;
+
+/// How many contacts there may be.
+pub(super) fn count(setup: &Setup) -> usize {
+    ON_BLADE + setup.tips.len() + OF_A_PAIR * setup.parts.len() * setup.blocks.len()
+}
+
+fn on_blocks(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {
+    let reach = GRAVITY * step * step + 1e-3;
+    let reach_of_any = reach + body.fastest(setup.reach) * step;
+    let frame = Pose3 { position: body.centre, rotation: body.turn };
+    for (i, part) in setup.parts.iter().enumerate() {
+        let part = Box3 { pose: frame * part.pose, ..*part };
+        for (j, (block, friction)) in setup.blocks.iter().enumerate() {
+            let mut id = ON_BLADE + setup.tips.len();
+            id += OF_A_PAIR * (i * setup.blocks.len() + j);
+            let end = id + OF_A_PAIR;
+            part.contacts(block, reach_of_any, |contact| {
+                let arm = contact.point - body.centre;
+                let speed = body.speed + body.spin.cross(&arm);
+                if id == end || contact.gap + speed.dot(&contact.normal) * step > reach {
+                    return;
+                }
+                found.push(Contact {
+                    id,
+                    arm,
+                    normal: contact.normal,
+                    gap: contact.gap,
+                    friction: *friction,
+                    surface: Vector3::zeros(),
+                });
+                id += 1;
+            });
+        }
+    }
 }
 
 fn on_table(setup: &Setup, body: &Body, step: f64, found: &mut Vec<Contact>) {

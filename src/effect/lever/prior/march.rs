@@ -29,7 +29,7 @@ pub(super) struct Marcher {
 
 impl Marcher {
     pub fn march(&mut self, setup: &Setup, settings: &PriorSettings) -> LeverTrajectory {
-        self.solver.reset(ON_BLADE + setup.tips.len());
+        self.solver.reset(contacts::count(setup));
         let mut way = Way {
             marcher: self,
             setup,

@@ -31,14 +31,21 @@ impl LeverModel for LeverPrior {
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {
-        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
-        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+        let [plate] = &job.scene.plates[..] else { return LeverTrust::NotMine };
+        // Contacts with blocks are found between cuboids.
+        let cuboids = || plate.slabs.iter().all(|slab| slab.rectangle().is_some());
+        let takes = job.scene.blocks.is_empty() || cuboids();
+        if takes { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
     }
 
     fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
         jobs.par_iter()
             .map_init(Marcher::default, |marcher, job| {
-                marcher.march(&Setup::new(job), &self.settings)
+                let setup = Setup::new(job);
+                let among_blocks = !setup.blocks.is_empty();
+                let settings = self.settings;
+                let settings = if among_blocks { settings.among_blocks() } else { settings };
+                marcher.march(&setup, &settings)
             })
             .collect()
     }

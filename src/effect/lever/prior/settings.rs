@@ -28,6 +28,15 @@ impl PriorSettings {
     /// Steps beyond which finer ones bring nothing.
     pub const FINE: Self =
         Self { step: 1.0 / 240.0, travel: 0.002, shortest: 1.0 / 480.0, sweeps: 40, inertia: true };
+
+    /// The same among blocks, where gaps are of millimetres: steps that are short enough.
+    #[must_use]
+    pub fn among_blocks(self) -> Self {
+        if !self.inertia {
+            return self;
+        }
+        Self { step: self.step.min(1.0 / 60.0), travel: self.travel.min(0.004), ..self }
+    }
 }
 
 impl Default for PriorSettings {

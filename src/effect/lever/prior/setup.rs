@@ -1,8 +1,8 @@
 //! A lever-up in its own frame: x inward, z up from the table, the lever point above the origin,
 //! and the centre of mass never to the right.
 
-use crate::geometry::{Pose3, Vector, Vector3};
-use crate::scene::{LeverJob, LeverUp, lever_frame};
+use crate::geometry::{Box3, Pose, Pose3, Vector, Vector3};
+use crate::scene::{Block, LeverJob, LeverUp, lever_frame};
 
 use super::body::{Body, Spread};
 
@@ -43,6 +43,10 @@ pub(super) struct Setup {
     /// Half the width of the blade, and its length, metres.
     pub blade: [f64; 2],
     pub blade_height: f64,
+    /// The plate's solids where they are cuboids, about the centre of mass, body axes.
+    pub parts: Vec<Box3>,
+    /// What is fixed, with the friction coefficient against the plate.
+    pub blocks: Vec<(Box3, f64)>,
     /// What it does.
     pub lever: LeverUp,
     mirrored: bool,
@@ -86,6 +90,15 @@ impl Setup {
             }
         }
         let frame = view(Vector::zeros());
+        let parts = plate.slabs.iter().filter_map(|slab| {
+            let (middle, heading, [x, y]) = slab.rectangle()?;
+            let at = view(middle);
+            let seen = Pose::new(at.x, at.y, side * (own.heading + heading));
+            Some(Box3 {
+                pose: Pose3::upright(seen, slab.bottom + 0.5 * slab.height - above),
+                half: 0.5 * Vector3::new(x, y, slab.height),
+            })
+        });
         let mean = |other: f64| 0.5 * (plate.friction + other);
         Self {
             spread: Spread::new(&weight, &own, side),
@@ -99,12 +112,15 @@ impl Setup {
             friction: [mean(scene.table_friction), mean(scene.blade.friction)],
             blade: [0.5 * scene.blade.width, scene.blade.length],
             blade_height: scene.blade.thickness,
+            parts: parts.collect(),
+            blocks: Vec::new(),
             lever: *lever,
             mirrored,
             world: Pose3 { position: Vector3::zeros(), ..lever.frame(scene) },
             start: plate.start(),
         }
         .above(lever.frame(scene).position)
+        .among(&scene.blocks, plate.friction)
     }
 
     /// The plate's frame in the world.
@@ -122,6 +138,24 @@ impl Setup {
     /// The plate's frame at the start, in the world.
     pub fn start(&self) -> Pose3 {
         self.start
+    }
+
+    /// With these blocks about the plate.
+    fn among(mut self, blocks: &[Block], friction: f64) -> Self {
+        let own = self.world.inverse();
+        let seen = |block: &Block| {
+            let [x, y, z] = block.size;
+            let mut pose = own * Pose3::upright(block.pose, block.z + 0.5 * z);
+            if self.mirrored {
+                let [i, j, k, w] = pose.quaternion();
+                let at = pose.position;
+                let at = Vector3::new(at.x, -at.y, at.z);
+                pose = Pose3::from_quaternion(at, [-i, j, -k, w]);
+            }
+            (Box3 { pose, half: 0.5 * Vector3::new(x, y, z) }, 0.5 * (friction + block.friction))
+        };
+        self.blocks = blocks.iter().map(seen).collect();
+        self
     }
 
     /// With the frame's origin on the table below the lever point.
