@@ -19,6 +19,10 @@ use super::{
 /// Most assignments that are kept: all of those of four objects and three ranges.
 const KEPT: usize = 81;
 
+/// Of so many objects that touch in a push all evidence counts, of more a share: one wrong turn of a
+/// rollout leads all after it astray.
+const FEW: f64 = 4.0;
+
 /// What is believed of masses that are in one of some ranges.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MassShares {
@@ -146,10 +150,12 @@ impl Masses {
             }
         }
         let scores = (replay.score)(of);
+        let among = self.objects.iter().filter(|k| part(k)).count();
+        let trust = (FEW / among.max(1) as f64).min(1.0);
         for (one, key) in self.all.iter_mut().zip(&keys) {
             // A rollout that broke off is no evidence for its assignment.
             let score = scores.get(place(key)).copied().filter(|score| !score.is_nan());
-            one.now = one.before + score.unwrap_or(f64::NEG_INFINITY);
+            one.now = one.before + trust * score.unwrap_or(f64::NEG_INFINITY);
         }
         if self.all.iter().all(|one| one.now == f64::NEG_INFINITY) {
             self.all.iter_mut().for_each(|one| one.now = one.before);
