@@ -184,7 +184,7 @@ pub fn infer(
             }
             belief.update(&model, observation);
         }
-        belief.settle(&model);
+        belief.finish(&model);
         belief
     })?;
     let objects = recording.scene.objects.iter().map(|object| object.name.clone()).collect();

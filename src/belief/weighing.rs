@@ -61,7 +61,19 @@ impl Belief {
             self.stretch = Some(stretch);
             return;
         }
-        let Stretch { before, seen } = &stretch;
+        self.weigh_stretch(model, &stretch);
+    }
+
+    /// Looks at all that was seen, that of a push that has not ended, too.
+    pub fn finish(&mut self, model: &dyn EffectModel) {
+        self.settle(model);
+        if let Some(stretch) = self.stretch.take() {
+            self.weigh_stretch(model, &stretch);
+        }
+    }
+
+    fn weigh_stretch(&mut self, model: &dyn EffectModel, stretch: &Stretch) {
+        let Stretch { before, seen } = stretch;
         let start = &before.state;
         // With the joints as they are believed by now, where they were then.
         let mut physics = likeliest(&self.scene, &self.pairs, start);

@@ -83,7 +83,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
             belief.update(&model, observation);
             count.one();
         }
-        belief.settle(&model);
+        belief.finish(&model);
     });
     following.finish()?;
     let names: Vec<&str> =

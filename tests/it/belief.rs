@@ -324,7 +324,7 @@ fn the_heavier_of_two_that_meet_is_told_by_which_gives_way() {
         for observation in recording.observations() {
             belief.update(&prior, observation);
         }
-        belief.settle(&prior);
+        belief.finish(&prior);
         let shares = belief.mass_shares().expect("asked for");
         for of in shares.objects.iter().flatten() {
             assert!((of.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{of:?}");

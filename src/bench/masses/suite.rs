@@ -109,7 +109,7 @@ impl MassSuite {
         for observation in observations {
             belief.update(model, observation);
         }
-        belief.settle(model);
+        belief.finish(model);
         let shares = belief.mass_shares().unwrap_or_default();
         let objects = ranges.iter().zip(touched).zip(shares.objects);
         let objects = objects
