@@ -446,7 +446,7 @@ def infer(
     model: str = "prior",
     noise: float = 0.001,
     heading_noise: float = 0.01,
-    mass_ranges: Sequence[tuple[float, float]] = [],
+    mass_ranges: Sequence[tuple[float, float]] | None = None,
     threads: int = 0,
 ) -> Belief: ...
 def import_tool(

@@ -147,7 +147,7 @@ impl PyBelief {
 /// another object touched; what the recording says of masses is then not read.
 #[pyfunction]
 #[pyo3(signature = (
-    recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = vec![], threads = 0
+    recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None, threads = 0
 ))]
 pub fn infer(
     py: Python<'_>,
@@ -155,12 +155,13 @@ pub fn infer(
     model: &str,
     noise: f64,
     heading_noise: f64,
-    mass_ranges: Vec<(f64, f64)>,
+    mass_ranges: Option<Vec<(f64, f64)>>,
     threads: usize,
 ) -> PyResult<PyBelief> {
     if ![noise, heading_noise].iter().all(|value| (0.0..=0.5).contains(value)) {
         return Err(PyValueError::new_err("`noise` and `heading_noise` are 0 to 0.5"));
     }
+    let mass_ranges = mass_ranges.unwrap_or_default();
     let sound = |(low, high): &(f64, f64)| 1e-3 <= *low && low < high && *high <= 1e3;
     if !mass_ranges.iter().all(sound) {
         return Err(PyValueError::new_err(
