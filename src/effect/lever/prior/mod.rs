@@ -1,7 +1,7 @@
 //! What a lever-up does to a single plate on the table: a small engine for exactly this.
 //!
-//! One rigid body, the table as a plane, cuboids fixed around it, and a blade whose motion is given. In every step (Stewart
-//! and Trinkle 1996; solved by projected Gauss-Seidel, Jourdan, Alart and Jean 1998)
+//! One rigid body, the table as a plane, cuboids fixed around it, and a blade whose motion is given. In
+//! every step (Stewart and Trinkle 1996; solved by projected Gauss-Seidel, Jourdan, Alart and Jean 1998)
 //!
 //! ```text
 //! M (u' - u) = h f + Jᵀ λ    0 ≤ λ_n ⊥ n·(v' - v_s) + g / h ≥ 0    |λ_t| ≤ μ λ_n, against sliding
