@@ -33,7 +33,7 @@ pub(super) struct ActiveSet {
     /// Values of all constraints without their forces.
     free: Vec<Vector2<f64>>,
     rows: Vec<Row>,
-    /// What force and torque on every group add to the row at hand.
+    /// What force and torque on every group add to the row at hand, where joints carry them on.
     felt: Vec<Vector3<f64>>,
     /// The equations, row by row, each with what it asks for at its end.
     matrix: Vec<f64>,
@@ -43,10 +43,10 @@ pub(super) struct ActiveSet {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     constraint: usize,
+    /// Which of the constraint's two equations it is.
+    equation: usize,
     /// The groups that it is about; twice the first where the other body's motion is given.
     groups: [GroupIndex; 2],
-    /// How their twists count, metres; nothing for a body whose motion is given.
-    value: [Vector3<f64>; 2],
     /// What a unit of the force is along normal and tangent.
     along: Vector2<f64>,
     /// The force and torque that it puts on the groups.
@@ -68,14 +68,14 @@ impl ActiveSet {
         tally: &mut Tally,
     ) -> bool {
         constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
-        joints.spread(unknowns, constraints, ties);
+        joints.release(unknowns, ties);
         constraints.iter_mut().for_each(|constraint| constraint.read(unknowns));
         self.free.clear();
         self.free.extend(constraints.iter().map(|constraint| constraint.value));
         for round in 0..ROUNDS {
             self.list(constraints);
             tally.solve(self.rows.len());
-            if self.rows.len() > MOST || !self.eliminate(unknowns, joints) {
+            if self.rows.len() > MOST || !self.eliminate(unknowns.len(), constraints, joints) {
                 return false;
             }
             self.apply(constraints);
@@ -114,8 +114,8 @@ impl ActiveSet {
                 let by = |rows: &[Vector3<f64>; 2]| rows[0] * along.x + rows[1] * along.y;
                 rows.push(Row {
                     constraint,
+                    equation,
                     groups: [c.a, c.b.unwrap_or(c.a)],
-                    value: [c.to[equation], -c.from[equation]],
                     along,
                     press: [by(&c.to), -by(&c.from)],
                     give,
@@ -133,24 +133,39 @@ impl ActiveSet {
         }
     }
 
-    /// Fills in the equations and solves them; whether they have an answer.
-    fn eliminate(&mut self, unknowns: &[Unknown], joints: &Eliminated) -> bool {
+    /// Fills in the equations of `count` groups and solves them; whether they have an answer.
+    fn eliminate(&mut self, count: usize, constraints: &[Constraint], joints: &Eliminated) -> bool {
         let Self { rows, felt, matrix, .. } = self;
         let n = rows.len();
         let width = n + 1;
         matrix.clear();
-        for row in &*rows {
-            felt.clear();
-            felt.resize(unknowns.len(), Vector3::zeros());
-            for (group, value) in row.groups.iter().zip(&row.value) {
-                joints.feel((*group, value), unknowns, felt);
+        for Row { constraint, equation, groups: [a, b], target, .. } in &*rows {
+            let c = &constraints[*constraint];
+            if joints.is_empty() {
+                // Nobody but the two groups feels it.
+                let moved = c.moved.map(|moved| moved[*equation]);
+                let felt = |group: &GroupIndex, press: &Vector3<f64>| match group {
+                    _ if group == a => moved[0].dot(press),
+                    _ if group == b => moved[1].dot(press),
+                    _ => 0.0,
+                };
+                matrix.extend(rows.iter().map(
+                    |Row { groups: [a, b], press: [on_a, on_b], .. }| felt(a, on_a) + felt(b, on_b),
+                ));
+            } else {
+                felt.clear();
+                felt.resize(count, Vector3::zeros());
+                joints.feel(c.a, &c.to[*equation], felt);
+                if let Some(b) = c.b {
+                    joints.feel(b, &-c.from[*equation], felt);
+                }
+                matrix.extend(rows.iter().map(
+                    |Row { groups: [a, b], press: [on_a, on_b], .. }| {
+                        felt[a.0].dot(on_a) + felt[b.0].dot(on_b)
+                    },
+                ));
             }
-            matrix.extend(rows.iter().map(
-                |Row { groups: [a, b], press: [on_a, on_b], .. }| {
-                    felt[a.0].dot(on_a) + felt[b.0].dot(on_b)
-                },
-            ));
-            matrix.push(row.target);
+            matrix.push(*target);
         }
         for (k, row) in rows.iter().enumerate() {
             matrix[k * width + k] += row.give;

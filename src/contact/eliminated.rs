@@ -118,20 +118,17 @@ impl Eliminated {
 
     /// Whether the joints make anything of forces on one of two groups that the other feels.
     fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
-        !self.blocks.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]
+        !self.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]
     }
 
-    /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`.
-    pub fn feel(
-        &self,
-        (group, value): (GroupIndex, &Vector3<f64>),
-        unknowns: &[Unknown],
-        felt: &mut [Vector3<f64>],
-    ) {
-        if self.blocks.is_empty() {
-            felt[group.0] += unknowns[group.0].inverse * value;
-            return;
-        }
+    /// Whether nothing hangs together.
+    pub fn is_empty(&self) -> bool {
+        self.limbs.is_empty()
+    }
+
+    /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`;
+    /// without joints only its own do.
+    pub fn feel(&self, group: GroupIndex, value: &Vector3<f64>, felt: &mut [Vector3<f64>]) {
         let own = self.mechanism[group.0];
         let line = &self.blocks[group.0 * self.mechanism.len()..];
         for ((felt, mechanism), block) in felt.iter_mut().zip(&self.mechanism).zip(line) {
@@ -149,7 +146,7 @@ impl Eliminated {
     /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
     /// side where both belong to one mechanism.
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
-        if self.blocks.is_empty() {
+        if self.is_empty() {
             return constraint.own;
         }
         let between = |(g, to): (GroupIndex, &[Vector3<f64>; 2]),
@@ -166,6 +163,14 @@ impl Eliminated {
         }
         let across = between(first, second);
         [own + other - across - across.transpose(), Matrix2::zeros()]
+    }
+
+    /// Twists without forces, the ties met.
+    pub fn release(&mut self, unknowns: &mut [Unknown], ties: &mut [Tie]) {
+        match self.is_empty() {
+            true => unknowns.iter_mut().for_each(|unknown| unknown.twist = unknown.free),
+            false => self.spread(unknowns, &[], ties),
+        }
     }
 
     /// Twists from trial forces, the ties met.
@@ -306,7 +311,7 @@ mod tests {
             for (one, other) in (0..groups * groups).map(|k| (k / groups, k % groups)) {
                 let mut felt = vec![Vector3::zeros(); groups];
                 let value = Vector3::new(1.0, -2.0, 0.03);
-                joints.feel((GroupIndex(one), &value), &unknowns, &mut felt);
+                joints.feel(GroupIndex(one), &value, &mut felt);
                 let block = inverse.fixed_view::<3, 3>(3 * one, 3 * other);
                 let off = felt[other] - block.tr_mul(&value);
                 assert!(off.amax() < 1e-9 * block.amax().max(1e-6), "{one} {other}: {off}");
