@@ -143,7 +143,7 @@ impl ActiveSet {
             let c = &constraints[*constraint];
             if joints.is_empty() {
                 // Nobody but the two groups feels it.
-                let moved = c.moved.map(|moved| moved[*equation]);
+                let moved = [&c.moved[0][*equation], &c.moved[1][*equation]];
                 let felt = |group: &GroupIndex, press: &Vector3<f64>| match group {
                     _ if group == a => moved[0].dot(press),
                     _ if group == b => moved[1].dot(press),
@@ -272,7 +272,9 @@ mod tests {
         let mut joints = Eliminated::default();
         joints.hang(unknowns.len(), ties);
         joints.prepare(unknowns, ties);
-        constraints.iter_mut().for_each(|constraint| constraint.own = joints.own(constraint));
+        if !joints.is_empty() {
+            constraints.iter_mut().for_each(|c| c.own = joints.own(c));
+        }
         joints
     }
 

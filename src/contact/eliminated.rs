@@ -146,9 +146,6 @@ impl Eliminated {
     /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
     /// side where both belong to one mechanism.
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
-        if self.is_empty() {
-            return constraint.own;
-        }
         let between = |(g, to): (GroupIndex, &[Vector3<f64>; 2]),
                        (h, from): (GroupIndex, &[Vector3<f64>; 2])| {
             product(to, &from.map(|row| self.block(g, h) * row))

@@ -177,7 +177,9 @@ impl System {
         joints.prepare(unknowns, ties);
         for constraint in constraints.iter_mut() {
             constraint.weigh(unknowns);
-            constraint.own = joints.own(constraint);
+            if !joints.is_empty() {
+                constraint.own = joints.own(constraint);
+            }
         }
         if !active.solve(unknowns, constraints, ties, joints, tally) {
             tally.approached += 1;
