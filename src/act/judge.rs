@@ -5,7 +5,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::effect::EffectModel;
-use crate::scene::{Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, Trajectory};
+use crate::scene::{
+    Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, ToolMotion, Trajectory,
+};
 
 /// A miss by more tolerances than this is no worse: one sample in which all goes wrong must not
 /// outweigh the others.
@@ -29,9 +31,8 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Jobs of a plan under all samples.
-    pub fn jobs(&self, plan: &Plan, tool: &Arc<Tool>) -> Vec<Job> {
-        let motion = plan.motion(tool);
+    /// Jobs of a motion under all samples.
+    pub fn jobs(&self, motion: &ToolMotion) -> Vec<Job> {
         let job = |physics: &Arc<Physics>| Job {
             start: self.now.start.clone(),
             motion: motion.clone(),
@@ -47,7 +48,8 @@ impl Samples {
         task: &Task,
         plans: &[(Plan, Arc<Tool>)],
     ) -> Vec<Vec<Reach>> {
-        let jobs: Vec<Job> = plans.iter().flat_map(|(plan, tool)| self.jobs(plan, tool)).collect();
+        let jobs: Vec<Job> =
+            plans.iter().flat_map(|(plan, tool)| self.jobs(&plan.motion(tool))).collect();
         let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
         let reach = |trajectory: &Trajectory| {
             let outcome = Outcome::judge(&task.goal, trajectory);

@@ -56,7 +56,7 @@ mod world;
 pub use error::ActError;
 pub use gather::Note;
 pub use judge::Chance;
-pub use probe::ProbeRule;
+pub use probe::{Probe, ProbeRule, choose_probe};
 pub use runner::Runner;
 pub use settings::RunSettings;
 pub use simulated::{SimulatedWorld, hidden, really};

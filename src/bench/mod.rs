@@ -16,6 +16,7 @@ mod heldout;
 mod inference;
 mod lever;
 mod masses;
+mod probes;
 mod random;
 mod refinement;
 mod solved;
@@ -48,6 +49,7 @@ pub use lever::{
 pub use masses::{
     MassCase, MassRecord, MassSuite, MassSummary, SeenMass, SeenRatio, summarise_masses,
 };
+pub use probes::{Learnt, ProbeCase, ProbeRecord, ProbeSuite, ProbeSummary, summarise_probes};
 pub use random::{
     Choice, HiddenTask, HiddenWorld, Maker, NoTask, RandomError, RandomRecord, RandomSuite,
     SuiteTask, TaskKind, random_task,

@@ -174,8 +174,9 @@ pub static ASKED_JOINTS: [(&str, AskedJoints, &str); 9] = [
 ];
 
 /// Ways to choose a push that is made only to learn something.
-pub static PROBES: [(&str, ProbeRule, &str); 4] = [
+pub static PROBES: [(&str, ProbeRule, &str); 5] = [
     ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
+    ("information", ProbeRule::Information, "Tells most, whatever the task is"),
     ("random", ProbeRule::Random, "By chance"),
     ("uncertain", ProbeRule::Uncertain, "At the pair whose joint is least certain"),
     ("motion", ProbeRule::Motion, "Moves things farthest"),

@@ -76,6 +76,12 @@ fn of_masses() {
 }
 
 #[test]
+fn of_probes() {
+    let few = "--count 1 --objects 4 --rule information random";
+    shards_make_the_same_bytes(&format!("bench probes {few}"), 2);
+}
+
+#[test]
 fn of_evaluations() {
     let on = "--on single sparse-line --objects 6 --joints mixed --no-baselines";
     let home = shards_make_the_same_bytes(&format!("evaluate prior {on} --pushes 6 --count 1"), 2);

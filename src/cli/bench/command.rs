@@ -5,8 +5,8 @@ use clap::{Args, Subcommand};
 use crate::cli::{error::CliError, exit_code, session::Session};
 
 use super::{
-    convergence, cost, hdd, joints, lever_points, lever_tasks, levers, masses, random, refinement,
-    saved, status, tasks, tools,
+    convergence, cost, hdd, joints, lever_points, lever_tasks, levers, masses, probes, random,
+    refinement, saved, status, tasks, tools,
 };
 
 /// Measure what solving brings and what pushes and searches cost
@@ -29,6 +29,7 @@ enum What {
     Tools(tools::ToolsArgs),
     Joints(joints::JointsArgs),
     Masses(masses::MassesArgs),
+    Probes(probes::ProbesArgs),
     LeverTasks(lever_tasks::LeverTasksArgs),
     LeverPoints(lever_points::LeverPointsArgs),
     Merge(saved::MergeArgs),
@@ -49,6 +50,7 @@ pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
         What::Tools(args) => tools::run(args, session)?,
         What::Joints(args) => joints::run(args, session)?,
         What::Masses(args) => masses::run(args, session)?,
+        What::Probes(args) => probes::run(args, session)?,
         What::LeverTasks(args) => lever_tasks::run(args, session)?,
         What::LeverPoints(args) => lever_points::run(args, session)?,
         What::Merge(args) => saved::merge(args, session)?,

@@ -12,6 +12,7 @@ mod lever_tasks;
 mod levers;
 mod masses;
 mod page;
+mod probes;
 mod random;
 mod refinement;
 mod run;

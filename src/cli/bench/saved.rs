@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::bench::{
     BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, MassCase, MassRecord,
-    RandomRecord, RefinedTask, SolvedTask, ToolRecord, TradeOff, by_kind,
+    ProbeCase, ProbeRecord, RandomRecord, RefinedTask, SolvedTask, ToolRecord, TradeOff, by_kind,
 };
 use crate::cli::{
     error::CliError, evaluate, form::Form, generate::data_error, output, session::Session,
@@ -19,7 +19,7 @@ use crate::report::{
 use crate::store::{self, Finished, RunManifest, Store, StoreError, line_index, merge_runs};
 
 use super::page::PageArgs;
-use super::{joints, keep, lever_tasks, masses, random, refinement, tasks, tools};
+use super::{joints, keep, lever_tasks, masses, probes, random, refinement, tasks, tools};
 
 /// Put the shards of a benchmark or of training data together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -126,6 +126,12 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             let cases: Vec<MassCase> = cases.unwrap_or_default();
             Ok(masses::document(&cases, store.finished()))
         }
+        (probes::SUITE, [dir]) => {
+            let store = Store::<ProbeRecord>::load(dir)?;
+            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
+            let cases: Vec<ProbeCase> = cases.unwrap_or_default();
+            Ok(probes::document(&cases, store.finished()))
+        }
         (lever_tasks::SUITE, [dir]) => {
             let store = Store::<LeverRecord>::load(dir)?;
             Ok(lever_tasks_document(store.manifest(), store.finished()))
@@ -156,6 +162,7 @@ fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
             | tools::SUITE
             | joints::SUITE
             | masses::SUITE
+            | probes::SUITE
             | refinement::SUITE
             | evaluate::SUITE
             | lever_tasks::SUITE,

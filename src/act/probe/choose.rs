@@ -1,0 +1,176 @@
+//! Which of several pushes tells most.
+//!
+//! Two samples s and t of a belief, in which a push is predicted to end the distance d apart, in
+//! standard deviations of what is seen, are still taken for each other with a probability of at most
+//! exp(-d^2 / 8) afterwards (Bhattacharyya's bound). Of N samples the end of a push therefore tells,
+//! in nats, about
+//!
+//! ```text
+//! mean over s of  -ln (mean over t of exp(-d^2 / 8))
+//! ```
+//!
+//! (a lower bound, Kolchinsky and Tracey 2017, doi:10.3390/e19070361). Where it only matters which
+//! plan reaches the goal, a push is as good as it tells those samples apart in which different plans
+//! work: the sum over pairs of samples of the share of plans with R(p, s) != R(p, t), times
+//! 1 - exp(-d^2 / 8).
+
+use serde::{Deserialize, Serialize};
+
+use crate::belief::{Belief, generator};
+use crate::effect::EffectModel;
+use crate::scene::{Job, Noise, Record, State, ToolMotion, Trajectory};
+
+use super::super::judge::{Reach, Samples};
+
+/// Probes that are rolled out in a few samples, and those of them that are in all.
+const RACED: (usize, usize) = (32, 4);
+const FINAL: usize = 8;
+
+/// Error of a predicted end beside the noise, metres.
+const MODEL: f64 = 2e-3;
+
+/// How a probe is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ProbeRule {
+    /// By what it tells of the samples in which different plans work.
+    #[default]
+    Task,
+    /// By what it tells of all samples, whatever the task is.
+    Information,
+    /// By chance.
+    Random,
+    /// By chance among those at an object of the pair whose joint is least certain.
+    Uncertain,
+    /// By how far things are predicted to move.
+    Motion,
+}
+
+/// A push that could be made to learn something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// The object that it is made at.
+    pub object: usize,
+    /// What the tool does.
+    pub motion: ToolMotion,
+}
+
+/// The index of the push to make next to learn what is not known of a table, no task given; `None`
+/// if none of them can be made. The belief is drawn from `count` times with the numbers of draw
+/// `index`; `noise` is that of what will be seen. Where several are as good the first is taken, and by
+/// [`ProbeRule::Random`] always; [`ProbeRule::Task`], which asks what plans need, finds none.
+pub fn choose_probe(
+    model: &dyn EffectModel,
+    (rule, noise): (ProbeRule, Noise),
+    belief: &Belief,
+    (count, index): (usize, u64),
+    probes: &[Probe],
+) -> Option<usize> {
+    let mut rng = generator(0x9120_BE5E, index);
+    let physics = (0..count).map(|_| belief.sample(&mut rng).into()).collect();
+    let samples = Samples { now: belief.situation(), physics };
+    choose(model, (rule, noise), (belief, &samples), probes, &[])
+}
+
+/// The index of the probe to make, with what comes of plans in every sample.
+pub(super) fn choose(
+    model: &dyn EffectModel,
+    (rule, noise): (ProbeRule, Noise),
+    (belief, samples): (&Belief, &Samples),
+    probes: &[Probe],
+    reach: &[Vec<Reach>],
+) -> Option<usize> {
+    let mut order: Vec<usize> = (0..probes.len()).collect();
+    if rule == ProbeRule::Uncertain
+        && let Some(pair) = least_certain(belief)
+    {
+        // Stable, so those at its objects come first as they came.
+        order.sort_by_key(|&k| !pair.contains(&probes[k].object));
+    }
+    order.truncate(RACED.0);
+    let few = Samples {
+        now: samples.now.clone(),
+        physics: samples.physics.iter().take(RACED.1).cloned().collect(),
+    };
+    let values = |order: &[usize], samples: &Samples| -> Vec<(f64, usize)> {
+        let jobs: Vec<Job> = order.iter().flat_map(|&k| samples.jobs(&probes[k].motion)).collect();
+        let rolled = model.rollout(&samples.now.scene, &jobs, Record::Outcome);
+        let each = rolled.chunks(samples.physics.len().max(1));
+        let valued = each.map(|ends| value((rule, noise), samples, ends, reach));
+        // What goes wrong in a sample is no probe.
+        valued.zip(order.iter().copied()).filter(|(value, _)| value.is_finite()).collect()
+    };
+    let mut raced = values(&order, &few);
+    if matches!(rule, ProbeRule::Random | ProbeRule::Uncertain) {
+        return raced.first().map(|(_, k)| *k);
+    }
+    // Stable, so equal ones keep their order.
+    raced.sort_by(|a, b| b.0.total_cmp(&a.0));
+    raced.truncate(FINAL);
+    let last: Vec<usize> = raced.into_iter().map(|(_, k)| k).collect();
+    let mut best: Option<(f64, usize)> = None;
+    for (value, k) in values(&last, samples) {
+        if value > best.map_or(0.0, |(best, _)| best) {
+            best = Some((value, k));
+        }
+    }
+    best.map(|(_, k)| k)
+}
+
+/// What a probe is worth that ends so in every sample; infinitely little if something goes wrong.
+fn value(
+    (rule, noise): (ProbeRule, Noise),
+    samples: &Samples,
+    ends: &[Trajectory],
+    reach: &[Vec<Reach>],
+) -> f64 {
+    let wrong = |end: &Trajectory| {
+        !end.outcome().is_finite() || end.warnings.iter().any(|warning| warning.forbids_success())
+    };
+    if ends.iter().any(wrong) {
+        return f64::NEG_INFINITY;
+    }
+    let states: Vec<&State> = ends.iter().map(Trajectory::outcome).collect();
+    let variance = noise.position.powi(2) + MODEL.powi(2);
+    let alike = |one: &State, other: &State| (-square(one, other) / variance / 8.0).exp();
+    match rule {
+        ProbeRule::Motion => {
+            let start = &samples.now.start;
+            states.iter().map(|end| square(end, start).sqrt()).sum()
+        }
+        ProbeRule::Information => {
+            let count = states.len().max(1) as f64;
+            let told = states.iter().map(|one| {
+                let taken: f64 = states.iter().map(|other| alike(one, other)).sum();
+                -(taken / count).ln()
+            });
+            told.sum::<f64>() / count
+        }
+        ProbeRule::Task | ProbeRule::Random | ProbeRule::Uncertain => {
+            let mut sum = 0.0;
+            for (s, one) in states.iter().enumerate() {
+                for (t, other) in states.iter().enumerate().skip(s + 1) {
+                    let differ = reach.iter().filter(|plan| plan[s].reached != plan[t].reached);
+                    sum += differ.count() as f64 * (1.0 - alike(one, other));
+                }
+            }
+            sum
+        }
+    }
+}
+
+/// Sum of the squared distances of all objects, square metres.
+fn square(one: &State, other: &State) -> f64 {
+    let pairs = one.poses.iter().zip(&other.poses);
+    pairs.map(|(a, b)| (a.position - b.position).norm_squared()).sum()
+}
+
+/// The pair with the largest entropy of its types of joints.
+fn least_certain(belief: &Belief) -> Option<[usize; 2]> {
+    let entropy = |shares: &[f64; 4]| -> f64 {
+        shares.iter().filter(|share| **share > 0.0).map(|share| -share * share.ln()).sum()
+    };
+    let shares = belief.probabilities();
+    let pairs = belief.pairs().zip(shares.iter().map(entropy));
+    pairs.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(pair, _)| pair)
+}
