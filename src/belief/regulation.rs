@@ -13,9 +13,6 @@ use crate::{
 
 use super::testimony::{EVIDENCE, Testimony};
 
-/// The trained weights that are part of the library; `models/regulator.md` says what they are.
-const WEIGHTS: &[u8] = include_bytes!("../../models/regulator.safetensors");
-
 /// Why a regulator cannot be made.
 #[derive(Debug, Error)]
 pub enum RegulatorError {
@@ -78,7 +75,7 @@ impl BeliefRegulator {
     /// # Errors
     /// If the library was built around a damaged weights file.
     pub fn shipped_weights() -> Result<RegulatorWeights, WeightsError> {
-        RegulatorWeights::from_bytes(WEIGHTS)
+        RegulatorWeights::from_bytes(pushplan_models::REGULATOR)
     }
 
     /// One that leaves the belief alone and only keeps what windows tell, for training.

@@ -16,9 +16,6 @@ use super::{
     Assuming, EffectModel, Follow, Network, Prior, Projection, Routed, Simulated, Still, UpTo,
 };
 
-/// The trained weights that are part of the library; `models/brdpn.md` says what they are.
-const WEIGHTS: &[u8] = include_bytes!("../../models/brdpn.safetensors");
-
 /// Why a model cannot be made.
 #[derive(Error)]
 pub enum ModelError {
@@ -52,7 +49,7 @@ impl EffectModels {
     /// # Errors
     /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
     pub fn weights() -> Result<Weights, ModelError> {
-        Weights::from_bytes(WEIGHTS).map_err(ModelError::Shipped)
+        Weights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
 
     /// The weights of the first part of `spec` that is a network, if one is.

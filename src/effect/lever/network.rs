@@ -12,9 +12,6 @@ use super::{
     LeverInputs, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, lever_inputs,
 };
 
-/// The trained weights that are part of the library; `models/lever.md` says what they are.
-const WEIGHTS: &[u8] = include_bytes!("../../../models/lever.safetensors");
-
 /// Why weights of lever-ups cannot be used.
 #[derive(Debug, Error)]
 pub enum LeverNetworkError {
@@ -72,7 +69,7 @@ impl LeverNetwork {
     /// # Errors
     /// [`LeverNetworkError`] if the library was built around a damaged file.
     pub fn shipped() -> Result<Self, LeverNetworkError> {
-        let weights = LeverWeights::from_bytes(WEIGHTS).map_err(|error| {
+        let weights = LeverWeights::from_bytes(pushplan_models::LEVER).map_err(|error| {
             LeverNetworkError::Weights { path: "lever.safetensors".to_owned(), error }
         })?;
         Self::new(&weights)

@@ -1,5 +1,7 @@
 //! The file: data, style and script in one document that loads nothing.
 
+use pushplan_three::THREE;
+
 use crate::report::svg::escape;
 
 use super::data::Data;
@@ -36,9 +38,6 @@ const STYLE_HASH: &str = "vFAM2fdGnvbInUWN1X9GFrZfBFNGPvopuJyNBvpmNAQ=";
 
 /// The 3-D view, which three.js draws.
 const SOLID: &str = include_str!("script/solid.js");
-
-/// three.js, minified, gzipped and in base 64; the browser unpacks it. See three/README.md.
-const THREE: &str = include_str!("three/three.min.js.gz.base64");
 
 /// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
 const SOLID_HASH: &str = "ksjzpSaVy8mVHy0QTXsvTaDoDNFt9HuprcCigsNC1Dk=";
