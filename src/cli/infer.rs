@@ -6,14 +6,26 @@ use clap::Args;
 
 use crate::belief::{Belief, BeliefSettings};
 use crate::recording::Recording;
-use crate::report::belief_document;
+use crate::report::{PageView, Recipe, Setting, belief_document, recording_page};
 use crate::scene::{ModelSpec, Span};
 use crate::watch::Count;
 
 use super::{
-    error::CliError, exit_code, follow::Following, form::Form, model, noise::NoiseArgs, output,
-    recordings::load_recordings, regulator::RegulatorArgs, session::Session,
+    error::CliError,
+    exit_code,
+    follow::Following,
+    form::Form,
+    model,
+    noise::NoiseArgs,
+    output,
+    recordings::load_recordings,
+    regulator::RegulatorArgs,
+    session::Session,
+    words::{VIEWS, words},
 };
+
+/// What usually rolls hypotheses out.
+const MODEL: &str = "prior";
 
 /// Infer from a recording which objects hang together by which joints
 #[derive(Args, Debug)]
@@ -40,7 +52,7 @@ pub struct InferArgs {
     #[arg(value_name = "FILE")]
     recording: PathBuf,
     /// What rolls hypotheses out
-    #[arg(long, value_name = "MODEL", default_value = "prior")]
+    #[arg(long, value_name = "MODEL", default_value = MODEL)]
     model: ModelSpec,
     #[command(flatten)]
     noise: NoiseArgs,
@@ -48,9 +60,12 @@ pub struct InferArgs {
     /// of masses is then not read
     #[arg(long, value_name = "LOW-HIGH", num_args = 2.., value_parser = mass_range)]
     mass_ranges: Vec<Span>,
-    /// Folder for belief.json and belief.svg
+    /// Folder for belief.json, belief.svg and belief.html, a page that plays what was seen
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// What the page shows
+    #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
+    page: PageView,
     #[command(flatten)]
     regulator: RegulatorArgs,
     #[command(flatten)]
@@ -75,6 +90,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     if let Some((regulator, _)) = args.regulator.load()? {
         belief = belief.regulated(regulator);
     }
+    let before = belief.probabilities();
     let following = Following::bar(session, "inferring");
     let observations = recording.observations();
     let count = Count::new(&following, 0, observations.len());
@@ -92,9 +108,24 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     if let Some(folder) = &args.out {
         output::write(folder, "belief.json", document.to_json().as_bytes())?;
         output::write_figures(folder, document.figures())?;
+        let page =
+            recording_page(recording, (&before, &belief), &document, recipe(args), args.page);
+        output::write(folder, "belief.html", page.as_bytes())?;
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)
+}
+
+/// What infers the same again: settings that are not as usual.
+fn recipe(args: &InferArgs) -> Recipe {
+    let mut settings = Vec::new();
+    let value = args.model.to_string();
+    if value != MODEL {
+        settings.push(Setting { option: "--model", keyword: Some("model"), value });
+    }
+    settings.extend(args.noise.settings());
+    settings.extend(args.regulator.setting());
+    Recipe::of_recording(&args.recording.display().to_string(), &settings, &args.mass_ranges)
 }
 
 fn mass_range(text: &str) -> Result<Span, String> {

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::belief::BeliefRegulator;
 use crate::network::RegulatorWeights;
+use crate::report::Setting;
 use crate::store::digest;
 
 use super::error::CliError;
@@ -23,6 +24,12 @@ pub struct RegulatorArgs {
 }
 
 impl RegulatorArgs {
+    /// The regulator, if it is not the usual one.
+    pub fn setting(&self) -> Option<Setting> {
+        let value = self.regulator.clone()?;
+        Some(Setting { option: "--regulator", keyword: None, value })
+    }
+
     /// The regulator with a digest of its weights; `None` for the filter alone.
     ///
     /// # Errors

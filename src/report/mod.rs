@@ -64,8 +64,8 @@ pub use levers::levers_document;
 pub use masses::masses_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{
-    Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, run_page,
-    solution_page, verdict_page,
+    Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, recording_page,
+    run_page, solution_page, verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;

@@ -2,6 +2,7 @@
 //! neither complains nor asks anybody for anything.
 
 mod browser;
+mod recording;
 mod run;
 mod solid;
 

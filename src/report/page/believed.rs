@@ -1,7 +1,7 @@
-//! What was believed before and after every push of a run.
+//! What was believed before and after every push of a run, or every observation of a recording.
 
 use crate::act::Trace;
-use crate::belief::{JointType, Numbers};
+use crate::belief::{Belief, JointType, Numbers};
 use crate::scene::Physics;
 
 use super::data::{Believed, Joined};
@@ -60,6 +60,34 @@ pub fn numbers(trace: &Trace) -> Vec<Believed> {
         add("friction value of the table".to_owned(), "", &of, &|truth| Some(truth.table_friction));
     }
     found
+}
+
+/// What was believed of the objects called `names` after so many observations: these numbers, names of
+/// the types, and the probabilities of those of every pair, which were `before` at first. Where nothing
+/// changed an observation is left out.
+pub fn over_time(
+    belief: &Belief,
+    before: &[[f64; 4]],
+    names: &[&str],
+) -> (Vec<usize>, Vec<String>, Vec<Joined>) {
+    let rounded = |pairs: &[[f64; 4]]| -> Vec<[i64; 4]> {
+        pairs.iter().map(|shares| shares.map(thousandths)).collect()
+    };
+    let mut steps = vec![(0, rounded(before))];
+    for step in belief.history() {
+        let shares = rounded(&step.probabilities);
+        if steps.last().is_none_or(|(_, last)| *last != shares) {
+            steps.push((step.observations, shares));
+        }
+    }
+    let joined = |(p, [a, b]): (usize, [usize; 2])| Joined {
+        name: format!("{} and {}", names[a], names[b]),
+        shares: steps.iter().map(|(_, pairs)| pairs[p]).collect(),
+        really: None,
+    };
+    let types = JointType::ALL.iter().map(ToString::to_string).collect();
+    let pairs = belief.pairs().enumerate().map(joined).collect();
+    (steps.iter().map(|(observations, _)| *observations).collect(), types, pairs)
 }
 
 fn thousandths(value: f64) -> i64 {

@@ -68,7 +68,8 @@ pub struct Stage {
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest.
     pub reach: Vec<i64>,
-    pub goal: Goal,
+    /// Of a recording there is none.
+    pub goal: Option<Goal>,
 }
 
 /// What is measured over time.
@@ -145,6 +146,8 @@ pub enum Standing {
     Reached,
     /// Of a run: given up.
     GivenUp,
+    /// Of a recording: somebody looked at it.
+    Inferred,
 }
 
 #[derive(Serialize)]
@@ -278,20 +281,36 @@ impl Grid {
     pub const REFUSED: i64 = -10;
 }
 
-/// The pushes of a run, and what was believed meanwhile.
+/// The pushes of a run or a recording, and what was believed meanwhile.
 #[derive(Serialize)]
 pub struct Run {
+    /// What it is, in a word.
+    pub kind: &'static str,
+    /// When beliefs change, in a sentence.
+    pub words: &'static str,
+    /// What is known at last.
+    pub found: Vec<Found>,
     /// Names of the columns of [`Made::cells`].
     pub columns: Vec<String>,
     /// Which of them hold numbers.
     pub numeric: Vec<bool>,
     pub made: Vec<Made>,
-    /// When what is believed changes: at the start, and whenever a push is over.
+    /// When what is believed changes, the start first.
     pub times: Vec<i64>,
     /// Names of the types of joints.
     pub types: Vec<String>,
     pub joints: Vec<Joined>,
     pub numbers: Vec<Believed>,
+}
+
+/// A table of what is known at last.
+#[derive(Serialize)]
+pub struct Found {
+    pub title: String,
+    pub columns: Vec<String>,
+    /// Which of them hold numbers.
+    pub numeric: Vec<bool>,
+    pub rows: Vec<Vec<String>>,
 }
 
 /// What was pushed in one go.

@@ -33,14 +33,14 @@ const SCRIPT: &str = concat!(
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
-const SCRIPT_HASH: &str = "vZrUYVL1ldecYegx3yfAuGwHVbM7QQ+NC3FeWszU/R8=";
-const STYLE_HASH: &str = "vFAM2fdGnvbInUWN1X9GFrZfBFNGPvopuJyNBvpmNAQ=";
+const SCRIPT_HASH: &str = "BZxhGfpqc9uqJR5VpHnKrq2qvDX13LJoTLR+dTNquPc=";
+const STYLE_HASH: &str = "+H6CH7Q0P1r3la8PyUK9l+RxjGi00SaBKA7F2xFN4W0=";
 
 /// The 3-D view, which three.js draws.
 const SOLID: &str = include_str!("script/solid.js");
 
 /// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
-const SOLID_HASH: &str = "ksjzpSaVy8mVHy0QTXsvTaDoDNFt9HuprcCigsNC1Dk=";
+const SOLID_HASH: &str = "wVheOYGyCsscjZ6KzcGnylz38FIG1CIqZGfti8NsUs8=";
 const THREE_HASH: &str = "1DAXuURetgEpYc3wVeanFNbtMNUCQJJKMDFxE8xxJxc=";
 
 /// What a page shows of the table.

@@ -71,7 +71,7 @@ pub fn lever_page(lever: &ReplayedLever, recipe: Recipe) -> String {
             obstacles: task.blocks.iter().map(block).collect(),
             table: None,
             reach: Vec::new(),
-            goal,
+            goal: Some(goal),
         },
         measure: Some(Measure { name: "Edge raised", axis: "edge raised, mm" }),
         tools: vec![blade(tool)],

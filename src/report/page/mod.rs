@@ -9,6 +9,7 @@ mod believed;
 mod candidates;
 mod data;
 mod html;
+mod inferred;
 mod lever;
 mod recipe;
 mod replay;
@@ -18,6 +19,7 @@ mod solution;
 mod stage;
 
 pub use html::PageView;
+pub use inferred::recording_page;
 pub use lever::{ReplayedLever, lever_page};
 pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};

@@ -1,6 +1,6 @@
 //! What is typed to have a page's replays made again: a command line, and a script in Python.
 
-use crate::scene::{ModelSpec, Plan, Push, PushForm};
+use crate::scene::{ModelSpec, Plan, Push, PushForm, Span};
 
 /// Files and models that a page was made from, as people name them.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +24,17 @@ pub struct Setting {
     pub keyword: Option<&'static str>,
     /// What it is set to.
     pub value: String,
+}
+
+impl Setting {
+    /// The keyword and its value; `None` where Python cannot set it.
+    fn given(&self) -> Option<String> {
+        let value = match self.value.parse::<f64>() {
+            Ok(_) => self.value.clone(),
+            Err(_) => literal(&self.value),
+        };
+        Some(format!("{}={value}", self.keyword?))
+    }
 }
 
 /// How the replays are made again.
@@ -59,14 +70,7 @@ impl Origin {
         given.extend(
             self.model.as_ref().map(|model| format!("model={}", literal(&model.to_string()))),
         );
-        let keywords = settings.iter().map(|setting| {
-            let value = match setting.value.parse::<f64>() {
-                Ok(_) => setting.value.clone(),
-                Err(_) => literal(&setting.value),
-            };
-            Some(format!("{}={value}", setting.keyword?))
-        });
-        let keywords: Option<Vec<String>> = keywords.collect();
+        let keywords: Option<Vec<String>> = settings.iter().map(Setting::given).collect();
         let python = match (world.parse::<u64>(), keywords) {
             (Ok(_), Some(keywords)) => {
                 given.extend(keywords);
@@ -165,6 +169,30 @@ impl Recipe {
             command: format!("pushplan verify {}", quoted(path)),
             python: ["import pushplan", "", &load, "print(pushplan.verify(plan))"].join("\n"),
         }
+    }
+
+    /// Of what is believed of a recording; `settings` are those that were not as usual, `ranges` those
+    /// that masses may be in, kg.
+    pub fn of_recording(path: &str, settings: &[Setting], ranges: &[Span]) -> Self {
+        let mut words = ["pushplan", "infer", &quoted(path)].map(str::to_owned).to_vec();
+        for setting in settings {
+            words.extend([setting.option.to_owned(), quoted(&setting.value)]);
+        }
+        let mut keywords: Option<Vec<String>> = settings.iter().map(Setting::given).collect();
+        if !ranges.is_empty() {
+            words.push("--mass-ranges".to_owned());
+            words.extend(ranges.iter().map(|range| format!("{}-{}", range.low, range.high)));
+            let pairs = ranges.iter().map(|range| format!("({}, {})", range.low, range.high));
+            let pairs = pairs.collect::<Vec<_>>().join(", ");
+            keywords.iter_mut().for_each(|all| all.push(format!("mass_ranges=[{pairs}]")));
+        }
+        let load = format!("recording = pushplan.Recording.load({})", literal(path));
+        let python = keywords.map_or(String::new(), |keywords| {
+            let given = ["recording".to_owned()].into_iter().chain(keywords).collect::<Vec<_>>();
+            let infer = format!("print(pushplan.infer({}))", given.join(", "));
+            ["import pushplan", "", &load, &infer].join("\n")
+        });
+        Self { command: words.join(" "), python }
     }
 
     /// Of the replays of a file of a lever-up, which Python does not read.

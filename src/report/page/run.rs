@@ -56,6 +56,9 @@ fn run(trace: &Trace, starts: &[f64]) -> Run {
     let rows = table.rows().iter().zip(starts);
     let (types, joints) = joints(trace);
     Run {
+        kind: "Run",
+        words: "Before the first push, and corrected after every one.",
+        found: Vec::new(),
         columns: table.columns().iter().map(|(name, _)| name.clone()).collect(),
         numeric: table.columns().iter().map(|(_, side)| *side == Align::Right).collect(),
         made: rows.map(|(cells, at)| Made { at: fine(*at), cells: cells.clone() }).collect(),

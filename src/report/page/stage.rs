@@ -4,13 +4,29 @@ use serde_json::Value as Json;
 
 use crate::geometry::{Footprint, Shape, Vector};
 use crate::report::plan_text::goal_line;
-use crate::scene::{self, Task};
+use crate::scene::{self, Scene, Task};
 
 use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Scene, reach and goal of a task.
 pub fn stage(task: &Task) -> Stage {
-    let (scene, goal) = (&task.scene, &task.goal);
+    let goal = &task.goal;
+    Stage {
+        reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
+        goal: Some(Goal {
+            object: goal.object,
+            at: point(goal.position),
+            tolerance: length(goal.tolerance),
+            heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
+            alike: goal.alike,
+            words: goal_line(task),
+        }),
+        ..table(&task.scene)
+    }
+}
+
+/// What stands on a table, with nothing to be done.
+pub fn table(scene: &Scene) -> Stage {
     let objects = scene.objects.iter().map(|object| Body {
         name: object.name.clone(),
         shape: outline(&object.shape),
@@ -31,15 +47,8 @@ pub fn stage(task: &Task) -> Stage {
         objects: objects.collect(),
         obstacles: obstacles.collect(),
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
-        reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
-        goal: Goal {
-            object: goal.object,
-            at: point(goal.position),
-            tolerance: length(goal.tolerance),
-            heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
-            alike: goal.alike,
-            words: goal_line(task),
-        },
+        reach: Vec::new(),
+        goal: None,
     }
 }
 

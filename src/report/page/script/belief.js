@@ -72,7 +72,7 @@
     svg('svg', { viewBox: '0 0 20 20', 'aria-hidden': 'true' },
       svg('rect', { width: 20, height: 20, rx: 3, class: `type-${type}` })), name)) : [];
   byId('belief-legend').replaceChildren(...legend);
-  byId('belief-words').textContent = 'Before the first push, and corrected after every one.'
+  byId('belief-words').textContent = run.words
     + (run.numbers.some(({ really }) => really !== null) ? ' Dashed: what is really so.' : '');
 
   let shows = [];

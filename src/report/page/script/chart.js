@@ -1,6 +1,8 @@
 // How far the object is from the goal over time, under the clock of the replay.
 
 (() => {
+  byId('chart').hidden = !page.stage.goal;
+  if (!page.stage.goal) return;
   const [HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [190, 40, 12, 12, 26];
   let width = 800;
   const root = svg('svg', { role: 'img', class: 'plot' });

@@ -3,7 +3,7 @@
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
-  // Of a run nothing was disturbed, and lever-ups end in other ways.
+  // Of a run nothing was disturbed, lever-ups end in other ways, and recordings have no goal.
   const none = Boolean(page.run ?? page.measure);
   byId('ends-card').hidden = none;
   if (none) return;

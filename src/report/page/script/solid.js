@@ -96,7 +96,7 @@ const solid = (() => {
     };
     const { goal, objects, obstacles } = page.stage;
     for (const body of [...objects, ...obstacles]) add(posed(body.at), reachOf(body.shape));
-    if (!page.measure) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    if (goal && !page.measure) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const stroke of page.measure ? [] : plan().strokes) {
       const room = Math.max(...page.tools[stroke.tool].parts.map(
         (part) => Math.hypot(...posed(part.at).slice(0, 2)) + reachOf(part.shape)));
@@ -126,18 +126,7 @@ const solid = (() => {
     scene.add(new THREE.LineSegments(form, new THREE.LineBasicMaterial({ color: colour('rim') })));
   }
 
-  function drawStill() {
-    const { goal, objects, obstacles, reach } = page.stage;
-    for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
-    for (const body of obstacles) {
-      scene.add(placed(piece(body, colour('hatch'), colour('other-rim')), posed(body.at)));
-    }
-    for (const replay of shown()) {
-      const [xs, ys, , zs] = replay.objects[goal.object];
-      const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);
-      scene.add(line(way, layerColour(replay.layer)));
-    }
-    if (page.measure) return;
+  function drawGoal(goal, objects) {
     const at = posed([...goal.at, 0]);
     const disc = new THREE.Mesh(new THREE.CircleGeometry(goal.tolerance * LENGTH, 64),
       new THREE.MeshBasicMaterial({ color: colour('goal'), transparent: true, opacity: 0.25, depthWrite: false }));
@@ -146,6 +135,21 @@ const solid = (() => {
       at[2] = goal.heading[0] * FINE;
       scene.add(placed(piece(objects[goal.object], colour('goal'), colour('goal'), true), at));
     }
+  }
+
+  function drawStill() {
+    const { goal, objects, obstacles, reach } = page.stage;
+    for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
+    for (const body of obstacles) {
+      scene.add(placed(piece(body, colour('hatch'), colour('other-rim')), posed(body.at)));
+    }
+    for (const replay of goal ? shown() : []) {
+      const [xs, ys, , zs] = replay.objects[goal.object];
+      const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);
+      scene.add(line(way, layerColour(replay.layer)));
+    }
+    if (page.measure) return;
+    if (goal) drawGoal(goal, objects);
     for (const stroke of plan().strokes) {
       const grip = posed(page.tools[stroke.tool].grip);
       const ends = [stroke.from, stroke.to].map((end) => {
@@ -174,7 +178,7 @@ const solid = (() => {
     }
     for (const replay of shown()) {
       page.stage.objects.forEach((body, object) => {
-        const own = object === page.stage.goal.object ? 'own' : 'other';
+        const own = object === page.stage.goal?.object ? 'own' : 'other';
         const tint = layerColour(replay.layer);
         const node = replay === lead ? piece(body, colour(own), colour(`${own}-rim`)) : piece(body, tint, tint, true);
         add(node, (time) => replay.object(object, time), { layer: replay.layer, object });

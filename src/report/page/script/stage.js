@@ -67,7 +67,7 @@
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
     const { goal, objects, obstacles } = page.stage;
-    add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    if (goal) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
@@ -131,9 +131,10 @@
       still.append(shape);
     }
     objects.forEach((body, k) => {
-      const className = k === goal.object ? 'start own' : 'start';
+      const className = k === goal?.object ? 'start own' : 'start';
       still.append(outline(body.shape, { transform: at(posed(body.at)), class: className }));
     });
+    if (!goal) return;
     const wanted = [...posed([...goal.at, 0])];
     const own = objects[goal.object];
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
@@ -185,7 +186,7 @@
     }
     for (const replay of shown()) {
       objects.forEach((body, k) => {
-        const own = k === goal.object ? ' own' : '';
+        const own = k === goal?.object ? ' own' : '';
         const className = replay === lead ? `object${own}` : `ghost ${replay.layer}`;
         const shape = svg('g', { class: className },
           outline(body.shape, {}), svg('title', {}, `${body.name}, ${LAYERS[replay.layer]}`));

@@ -3,20 +3,21 @@
 (() => {
   const WORDS = {
     passed: 'works', fragile: 'fragile', failed: 'fails', open: 'not verified',
-    reached: 'reached', given_up: 'given up',
+    reached: 'reached', given_up: 'given up', inferred: 'inferred',
   };
 
   const measured = page.measure?.name ?? 'Off the goal';
   byId('measure').textContent = measured;
   byId('task').textContent = page.task;
-  byId('goal').textContent = [page.description, `Goal: ${page.stage.goal.words}.`].filter(Boolean).join(' ');
+  const { goal } = page.stage;
+  byId('goal').textContent = [page.description, goal && `Goal: ${goal.words}.`].filter(Boolean).join(' ');
 
   function head() {
     const { standing, verdict } = plan();
     const badge = byId('badge');
     badge.textContent = WORDS[standing];
     badge.className = `badge ${standing}`;
-    const kind = page.run ? 'Run' : 'Plan';
+    const kind = page.run?.kind ?? 'Plan';
     byId('plan').textContent = `${kind}${page.plans.length > 1 ? ` ${view.plan + 1}` : ''}: ${plan().name}.`;
     byId('verdict').textContent = `${verdict[0].toUpperCase()}${verdict.slice(1)}.`;
   }
@@ -45,9 +46,9 @@
     for (const replay of replays()) {
       byId(`error-${replay.layer}`).textContent = millimetres(replay.error(view.time));
     }
-    if (page.stage.goal.heading) {
+    if (goal.heading) {
       const turned = replays().map((replay) => `${LAYERS[replay.layer]} ${degrees(replay.headingError(view.time))}`);
-      const allowed = degrees(page.stage.goal.heading[1] * FINE);
+      const allowed = degrees(goal.heading[1] * FINE);
       byId('heading').textContent = `Heading off by: ${turned.join(', ')}; ${allowed} allowed.`;
     }
   }
@@ -97,6 +98,11 @@
   byId('warnings').replaceChildren(...page.warnings.map((line) => html('li', {}, line)));
   plans();
   tools();
-  whenPlanChanges.push(head, layers, current);
+  whenPlanChanges.push(head, current);
+  if (!goal) {
+    document.querySelector('aside').remove();
+    return;
+  }
+  whenPlanChanges.push(layers);
   whenTimeChanges.push(errors);
 })();
