@@ -9,7 +9,7 @@ use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
 use pushplan::judge::lever_error;
 use pushplan::network::{
-    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
+    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
     LeverWeights, Parameters, Statistics, fresh_lever, lever_layout,
 };
 use pushplan::scene::{LEVER_FRAMES, LeverFeatures, LeverJob};
@@ -39,7 +39,15 @@ fn weights(features: LeverFeatures, sizes: LeverSizes, parameters: Parameters) -
 
 #[test]
 fn the_cell_computes_what_training_differentiates() {
-    let sizes = LeverSizes { still: 7, moving: 4, width: 11 };
+    let image = ImageSizes { rows: 10, columns: 11, code: 6 };
+    let plain = LeverSizes { still: 7, moving: 4, width: 11, ..LeverSizes::default() };
+    let seeing = LeverSizes { image: Some(image), feedback: true, ..plain };
+    for sizes in [plain, seeing] {
+        computes_what_training_differentiates(sizes);
+    }
+}
+
+fn computes_what_training_differentiates(sizes: LeverSizes) {
     let mut rng = Pcg64::seed_from_u64(3);
     let mut draw =
         |count: usize| (0..count).map(|_| rng.random_range(-0.5f32..0.5)).collect::<Vec<f32>>();
@@ -49,14 +57,26 @@ fn the_cell_computes_what_training_differentiates() {
     let parameters = Parameters { values: values.collect() };
     let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
     let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
-    let told = cell.predict(&still, &moving);
+    let image = sizes.image.map(|image| draw(image.rows * image.columns)).unwrap_or_default();
+    let told = cell.predict(&still, &image, &moving);
 
     let tensor = |values: &[f32]| {
         Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
     };
     let tensors = LeverTensors {
         still: tensor(&still),
+        image: sizes.image.map(|sizes| {
+            let shape = (1, sizes.rows, sizes.columns, 1);
+            Tensor::from_slice(&image, shape, &Device::Cpu).expect("an image")
+        }),
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
+        // What the cell feeds back to itself.
+        before: if sizes.feedback {
+            let poses = told.poses.chunks_exact(LEVER_POSE);
+            std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
+        } else {
+            Vec::new()
+        },
     };
     let graph = LeverGraph::new(&sizes, &parameters).expect("a graph");
     let (poses, end) = graph.forward(&tensors).expect("predictions");
