@@ -177,6 +177,45 @@ fn training_learns_and_resumes_to_the_same_bits() {
     assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
 }
 
+/// What sees images resumes too, stopped before and after its autoencoder is done; so does what is fed
+/// with its own predictions.
+#[test]
+fn networks_of_the_thesis_resume_to_the_same_bits() {
+    let (data, held_out) = (episodes(1, 48), episodes(2, 12));
+    let with = |features, feedback| {
+        let mut settings = LeverSettings {
+            features,
+            feedback,
+            cut: feedback,
+            evaluate_every: 20,
+            ..settings(false)
+        };
+        settings.descent.steps = 60;
+        settings
+    };
+    let of = [
+        (with(LeverFeatures::ImageCode, false), "LSTM, image autoencoder"),
+        (with(LeverFeatures::ContextImage, true), "LSTM, shape context CNN, fed back"),
+    ];
+    for (settings, name) in of {
+        let train = |folder: &Path, watch: &dyn Watch| {
+            let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
+            train_lever(&settings, &data, &held_out, &lock, watch).expect("training")
+        };
+        let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+        let best = train(whole.path(), &Unwatched).expect("weights");
+        // The autoencoder counts its own steps.
+        train(parts.path(), &Until(40, AtomicU64::new(0)));
+        train(parts.path(), &Until(20, AtomicU64::new(0)));
+        train(parts.path(), &Unwatched);
+        let checkpoint = |folder: &tempfile::TempDir| {
+            fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")
+        };
+        assert!(checkpoint(&whole) == checkpoint(&parts), "{name}");
+        assert_eq!(LeverNetwork::load(&best).expect("weights").name(), name);
+    }
+}
+
 #[test]
 fn a_correction_is_saved_with_its_prior() {
     let (data, held_out) = (episodes(1, 32), episodes(2, 12));

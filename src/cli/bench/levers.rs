@@ -104,7 +104,16 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         }));
         spinner.finish_and_clear();
     }
-    args.form.show(session, &levers_document(&reports))
+    let mut document = levers_document(&reports);
+    if args.random_split {
+        let note = "Shapes of these lever-ups have been seen, levered at other places.";
+        document.notes.push(note.to_owned());
+    }
+    if args.cut {
+        let note = "Frames from a slip on are left out; the turn ends with the last one before.";
+        document.notes.push(note.to_owned());
+    }
+    args.form.show(session, &document)
 }
 
 /// From the simplest on.
