@@ -25,6 +25,7 @@ use super::{
 #[command(
     after_help = "Lever-ups are those of `pushplan generate --preset levers`. In the folder lie checkpoint.safetensors
 to go on from, metrics.jsonl, and best.safetensors, the weights with the lowest held-out error.
+With `--features image-code` an autoencoder is trained first, for as many steps; its state is in code.safetensors.
 Ctrl-C saves and stops; the same command then goes on, to the same bits as a run that never stopped.
 
 Examples:
@@ -32,6 +33,8 @@ Examples:
   pushplan generate data/levers-held-out --preset levers --episodes 1000 --seed 2
   pushplan train-lever runs/context --data data/levers --held-out data/levers-held-out \\
       --features shape-context --no-prior
+  pushplan train-lever runs/image --data data/levers --held-out data/levers-held-out \\
+      --features image --no-prior
   pushplan bench levers --network runs/context/best.safetensors"
 )]
 pub struct TrainLeverArgs {
