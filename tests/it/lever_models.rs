@@ -198,7 +198,7 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     let card = LeverCard { features: LeverFeatures::ContextImage, ..seeing.card.clone() };
     assert!(LeverNetwork::new(&LeverWeights { card, ..seeing.clone() }).is_err());
     // Images that no convolutions are there for.
-    let (from, to) = (br#""rows":64"#, br#""rows":99"#);
+    let (from, to) = (br#"rows\":64"#, br#"rows\":99"#);
     let at = bytes.windows(from.len()).position(|window| window == from).expect("a card");
     let mut larger = bytes;
     larger[at..][..to.len()].copy_from_slice(to);
