@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::dataset::{LeverDataset, LeverEpisode};
+use crate::dataset::{LeverDataset, LeverEpisode, LeverPart};
 use crate::scene::LeverFeatures;
 use crate::store::FolderLock;
 use crate::train::{Descent, LeverSettings, train_lever};
@@ -25,6 +25,7 @@ use super::{
 #[command(
     after_help = "Lever-ups are those of `pushplan generate --preset levers`. In the folder lie checkpoint.safetensors
 to go on from, metrics.jsonl, and best.safetensors, the weights with the lowest held-out error.
+With `--features image-code` an autoencoder is trained first, for as many steps; its state is in code.safetensors.
 Ctrl-C saves and stops; the same command then goes on, to the same bits as a run that never stopped.
 
 Examples:
@@ -32,6 +33,8 @@ Examples:
   pushplan generate data/levers-held-out --preset levers --episodes 1000 --seed 2
   pushplan train-lever runs/context --data data/levers --held-out data/levers-held-out \\
       --features shape-context --no-prior
+  pushplan train-lever runs/image --data data/levers --held-out data/levers-held-out \\
+      --features image --no-prior
   pushplan bench levers --network runs/context/best.safetensors"
 )]
 pub struct TrainLeverArgs {
@@ -42,8 +45,19 @@ pub struct TrainLeverArgs {
     #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
     data: Vec<PathBuf>,
     /// Folders of held-out lever-ups, of other seeds
-    #[arg(long, value_name = "DIR", required = true, num_args = 1..)]
+    #[arg(long, value_name = "DIR", required_unless_present = "random_split", num_args = 1..)]
     held_out: Vec<PathBuf>,
+    /// As in the thesis, learn from 14 in 18 lever-ups of every folder, hold one out, and leave the
+    /// others to `bench levers --random-split`: their shapes have been seen
+    #[arg(long, conflicts_with_all = ["held_out", "share"])]
+    random_split: bool,
+    /// As in the thesis, tell the pose of the frame before: the true one while learning, the predicted
+    /// one after
+    #[arg(long, requires = "no_prior")]
+    feedback: bool,
+    /// As in the thesis, leave out the frames from a slip on
+    #[arg(long)]
+    cut: bool,
     /// What the network is told of the shape
     #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support")]
     features: LeverFeatures,
@@ -104,18 +118,28 @@ pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
             .iter()
             .map(|set| set.config().split(set.config().seed, share(set.episodes().len()) as u64))
             .collect(),
+        feedback: args.feedback,
+        cut: args.cut,
+        split: args.random_split,
         left_out: args.leave_out,
         ..default
     };
     let corners =
         |episode: &LeverEpisode| episode.scene.plates[episode.lever.plate].corners().len();
+    let part = |set: &LeverDataset, part: LeverPart| {
+        let seed = set.config().seed;
+        let among =
+            |episode: &&LeverEpisode| !args.random_split || LeverPart::of(seed, episode) == part;
+        set.episodes().iter().filter(among).cloned().collect::<Vec<_>>()
+    };
     let kept = |set: &LeverDataset| {
-        let some = set.episodes().iter().take(share(set.episodes().len()));
-        some.filter(|episode| Some(corners(episode)) != args.leave_out).cloned().collect::<Vec<_>>()
+        let some = part(set, LeverPart::Learned).into_iter().take(share(set.episodes().len()));
+        some.filter(|episode| Some(corners(episode)) != args.leave_out).collect::<Vec<_>>()
     };
     let known: Vec<LeverEpisode> = data.iter().flat_map(kept).collect();
+    let held_out = if args.random_split { &data } else { &held_out };
     let asked: Vec<LeverEpisode> =
-        held_out.iter().flat_map(|set| set.episodes().to_vec()).collect();
+        held_out.iter().flat_map(|set| part(set, LeverPart::ChosenBy)).collect();
     interrupt::watch();
     let folder = FolderLock::take(&args.folder, &Following::bar(session, "folder"))?;
     let following = Following::bar(session, "steps");

@@ -70,12 +70,16 @@ pub static LEVER_PRESETS: [(&str, LeverPreset, &str); 6] = [
 
 /// What a network of lever-ups is told of the shape.
 #[cfg(feature = "train")]
-pub static LEVER_FEATURES: [(&str, LeverFeatures, &str); 5] = [
+pub static LEVER_FEATURES: [(&str, LeverFeatures, &str); 9] = [
     ("nothing", LeverFeatures::Nothing, "Nothing"),
     ("shape-context", LeverFeatures::ShapeContext, "Counts of outline points in rings and wedges"),
     ("corners", LeverFeatures::Corners, "Corners and centre of mass"),
     ("support", LeverFeatures::Support, "The support edge and the centre of mass"),
     ("shape", LeverFeatures::Shape, "All of the last two"),
+    ("image", LeverFeatures::Image, "A mask from above, by convolutions"),
+    ("image-code", LeverFeatures::ImageCode, "The same in the code of an autoencoder"),
+    ("context-image", LeverFeatures::ContextImage, "The shape context, by convolutions"),
+    ("depth", LeverFeatures::Depth, "Heights from above, by convolutions"),
 ];
 
 /// What data can be made of.

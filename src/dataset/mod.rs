@@ -50,7 +50,7 @@ pub use heavy::{MASS_RANGES, MassEpisode, MassSetup, Touched};
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
 pub use lever::{
-    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode,
+    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode, LeverPart,
     LeverPreset, generate_levers, lever_job,
 };
 pub use novelty::is_shipped;

@@ -22,12 +22,12 @@ mod weights;
 
 pub use config::Config;
 pub use forward::{Buffers, Forward, matrix_product};
-pub use lever::{
-    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
-    lever_layout,
-};
 #[cfg(feature = "train")]
-pub use lever::{LeverGraph, LeverTensors};
+pub use lever::{Autoencoder, LeverGraph, LeverTensors, autoencoder_layout, fresh_autoencoder};
+pub use lever::{
+    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights,
+    fresh_lever, lever_layout,
+};
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout};
 #[cfg(feature = "train")]

@@ -44,3 +44,22 @@ fn a_training_never_writes_to_a_folder_that_another_command_writes_to() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(said.starts_with("error: another pushplan is writing to"), "{said}");
 }
+
+#[test]
+fn what_does_not_fit_together_in_training_of_lever_ups_is_refused() {
+    let wrong = [
+        ("--held-out b --feedback", "--no-prior"),
+        ("--held-out b --random-split", "cannot be used with"),
+        ("--held-out b --features picture", "image-code"),
+        ("--no-prior", "--held-out"),
+    ];
+    for (arguments, part) in wrong {
+        let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
+            .args(["train-lever", "runs/none", "--data", "a"])
+            .args(arguments.split_whitespace())
+            .output()
+            .expect("the command runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains(part), "{arguments}: {said}");
+    }
+}

@@ -9,7 +9,7 @@ use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
 use pushplan::judge::lever_error;
 use pushplan::network::{
-    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
+    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
     LeverWeights, Parameters, Statistics, fresh_lever, lever_layout,
 };
 use pushplan::scene::{LEVER_FRAMES, LeverFeatures, LeverJob};
@@ -39,7 +39,15 @@ fn weights(features: LeverFeatures, sizes: LeverSizes, parameters: Parameters) -
 
 #[test]
 fn the_cell_computes_what_training_differentiates() {
-    let sizes = LeverSizes { still: 7, moving: 4, width: 11 };
+    let image = ImageSizes { rows: 10, columns: 11, code: 6 };
+    let plain = LeverSizes { still: 7, moving: 4, width: 11, ..LeverSizes::default() };
+    let seeing = LeverSizes { image: Some(image), feedback: true, ..plain };
+    for sizes in [plain, seeing] {
+        computes_what_training_differentiates(sizes);
+    }
+}
+
+fn computes_what_training_differentiates(sizes: LeverSizes) {
     let mut rng = Pcg64::seed_from_u64(3);
     let mut draw =
         |count: usize| (0..count).map(|_| rng.random_range(-0.5f32..0.5)).collect::<Vec<f32>>();
@@ -49,14 +57,26 @@ fn the_cell_computes_what_training_differentiates() {
     let parameters = Parameters { values: values.collect() };
     let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
     let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
-    let told = cell.predict(&still, &moving);
+    let image = sizes.image.map(|image| draw(image.rows * image.columns)).unwrap_or_default();
+    let told = cell.predict(&still, &image, &moving);
 
     let tensor = |values: &[f32]| {
         Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
     };
     let tensors = LeverTensors {
         still: tensor(&still),
+        image: sizes.image.map(|sizes| {
+            let shape = (1, sizes.rows, sizes.columns, 1);
+            Tensor::from_slice(&image, shape, &Device::Cpu).expect("an image")
+        }),
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
+        // What the cell feeds back to itself.
+        before: if sizes.feedback {
+            let poses = told.poses.chunks_exact(LEVER_POSE);
+            std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
+        } else {
+            Vec::new()
+        },
     };
     let graph = LeverGraph::new(&sizes, &parameters).expect("a graph");
     let (poses, end) = graph.forward(&tensors).expect("predictions");
@@ -155,6 +175,45 @@ fn training_learns_and_resumes_to_the_same_bits() {
     let other = LeverSettings { seed: 2, ..settings };
     let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
     assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
+}
+
+/// What sees images resumes too, stopped before and after its autoencoder is done; so does what is fed
+/// with its own predictions.
+#[test]
+fn networks_of_the_thesis_resume_to_the_same_bits() {
+    let (data, held_out) = (episodes(1, 48), episodes(2, 12));
+    let with = |features, feedback| {
+        let mut settings = LeverSettings {
+            features,
+            feedback,
+            cut: feedback,
+            evaluate_every: 20,
+            ..settings(false)
+        };
+        settings.descent.steps = 60;
+        settings
+    };
+    let of = [
+        (with(LeverFeatures::ImageCode, false), "LSTM, image autoencoder"),
+        (with(LeverFeatures::ContextImage, true), "LSTM, shape context CNN, fed back"),
+    ];
+    for (settings, name) in of {
+        let train = |folder: &Path, watch: &dyn Watch| {
+            let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
+            train_lever(&settings, &data, &held_out, &lock, watch).expect("training")
+        };
+        let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+        let best = train(whole.path(), &Unwatched).expect("weights");
+        // The autoencoder counts its own steps.
+        train(parts.path(), &Until(40, AtomicU64::new(0)));
+        train(parts.path(), &Until(20, AtomicU64::new(0)));
+        train(parts.path(), &Unwatched);
+        let checkpoint = |folder: &tempfile::TempDir| {
+            fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")
+        };
+        assert!(checkpoint(&whole) == checkpoint(&parts), "{name}");
+        assert_eq!(LeverNetwork::load(&best).expect("weights").name(), name);
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use crate::cli::{
     session::Session,
     words::{LEVER_PRESETS, words},
 };
-use crate::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use crate::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
 use crate::effect::{
     LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
 };
@@ -49,12 +49,19 @@ pub struct LeversArgs {
     /// Only plates of this many corners, of all lever-ups
     #[arg(long, value_name = "N")]
     corners: Option<usize>,
+    /// As in the thesis, ask the lever-ups of --seed that `train-lever --random-split` leaves; those
+    /// that it learns from are remembered
+    #[arg(long, conflicts_with_all = ["known", "known_seed"])]
+    random_split: bool,
+    /// As in the thesis, measure up to the first slip only
+    #[arg(long)]
+    cut: bool,
     #[command(flatten)]
     form: Form,
 }
 
 pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
-    if args.seed == args.known_seed {
+    if args.seed == args.known_seed && !args.random_split {
         let message = "the lever-ups that are remembered have the seed of the others";
         return Err(CliError::usage(message, "choose another --known-seed"));
     }
@@ -73,8 +80,19 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
             following.finish()?;
             drawn.map_err(data_error)
         };
-        let known = draw((args.known_seed, args.known))?;
         let mut asked = draw((args.seed, args.cases))?.episodes().to_vec();
+        let known = if args.random_split {
+            let part = |episode: &LeverEpisode| LeverPart::of(args.seed, episode);
+            let known = asked.iter().filter(|one| part(one) == LeverPart::Learned).cloned();
+            let known = known.collect();
+            asked.retain(|one| part(one) == LeverPart::Asked);
+            known
+        } else {
+            draw((args.known_seed, args.known))?.episodes().to_vec()
+        };
+        if args.cut {
+            asked = asked.iter().filter_map(LeverEpisode::before_slip).collect();
+        }
         asked.retain(|episode| args.corners.is_none_or(|corners| corners_of(episode) == corners));
         let spinner = session.spinner("predicting");
         reports.push(session.compute(|| {
@@ -86,12 +104,20 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
         }));
         spinner.finish_and_clear();
     }
-    args.form.show(session, &levers_document(&reports))
+    let mut document = levers_document(&reports);
+    if args.random_split {
+        let note = "Shapes of these lever-ups have been seen, levered at other places.";
+        document.notes.push(note.to_owned());
+    }
+    if args.cut {
+        let note = "Frames from a slip on are left out; the turn ends with the last one before.";
+        document.notes.push(note.to_owned());
+    }
+    args.form.show(session, &document)
 }
 
 /// From the simplest on.
-fn models(known: &LeverDataset) -> Vec<Box<dyn LeverModel>> {
-    let known = known.episodes();
+fn models(known: &[LeverEpisode]) -> Vec<Box<dyn LeverModel>> {
     let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
     let nearest = |features| like(Neighbour::Nearest(features));
     vec![

@@ -50,6 +50,16 @@ impl LeverEpisode {
         LeverJob { scene: Arc::new(self.scene.clone()), lever: self.lever }
     }
 
+    /// The same with a trajectory that ends where the plate slips off the blade; none if it does at
+    /// once.
+    pub fn before_slip(&self) -> Option<Self> {
+        let mut cut = self.clone();
+        let frames = cut.trajectory.before_slip();
+        cut.trajectory.lift.truncate(frames);
+        cut.trajectory.held.truncate(frames);
+        (frames > 0).then_some(cut)
+    }
+
     /// Whether the engine came to rest and nothing was jammed.
     pub fn is_sound(&self) -> bool {
         let unsound = [LeverWarning::Jammed, LeverWarning::Moving];

@@ -10,8 +10,10 @@ mod generate;
 mod lying;
 mod plates;
 mod preset;
+mod split;
 
 pub use config::{LEVER_SUITE, LeverConfig};
 pub use episode::{LEVERS_PER_SHAPE, LeverEpisode, lever_job};
 pub use generate::{LeverDataset, generate_levers};
 pub use preset::{DISC_PLACES, LeverPreset};
+pub use split::LeverPart;

@@ -1,9 +1,9 @@
 //! What a network is told of a lever-up, and to what it adds.
 
-use crate::network::{LEVER_POSE, LeverSizes};
+use crate::network::{ImageSizes, LEVER_POSE, LeverSizes};
 use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
 
-use super::{LeverView, lever_action, lever_features};
+use super::{LeverView, image::lever_image, lever_action, lever_features};
 
 /// Unit of ways that the network predicts, metres.
 const WAY: f64 = 0.05;
@@ -15,11 +15,16 @@ const TIP: f64 = 0.02;
 /// the prior slips a little too late, the correction must begin before.
 const AHEAD: [usize; 5] = [2, 5, 8, 11, 14];
 
+/// Numbers that an image is told in.
+const CODE: usize = 32;
+
 /// A lever-up in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverInputs {
     /// Features of the whole, `[S]`.
     pub still: Vec<f32>,
+    /// The image, row by row; empty where none is seen.
+    pub image: Vec<f32>,
     /// Features of every frame: [T, M].
     pub moving: Vec<f32>,
     /// What predictions are added to: poses `[T, 9]` and that at rest, `[9]`.
@@ -36,6 +41,8 @@ impl LeverInputs {
             // Pose, whether it is held, and the blade's tip.
             moving: 3 + if prior { LEVER_POSE + 1 + 3 } else { 0 },
             width,
+            image: features.image().map(|[rows, columns]| ImageSizes { rows, columns, code: CODE }),
+            feedback: false,
         }
     }
 
@@ -58,6 +65,11 @@ pub fn lever_inputs(
 ) -> LeverInputs {
     let view = LeverView::new(job);
     let mut still = lever_action(job).to_vec();
+    let image = lever_image(features, job, &view);
+    if !image.is_empty() {
+        // How thick a plate is belongs to what is seen of it, or is not.
+        still[LeverFeatures::THICKNESS] = 0.0;
+    }
     still.extend(lever_features(features, job, &view));
     let start = LeverInputs::told(view.see(&job.scene.plates[job.lever.plate].start()));
     let (mut moving, mut base) = (Vec::new(), Vec::new());
@@ -77,7 +89,7 @@ pub fn lever_inputs(
     }
     let Some(prior) = prior else {
         base.extend(start);
-        return LeverInputs { still, moving, base };
+        return LeverInputs { still, image, moving, base };
     };
     let rest = LeverInputs::told(view.see(&prior.rest));
     still.push(is(prior.slipped()));
@@ -87,7 +99,7 @@ pub fn lever_inputs(
     let held = prior.held.iter().rposition(|held| *held).map_or(0, |frame| frame + 1);
     still.push(held as f32 / LEVER_FRAMES as f32);
     base.extend(rest);
-    LeverInputs { still, moving, base }
+    LeverInputs { still, image, moving, base }
 }
 
 /// Unit of a pose's number `k`: its way comes first.

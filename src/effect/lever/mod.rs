@@ -4,6 +4,7 @@
 //! of speed and accuracy stands behind it. Nothing is searched here.
 
 mod features;
+mod image;
 mod inputs;
 mod model;
 mod network;

@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::network::{LEVER_POSE, LeverCell, LeverWeights, WeightsError};
+use crate::network::{LEVER_POSE, LeverCell, LeverSizes, LeverWeights, WeightsError};
 use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
 
 use super::{
@@ -54,7 +54,8 @@ impl LeverNetwork {
     /// [`LeverNetworkError::Inputs`] if their widths do not fit what the card says they are told.
     pub fn new(weights: &LeverWeights) -> Result<Self, LeverNetworkError> {
         let card = &weights.card;
-        if LeverInputs::sizes(card.features, card.prior, card.sizes.width) != card.sizes {
+        let sizes = LeverInputs::sizes(card.features, card.prior, card.sizes.width);
+        if (LeverSizes { feedback: card.sizes.feedback, ..sizes }) != card.sizes {
             return Err(LeverNetworkError::Inputs);
         }
         Ok(Self {
@@ -90,7 +91,7 @@ impl LeverNetwork {
 
     fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
         let inputs = lever_inputs(self.features, job, prior);
-        let told = self.cell.predict(&inputs.still, &inputs.moving);
+        let told = self.cell.predict(&inputs.still, &inputs.image, &inputs.moving);
         let view = LeverView::new(job);
         let pose = |base: &[f32], told: &[f32]| {
             let sum: Vec<f32> = base.iter().zip(told).map(|(base, told)| base + told).collect();
@@ -118,7 +119,8 @@ impl LeverNetwork {
 impl LeverModel for LeverNetwork {
     fn name(&self) -> String {
         let prior = if self.prior.is_some() { "prior + " } else { "" };
-        format!("{prior}LSTM, {}", self.features)
+        let feedback = if self.cell.feeds_back() { ", fed back" } else { "" };
+        format!("{prior}LSTM, {}{feedback}", self.features)
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {

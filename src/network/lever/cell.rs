@@ -5,6 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::network::{Parameters, Statistics};
 
 use super::{
+    image::image_code,
     layout::{LEVER_ENDS, LEVER_POSE, LeverSizes},
     weights::LeverWeights,
 };
@@ -46,10 +47,18 @@ impl LeverCell {
         }
     }
 
-    /// Predicts from features `still`, `[S]`, of the lever-up and `moving`, `[T, M]`, of its frames.
-    pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverTold {
+    /// Whether it is told what it predicted last.
+    pub fn feeds_back(&self) -> bool {
+        self.sizes.feedback
+    }
+
+    /// Predicts from features `still`, `[S]`, of the lever-up, its `image` if one is seen, and
+    /// `moving`, `[T, M]`, of its frames.
+    pub fn predict(&self, still: &[f32], image: &[f32], moving: &[f32]) -> LeverTold {
         let (still, moving) = (scaled(&self.still, still), scaled(&self.moving, moving));
-        Arch::new().dispatch(Run { cell: self, still: &still, moving: &moving })
+        let sizes = self.sizes.image;
+        let code = sizes.map_or(Vec::new(), |sizes| image_code(&sizes, &self.parameters, image));
+        Arch::new().dispatch(Run { cell: self, still: &still, code, moving: &moving })
     }
 
     /// A parameter that reading the weights checked.
@@ -62,6 +71,8 @@ impl LeverCell {
 struct Run<'a> {
     cell: &'a LeverCell,
     still: &'a [f32],
+    /// Before its tanh; empty without an image.
+    code: Vec<f32>,
     moving: &'a [f32],
 }
 
@@ -71,19 +82,28 @@ impl WithSimd for Run<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> LeverTold {
-        let Self { cell, still, moving } = self;
+        let Self { cell, still, mut code, moving } = self;
         let width = cell.sizes.width;
         let mut told = cell.get("gates.bias").to_vec();
         multiply(still, cell.get("gates.still"), &mut told);
+        if !code.is_empty() {
+            code.iter_mut().for_each(|value| *value = tanh(*value));
+            multiply(&code, cell.get("gates.image"), &mut told);
+        }
+        let of_last = cell.sizes.feedback.then(|| cell.get("gates.pose"));
         let [of_moving, of_hidden] = ["gates.moving", "gates.hidden"].map(|name| cell.get(name));
         let (of_pose, pose_bias) = (cell.get("pose.hidden"), cell.get("pose.bias"));
         let (mut hidden, mut memory) = (vec![0.0; width], vec![0.0; width]);
         let mut gates = vec![0.0; 4 * width];
         let mut poses = Vec::new();
+        let mut pose = [0.0; LEVER_POSE];
         for frame in moving.chunks_exact(cell.sizes.moving.max(1)) {
             gates.copy_from_slice(&told);
             multiply(frame, of_moving, &mut gates);
             multiply(&hidden, of_hidden, &mut gates);
+            if let Some(of_last) = of_last {
+                multiply(&pose, of_last, &mut gates);
+            }
             let (input, rest) = gates.split_at(width);
             let (forget, rest) = rest.split_at(width);
             let (new, output) = rest.split_at(width);
@@ -91,7 +111,6 @@ impl WithSimd for Run<'_> {
                 memory[k] = sigmoid(forget[k]) * memory[k] + sigmoid(input[k]) * tanh(new[k]);
                 hidden[k] = sigmoid(output[k]) * tanh(memory[k]);
             }
-            let mut pose = [0.0; LEVER_POSE];
             pose.copy_from_slice(pose_bias);
             multiply(&hidden, of_pose, &mut pose);
             poses.extend(pose);

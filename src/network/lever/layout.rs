@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::Parameters;
 
+use super::image::{ImageSizes, fresh_bound, image_layout};
+
 /// Numbers of a pose.
 pub const LEVER_POSE: usize = 9;
 
@@ -13,7 +15,7 @@ pub const LEVER_POSE: usize = 9;
 pub const LEVER_ENDS: usize = 4 + LEVER_POSE;
 
 /// Widths of a network.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeverSizes {
     /// Features of a lever-up, S.
     pub still: usize,
@@ -21,13 +23,19 @@ pub struct LeverSizes {
     pub moving: usize,
     /// Hidden state, H.
     pub width: usize,
+    /// The image that is seen, if one is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<ImageSizes>,
+    /// Whether the pose that was predicted last is told in the next frame.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub feedback: bool,
 }
 
 /// Names and shapes of all parameters. Of every row of four gates the order is input, forget, new,
 /// output.
 pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
-    let LeverSizes { still, moving, width } = *sizes;
-    vec![
+    let LeverSizes { still, moving, width, image, feedback } = *sizes;
+    let mut layout = vec![
         ("gates.still", vec![still, 4 * width]),
         ("gates.moving", vec![moving, 4 * width]),
         ("gates.hidden", vec![width, 4 * width]),
@@ -38,7 +46,15 @@ pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
         ("end.hidden_bias", vec![width]),
         ("end.told", vec![width, LEVER_ENDS]),
         ("end.told_bias", vec![LEVER_ENDS]),
-    ]
+    ];
+    if let Some(image) = image {
+        layout.extend(image_layout(&image));
+        layout.push(("gates.image", vec![image.code, 4 * width]));
+    }
+    if feedback {
+        layout.push(("gates.pose", vec![LEVER_POSE, 4 * width]));
+    }
+    layout
 }
 
 /// Random first values from `seed`: uniform with the variance 1 / fan-in; what gives poses and the
@@ -47,7 +63,7 @@ pub fn fresh_lever(sizes: &LeverSizes, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = lever_layout(sizes).into_iter().map(|(name, shape)| {
         let zero = shape.len() == 1 || name == "pose.hidden" || name == "end.told";
-        let bound = (3.0 / shape[0].max(1) as f32).sqrt();
+        let bound = fresh_bound(name, &shape);
         let count: usize = shape.iter().product();
         let value = |k: usize| match name {
             "gates.bias" if k / sizes.width == 1 => 1.0,

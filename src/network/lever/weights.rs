@@ -13,6 +13,7 @@ use crate::{
     scene::LeverFeatures,
 };
 
+use super::image::ImageSizes;
 use super::layout::{LeverSizes, lever_layout};
 
 /// Version of the feature layout and file format; a file of another version is refused.
@@ -89,8 +90,13 @@ impl LeverWeights {
             return Err(WeightsError::Version { found });
         }
         let Header { checksum: written, card, .. } = serde_json::from_str(&text)?;
-        let LeverSizes { still, moving, width } = card.sizes;
-        if [still, moving, width].iter().any(|size| !(1..=4096).contains(size)) {
+        let LeverSizes { still, moving, width, image, .. } = card.sizes;
+        let too_large = |image: &ImageSizes| {
+            image.rows.max(image.columns) > ImageSizes::MOST || !(1..=4096).contains(&image.code)
+        };
+        if [still, moving, width].iter().any(|size| !(1..=4096).contains(size))
+            || image.as_ref().is_some_and(too_large)
+        {
             return Err(WeightsError::Size { width, steps: 1 });
         }
         for (name, scales, count) in

@@ -29,6 +29,12 @@ impl LeverTrajectory {
     pub fn slipped(&self) -> bool {
         self.warnings.contains(&LeverWarning::Slipped)
     }
+
+    /// Frames before the plate slips off the blade: all if it does not.
+    pub fn before_slip(&self) -> usize {
+        let held = || self.held.iter().rposition(|held| *held).map_or(0, |frame| frame + 1);
+        if self.slipped() { held() } else { self.lift.len() }
+    }
 }
 
 /// Whether the plate was off the blade at the end of the turn and had fallen back since it left

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::{
     dataset::LeverEpisode,
     effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs},
-    network::{LEVER_POSE, LeverGraph, LeverTensors, Statistics},
+    network::{ImageSizes, LEVER_POSE, LeverGraph, LeverSizes, LeverTensors, Statistics},
     scene::{Ending, LEVER_FRAMES},
     train::lever::settings::LeverSettings,
 };
@@ -29,12 +29,15 @@ pub(super) struct Example {
     wanted: Vec<f32>,
     slip: f32,
     ending: usize,
+    /// Frames that count.
+    frames: usize,
 }
 
-/// The examples of `episodes` that came to rest without a jam.
+/// The examples of `episodes` that came to rest without a jam, and have frames that count.
 pub(super) fn examples(settings: &LeverSettings, episodes: &[LeverEpisode]) -> Vec<Example> {
     let sound: Vec<&LeverEpisode> = episodes.iter().filter(|episode| episode.is_sound()).collect();
-    sound.par_iter().map(|episode| example(settings, episode)).collect()
+    let examples = sound.par_iter().map(|episode| example(settings, episode));
+    examples.filter(|example| example.frames > 0).collect()
 }
 
 fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
@@ -54,7 +57,9 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
         Ending::Flipped => 1,
         Ending::Leaning => 2,
     };
-    Example { inputs, wanted, slip: f32::from(u8::from(truth.slipped())), ending }
+    let slip = f32::from(u8::from(truth.slipped()));
+    let frames = if settings.cut { truth.before_slip() } else { LEVER_FRAMES };
+    Example { inputs, wanted, slip, ending, frames }
 }
 
 /// A batch as tensors.
@@ -68,10 +73,16 @@ pub(super) struct Batch {
     slips: Tensor,
     /// [B, 3]: 1 at the true ending.
     endings: Tensor,
+    /// How much every frame counts, [B, T]; their sums are 1.
+    shares: Tensor,
 }
 
 impl Batch {
-    pub fn new(examples: &[&Example], scales: &[Statistics; 2]) -> Result<Self> {
+    pub fn new(
+        examples: &[&Example],
+        scales: &[Statistics; 2],
+        sizes: &LeverSizes,
+    ) -> Result<Self> {
         let count = examples.len();
         let tensor = |values: Vec<f32>, columns: usize| {
             Tensor::from_vec(values, (count, columns), &Device::Cpu)
@@ -92,6 +103,17 @@ impl Batch {
         let poses = |values: Vec<f32>, frames: usize| {
             Tensor::from_vec(values, (count, frames, LEVER_POSE), &Device::Cpu)
         };
+        // Where a plate was a frame before: at first it has not moved.
+        let before = |e: &Example, t: usize| match t.checked_sub(1) {
+            Some(last) => e.wanted[last * LEVER_POSE..][..LEVER_POSE].to_vec(),
+            None => vec![0.0; LEVER_POSE],
+        };
+        let told = if sizes.feedback { LEVER_FRAMES } else { 0 };
+        let before = (0..told).map(|t| tensor(gather(&|e| before(e, t)), LEVER_POSE));
+        let share = |e: &Example| {
+            let share = |t: usize| if t < e.frames { 1.0 / e.frames as f32 } else { 0.0 };
+            (0..LEVER_FRAMES).map(share).collect()
+        };
         let one_of = |e: &Example| (0..3).map(|k| f32::from(u8::from(k == e.ending))).collect();
         Ok(Self {
             tensors: LeverTensors {
@@ -99,12 +121,15 @@ impl Batch {
                     scaled(gather(&|e| e.inputs.still.clone()), still),
                     still.mean.len(),
                 )?,
+                image: sizes.image.map(|sizes| images(examples, &sizes)).transpose()?,
                 moving: frames.collect::<Result<_>>()?,
+                before: before.collect::<Result<_>>()?,
             },
             wanted: poses(gather(&|e| e.wanted[..all].to_vec()), LEVER_FRAMES)?,
             rests: poses(gather(&|e| e.wanted[all..].to_vec()), 1)?,
             slips: tensor(gather(&|e| vec![e.slip]), 1)?,
             endings: tensor(gather(&one_of), 3)?,
+            shares: tensor(gather(&share), LEVER_FRAMES)?,
         })
     }
 
@@ -115,14 +140,17 @@ impl Batch {
         let [axes, rest, slip, ending] = WEIGHTS;
         let told = Tensor::stack(&poses, 1)?;
         // Not the mean distance: what is published is the root mean square over the frames.
-        let far = |told: &Tensor, wanted: &Tensor, from: usize, count: usize| -> Result<Tensor> {
-            let apart = (told.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?;
-            (apart.sqr()?.sum(2)?.mean(1)? + NEAR)?.sqrt()?.mean_all()
+        let squares = |told: &Tensor, wanted: &Tensor, from: usize, count: usize| {
+            (told.narrow(2, from, count)? - wanted.narrow(2, from, count)?)?.sqr()?.sum(2)
         };
-        let mut loss = far(&told, &self.wanted, 0, 3)?;
-        loss = (loss + (far(&told, &self.wanted, 3, 6)? * axes)?)?;
+        let over = |squares: Tensor| -> Result<Tensor> {
+            ((squares * &self.shares)?.sum(1)? + NEAR)?.sqrt()?.mean_all()
+        };
+        let mut loss = over(squares(&told, &self.wanted, 0, 3)?)?;
+        loss = (loss + (over(squares(&told, &self.wanted, 3, 6)?)? * axes)?)?;
         let told = end.narrow(1, 4, LEVER_POSE)?.unsqueeze(1)?;
-        loss = (loss + (far(&told, &self.rests, 0, 3)? * rest)?)?;
+        let apart = (squares(&told, &self.rests, 0, 3)?.sum(1)? + NEAR)?.sqrt()?.mean_all()?;
+        loss = (loss + (apart * rest)?)?;
         // log(1 + exp x) - x y, without overflow.
         let x = end.narrow(1, 0, 1)?;
         let soft = (x.relu()? + ((x.abs()?.neg()?.exp()? + 1.0)?.log()?))?;
@@ -131,4 +159,10 @@ impl Batch {
         let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
         loss - ((shares * &self.endings)?.sum(1)?.mean_all()? * ending)?
     }
+}
+
+/// Images side by side: [B, rows, columns, 1].
+pub(super) fn images(examples: &[&Example], sizes: &ImageSizes) -> Result<Tensor> {
+    let all: Vec<f32> = examples.iter().flat_map(|e| e.inputs.image.iter().copied()).collect();
+    Tensor::from_vec(all, (examples.len(), sizes.rows, sizes.columns, 1), &Device::Cpu)
 }

@@ -2,8 +2,10 @@
 //!
 //! A run is a folder as that of the physics predictor.
 
+mod autoencoder;
 mod batch;
 mod checkpoint;
+mod replicas;
 mod settings;
 mod trainer;
 

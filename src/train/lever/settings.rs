@@ -5,6 +5,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::LeverConfig;
+use crate::effect::LeverInputs;
+use crate::network::LeverSizes;
 use crate::scene::LeverFeatures;
 use crate::train::Descent;
 
@@ -25,10 +27,28 @@ pub struct LeverSettings {
     pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
+    /// Whether it is told the pose of the frame before: the true one when it learns, its own when it
+    /// predicts.
+    #[serde(default)]
+    pub feedback: bool,
+    /// Whether the frames from a slip on are left out.
+    #[serde(default)]
+    pub cut: bool,
+    /// Whether the data are one part of a random split over lever-ups.
+    #[serde(default)]
+    pub split: bool,
     /// The families that it is trained on.
     pub data: Vec<LeverConfig>,
     /// Plates of this many corners are left out of them.
     pub left_out: Option<usize>,
+}
+
+impl LeverSettings {
+    /// Widths of the network.
+    pub(super) fn sizes(&self) -> LeverSizes {
+        let sizes = LeverInputs::sizes(self.features, self.prior, self.width);
+        LeverSizes { feedback: self.feedback, ..sizes }
+    }
 }
 
 impl Default for LeverSettings {
@@ -48,6 +68,9 @@ impl Default for LeverSettings {
                 clip: 1.0,
                 average: 0.995,
             },
+            feedback: false,
+            cut: false,
+            split: false,
             data: Vec::new(),
             left_out: None,
         }

@@ -6,16 +6,13 @@ use std::{
     time::Instant,
 };
 
-use rand::Rng;
-use rayon::prelude::*;
-
 use crate::{
     asset::write_atomic,
-    dataset::{LeverEpisode, generator},
-    effect::{LeverInputs, LeverModel, LeverNetwork},
+    dataset::LeverEpisode,
+    effect::{LeverModel, LeverNetwork},
     judge::lever_error,
     network::{LeverCard, LeverGraph, LeverWeights, Parameters, Statistics, fresh_lever},
-    scene::LeverJob,
+    scene::{LeverFeatures, LeverJob},
     store::FolderLock,
     train::{AdamW, TrainError, gradients::gradients_of, learning_rate, log::Log},
     watch::Watch,
@@ -23,16 +20,17 @@ use crate::{
 
 use super::{
     LeverCheckpoint, LeverLine, LeverSettings,
+    autoencoder::code,
     batch::{Batch, Example, examples},
+    replicas::gradients,
     settings::LeverScore,
 };
 
-/// A step's lever-ups are split into this many parts, differentiated in parallel and added in order,
-/// so that the bits do not depend on the number of threads.
-const REPLICAS: usize = 2;
+/// The file in a run's folder from which it goes on.
+const CHECKPOINT: &str = "checkpoint.safetensors";
 
 /// Steps after which a run looks whether it is to stop.
-const LOOK: u64 = 20;
+pub(super) const LOOK: u64 = 20;
 
 /// Trains in `folder` until the schedule ends or `watch` says to stop; goes on from the folder's
 /// checkpoint if there is one. Returns the best weights, or `None` if stopped before the first
@@ -53,10 +51,13 @@ pub fn train_lever(
     if examples.is_empty() {
         return Err(TrainError::NoExamples);
     }
-    let held_out: Vec<&LeverEpisode> =
-        held_out.iter().filter(|episode| episode.is_sound()).collect();
-    let path = folder.join("checkpoint.safetensors");
-    let mut run = open(settings, &examples, &path)?;
+    let held_out: Vec<LeverEpisode> = held_out
+        .iter()
+        .filter(|episode| episode.is_sound())
+        .filter_map(|held| if settings.cut { held.before_slip() } else { Some(held.clone()) })
+        .collect();
+    let path = folder.join(CHECKPOINT);
+    let Some(mut run) = open(settings, &examples, folder, watch)? else { return Ok(None) };
     let mut log = Log::open(folder, run.optimiser.step)?;
     let started = Instant::now();
     let (mut count, mut losses, mut norms) = (0.0, 0.0, 0.0);
@@ -66,8 +67,8 @@ pub fn train_lever(
         if step.is_multiple_of(LOOK) && watch.cancelled() {
             break;
         }
-        let (loss, gradients) = gradients(&run, &examples)?;
-        let norm = run.optimiser.update(&settings.descent, &gradients);
+        let (loss, gradient) = next(&run, &examples)?;
+        let norm = run.optimiser.update(&settings.descent, &gradient);
         if !loss.is_finite() || !norm.is_finite() {
             return Err(TrainError::NotFinite(step));
         }
@@ -101,31 +102,47 @@ pub fn train_lever(
     Ok(run.best.is_some().then(|| folder.join("best.safetensors")))
 }
 
-/// Starts from scratch, or from the checkpoint at `path`.
+/// Starts from scratch, or from the checkpoint in `folder`; `None` if `watch` said to stop before
+/// there was anything to start from.
 fn open(
     settings: &LeverSettings,
     examples: &[Example],
-    path: &Path,
-) -> Result<LeverCheckpoint, TrainError> {
-    match fs::read(path) {
-        Ok(bytes) => LeverCheckpoint::from_bytes(&bytes, settings)
-            .map_err(|error| TrainError::Checkpoint(path.to_owned(), error)),
+    folder: &Path,
+    watch: &dyn Watch,
+) -> Result<Option<LeverCheckpoint>, TrainError> {
+    let path = folder.join(CHECKPOINT);
+    match fs::read(&path) {
+        Ok(bytes) => match LeverCheckpoint::from_bytes(&bytes, settings) {
+            Ok(run) => Ok(Some(run)),
+            Err(error) => Err(TrainError::Checkpoint(path, error)),
+        },
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let sizes = LeverInputs::sizes(settings.features, settings.prior, settings.width);
+            let sizes = settings.sizes();
+            let mut weights = fresh_lever(&sizes, settings.seed);
+            if let (LeverFeatures::ImageCode, Some(image)) = (settings.features, &sizes.image) {
+                match code(settings, image, examples, folder, watch)? {
+                    Some(code) => weights.values.iter_mut().for_each(|(name, values)| {
+                        if let Some(learned) = code.values.get(name) {
+                            values.clone_from(learned);
+                        }
+                    }),
+                    None => return Ok(None),
+                }
+            }
             let table = |of: &dyn Fn(&Example) -> &[f32]| -> Vec<f32> {
                 examples.iter().flat_map(of).copied().collect()
             };
             let still = Statistics::measure(&table(&|e| &e.inputs.still), sizes.still, true);
             let moving = Statistics::measure(&table(&|e| &e.inputs.moving), sizes.moving, true);
-            Ok(LeverCheckpoint {
+            Ok(Some(LeverCheckpoint {
                 settings: settings.clone(),
                 sizes,
                 scales: [still, moving],
-                optimiser: AdamW::new(fresh_lever(&sizes, settings.seed)),
+                optimiser: AdamW::new(weights),
                 best: None,
-            })
+            }))
         }
-        Err(error) => Err(TrainError::File(path.to_owned(), error)),
+        Err(error) => Err(TrainError::File(path, error)),
     }
 }
 
@@ -135,36 +152,17 @@ fn save(run: &LeverCheckpoint, path: &Path) -> Result<(), TrainError> {
 }
 
 /// Loss and gradient of the next step.
-fn gradients(run: &LeverCheckpoint, examples: &[Example]) -> Result<(f64, Parameters), TrainError> {
-    let settings = &run.settings;
-    let mut rng = generator(settings.seed, run.optimiser.step);
-    let drawn: Vec<&Example> =
-        (0..settings.batch).map(|_| &examples[rng.random_range(0..examples.len())]).collect();
-    let parts = drawn
-        .par_chunks(settings.batch.div_ceil(REPLICAS).max(1))
-        .map(|part| replica(run, part))
-        .collect::<Result<Vec<_>, candle_core::Error>>()?;
-    let share = 1.0 / parts.len() as f32;
-    let mut total = 0.0;
-    let mut sum = Parameters::default();
-    for (loss, gradient) in parts {
-        total += loss * f64::from(share);
-        for (name, values) in gradient.values {
-            let sum = sum.values.entry(name).or_insert_with(|| vec![0.0; values.len()]);
-            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value);
-        }
-    }
-    Ok((total, sum))
-}
-
-/// One replica's loss and gradient.
-fn replica(
-    run: &LeverCheckpoint,
-    examples: &[&Example],
-) -> Result<(f64, Parameters), candle_core::Error> {
-    let network = LeverGraph::new(&run.sizes, &run.optimiser.weights)?;
-    let loss = Batch::new(examples, &run.scales)?.loss(&network)?;
-    gradients_of(&loss, network.variables())
+fn next(run: &LeverCheckpoint, examples: &[Example]) -> Result<(f64, Parameters), TrainError> {
+    let LeverCheckpoint { settings, sizes, scales, optimiser, .. } = run;
+    gradients((settings.seed, optimiser.step), examples, settings.batch, |part| {
+        let network = if settings.features == LeverFeatures::ImageCode {
+            LeverGraph::with_image_as_it_is(sizes, &optimiser.weights)?
+        } else {
+            LeverGraph::new(sizes, &optimiser.weights)?
+        };
+        let loss = Batch::new(part, scales, sizes)?.loss(&network)?;
+        gradients_of(&loss, network.variables())
+    })
 }
 
 /// The averaged weights with their card.
@@ -185,7 +183,7 @@ fn weights(run: &LeverCheckpoint, episodes: usize) -> LeverWeights {
 }
 
 /// Errors of `weights` on held-out lever-ups; none where they cannot be used.
-fn score(weights: &LeverWeights, held_out: &[&LeverEpisode]) -> LeverScore {
+fn score(weights: &LeverWeights, held_out: &[LeverEpisode]) -> LeverScore {
     let Ok(network) = LeverNetwork::new(weights) else { return LeverScore::default() };
     let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
     let share = 1.0 / jobs.len().max(1) as f64;
