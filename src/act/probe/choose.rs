@@ -138,14 +138,7 @@ fn value(
             let start = &samples.now.start;
             states.iter().map(|end| square(end, start).sqrt()).sum()
         }
-        ProbeRule::Information => {
-            let count = states.len().max(1) as f64;
-            let told = states.iter().map(|one| {
-                let taken: f64 = states.iter().map(|other| alike(one, other)).sum();
-                -(taken / count).ln()
-            });
-            told.sum::<f64>() / count
-        }
+        ProbeRule::Information => told(states.len(), |s, t| alike(states[s], states[t])),
         ProbeRule::Task | ProbeRule::Random | ProbeRule::Uncertain => {
             let mut sum = 0.0;
             for (s, one) in states.iter().enumerate() {
@@ -157,6 +150,16 @@ fn value(
             sum
         }
     }
+}
+
+/// What the end of a push tells of `count` samples, nats, of which two are taken for each other with the
+/// probability `alike`.
+fn told(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
+    let one = |s: usize| {
+        let taken: f64 = (0..count).map(|t| alike(s, t)).sum();
+        -(taken / count as f64).ln()
+    };
+    (0..count).map(one).sum::<f64>() / count.max(1) as f64
 }
 
 /// Sum of the squared distances of all objects, square metres.
@@ -173,4 +176,19 @@ fn least_certain(belief: &Belief) -> Option<[usize; 2]> {
     let shares = belief.probabilities();
     let pairs = belief.pairs().zip(shares.iter().map(entropy));
     pairs.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(pair, _)| pair)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_push_tells_as_much_as_there_are_samples_to_tell_apart() {
+        assert_eq!(told(8, |_, _| 1.0), 0.0);
+        let same = |s: usize, t: usize| f64::from(u8::from(s == t));
+        assert!((told(8, same) - 8f64.ln()).abs() < 1e-12);
+        let halves = |s: usize, t: usize| f64::from(u8::from(s / 4 == t / 4));
+        assert!((told(8, halves) - 2f64.ln()).abs() < 1e-12);
+        assert_eq!(told(0, same), 0.0);
+    }
 }

@@ -1,10 +1,12 @@
 //! The cases, and what is learnt in each.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::{
     act::{ProbeRule, choose_probe},
-    belief::{Belief, BeliefSettings, JointType},
+    belief::{Belief, BeliefSettings, JointType, carried},
     bench::{CrowdFamily, CrowdSet, Sighting},
     dataset::{Episode, JointRule, Solids, generator, true_type},
     effect::EffectModel,
@@ -188,11 +190,10 @@ impl Table {
             surprise -= shares[truth as usize].max(1e-9).ln();
         }
         let mut rng = generator(self.tests.0, self.tests.1);
-        let carried = Physics {
-            joints: crate::belief::carried(&self.scene.joints, &self.scene, &situation.start),
+        let known = Arc::new(Physics {
+            joints: carried(&self.scene.joints, &self.scene, &situation.start),
             ..(*situation.physics).clone()
-        };
-        let known = std::sync::Arc::new(carried);
+        });
         let (mut errors, mut knowns) = (Vec::new(), Vec::new());
         for _ in 0..TESTED {
             let motion = random_push(&mut rng, (&self.scene, &self.state), &self.hand, TEST).motion;

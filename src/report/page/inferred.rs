@@ -3,8 +3,8 @@
 use serde_json::Value as Json;
 
 use crate::belief::Belief;
-use crate::recording::Recording;
-use crate::report::document::Document;
+use crate::recording::{RecordedFrame, Recording};
+use crate::report::document::{Document, Section};
 use crate::report::table::Align;
 use crate::scene::{Frame, State};
 
@@ -80,10 +80,10 @@ pub fn recording_page(
     html::page(&data, view)
 }
 
-/// The tables of a document; the first has no title there, as it follows that of the document.
+/// The tables of a document; one that follows its title has none of its own.
 fn found(document: &Document) -> Vec<Found> {
     let shown = document.sections.iter().filter(|section| !section.table.is_empty());
-    let table = |section: &crate::report::document::Section| {
+    let table = |section: &Section| {
         let columns = section.table.columns();
         Found {
             title: match section.title.as_str() {
@@ -101,7 +101,7 @@ fn found(document: &Document) -> Vec<Found> {
 /// What was seen, frame by frame; a stroke lasts until the tool is lifted.
 fn frames(recording: &Recording) -> Vec<Frame> {
     let mut stroke = 0;
-    let frame = |recorded: &crate::recording::RecordedFrame| {
+    let frame = |recorded: &RecordedFrame| {
         stroke += usize::from(recorded.lifted);
         Frame {
             time: recorded.time,
