@@ -17,9 +17,10 @@ pub enum Effort {
     /// The default: a one-push task in well under half a second on two cores.
     #[default]
     Standard,
-    /// Little more expensive, for plans that hold more often when the world is a little different.
+    /// As the default, robustness told in finer shares by twice as many replays.
     Thorough,
-    /// The same, its robustness told in finer shares by four times as many replays.
+    /// Half as expensive again, by simulation: plans hold a little more often when the world is a
+    /// little different, which four times as many replays tell.
     Exhaustive,
 }
 
@@ -41,8 +42,8 @@ impl fmt::Display for Effort {
 }
 
 /// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
-/// machine. A push of one object costs about 0.05 ms of one core in the prior, 0.1 in the network,
-/// 1.0 in the planar engine and 5.5 in the 3-D one (`models/tradeoff.md`).
+/// machine. A push of one object costs about 0.04 ms of one core in the prior, 0.07 in the network,
+/// 0.8 in the planar engine and 5.5 in the 3-D one (`models/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,
