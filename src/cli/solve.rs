@@ -1,6 +1,6 @@
 //! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -101,7 +101,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, &task, (&solution, best), suffix),
+        Some(best) => write(args, session, (&task, &args.task), (&solution, best), suffix),
         None => Ok(Vec::new()),
     };
     let mut document = solution_document(&task, &solution);
@@ -136,14 +136,18 @@ pub fn solve_error(error: SolveError) -> CliError {
         SolveError::Tools(faults) => CliError::Files(faults),
         SolveError::BadTask { .. } => CliError::File(error.to_string()),
         SolveError::Refused { .. } => CliError::Refused(error.to_string()),
+        SolveError::Model(_) => CliError::unexpected("cannot use the shipped weights", &error),
     }
 }
 
-/// The plan file, the pictures and the page.
-fn write(
+/// The plan file, the pictures and the page of a task that can be read from `origin`.
+///
+/// # Errors
+/// Results that cannot be written.
+pub fn write(
     args: &SolveArgs,
     session: &Session,
-    task: &Task,
+    (task, origin): (&Task, &Path),
     (solution, best): (&Solution, &RankedPlan),
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
@@ -165,7 +169,7 @@ fn write(
     written.extend(output::write_figures(&args.out, &figures)?);
     let recipe = |ranked: &RankedPlan| {
         let model = Some(ranked.predicted.by.clone());
-        args.library.origin(&args.task, model).plan(&ranked.plan)
+        args.library.origin(origin, model).plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, args.page);
     written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);
