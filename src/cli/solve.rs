@@ -33,7 +33,8 @@ use super::{
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
-shows why the others lost; with --animate <out>/<task>.animated.svg, too.
+shows why the others lost; with --animate <out>/<task>.animated.svg, too. Pushes that follow a lever-up are
+written as <out>/<task>-push.*, with the task that is left then.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {

@@ -231,7 +231,7 @@ fn broken_by_pushes(task: &LeverTask, follow_up: &FollowUp) -> Vec<LeverFault> {
     // A tool that is driven goes through what is fixed without a trace.
     let fixed: Vec<Obstacle> = task.blocks.iter().map(Block::obstacle).collect();
     let met = plan.pushes.iter().find_map(|push| in_the_way(&fixed, &follow_up.tool, plan, push));
-    found.extend(met.map(|met| LeverFault::Meets { body: met.name.clone() }));
+    found.extend(met.map(|met| LeverFault::PushMeets { body: met.name.clone() }));
     found
 }
 

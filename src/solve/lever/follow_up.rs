@@ -4,8 +4,6 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use crate::asset::ToolLibrary;
 use crate::scene::{FollowUp, LeverGoal, LeverJob, LeverPlan, LeverTask, Task};
 use crate::sim::LeverSimulator;
@@ -41,7 +39,9 @@ impl LeverPlanner {
         let began = Instant::now();
         until.stage("pushing");
         let mut plans = Vec::new();
-        for (ranked, left) in self.to_follow(task, library, &solution.plans) {
+        let left = |ranked: &RankedLever| Some((ranked.clone(), left(task, library, ranked)?));
+        let to_follow = solution.plans.iter().filter_map(left).take(self.settings.followed);
+        for (ranked, left) in to_follow {
             if until.cancelled() {
                 break;
             }
@@ -56,9 +56,9 @@ impl LeverPlanner {
                 }
             }
         }
-        rank(&mut plans);
         // What a lever-up alone comes to is the nearest where no push helps.
         plans.extend(alone.plans);
+        rank(&mut plans);
         let statistics = &mut solution.statistics;
         statistics.verified += alone.statistics.verified;
         statistics.simulated += alone.statistics.simulated;
@@ -69,31 +69,6 @@ impl LeverPlanner {
         own.pushes = began.elapsed().as_secs_f64();
         own.total += first.total + own.pushes;
         Ok(LeverSolution { status: status(&plans), stopped: until.cancelled(), plans, ..solution })
-    }
-
-    /// The best lever-ups after which the plate lies on the table, with what is left to do.
-    fn to_follow(
-        &self,
-        task: &LeverTask,
-        library: &ToolLibrary,
-        plans: &[RankedLever],
-    ) -> Vec<(RankedLever, Task)> {
-        let left: Vec<Option<Task>> = plans
-            .par_iter()
-            .map(|ranked| {
-                if !ranked.predicted.reached {
-                    return None;
-                }
-                let scene = Arc::new(task.scene(ranked.tool.blade));
-                let job = LeverJob { scene, lever: ranked.plan.lever };
-                let (_, motion) = LeverSimulator::FINE.record(&job, FRAME);
-                let left = task.task_after(&motion.frames.last()?.plates)?;
-                Some(Task { tools: task.pushers(library), ..left })
-            })
-            .collect();
-        let both = plans.iter().zip(left);
-        let found = both.filter_map(|(ranked, left)| Some((ranked.clone(), left?)));
-        found.take(self.settings.followed).collect()
     }
 
     /// The lever-up with the pushes that were found, verified as a whole; nothing if none were.
@@ -127,4 +102,17 @@ impl LeverPlanner {
             ..ranked.clone()
         })
     }
+}
+
+/// What is left to do after a lever-up that reaches the rest of the goal, if its plate then lies where
+/// it can be pushed.
+fn left(task: &LeverTask, library: &ToolLibrary, ranked: &RankedLever) -> Option<Task> {
+    if !ranked.predicted.reached {
+        return None;
+    }
+    let scene = Arc::new(task.scene(ranked.tool.blade));
+    let job = LeverJob { scene, lever: ranked.plan.lever };
+    let (_, motion) = LeverSimulator::FINE.record(&job, FRAME);
+    let left = task.task_after(&motion.frames.last()?.plates)?;
+    Some(Task { tools: task.pushers(library), ..left })
 }
