@@ -1,6 +1,6 @@
 //! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -33,7 +33,8 @@ use super::{
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
-shows why the others lost; with --animate <out>/<task>.animated.svg, too.
+shows why the others lost; with --animate <out>/<task>.animated.svg, too. Pushes that follow a lever-up are
+written as <out>/<task>-push.*, with the task that is left then.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
@@ -101,7 +102,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, &task, (&solution, best), suffix),
+        Some(best) => write(args, session, (&task, &args.task), (&solution, best), suffix),
         None => Ok(Vec::new()),
     };
     let mut document = solution_document(&task, &solution);
@@ -136,14 +137,18 @@ pub fn solve_error(error: SolveError) -> CliError {
         SolveError::Tools(faults) => CliError::Files(faults),
         SolveError::BadTask { .. } => CliError::File(error.to_string()),
         SolveError::Refused { .. } => CliError::Refused(error.to_string()),
+        SolveError::Model(_) => CliError::unexpected("cannot use the shipped weights", &error),
     }
 }
 
-/// The plan file, the pictures and the page.
-fn write(
+/// The plan file, the pictures and the page of a task that can be read from `origin`.
+///
+/// # Errors
+/// Results that cannot be written.
+pub fn write(
     args: &SolveArgs,
     session: &Session,
-    task: &Task,
+    (task, origin): (&Task, &Path),
     (solution, best): (&Solution, &RankedPlan),
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
@@ -165,7 +170,7 @@ fn write(
     written.extend(output::write_figures(&args.out, &figures)?);
     let recipe = |ranked: &RankedPlan| {
         let model = Some(ranked.predicted.by.clone());
-        args.library.origin(&args.task, model).plan(&ranked.plan)
+        args.library.origin(origin, model).plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, args.page);
     written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);

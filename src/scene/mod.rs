@@ -50,10 +50,10 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, BladeTool, Block, Ending, LEVER_FRAMES, LeverEvidence, LeverFault, LeverFeatures,
-    LeverFrame, LeverGoal, LeverJob, LeverMotion, LeverOutcome, LeverPlan, LeverReason, LeverRules,
-    LeverScene, LeverTask, LeverTrajectory, LeverUp, LeverVerdict, LeverWarning, Pivot, Place,
-    Plate, Slab, Weight, has_slipped, lever_frame,
+    Blade, BladeTool, Block, Ending, FollowUp, LEVER_FRAMES, LeverEvidence, LeverFault,
+    LeverFeatures, LeverFrame, LeverGoal, LeverJob, LeverMotion, LeverOutcome, LeverPlan,
+    LeverReason, LeverRules, LeverScene, LeverTask, LeverTrajectory, LeverUp, LeverVerdict,
+    LeverWarning, Pivot, Place, Plate, Slab, Weight, has_slipped, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

@@ -5,6 +5,7 @@ use std::fmt;
 use thiserror::Error;
 
 use crate::asset::Faults;
+use crate::effect::ModelError;
 use crate::scene::Warning;
 
 /// Why a task cannot even be tried. Not finding a plan is not an error.
@@ -30,6 +31,9 @@ pub enum SolveError {
         /// What puts it outside of what the model was trained on.
         warnings: Vec<Warning>,
     },
+    /// The library was built around damaged weights.
+    #[error(transparent)]
+    Model(#[from] ModelError),
 }
 
 /// The text of [`Display`](fmt::Display), so that it reads well when it leaves `main`.

@@ -1,7 +1,8 @@
 //! Replays lever-ups in 3-D, as written and disturbed, and gives a verdict with evidence.
 //!
 //! Of the planner's rules for blades none is used: what is checked here is written apart, on fewer
-//! looks.
+//! looks. Pushes that follow are played among the same plates and blocks from where the lever-up left
+//! them, disturbed or not, as if nobody looked in between.
 
 use std::sync::Arc;
 
@@ -9,15 +10,16 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3};
+use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3, wrap_angle};
 use crate::scene::{
-    BladeTool, Disturbance, LeverEvidence, LeverFault, LeverJob, LeverPlan, LeverRules, LeverScene,
-    LeverTask, LeverUp, LeverVerdict, Pivot, ToolChoice,
+    BladeTool, Block, Disturbance, FollowUp, LeverEvidence, LeverFault, LeverJob, LeverPlan,
+    LeverRules, LeverScene, LeverTask, LeverUp, LeverVerdict, Obstacle, Pivot, ToolChoice,
 };
 use crate::sim::LeverSimulator;
 use crate::watch::{Unwatched, Watch};
 
 use super::VerifySettings;
+use super::rules::{in_the_way, is_within_reach};
 
 /// Largest shift of everything that is seen against where the blade goes, along each axis, metres.
 const SHIFT: f64 = 0.5e-3;
@@ -65,7 +67,8 @@ impl<'a> LeverVerifier<'a> {
         }
         let forbidden = broken_rules(task, &scene, tool, plan);
         let job = LeverJob { scene, lever: plan.lever };
-        let trajectory = self.engine.run(&job);
+        let motion = plan.follow_up.as_ref().map(FollowUp::motion);
+        let trajectory = self.engine.run_with(&job, &job.scene, motion.as_ref());
         let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
         let nominal = LeverEvidence {
             disturbance: Disturbance::Nominal,
@@ -88,6 +91,7 @@ impl<'a> LeverVerifier<'a> {
             return LeverVerdict::judge(forbidden, evidence, task.robustness);
         }
         let planned = task.scene(tool.blade);
+        let motion = plan.follow_up.as_ref().map(FollowUp::motion);
         let replays: Vec<LeverEvidence> = (0..self.settings.disturbed)
             .into_par_iter()
             .filter(|_| !self.watch.cancelled())
@@ -95,7 +99,7 @@ impl<'a> LeverVerifier<'a> {
                 let scene =
                     Arc::new(disturbed(&planned, plan.lever.plate, self.settings.seed, draw));
                 let job = LeverJob { scene, lever: plan.lever };
-                let trajectory = self.engine.run_as_planned(&job, &planned);
+                let trajectory = self.engine.run_with(&job, &planned, motion.as_ref());
                 let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
                 LeverEvidence { disturbance, outcome, trajectory: None }
@@ -152,7 +156,11 @@ fn unplayable(scene: &LeverScene, plan: &LeverPlan) -> Option<LeverFault> {
     if !moves || !numbers.iter().all(|v| v.is_finite()) {
         return what("motion");
     }
-    (lever.duration() > LeverUp::LONGEST).then_some(LeverFault::TooLong)
+    let pushes = plan.follow_up.iter().flat_map(|follow_up| &follow_up.plan.pushes);
+    let pushing: f64 = pushes.map(|push| push.length / push.speed).sum();
+    // A NaN is too long as well.
+    let in_time = lever.duration() + pushing <= LeverUp::LONGEST;
+    (!in_time).then_some(LeverFault::TooLong)
 }
 
 /// Everything that is wrong with a plan before anything moves.
@@ -195,6 +203,35 @@ fn broken_rules(
         found.push(LeverFault::TooThick);
     }
     found.extend(on_the_way(task, scene, lever));
+    if let Some(follow_up) = &plan.follow_up {
+        found.extend(broken_by_pushes(task, follow_up));
+    }
+    found
+}
+
+/// What pushes that follow do that the task does not allow or no robot can do.
+fn broken_by_pushes(task: &LeverTask, follow_up: &FollowUp) -> Vec<LeverFault> {
+    let plan = &follow_up.plan;
+    let mut found = Vec::new();
+    if let ToolChoice::Named(names) = &task.tools
+        && !names.contains(&plan.tool)
+    {
+        found.push(LeverFault::ForbiddenTool { tool: plan.tool.clone() });
+    }
+    let allowed = task.pushes.as_ref().is_some_and(|rules| {
+        let same = |yaw: &f64| wrap_angle(yaw - plan.grip_yaw).abs() <= SLACK;
+        plan.pushes.len() <= rules.max_count && rules.grip_yaws.iter().any(same)
+    });
+    if !allowed {
+        found.push(LeverFault::ForbiddenLever { what: "push".to_owned() });
+    }
+    if !plan.pushes.iter().all(|push| is_within_reach(&task.robot, push)) {
+        found.push(LeverFault::OutOfReach);
+    }
+    // A tool that is driven goes through what is fixed without a trace.
+    let fixed: Vec<Obstacle> = task.blocks.iter().map(Block::obstacle).collect();
+    let met = plan.pushes.iter().find_map(|push| in_the_way(&fixed, &follow_up.tool, plan, push));
+    found.extend(met.map(|met| LeverFault::PushMeets { body: met.name.clone() }));
     found
 }
 

@@ -4,7 +4,7 @@
 //! says what no robot can do or the task forbids.
 
 use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};
-use crate::scene::{Plan, Push, Robot, Scene, Task, Tool, ToolChoice, Warning};
+use crate::scene::{Obstacle, Plan, Push, Robot, Scene, Task, Tool, ToolChoice, Warning};
 
 /// Slack for rounding, metres and radians.
 const SLACK: f64 = 1e-5;
@@ -25,24 +25,11 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
     if !task.pushes.grip_yaws.iter().any(same) {
         found.push(Warning::ForbiddenYaw { yaw: plan.grip_yaw });
     }
-    let through = |push: &Push| {
-        let frame = |at: Vector| tool.pose(Pose { position: at, heading: plan.grip_yaw });
-        let (from, to) = (frame(push.start), frame(push.end()));
-        scene.obstacles.iter().find(|obstacle| {
-            let still = (&obstacle.shape().footprint(), &obstacle.pose);
-            let meets = |k: usize| {
-                let (part, ends) = (tool.parts()[k].footprint(), [from, to]);
-                let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
-                swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
-            };
-            plan.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
-        })
-    };
     for (index, push) in plan.pushes.iter().enumerate() {
         if !is_within_reach(&task.robot, push) {
             found.push(Warning::OutOfReach { push: index });
         }
-        if let Some(obstacle) = through(push) {
+        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, plan, push) {
             let obstacle = obstacle.name.clone();
             found.push(Warning::ThroughObstacle { push: index, obstacle });
         }
@@ -50,8 +37,28 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
     found
 }
 
+/// The first obstacle that the tool goes through during a push of `plan`.
+pub(super) fn in_the_way<'a>(
+    obstacles: &'a [Obstacle],
+    tool: &Tool,
+    plan: &Plan,
+    push: &Push,
+) -> Option<&'a Obstacle> {
+    let frame = |at: Vector| tool.pose(Pose { position: at, heading: plan.grip_yaw });
+    let (from, to) = (frame(push.start), frame(push.end()));
+    obstacles.iter().find(|obstacle| {
+        let still = (&obstacle.shape().footprint(), &obstacle.pose);
+        let meets = |k: usize| {
+            let (part, ends) = (tool.parts()[k].footprint(), [from, to]);
+            let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
+            swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
+        };
+        plan.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
+    })
+}
+
 /// Whether the end effector is within reach all along a push.
-fn is_within_reach(robot: &Robot, push: &Push) -> bool {
+pub(super) fn is_within_reach(robot: &Robot, push: &Push) -> bool {
     let (from, to) = (push.start, push.end());
     let way = to - from;
     let square = way.norm_squared();

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use pushplan::scene::{BladeTool, LeverTask};
 use pushplan::{Task, Tool};
 use serde_json::Value as Json;
 use serde_yaml::Value as Yaml;
@@ -90,11 +91,17 @@ fn its_commands_are_taken() {
 
 #[test]
 fn its_files_are_right() {
-    let (mut tasks, mut tools, mut worlds) = (0, 0, 0);
+    let (mut tasks, mut tools, mut worlds, mut levers) = (0, 0, 0, 0);
     for (path, text) in own_pages() {
         for block in blocks(&text, "yaml") {
             let keys: Yaml = serde_yaml::from_str(&block).expect("YAML");
-            if keys.get("goal").is_some() {
+            if keys.get("levers").is_some() {
+                LeverTask::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                levers += 1;
+            } else if keys.get("blade").is_some() {
+                BladeTool::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                levers += 1;
+            } else if keys.get("goal").is_some() {
                 Task::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
                 tasks += 1;
             } else if keys.get("parts").is_some() {
@@ -124,6 +131,7 @@ fn its_files_are_right() {
         }
     }
     assert!(tasks >= 3 && tools >= 2 && worlds >= 1, "{tasks} {tools} {worlds}");
+    assert_eq!(levers, 2, "a task of levering and a tool with a blade");
 }
 
 #[test]
@@ -132,6 +140,8 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
     for (kind, page) in [
         ("task", "tasks.md"),
         ("tool", "tools.md"),
+        ("lever-task", "levering.md"),
+        ("blade", "levering.md"),
         ("world", "closed-loop.md"),
         ("recording", "recordings.md"),
     ] {

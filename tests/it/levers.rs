@@ -213,7 +213,8 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
     };
     let verifier = LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 });
     let verify = |task: &LeverTask, lever: LeverUp| {
-        verifier.verify(task, &tool, &LeverPlan { tool: tool.name.clone(), lever })
+        let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
+        verifier.verify(task, &tool, &plan)
     };
     let good = verify(&task, lever);
     assert!(good.passed, "{:?}", good.reason);

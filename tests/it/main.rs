@@ -26,6 +26,7 @@ mod jointed;
 mod joints_bench;
 mod lever_data;
 mod lever_engine;
+mod lever_follow_up;
 mod lever_models;
 mod levers;
 mod models;

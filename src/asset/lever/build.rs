@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::asset::node::Node;
 use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
-use crate::asset::task::{named_tools, reach_of};
+use crate::asset::task::{named_tools, pushes_of, reach_of};
 use crate::asset::text::named_after;
 use crate::geometry::{Pose, Vector, centroid, cross};
 use crate::scene::{Block, LeverGoal, LeverRules, LeverTask, Pivot, Plate, Scene, Slab, Task};
@@ -35,6 +35,10 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<LeverTask> {
         levers: match root.get("levers") {
             Some(node) => levers(node)?,
             None => LeverRules::default(),
+        },
+        pushes: match root.get("pushes") {
+            Some(node) => Some(pushes_of(node)?),
+            None => None,
         },
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::asset::fault::{Fault, Faults};
-use crate::asset::saved::emit::degrees;
+use crate::asset::saved::emit::{degrees, pushes};
 use crate::geometry::{Pose, Vector};
 use crate::scene::{
     BladeTool, Block, LeverGoal, LeverRules, LeverTask, Pivot, Plate, Slab, ToolChoice,
@@ -30,7 +30,7 @@ impl LeverTask {
 
 /// A task as in a task file.
 pub(in crate::asset) fn lever_task(task: &LeverTask) -> Json {
-    json!({
+    let mut fields = json!({
         "name": task.name,
         "description": task.description,
         "scene": {
@@ -46,7 +46,11 @@ pub(in crate::asset) fn lever_task(task: &LeverTask) -> Json {
         "levers": levers(&task.levers),
         "goal": goal(&task.goal, task),
         "robustness": task.robustness,
-    })
+    });
+    if let Some(rules) = &task.pushes {
+        fields["pushes"] = pushes(rules);
+    }
+    fields
 }
 
 /// A tool as in a tool file.

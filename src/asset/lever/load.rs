@@ -78,6 +78,7 @@ impl LeverTask {
         for name in names {
             match library.blade(name) {
                 Some(tool) => tools.push(Arc::clone(tool)),
+                None if self.pushes.is_some() && library.get(name).is_some() => {}
                 None => {
                     let (message, advice) = unknown_blade(name, library);
                     faults.push(Fault::of_file(&self.name, message, advice));
@@ -85,6 +86,17 @@ impl LeverTask {
             }
         }
         if faults.is_empty() { Ok(tools) } else { Err(Faults(faults)) }
+    }
+
+    /// The tools that it allows for pushes that follow: those without blades.
+    pub fn pushers(&self, library: &ToolLibrary) -> ToolChoice {
+        match &self.tools {
+            ToolChoice::All => ToolChoice::All,
+            ToolChoice::Named(names) => {
+                let pushes = |name: &&String| library.blade(name).is_none();
+                ToolChoice::Named(names.iter().filter(pushes).cloned().collect())
+            }
+        }
     }
 }
 

@@ -33,6 +33,9 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     task::check_robot(section("robot"), &empty, ledger);
     task::check_tools(section("tools"), ledger);
     ranges(section("levers"), ledger);
+    if let Some(pushes) = root.get("pushes") {
+        follow_up(pushes, section("goal"), ledger);
+    }
     goal(section("goal"), objects, obstacles, ledger);
     // What lies where means little while something is wrong with the bodies themselves.
     if ledger.sound().is_ok() {
@@ -75,6 +78,19 @@ fn ranges(levers: &Node, ledger: &mut Ledger) {
         if pivots[..k].iter().any(|before| before.content == node.content) {
             ledger.fault(node, "this pivot is given twice", "remove one of the two");
         }
+    }
+}
+
+/// Pushes that follow a lever-up bring its plate somewhere, one by one from above.
+fn follow_up(pushes: &Node, goal: &Node, ledger: &mut Ledger) {
+    task::check_pushes(pushes, &[], ledger);
+    if let Some(node) = pushes.get("form").filter(|form| form.text() == Some("chained")) {
+        let message = "pushes that follow a lever-up are placed, none goes on from `home`";
+        ledger.fault(node, message, "remove `form`");
+    }
+    if goal.get("object").is_some() && goal.get("position").is_none() {
+        let message = "pushes may follow, but the goal names no place to push to";
+        ledger.fault(pushes, message, "add `position` and `tolerance` to the goal, or remove this");
     }
 }
 
@@ -193,9 +209,21 @@ pub(super) fn blades(
         })
     };
     let Some(tools) = root.get("tools") else { return };
+    let named = || tools.items().iter().filter_map(Node::text);
+    if root.get("pushes").is_some() && tools.text().is_none() {
+        if named().any(|name| library.get(name).is_some())
+            && named().all(|name| library.blade(name).is_none())
+        {
+            ledger.fault(tools, "none of these tools has a blade", "name one that levers, too");
+        } else if named().all(|name| library.blade(name).is_some()) {
+            let message = "pushes may follow, but none of these tools pushes";
+            ledger.fault(tools, message, "name one that pushes, too, or remove `pushes`");
+        }
+    }
     for node in tools.items() {
         let Some(name) = node.text() else { continue };
         match (library.blade(name), clearance) {
+            (None, _) if root.get("pushes").is_some() && library.get(name).is_some() => {}
             (None, _) => {
                 let (message, advice) = unknown(name, library);
                 ledger.fault(node, message, advice);

@@ -3,7 +3,7 @@
 use crate::asset::spec::{
     ANGLE, COORDINATE, CUBOID, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SIZE, Value,
 };
-use crate::asset::task::{OBJECT_NAME, REACH_KEY, ROBUSTNESS, TOOLS};
+use crate::asset::task::{OBJECT_NAME, PUSHES, REACH_KEY, ROBUSTNESS, TOOLS};
 use crate::geometry::MAX_CORNERS;
 
 /// What a task of levering may hold.
@@ -21,6 +21,12 @@ pub(in crate::asset) const LEVER_TASK_KEYS: &[Key] = &[
         LEVERS,
         "The lever-ups a plan may contain; every key has a default. A task with this key is one of \
          levering, as is one whose goal speaks of `outside`, `raised` or `flipped`.",
+    ),
+    Key::optional(
+        "pushes",
+        PUSHES,
+        "The pushes that may follow a lever-up, to bring the object to `goal.position`; every key has \
+         a default. `tools` then names some that push as well. By default a plan is one lever-up.",
     ),
     Key::required("goal", GOAL, "What must come of it; everything that is stated."),
     ROBUSTNESS,

@@ -155,7 +155,8 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     fields
 }
 
-fn pushes(rules: &PushRules) -> Json {
+/// Allowed pushes as in a task file.
+pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
     let angles = |list: &[f64]| list.iter().map(|angle| degrees(*angle)).collect::<Vec<_>>();
     let mut pushes = json!({
         "form": match rules.form {

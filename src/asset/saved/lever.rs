@@ -13,11 +13,13 @@ use crate::asset::read_text;
 use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
+use crate::asset::tool::tool_of;
 use crate::scene::{
-    BladeTool, LEVER_FRAMES, LeverMotion, LeverOutcome, LeverPlan, LeverTask, LeverTrajectory,
-    LeverVerdict,
+    BladeTool, FollowUp, LEVER_FRAMES, LeverMotion, LeverOutcome, LeverPlan, LeverTask,
+    LeverTrajectory, LeverVerdict, Plan,
 };
 
+use super::emit;
 use super::lever_spec::{LEVER_PLAN_FILE, LEVER_TRAJECTORY_FILE};
 use super::{PlanFile, SCHEMA_VERSION, read};
 
@@ -94,11 +96,13 @@ impl LeverPlanFile {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
-        let (opened, own) = Opened::read::<OwnPlan>(file, text, &LEVER_PLAN_FILE)?;
-        opened.finish(&own.plan, |task, tool| Self {
+        let (mut opened, own) = Opened::read::<OwnPlan>(file, text, &LEVER_PLAN_FILE)?;
+        let follow_up = own.follow_up.and_then(|own| opened.follow_up(own.plan));
+        let plan = LeverPlan { follow_up, ..own.plan };
+        opened.finish(&plan, |task, tool| Self {
             task,
             tool,
-            plan: own.plan.clone(),
+            plan: plan.clone(),
             model: own.model.clone(),
             predicted: own.predicted.clone(),
             verdict: own.verdict.clone(),
@@ -188,6 +192,16 @@ impl<'a> Opened<'a> {
         Ok((Self { root, ledger, task, tool }, own))
     }
 
+    /// The pushes that follow, with the tool that the file holds for them.
+    fn follow_up(&mut self, plan: Plan) -> Option<FollowUp> {
+        let node = self.root.get("follow_up")?.get("tool")?.clone();
+        let tool = Arc::new(tool_of(&node, &mut self.ledger)?);
+        if tool.name != plan.tool {
+            self.damaged("follow_up", "the pushes use another tool than the file holds for them");
+        }
+        Some(FollowUp { tool, plan })
+    }
+
     fn damaged(&mut self, key: &str, message: &str) {
         let node = self.root.get(key).unwrap_or(&self.root);
         self.ledger.fault(node, message, "the file is damaged; make it again");
@@ -226,9 +240,19 @@ struct OwnPlan {
     #[serde(rename = "tool")]
     _tool: IgnoredAny,
     plan: LeverPlan,
+    follow_up: Option<OwnFollowUp>,
     model: Option<String>,
     predicted: Option<LeverOutcome>,
     verdict: Option<LeverVerdict>,
+}
+
+/// The keys that are the program's own types.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OwnFollowUp {
+    #[serde(rename = "tool")]
+    _tool: IgnoredAny,
+    plan: Plan,
 }
 
 /// The keys that are the program's own types.
@@ -255,6 +279,8 @@ impl Serialize for LeverPlanFile {
             schema_version: u32,
             kind: &'static str,
             plan: &'a LeverPlan,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            follow_up: Option<serde_json::Value>,
             model: &'a Option<String>,
             predicted: &'a Option<LeverOutcome>,
             verdict: &'a Option<LeverVerdict>,
@@ -265,6 +291,9 @@ impl Serialize for LeverPlanFile {
             schema_version: SCHEMA_VERSION,
             kind: "lever_plan",
             plan: &self.plan,
+            follow_up: self.plan.follow_up.as_ref().map(|follow_up| {
+                serde_json::json!({"tool": emit::tool(&follow_up.tool), "plan": follow_up.plan})
+            }),
             model: &self.model,
             predicted: &self.predicted,
             verdict: &self.verdict,

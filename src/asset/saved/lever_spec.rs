@@ -2,8 +2,9 @@
 
 use crate::asset::lever::{BLADE_TOOL_KEYS, LEVER_TASK_KEYS};
 use crate::asset::spec::{Key, Range, Value, numbers};
+use crate::asset::tool::TOOL_KEYS;
 
-use super::spec::{INDEX, REAL, SHARE, UNSIGNED, VECTOR, VERSION};
+use super::spec::{INDEX, PLAN as PUSHES, REAL, SHARE, UNSIGNED, VECTOR, VERSION};
 
 /// What a plan file of levering may hold.
 pub(in crate::asset) static LEVER_PLAN_FILE: Value = Value::Map(&[
@@ -12,6 +13,11 @@ pub(in crate::asset) static LEVER_PLAN_FILE: Value = Value::Map(&[
     TASK,
     TOOL,
     Key::required("plan", PLAN, "The lever-up."),
+    Key::optional(
+        "follow_up",
+        Value::Either(&[FOLLOW_UP, Value::Nothing]),
+        "The pushes that follow it; by default none.",
+    ),
     Key::optional(
         "model",
         Value::Either(&[Value::Text, Value::Nothing]),
@@ -48,6 +54,11 @@ const TOOL: Key = Key::required("tool", Value::Map(BLADE_TOOL_KEYS), "The tool, 
 const PLAN: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),
     Key::required("lever", LEVER, "The lever-up."),
+]);
+
+const FOLLOW_UP: Value = Value::Map(&[
+    Key::required("tool", Value::Map(TOOL_KEYS), "The tool that pushes, as in its file."),
+    Key::required("plan", PUSHES, "The pushes."),
 ]);
 
 const LEVER: Value = Value::Map(&[
@@ -102,7 +113,7 @@ const SCORE: Value = Value::Number(Range {
 const ENDING: Value = Value::Word(&["back", "flipped", "leaning"]);
 
 const WARNINGS: Value = Value::List {
-    of: &Value::Word(&["slipped", "jammed", "moving"]),
+    of: &Value::Word(&["slipped", "jammed", "moving", "set_down"]),
     items: "warnings",
     min: 0,
     max: 8,

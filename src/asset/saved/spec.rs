@@ -79,7 +79,8 @@ pub(super) const SHARE: Value =
 
 pub(super) const VECTOR: Value = numbers(&REAL, 2);
 
-const PLAN: Value = Value::Map(&[
+/// The pushes of a plan.
+pub(super) const PLAN: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),
     Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
     Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),

@@ -146,7 +146,7 @@ pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
     }
 }
 
-fn pushes(node: &Node) -> Option<PushRules> {
+pub(in crate::asset) fn pushes(node: &Node) -> Option<PushRules> {
     let usual = PushRules::default();
     let max_count = number_or(node, "max_count", 1.0)?;
     Some(PushRules {

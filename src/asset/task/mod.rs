@@ -8,13 +8,15 @@ mod load;
 mod rules;
 mod spec;
 
-pub(super) use build::{robot as reach_of, support as support_of, tools as named_tools};
+pub(super) use build::{
+    pushes as pushes_of, robot as reach_of, support as support_of, tools as named_tools,
+};
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use joints::joint as joint_of;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
-pub(super) use rules::{robot as check_robot, tools as check_tools};
+pub(super) use rules::{push_rules as check_pushes, robot as check_robot, tools as check_tools};
 pub(super) use spec::{
-    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, REACH_KEY,
-    ROBUSTNESS, TABLE, TASK, TASK_KEYS, TOOLS,
+    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, PUSHES,
+    REACH_KEY, ROBUSTNESS, TABLE, TASK, TASK_KEYS, TOOLS,
 };

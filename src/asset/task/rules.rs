@@ -208,7 +208,8 @@ pub(in crate::asset) fn tools(tools: &Node, ledger: &mut Ledger) {
     }
 }
 
-fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
+/// Rules of allowed pushes, and whether the tool meets any of `objects`.
+pub(in crate::asset) fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut Ledger) {
     for (key, turn) in
         [("directions", Some(360.0)), ("grip_yaws_deg", Some(360.0)), ("offsets", None)]
     {

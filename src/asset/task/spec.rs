@@ -218,7 +218,8 @@ const REACH: Value = Value::Number(Range {
     advice: "reach is measured from the base at the origin, in metres",
 });
 
-const PUSHES: Value = Value::Map(&[
+/// The pushes that a plan may contain.
+pub(in crate::asset) const PUSHES: Value = Value::Map(&[
     Key::optional(
         "form",
         Value::Word(&["placed", "chained"]),

@@ -74,6 +74,7 @@ impl LeverSuite {
             robot: Robot::reaching(0.0, 2.0),
             tools: ToolChoice::Named(vec![TOOL.to_owned()]),
             levers: LeverRules::default(),
+            pushes: None,
             goal,
             robustness: Task::ROBUSTNESS,
         }

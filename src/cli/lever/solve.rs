@@ -10,7 +10,7 @@ use crate::cli::{
     follow::Following,
     output,
     session::Session,
-    solve::{SolveArgs, solve_error},
+    solve::{self, SolveArgs, solve_error},
 };
 use crate::report::{
     Figure, PageView, Recipe, ReplayedLever, lever_figure, lever_page, lever_solution_document,
@@ -19,7 +19,7 @@ use crate::report::{
 use crate::scene::{LeverJob, LeverMotion, LeverTask};
 use crate::sim::LeverSimulator;
 use crate::solve::PlanStatus;
-use crate::solve::lever::{LeverPlanner, RankedLever};
+use crate::solve::lever::{LeverPlanner, LeverSolution, PushedAfter, RankedLever};
 
 use super::model::lever_model;
 
@@ -57,14 +57,42 @@ pub fn solve(
     let replayed = solution.best().map(|best| replay(session, &task, best, &name));
     let figures = replayed.iter().map(|(figure, _)| figure.clone()).collect();
     let mut document = lever_solution_document(&task, &solution, figures);
-    let written = match solution.best().zip(replayed.as_ref()) {
+    let mut written = match solution.best().zip(replayed.as_ref()) {
         Some((best, replayed)) => write(args, &task, (best, replayed), &name, &document),
         None => Ok(Vec::new()),
     };
+    if let (Ok(written), Some(pushed)) = (&mut written, pushed(&solution)) {
+        written.extend(write_pushes(args, session, pushed, suffix)?);
+    }
     // A plan that took minutes is shown also where the disk has no place for it.
     document.wrote(written.as_deref().unwrap_or_default());
     args.form.show(session, &document)?;
     written.map(|_| code)
+}
+
+/// What the best plan pushes after its lever-up.
+fn pushed(solution: &LeverSolution) -> Option<&PushedAfter> {
+    solution.best()?.pushed.as_deref()
+}
+
+/// The task of pushes that the lever-up leaves, as a file of its own, with its plan, picture and
+/// page.
+fn write_pushes(
+    args: &SolveArgs,
+    session: &Session,
+    pushed: &PushedAfter,
+    suffix: &str,
+) -> Result<Vec<PathBuf>, CliError> {
+    let PushedAfter { task, solution } = pushed;
+    let name = format!("{}{suffix}.yaml", task.name);
+    let text = task.to_yaml().map_err(CliError::Output)?;
+    let origin = output::write(&args.out, &name, text.as_bytes())?;
+    let mut written = match solution.best() {
+        Some(best) => solve::write(args, session, (task, &origin), (solution, best), suffix)?,
+        None => Vec::new(),
+    };
+    written.insert(0, origin);
+    Ok(written)
 }
 
 /// The picture of a plan, and the motion that it shows.

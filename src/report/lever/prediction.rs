@@ -7,7 +7,7 @@ use crate::report::number::{millimetres, seconds};
 use crate::report::table::{Align, NONE, Table};
 use crate::scene::{LeverOutcome, LeverPlan, LeverTask, LeverTrajectory};
 
-use super::words::{goal_line, outcome_table, plan_line, plan_section};
+use super::words::{goal_line, lever_section, outcome_table, plan_line};
 
 /// What a model says, and what that cost.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ pub fn lever_prediction_document(
         title: format!("{}: {}", task.name, plan_line(task, plan)),
         notes: vec![format!("goal: {}", goal_line(task))],
         sections: vec![
-            plan_section(plan),
+            lever_section(plan),
             Section { table: outcome_table(outcomes), figures, ..Section::default() },
             Section { table: errors, ..Section::default() },
         ],

@@ -7,7 +7,7 @@ use crate::report::document::{Document, Section};
 use crate::scene::LeverOutcome;
 
 use super::figure::lever_figure;
-use super::words::{goal_line, outcome_table, plan_line, plan_section};
+use super::words::{goal_line, lever_section, outcome_table, plan_line};
 
 /// A simulation with its picture, whose file is named `name`.
 pub fn lever_simulation_document(
@@ -31,7 +31,7 @@ pub fn lever_simulation_document(
     };
     Document {
         title: plan_line(task, plan),
-        sections: vec![plan_section(plan), end],
+        sections: vec![lever_section(plan), end],
         json: json!({
             "task": task.name, "plan": plan, "frames": motion.frames.len(), "outcome": outcome,
         }),

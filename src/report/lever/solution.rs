@@ -10,7 +10,7 @@ use crate::solve::PlanStatus;
 use crate::solve::lever::LeverSolution;
 
 use super::verdict::lever_verdict_line;
-use super::words::{goal_line, outcome_table, plan_line, plan_section};
+use super::words::{goal_line, outcome_table, plan_line, plan_sections};
 
 /// A solved task, or the nearest that there is, with its picture.
 pub fn lever_solution_document(
@@ -20,7 +20,7 @@ pub fn lever_solution_document(
 ) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {
-        sections.push(plan_section(&best.plan));
+        sections.extend(plan_sections(&best.plan));
         let predicted = (format!("predicted ({})", best.by), &best.predicted);
         let nominal = best.verdict.as_ref().and_then(|verdict| verdict.nominal());
         let replayed = nominal.map(|nominal| ("3-D".to_owned(), &nominal.outcome));
@@ -106,7 +106,7 @@ fn refusals(solution: &LeverSolution) -> Option<Section> {
 fn cost(solution: &LeverSolution) -> String {
     let statistics = &solution.statistics;
     let timing = &statistics.timing;
-    format!(
+    let mut cost = format!(
         "predicted: {}; simulated: {}; verified: {}; time: {}, of which search {}, simulation {}, \
          verification {}",
         statistics.search.rollouts,
@@ -116,7 +116,12 @@ fn cost(solution: &LeverSolution) -> String {
         seconds(timing.search),
         seconds(timing.simulation),
         seconds(timing.verification)
-    )
+    );
+    if statistics.followed > 0 {
+        let (followed, pushes) = (statistics.followed, seconds(timing.pushes));
+        cost.push_str(&format!(", pushes after {followed} of them {pushes}"));
+    }
+    cost
 }
 
 fn json(task: &LeverTask, solution: &LeverSolution) -> Json {
@@ -127,6 +132,7 @@ fn json(task: &LeverTask, solution: &LeverSolution) -> Json {
             json!({
                 "plan": ranked.plan, "predicted": ranked.predicted, "by": ranked.by,
                 "verdict": ranked.verdict,
+                "follow_up": ranked.plan.follow_up.as_ref().map(|follow_up| &follow_up.plan),
             })
         })
         .collect();

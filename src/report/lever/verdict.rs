@@ -6,7 +6,7 @@ use crate::asset::LeverPlanFile;
 use crate::report::document::{Document, Section};
 use crate::scene::{LeverReason, LeverVerdict};
 
-use super::words::{goal_line, outcome_table, plan_line, plan_section};
+use super::words::{goal_line, outcome_table, plan_line, plan_sections};
 
 /// A lever-up that was replayed.
 pub fn lever_verdict_document(file: &LeverPlanFile, verdict: &LeverVerdict) -> Document {
@@ -23,10 +23,11 @@ pub fn lever_verdict_document(file: &LeverPlanFile, verdict: &LeverVerdict) -> D
     Document {
         title: format!("{}: {}", file.task.name, plan_line(&file.task, &file.plan)),
         notes: vec![format!("goal: {}", goal_line(&file.task))],
-        sections: vec![plan_section(&file.plan), outcomes],
+        sections: plan_sections(&file.plan).into_iter().chain([outcomes]).collect(),
         json: json!({
             "task": file.task.name, "plan": file.plan, "verdict": verdict,
             "reason": lever_verdict_line(Some(verdict)),
+            "follow_up": file.plan.follow_up.as_ref().map(|follow_up| &follow_up.plan),
         }),
         ..Document::default()
     }

@@ -2,7 +2,7 @@
 
 use crate::report::document::Section;
 use crate::report::number::{degrees, millimetres};
-use crate::report::plan_text::point;
+use crate::report::plan_text::{self, point};
 use crate::report::table::{
     Align::{Left, Right},
     Table,
@@ -13,11 +13,25 @@ use crate::scene::{LeverOutcome, LeverPlan, LeverTask};
 pub fn plan_line(task: &LeverTask, plan: &LeverPlan) -> String {
     let name = task.plates.get(plan.lever.plate).map_or("?", |plate| plate.name.as_str());
     let way = if plan.lever.pivot < 0.0 { "prying" } else { "lifting" };
-    format!("{}, {way} {name} by {}", plan.tool, degrees(plan.lever.angle))
+    let lever = format!("{}, {way} {name} by {}", plan.tool, degrees(plan.lever.angle));
+    match &plan.follow_up {
+        Some(follow_up) => format!("{lever}, then {}", plan_text::plan_line(&follow_up.plan)),
+        None => lever,
+    }
+}
+
+/// The lever-up in full, and the pushes that follow.
+pub(super) fn plan_sections(plan: &LeverPlan) -> Vec<Section> {
+    let pushes = plan.follow_up.as_ref().and_then(|follow_up| {
+        let table = plan_text::push_section(&follow_up.plan)?.table;
+        let title = format!("Then {}, once the object lies still", follow_up.plan.tool);
+        Some(Section { title, table, ..Section::default() })
+    });
+    [lever_section(plan)].into_iter().chain(pushes).collect()
 }
 
 /// The lever-up in full.
-pub(super) fn plan_section(plan: &LeverPlan) -> Section {
+pub(super) fn lever_section(plan: &LeverPlan) -> Section {
     let lever = &plan.lever;
     let table = Table::of(
         [lever],

@@ -6,6 +6,7 @@
 
 mod action;
 mod features;
+mod follow_up;
 mod goal;
 mod motion;
 mod outcome;
@@ -19,6 +20,7 @@ mod weight;
 
 pub use action::{LeverJob, LeverUp, Place, lever_frame};
 pub use features::LeverFeatures;
+pub use follow_up::FollowUp;
 pub use goal::{LeverGoal, LeverOutcome};
 pub use motion::{LeverFrame, LeverMotion};
 pub use outcome::{Ending, LeverWarning};

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
+use crate::scene::Obstacle;
 
 use super::Plate;
 
@@ -32,6 +33,14 @@ pub struct Block {
     pub z: f64,
     /// Friction value.
     pub friction: f64,
+}
+
+impl Block {
+    /// What pushes must keep away from: the block down to the table.
+    pub fn obstacle(&self) -> Obstacle {
+        let [x, y, z] = self.size;
+        Obstacle::new(&self.name, [x, y, self.z + z], self.pose).friction(self.friction)
+    }
 }
 
 /// Plates, what is fixed around them, and the blade.

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Robot, ToolChoice};
+use crate::scene::{PushRules, Robot, ToolChoice};
 
-use super::{Blade, Block, LeverGoal, LeverScene, LeverUp, Plate};
+use super::{Blade, Block, FollowUp, LeverGoal, LeverScene, LeverUp, Plate};
 
 /// A tool with a blade, held by the end effector at the end of its shaft.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,10 +91,12 @@ pub struct LeverTask {
     pub blocks: Vec<Block>,
     /// The robot.
     pub robot: Robot,
-    /// Allowed tools with blades.
+    /// Allowed tools: those with blades, and where pushes may follow those that push.
     pub tools: ToolChoice,
     /// Allowed lever-ups, all of the goal's plate.
     pub levers: LeverRules,
+    /// The pushes that may follow a lever-up; none if nothing is said.
+    pub pushes: Option<PushRules>,
     /// What to reach.
     pub goal: LeverGoal,
     /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
@@ -118,11 +120,14 @@ impl LeverTask {
     }
 }
 
-/// A lever-up and the tool that makes it.
+/// A lever-up and the tool that makes it, and perhaps pushes that follow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverPlan {
     /// Name of the tool.
     pub tool: String,
     /// The lever-up.
     pub lever: LeverUp,
+    /// The pushes that follow. Plan files hold them beside the plan, with their tool.
+    #[serde(skip)]
+    pub follow_up: Option<FollowUp>,
 }

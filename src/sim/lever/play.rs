@@ -1,9 +1,10 @@
-//! Plays a lever-up: the turn in frames, the wait, the way back, and until everything rests.
+//! Plays a lever-up: the turn in frames, the wait, the way back, and until everything rests; then
+//! the pushes that follow.
 
 use crate::geometry::Pose3;
 use crate::scene::{
     Ending, GRAVITY, LEVER_FRAMES, LeverFrame, LeverJob, LeverMotion, LeverScene, LeverTrajectory,
-    LeverWarning, REST_SPEED, has_slipped,
+    LeverWarning, REST_SPEED, Stroke, ToolMotion, has_slipped,
 };
 
 use super::world::LeverWorld;
@@ -28,12 +29,12 @@ pub(super) enum Watcher<'a> {
 }
 
 /// Plays `job` in steps of at most `longest` seconds, the blade going where it would in the scene
-/// as `planned`.
+/// as `planned`, and then the pushes that follow, if there are any.
 pub(super) fn play(
     job: &LeverJob,
     planned: &LeverScene,
     longest: f64,
-    watcher: &mut Watcher,
+    (follow_up, watcher): (Option<&ToolMotion>, &mut Watcher),
 ) -> LeverTrajectory {
     let mut game = Game::new(job, planned, longest, watcher);
     let plate = job.lever.plate;
@@ -46,6 +47,9 @@ pub(super) fn play(
     }
     game.go_on_until(job.lever.duration());
     game.rest();
+    if let Some(motion) = follow_up {
+        game.push(motion);
+    }
     let rest = game.pose(plate);
     let mut warnings = Vec::new();
     if has_slipped(&job.scene.plates[plate].start(), &lift, &held) {
@@ -134,12 +138,47 @@ impl<'a, 'b> Game<'a, 'b> {
         self.show();
     }
 
+    /// Plays pushes from rest to rest; the tool is set down for each and lifted after it.
+    fn push(&mut self, motion: &ToolMotion) {
+        self.world.lay_aside();
+        for stroke in &motion.strokes {
+            if self.trouble.is_some() {
+                return;
+            }
+            if self.world.set_down(motion, &stroke.from) {
+                self.trouble = Some(LeverWarning::SetDown);
+                return;
+            }
+            self.stroke(stroke);
+            self.world.lift();
+            self.rest();
+        }
+    }
+
+    /// Plays one stroke, in equal steps.
+    fn stroke(&mut self, stroke: &Stroke) {
+        let from = self.time;
+        let steps = (stroke.duration / self.longest - 1e-9).ceil().max(1.0);
+        let step = stroke.duration / steps;
+        if !(step > 0.0 && step.is_finite()) {
+            return;
+        }
+        self.world.set_step(step);
+        self.world.drive(stroke);
+        for k in 1..=steps as usize {
+            self.step(from + step * k as f64);
+            if self.trouble.is_some() {
+                return;
+            }
+        }
+    }
+
     fn step(&mut self, to: f64) {
         let blade = self.job.lever.blade(self.planned, to);
         self.world.step(&blade);
         self.time = to;
         let found = self.world.plates();
-        let force = self.world.force_on_blade();
+        let force = self.world.force_on_blade().max(self.world.force_on_tool());
         self.strained = if force > self.most { self.strained + 1 } else { 0 };
         let is_finite = force.is_finite() && found.iter().all(Pose3::is_finite);
         if is_finite {

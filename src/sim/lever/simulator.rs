@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU16;
 
-use crate::scene::{LeverJob, LeverMotion, LeverScene, LeverTrajectory, Rate};
+use crate::scene::{LeverJob, LeverMotion, LeverScene, LeverTrajectory, Rate, ToolMotion};
 
 use super::play::{Watcher, play};
 
@@ -30,20 +30,31 @@ impl LeverSimulator {
     ///
     /// What is jammed ends it at once: the frames that are left repeat the last pose.
     pub fn run(&self, job: &LeverJob) -> LeverTrajectory {
-        play(job, &job.scene, self.rate.step(), &mut Watcher::Nobody)
+        play(job, &job.scene, self.rate.step(), (None, &mut Watcher::Nobody))
     }
 
     /// [`LeverSimulator::run`] with a blade that goes where it would in the scene as `planned`: what
     /// really lies there lies a little elsewhere.
     pub fn run_as_planned(&self, job: &LeverJob, planned: &LeverScene) -> LeverTrajectory {
-        play(job, planned, self.rate.step(), &mut Watcher::Nobody)
+        play(job, planned, self.rate.step(), (None, &mut Watcher::Nobody))
+    }
+
+    /// [`LeverSimulator::run_as_planned`], and then the pushes of `follow_up` among what lies where
+    /// it came to rest: the trajectory's rest is that after the last of them.
+    pub fn run_with(
+        &self,
+        job: &LeverJob,
+        planned: &LeverScene,
+        follow_up: Option<&ToolMotion>,
+    ) -> LeverTrajectory {
+        play(job, planned, self.rate.step(), (follow_up, &mut Watcher::Nobody))
     }
 
     /// [`LeverSimulator::run`], with everything that moved, every `interval` seconds.
     pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, LeverMotion) {
         let mut motion = LeverMotion { frames: Vec::new() };
         let mut watcher = Watcher::Recorder { motion: &mut motion, interval };
-        let trajectory = play(job, &job.scene, self.rate.step(), &mut watcher);
+        let trajectory = play(job, &job.scene, self.rate.step(), (None, &mut watcher));
         (trajectory, motion)
     }
 }

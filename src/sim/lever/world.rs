@@ -1,14 +1,17 @@
 //! A lever scene in rapier.
 
+use rapier3d_f64::parry::query::contact;
 use rapier3d_f64::prelude::{
-    ColliderHandle, ContactPair, FrictionModel, PhysicsWorld, Pose3 as RapierPose,
-    RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients, Vector as RapierVector,
+    Collider, ColliderHandle, ContactPair, FrictionModel, MassProperties, PhysicsWorld,
+    Pose3 as RapierPose, RigidBodyBuilder, RigidBodyHandle, Rotation, SpringCoefficients,
+    Vector as RapierVector,
 };
 
-use crate::geometry::{Pose3, Vector, Vector3};
-use crate::scene::{GRAVITY, LeverJob, LeverScene};
+use crate::geometry::{Pose, Pose3, Vector, Vector3};
+use crate::scene::{GRAVITY, LeverJob, LeverScene, Stroke, TOUCHING, ToolMotion};
 
 use super::super::parameters::ALLOWED_ERROR;
+use super::super::solids::solid;
 use super::super::solved::solved;
 use super::super::strain::force;
 use super::fresh::fresh_contacts;
@@ -31,6 +34,8 @@ pub(super) struct LeverWorld {
     origin: Vector,
     blade: RigidBodyHandle,
     blade_solid: ColliderHandle,
+    /// What pushes, while it is down.
+    tool: Option<RigidBodyHandle>,
     plates: Vec<RigidBodyHandle>,
     /// Largest distance of a plate's points from its centre of mass, metres.
     reaches: Vec<f64>,
@@ -58,8 +63,15 @@ impl LeverWorld {
         let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
         let blade = world.insert_body(body);
         let blade_solid = world.insert_collider(solids::blade(&scene.blade), Some(blade));
-        let mut this =
-            Self { world, origin, blade, blade_solid, plates: Vec::new(), reaches: Vec::new() };
+        let mut this = Self {
+            world,
+            origin,
+            blade,
+            blade_solid,
+            tool: None,
+            plates: Vec::new(),
+            reaches: Vec::new(),
+        };
         this.add_plates(scene);
         this.add_blocks(scene);
         this
@@ -77,6 +89,59 @@ impl LeverWorld {
         target.rotation = in_one_hemisphere(*body.rotation(), target.rotation);
         body.set_next_kinematic_position(target);
         self.world.step();
+    }
+
+    /// Lays the blade aside, where it meets nothing any more.
+    pub fn lay_aside(&mut self) {
+        self.world.colliders[self.blade_solid].set_enabled(false);
+    }
+
+    /// Sets a tool down with its frame at `at`; whether it comes down on a plate.
+    pub fn set_down(&mut self, motion: &ToolMotion, at: &Pose) -> bool {
+        let pose = to_rapier(&Pose3::upright(*at, motion.lift), self.origin);
+        let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
+        // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
+        let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
+        let tool = self.world.insert_body(body.additional_mass_properties(mass));
+        self.tool = Some(tool);
+        for part in motion.tool.outline() {
+            let middle = Pose3::upright(part.pose, part.shape.height() / 2.0);
+            let placed = to_rapier(&middle, Vector::zeros());
+            let part = solid(&part.shape, placed, motion.tool.friction).density(0.0);
+            self.world.insert_collider(part, Some(tool));
+        }
+        let down = |handle: &ColliderHandle| {
+            let part = &self.world.colliders[*handle];
+            let part = (pose * *part.position_wrt_parent().unwrap_or(&RapierPose::IDENTITY), part);
+            self.plates.iter().any(|plate| self.overlaps(*plate, &part))
+        };
+        self.world.bodies[tool].colliders().iter().any(down)
+    }
+
+    /// Whether a part of a tool is deeper inside a plate than touching is.
+    fn overlaps(&self, plate: RigidBodyHandle, (at, part): &(RapierPose, &Collider)) -> bool {
+        self.world.bodies[plate].colliders().iter().any(|handle| {
+            let own = &self.world.colliders[*handle];
+            let found = contact(at, part.shape(), own.position(), own.shape(), 0.0);
+            found.is_ok_and(|found| found.is_some_and(|found| found.dist < -TOUCHING))
+        })
+    }
+
+    /// Lets the tool that is down begin a stroke.
+    pub fn drive(&mut self, stroke: &Stroke) {
+        let Some(tool) = self.tool else { return };
+        let velocity = (stroke.to.position - stroke.from.position) / stroke.duration;
+        let turning = (stroke.to.heading - stroke.from.heading) / stroke.duration;
+        let body = &mut self.world.bodies[tool];
+        body.set_linvel(RapierVector::new(velocity.x, velocity.y, 0.0), true);
+        body.set_angvel(RapierVector::Z * turning, true);
+    }
+
+    /// Lifts the tool that is down.
+    pub fn lift(&mut self) {
+        if let Some(tool) = self.tool.take() {
+            self.world.remove_body(tool);
+        }
     }
 
     /// The frame of a plate.
@@ -110,8 +175,23 @@ impl LeverWorld {
 
     /// Force of the plates on the blade during the last step, newtons.
     pub fn force_on_blade(&self) -> f64 {
+        self.force(self.on_blade())
+    }
+
+    /// Force of the plates on the tool that is down during the last step, newtons.
+    pub fn force_on_tool(&self) -> f64 {
+        let Some(tool) = self.tool else { return 0.0 };
+        let parts = self.world.bodies[tool].colliders();
+        self.force(parts.iter().flat_map(|part| self.on(*part)))
+    }
+
+    /// Sum of the contact forces of the last step, newtons.
+    fn force<'a>(
+        &self,
+        contacts: impl Iterator<Item = (RigidBodyHandle, f64, &'a ContactPair)>,
+    ) -> f64 {
         let mut impulse = RapierVector::ZERO;
-        for (_, sign, pair) in self.on_blade() {
+        for (_, sign, pair) in contacts {
             for (manifold, point) in pair.manifolds.iter().flat_map(solved) {
                 impulse += manifold.data.normal * (sign * point.data.impulse);
             }
@@ -120,11 +200,18 @@ impl LeverWorld {
         force(impulse.length(), settings.dt, settings.num_solver_iterations)
     }
 
-    /// Contacts of the blade: with which body, and whether their normals point into it (1) or out.
+    /// Contacts of the blade, see [`LeverWorld::on`].
     fn on_blade(&self) -> impl Iterator<Item = (RigidBodyHandle, f64, &ContactPair)> {
-        let pairs = self.world.narrow_phase.contact_pairs_with(self.blade_solid);
-        pairs.filter_map(|pair| {
-            let (other, sign) = if pair.collider1 == self.blade_solid {
+        self.on(self.blade_solid)
+    }
+
+    /// Contacts of a solid: with which body, and whether their normals point into it (1) or out.
+    fn on(
+        &self,
+        solid: ColliderHandle,
+    ) -> impl Iterator<Item = (RigidBodyHandle, f64, &ContactPair)> {
+        self.world.narrow_phase.contact_pairs_with(solid).filter_map(move |pair| {
+            let (other, sign) = if pair.collider1 == solid {
                 (pair.collider2, -1.0)
             } else {
                 (pair.collider1, 1.0)

@@ -102,5 +102,6 @@ pub fn asked_lever(
         retreat: rules.retreat,
     };
     let broken = LeverRoom::new(task, &task.scene(tool.blade)).fault(&lever);
-    Ok(AskedLeverPlan { plan: LeverPlan { tool: tool.name.clone(), lever }, broken })
+    let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
+    Ok(AskedLeverPlan { plan, broken })
 }

@@ -1,4 +1,4 @@
-//! The planner of lever-ups.
+//! The planner of lever-ups, and of pushes that follow.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -27,8 +27,9 @@ const DOUBTED: f64 = 2.0;
 /// Finds lever-ups for tasks of levering, with one model and one effort.
 pub struct LeverPlanner {
     model: Arc<dyn LeverModel>,
-    settings: LeverSettings,
-    seed: u64,
+    pub(super) effort: Effort,
+    pub(super) settings: LeverSettings,
+    pub(super) seed: u64,
     time_limit: Option<Duration>,
 }
 
@@ -43,10 +44,10 @@ impl LeverPlanner {
     /// A planner that searches with `model`.
     pub fn new(model: impl LeverModel + 'static, effort: Effort) -> Self {
         let settings = LeverSettings::for_effort(effort);
-        Self { model: Arc::new(model), settings, seed: 0, time_limit: None }
+        Self { model: Arc::new(model), effort, settings, seed: 0, time_limit: None }
     }
 
-    /// The same with budgets one by one.
+    /// The same with budgets one by one. Pushes that follow are still planned with the effort.
     #[must_use]
     pub fn with_settings(self, settings: LeverSettings) -> Self {
         Self { settings, ..self }
@@ -101,6 +102,20 @@ impl LeverPlanner {
         let tools = task.blades(library)?;
         check(task, &tools)?;
         let until = Until::new(watch, self.time_limit);
+        let lever_up = self.lever_up(task, &tools, &until);
+        if task.pushes.is_none() || lever_up.status == PlanStatus::Solved || until.cancelled() {
+            return Ok(lever_up);
+        }
+        self.with_follow_up(task, library, lever_up, &until)
+    }
+
+    /// Solves a task by a lever-up alone.
+    pub(super) fn lever_up(
+        &self,
+        task: &LeverTask,
+        tools: &[Arc<BladeTool>],
+        until: &Until,
+    ) -> LeverSolution {
         let mut statistics = LeverStatistics::default();
         let began = Instant::now();
         until.stage("searching");
@@ -117,21 +132,11 @@ impl LeverPlanner {
         statistics.timing.simulation = simulating.elapsed().as_secs_f64();
         let verifying = Instant::now();
         until.stage("verifying");
-        let plans = self.verify(task, &tools, simulated, &until);
+        let plans = self.verify(task, tools, simulated, until);
         statistics.verified = plans.iter().filter(|plan| plan.verdict.is_some()).count();
         statistics.timing.verification = verifying.elapsed().as_secs_f64();
         statistics.timing.total = began.elapsed().as_secs_f64();
-        let verdicts = || plans.iter().filter_map(|plan| plan.verdict.as_ref());
-        let status = if verdicts().any(|verdict| verdict.passed) {
-            PlanStatus::Solved
-        } else if verdicts().any(|verdict| verdict.works()) {
-            PlanStatus::Fragile
-        } else if verdicts().next().is_some() {
-            PlanStatus::FailedVerification
-        } else {
-            PlanStatus::NoPlan
-        };
-        Ok(LeverSolution { status, stopped: until.cancelled(), plans, statistics })
+        LeverSolution { status: status(&plans), stopped: until.cancelled(), plans, statistics }
     }
 
     /// What comes of jobs by the model, or by coarse simulation where that leaves out something
@@ -206,8 +211,10 @@ impl LeverPlanner {
             .into_iter()
             .map(|Simulated { scored, outcome, merit }| {
                 let tool = Arc::clone(&tools[scored.candidate.tool]);
-                let plan = LeverPlan { tool: tool.name.clone(), lever: scored.candidate.lever };
-                RankedLever { plan, tool, predicted: outcome, by: by.clone(), merit, verdict: None }
+                let lever = scored.candidate.lever;
+                let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
+                let (by, pushed) = (by.clone(), None);
+                RankedLever { plan, tool, predicted: outcome, by, merit, verdict: None, pushed }
             })
             .collect();
         let settings = VerifySettings { disturbed: self.settings.disturbed, seed: self.seed };
@@ -243,14 +250,32 @@ impl LeverPlanner {
                 break;
             }
         }
-        // Those that work in the order of how often; then those that were tried, then the rest.
-        let grade = |plan: &RankedLever| match &plan.verdict {
-            Some(verdict) if verdict.works() => 2.0 + verdict.robustness.unwrap_or(0.0),
-            Some(_) => 1.0,
-            None => 0.0,
-        };
-        plans.sort_by(|a, b| grade(b).total_cmp(&grade(a)));
+        rank(&mut plans);
         plans
+    }
+}
+
+/// Orders plans: those that work by how often; then those that were tried, then the rest.
+pub(super) fn rank(plans: &mut [RankedLever]) {
+    let grade = |plan: &RankedLever| match &plan.verdict {
+        Some(verdict) if verdict.works() => 2.0 + verdict.robustness.unwrap_or(0.0),
+        Some(_) => 1.0,
+        None => 0.0,
+    };
+    plans.sort_by(|a, b| grade(b).total_cmp(&grade(a)));
+}
+
+/// How solving ended, by its plans.
+pub(super) fn status(plans: &[RankedLever]) -> PlanStatus {
+    let verdicts = || plans.iter().filter_map(|plan| plan.verdict.as_ref());
+    if verdicts().any(|verdict| verdict.passed) {
+        PlanStatus::Solved
+    } else if verdicts().any(|verdict| verdict.works()) {
+        PlanStatus::Fragile
+    } else if verdicts().next().is_some() {
+        PlanStatus::FailedVerification
+    } else {
+        PlanStatus::NoPlan
     }
 }
 

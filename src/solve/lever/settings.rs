@@ -19,6 +19,8 @@ pub struct LeverSettings {
     pub verify_batches: usize,
     /// Disturbed replays of every plan that works as written.
     pub disturbed: usize,
+    /// Lever-ups after which pushes are looked for, where a task allows them.
+    pub followed: usize,
 }
 
 impl LeverSettings {
@@ -30,6 +32,7 @@ impl LeverSettings {
             verified_at_once: 8,
             verify_batches: 3,
             disturbed: 16,
+            followed: 4,
         };
         match effort {
             Effort::Draft => Self {
@@ -38,12 +41,20 @@ impl LeverSettings {
                 verified_at_once: 4,
                 verify_batches: 1,
                 disturbed: 4,
+                followed: 2,
             },
             Effort::Standard => usual,
-            Effort::Thorough => Self { simulated: 128, doubts: 8, verify_batches: 4, ..usual },
-            Effort::Exhaustive => {
-                Self { simulated: 128, doubts: 8, verify_batches: 4, disturbed: 64, ..usual }
+            Effort::Thorough => {
+                Self { simulated: 128, doubts: 8, verify_batches: 4, followed: 8, ..usual }
             }
+            Effort::Exhaustive => Self {
+                simulated: 128,
+                doubts: 8,
+                verify_batches: 4,
+                disturbed: 64,
+                followed: 8,
+                ..usual
+            },
         }
     }
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::plan::lever::LeverSearchStatistics;
-use crate::scene::{BladeTool, LeverOutcome, LeverPlan, LeverVerdict};
-use crate::solve::PlanStatus;
+use crate::scene::{BladeTool, LeverOutcome, LeverPlan, LeverVerdict, Task};
+use crate::solve::{PlanStatus, Solution};
 
 /// A lever-up with everything that is known about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +23,17 @@ pub struct RankedLever {
     pub merit: f64,
     /// Whether it works in the simulator, if that was tried.
     pub verdict: Option<LeverVerdict>,
+    /// How the pushes that follow were found, if there are any.
+    pub pushed: Option<Arc<PushedAfter>>,
+}
+
+/// The task of pushes that a lever-up leaves, and its solution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PushedAfter {
+    /// What is left to do: see [`LeverTask::task_after`](crate::scene::LeverTask::task_after).
+    pub task: Task,
+    /// Its solution, whose best plan follows the lever-up.
+    pub solution: Solution,
 }
 
 /// Wall-clock time of each stage, seconds. Reported, never used to decide anything.
@@ -34,6 +45,8 @@ pub struct LeverTiming {
     pub simulation: f64,
     /// Verification.
     pub verification: f64,
+    /// Pushes that follow: their search and verification, and that of the whole.
+    pub pushes: f64,
     /// Everything.
     pub total: f64,
 }
@@ -47,6 +60,8 @@ pub struct LeverStatistics {
     pub simulated: usize,
     /// Plans that were verified.
     pub verified: usize,
+    /// Lever-ups after which pushes were looked for.
+    pub followed: usize,
     /// Wall-clock times.
     pub timing: LeverTiming,
 }

@@ -1,0 +1,230 @@
+//! Pushes that follow a lever-up: what lies on the table by then is a task of pushes.
+
+use std::sync::Arc;
+
+use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Vector, Vector3, clearance};
+use crate::scene::{
+    Goal, MAX_FEET, Object, Obstacle, Plan, Scene, Support, Task, Tool, ToolMotion, Unknowns,
+    carries,
+};
+
+use super::{Block, Ending, LeverTask, Plate};
+
+/// A plate whose lowest point is higher above the table lies on something else, metres.
+const ON_TABLE: f64 = 1e-3;
+
+/// How far gaps to blocks are looked for, metres.
+const BESIDE: f64 = 1e-3;
+
+/// Of a long name so many letters are kept, which leaves room for more.
+const NAME: usize = 56;
+
+/// Points of a plate this near to its lowest one carry it, metres.
+const CARRYING: f64 = 3e-4;
+
+/// Pushes that follow a lever-up, with the tool that makes them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowUp {
+    /// The tool that the plan names.
+    pub tool: Arc<Tool>,
+    /// The pushes, in the world's frame: made where the plate is expected, without looking again.
+    pub plan: Plan,
+}
+
+impl FollowUp {
+    /// What the tool does.
+    pub fn motion(&self) -> ToolMotion {
+        self.plan.motion(&self.tool)
+    }
+}
+
+impl LeverTask {
+    /// The task of pushing the goal's plate to its place once all plates lie at `rests` (their
+    /// frames): nothing if the task allows no pushes or names no place, or if the plate does not
+    /// lie on the table.
+    ///
+    /// Seen from above plates are their outlines, on the points that carry them. Plates that lie on
+    /// something else are obstacles, as are blocks, which count as standing on the table.
+    pub fn task_after(&self, rests: &[Pose3]) -> Option<Task> {
+        let (at, tolerance) = self.goal.place?;
+        let pushes = self.pushes.clone()?;
+        let mut scene = Scene::new([]).on_table(self.table_friction);
+        let mut goal = None;
+        for (k, (plate, rest)) in self.plates.iter().zip(rests).enumerate() {
+            match lying(plate, rest).filter(|object| self.is_clear(object)) {
+                Some(object) => {
+                    if k == self.goal.plate {
+                        goal = Some(Goal::new(scene.objects.len(), at.into(), tolerance));
+                    }
+                    scene.objects.push(object);
+                }
+                None => scene.obstacles.push(standing(plate, rest)),
+            }
+        }
+        scene.obstacles.extend(self.blocks.iter().map(Block::obstacle));
+        Some(Task {
+            name: self.name.chars().take(NAME).chain("-push".chars()).collect(),
+            description: format!("What is left of {} after the lever-up.", self.name),
+            scene,
+            unknown: Unknowns::NONE,
+            robot: self.robot,
+            tools: self.tools.clone(),
+            pushes,
+            goal: goal?,
+            robustness: self.robustness,
+        })
+    }
+
+    /// Whether an object is beside all blocks, not over one.
+    fn is_clear(&self, object: &Object) -> bool {
+        let own = object.shape.footprint();
+        self.blocks.iter().map(Block::obstacle).all(|block| {
+            let base = block.shape().footprint();
+            clearance((&own, &object.pose), (&base, &block.pose), BESIDE) > 0.0
+        })
+    }
+}
+
+/// The plate as an object that is pushed, if it lies on the table.
+fn lying(plate: &Plate, rest: &Pose3) -> Option<Object> {
+    let points = corners(plate, rest);
+    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    // A NaN is not on the table either.
+    if !(lowest <= ON_TABLE) || Ending::of(rest) == Ending::Leaning {
+        return None;
+    }
+    let at = rest.position.xy();
+    let base = &plate.slabs[0];
+    let middle = base.bottom + 0.5 * base.height;
+    let outline = |corner: &Vector| rest.point(Vector3::new(corner.x, corner.y, middle)).xy();
+    let outline: Vec<Vector> = base.corners.iter().map(outline).collect();
+    let polygon = ConvexPolygon::balanced(&outline, at).ok()?;
+    let height = points.iter().map(|point| point.z).fold(0.0, f64::max);
+    let carrying = points.iter().filter(|point| point.z <= lowest + CARRYING);
+    let carrying: Vec<Vector> = carrying.map(|point| point.xy() - at).collect();
+    let support = match carries(&carrying) {
+        Some(_) if carrying.len() <= MAX_FEET => Support::Points(carrying),
+        _ => Support::Even,
+    };
+    Some(Object {
+        name: plate.name.clone(),
+        shape: Shape::Prism { base: polygon, height },
+        support,
+        mass: plate.mass,
+        friction: plate.friction,
+        pose: Pose { position: at, heading: 0.0 },
+    })
+}
+
+/// The plate as something to keep away from: the cuboid around it, on the world's axes.
+fn standing(plate: &Plate, rest: &Pose3) -> Obstacle {
+    let points = corners(plate, rest);
+    let span = |of: &dyn Fn(&Vector3) -> f64| {
+        let ends = points.iter().map(of);
+        let (low, high) = (ends.clone().fold(f64::MAX, f64::min), ends.fold(f64::MIN, f64::max));
+        (0.5 * (low + high), high - low)
+    };
+    let ((x, length), (y, width)) = (span(&|point| point.x), span(&|point| point.y));
+    let top = points.iter().map(|point| point.z).fold(0.0, f64::max);
+    Obstacle::new(&plate.name, [length, width, top], Pose::new(x, y, 0.0)).friction(plate.friction)
+}
+
+/// Corners of all solids of a plate and its feet, in the world, metres.
+fn corners(plate: &Plate, rest: &Pose3) -> Vec<Vector3> {
+    let at = |corner: &Vector, z: f64| rest.point(Vector3::new(corner.x, corner.y, z));
+    let mut points: Vec<Vector3> = Vec::new();
+    for slab in &plate.slabs {
+        for z in [slab.bottom, slab.bottom + slab.height] {
+            points.extend(slab.corners.iter().map(|corner| at(corner, z)));
+        }
+    }
+    if plate.has_feet() {
+        points.extend(plate.corners().iter().map(|corner| at(corner, -plate.z)));
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{LeverGoal, LeverRules, PushRules, Robot, Slab, ToolChoice};
+
+    fn tile() -> Plate {
+        let corner = |x: f64, y: f64| Vector::new(x, y);
+        let corners = vec![
+            corner(-0.06, -0.04),
+            corner(0.06, -0.04),
+            corner(0.06, 0.04),
+            corner(-0.06, 0.04),
+        ];
+        Plate {
+            name: "tile".into(),
+            slabs: vec![Slab { corners, bottom: 0.0, height: 0.008 }],
+            mass: 0.1,
+            friction: 0.4,
+            clearance: 0.006,
+            pose: Pose::default(),
+            z: 0.006,
+        }
+    }
+
+    fn task() -> LeverTask {
+        LeverTask {
+            name: "turn".into(),
+            description: String::new(),
+            table_friction: 0.5,
+            plates: vec![tile()],
+            blocks: Vec::new(),
+            robot: Robot::reaching(0.1, 0.9),
+            tools: ToolChoice::All,
+            levers: LeverRules::default(),
+            pushes: Some(PushRules::default()),
+            goal: LeverGoal { place: Some((Vector::new(0.5, 0.2), 0.02)), ..LeverGoal::of(0) },
+            robustness: 0.75,
+        }
+    }
+
+    fn upside_down(z: f64) -> Pose3 {
+        let flat = Pose3::upright(Pose::new(0.4, 0.1, 0.3), z);
+        let lying = Pose3 { position: Vector3::zeros(), ..flat };
+        let turned = lying.turned_about(Vector3::zeros(), Vector3::x_axis(), std::f64::consts::PI);
+        Pose3 { position: flat.position, ..turned }
+    }
+
+    #[test]
+    fn a_plate_on_its_feet_stands_on_them() {
+        let rest = Pose3::upright(Pose::new(0.4, 0.1, 0.3), 0.006);
+        let after = task().task_after(&[rest]).expect("it lies on the table");
+        let object = &after.scene.objects[0];
+        let Support::Points(points) = &object.support else { panic!("{:?}", object.support) };
+        assert_eq!(points.len(), 4);
+        assert!(points.iter().all(|point| (point.norm() - 0.06f64.hypot(0.04)).abs() < 1e-9));
+        assert!((object.shape.height() - 0.014).abs() < 1e-9);
+        assert!((object.shape.footprint().area() - 0.12 * 0.08).abs() < 1e-9);
+        assert_eq!(after.goal.position, Vector::new(0.5, 0.2));
+    }
+
+    #[test]
+    fn a_plate_upside_down_lies_on_its_upper_face() {
+        let after = task().task_after(&[upside_down(0.008)]).expect("it lies on the table");
+        let object = &after.scene.objects[0];
+        assert!((object.pose.position - Vector::new(0.4, 0.1)).norm() < 1e-9);
+        // The feet point upwards.
+        assert!((object.shape.height() - 0.014).abs() < 1e-9);
+        let Support::Points(points) = &object.support else { panic!("{:?}", object.support) };
+        assert_eq!(points.len(), 4);
+    }
+
+    #[test]
+    fn what_does_not_lie_on_the_table_is_not_pushed() {
+        assert_eq!(task().task_after(&[upside_down(0.02)]), None, "on a block");
+        let leaning = Pose3::upright(Pose::default(), 0.03).turned_about(
+            Vector3::zeros(),
+            Vector3::x_axis(),
+            0.6,
+        );
+        assert_eq!(task().task_after(&[leaning]), None);
+        let forbidden = LeverTask { pushes: None, ..task() };
+        assert_eq!(forbidden.task_after(&[upside_down(0.008)]), None);
+    }
+}
