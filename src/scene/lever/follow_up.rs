@@ -90,7 +90,8 @@ fn lying(plate: &Plate, rest: &Pose3) -> Option<Object> {
     let points = corners(plate, rest);
     let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
     // A NaN is not on the table either.
-    if !(lowest <= ON_TABLE) || Ending::of(rest) == Ending::Leaning {
+    let on_table = lowest <= ON_TABLE;
+    if !on_table || Ending::of(rest) == Ending::Leaning {
         return None;
     }
     let at = rest.position.xy();
