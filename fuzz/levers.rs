@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use pushplan::asset::{LeverPlanFile, ToolLibrary};
 use pushplan::effect::{LeverModel, LeverTrust};
+use pushplan::geometry::Vector;
 use pushplan::scene::{
-    BladeTool, Ending, LEVER_FRAMES, LeverJob, LeverPlan, LeverTask, LeverTrajectory, LeverUp,
-    Place,
+    BladeTool, Ending, FollowUp, LEVER_FRAMES, LeverJob, LeverPlan, LeverTask, LeverTrajectory,
+    LeverUp, Place, Plan, Push, PushForm, Tool,
 };
 use pushplan::solve::lever::{LeverPlanner, LeverSettings};
 use pushplan::verify::{LeverVerifier, VerifySettings};
@@ -33,6 +34,7 @@ pub fn task(task: LeverTask) {
         verified_at_once: 1,
         verify_batches: 0,
         disturbed: 0,
+        followed: 0,
     };
     let Ok(tools) = task.blades(&library) else { return };
     if tools.len() > 2 {
@@ -53,7 +55,10 @@ pub fn task(task: LeverTask) {
 pub fn plan(file: LeverPlanFile) {
     let lever = &file.plan.lever;
     let small = file.task.plates.len() + file.task.blocks.len() < CROWD;
-    if lever.speed > 0.0 && lever.duration() < LONGEST && small {
+    let pushed = file.plan.follow_up.as_ref().map_or(0.0, |then| {
+        then.plan.pushes.iter().map(|push| push.length / push.speed).sum::<f64>()
+    });
+    if lever.speed > 0.0 && lever.duration() + pushed < LONGEST && small {
         let verifier = LeverVerifier::new(VerifySettings { disturbed: 1, seed: 1 });
         let verdict = verifier.verify(&file.task, &file.tool, &file.plan);
         assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.score.is_finite()));
@@ -104,9 +109,24 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
             hold: 0.1,
             retreat: 0.05,
         };
-        let plan = LeverPlan { tool: tool.name.clone(), lever };
+        let pusher = || library.get("t-head").map(Arc::clone);
+        let follow_up = task.pushes.as_ref().and_then(|_| pusher()).map(then);
+        let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up };
         let file = LeverPlanFile { task, tool, plan, model: None, predicted: None, verdict: None };
         Some((name.to_owned(), serde_json::to_vec(&file).ok()?))
     };
-    ["raise-plate", "drive-board"].into_iter().filter_map(plan).collect()
+    ["raise-plate", "drive-board", "turn-and-push"].into_iter().filter_map(plan).collect()
+}
+
+/// A push across the table.
+fn then(tool: Arc<Tool>) -> FollowUp {
+    let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.2, speed: 0.1 };
+    let plan = Plan {
+        tool: tool.name.clone(),
+        grip_yaw: 0.0,
+        form: PushForm::Placed,
+        lift: 0.002,
+        pushes: vec![push],
+    };
+    FollowUp { tool, plan }
 }
