@@ -43,6 +43,7 @@ pub fn solve(py: Python<'_>, error: &SolveError) -> PyErr {
         SolveError::Tools(faults) => files(py, faults, None),
         SolveError::BadTask { .. } => raise(py, "TaskError", (error.to_string(),)),
         SolveError::Refused { warnings, .. } => refused(py, &error.to_string(), warnings),
+        SolveError::Model(error) => model(py, error),
     }
 }
 
