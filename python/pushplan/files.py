@@ -334,6 +334,7 @@ class LeverTaskFile(TypedDict):
     name: NotRequired[str]
     description: NotRequired[str]
     levers: NotRequired[LeversKeys]
+    pushes: NotRequired[PushKeys]
     robustness: NotRequired[float]
 
 
