@@ -11,6 +11,7 @@ use nalgebra::{Vector2, Vector3};
 use super::{
     constraint::{Constraint, Status, Tie},
     eliminated::Eliminated,
+    elimination::solve_in_place,
     index::GroupIndex,
     tally::Tally,
     unknown::Unknown,
@@ -18,14 +19,17 @@ use super::{
 
 /// Rounds in which all constraints may do something else than before. After these only the one may
 /// that is farthest from what it should do: all at once go in circles where things jam.
-const TOGETHER: usize = 6;
+pub(super) const TOGETHER: usize = 6;
 
 /// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in crowds
 /// with joints what 12 do not find 24 do not either, and a tenth of the time goes into looking.
-const ROUNDS: usize = 16;
+pub(super) const ROUNDS: usize = 16;
 
 /// Most equations at once: what many objects that jam would need is cheaper by iteration.
 const MOST: usize = 64;
+
+/// No group.
+const NOBODY: GroupIndex = GroupIndex(usize::MAX);
 
 /// Memory that is reused.
 #[derive(Clone, Debug, Default)]
@@ -33,9 +37,12 @@ pub(super) struct ActiveSet {
     /// Values of all constraints without their forces.
     free: Vec<Vector2<f64>>,
     rows: Vec<Row>,
+    /// The rows by the blocks that they are of.
+    order: Vec<(usize, usize)>,
+    blocks: Blocks,
     /// What force and torque on every group add to the row at hand, where joints carry them on.
     felt: Vec<Vector3<f64>>,
-    /// The equations, row by row, each with what it asks for at its end.
+    /// The equations of a block, row by row, each with what it asks for at its end.
     matrix: Vec<f64>,
 }
 
@@ -45,15 +52,18 @@ struct Row {
     constraint: usize,
     /// Which of the constraint's two equations it is.
     equation: usize,
-    /// The groups that it is about; twice the first where the other body's motion is given.
+    /// The groups that it is about; [`NOBODY`] is the second where the other body's motion is given.
     groups: [GroupIndex; 2],
     /// What a unit of the force is along normal and tangent.
     along: Vector2<f64>,
     /// The force and torque that it puts on the groups.
     press: [Vector3<f64>; 2],
+    /// How much of the equation's value a force and torque on either of them are.
+    moved: [Vector3<f64>; 2],
     /// By how much more than the groups' own answer the force gives way.
     give: f64,
     target: f64,
+    force: f64,
 }
 
 impl ActiveSet {
@@ -74,8 +84,9 @@ impl ActiveSet {
         self.free.extend(constraints.iter().map(|constraint| constraint.value));
         for round in 0..ROUNDS {
             self.list(constraints);
-            tally.solve(self.rows.len());
-            if self.rows.len() > MOST || !self.eliminate(unknowns.len(), constraints, joints) {
+            tally.rounds += 1;
+            let count = unknowns.len();
+            if self.rows.len() > MOST || !self.eliminate(count, constraints, joints, tally) {
                 return false;
             }
             self.apply(constraints);
@@ -110,111 +121,126 @@ impl ActiveSet {
         let Self { rows, free, .. } = self;
         rows.clear();
         for (constraint, (c, free)) in constraints.iter().zip(free).enumerate() {
-            let mut add = |equation: usize, along: Vector2<f64>, give: f64| {
-                let by = |rows: &[Vector3<f64>; 2]| rows[0] * along.x + rows[1] * along.y;
+            let mut add = |equation: usize, along, press: [Vector3<f64>; 2], give: f64| {
                 rows.push(Row {
                     constraint,
                     equation,
-                    groups: [c.a, c.b.unwrap_or(c.a)],
+                    groups: [c.a, c.b.unwrap_or(NOBODY)],
                     along,
-                    press: [by(&c.to), -by(&c.from)],
+                    press: [press[0], -press[1]],
+                    moved: [c.moved[0][equation], c.moved[1][equation]],
                     give,
                     target: c.target[equation] - free[equation],
+                    force: 0.0,
                 });
             };
             match c.status {
                 Status::Open => {}
                 Status::Sticks => {
-                    add(0, Vector2::x(), c.give);
-                    add(1, Vector2::y(), c.give);
+                    add(0, Vector2::x(), [c.to[0], c.from[0]], c.give);
+                    add(1, Vector2::y(), [c.to[1], c.from[1]], c.give);
                 }
-                Status::Slides(edge) => add(0, Vector2::new(1.0, edge), c.give + c.wedge(edge)),
+                Status::Slides(edge) => {
+                    let press = [c.to, c.from].map(|rows| rows[0] + rows[1] * edge);
+                    add(0, Vector2::new(1.0, edge), press, c.give + c.wedge(edge));
+                }
             }
         }
     }
 
     /// Fills in the equations of `count` groups and solves them; whether they have an answer.
-    fn eliminate(&mut self, count: usize, constraints: &[Constraint], joints: &Eliminated) -> bool {
-        let Self { rows, felt, matrix, .. } = self;
-        let n = rows.len();
-        let width = n + 1;
-        matrix.clear();
-        for Row { constraint, equation, groups: [a, b], target, .. } in &*rows {
-            let c = &constraints[*constraint];
-            if joints.is_empty() {
-                // Nobody but the two groups feels it.
-                let moved = [&c.moved[0][*equation], &c.moved[1][*equation]];
-                let felt = |group: &GroupIndex, press: &Vector3<f64>| match group {
-                    _ if group == a => moved[0].dot(press),
-                    _ if group == b => moved[1].dot(press),
-                    _ => 0.0,
-                };
-                matrix.extend(rows.iter().map(
-                    |Row { groups: [a, b], press: [on_a, on_b], .. }| felt(a, on_a) + felt(b, on_b),
-                ));
-            } else {
-                felt.clear();
-                felt.resize(count, Vector3::zeros());
-                joints.feel(c.a, &c.to[*equation], felt);
-                if let Some(b) = c.b {
-                    joints.feel(b, &-c.from[*equation], felt);
+    /// What stands apart is solved apart.
+    fn eliminate(
+        &mut self,
+        count: usize,
+        constraints: &[Constraint],
+        joints: &Eliminated,
+        tally: &mut Tally,
+    ) -> bool {
+        let Self { rows, order, blocks, felt, matrix, .. } = self;
+        blocks.find(count, rows, joints);
+        order.clear();
+        order.extend(rows.iter().enumerate().map(|(k, row)| (blocks.of(row.groups[0]), k)));
+        order.sort_unstable();
+        for block in order.chunk_by(|one, next| one.0 == next.0) {
+            let n = block.len();
+            tally.solve(n);
+            matrix.clear();
+            for row in block.iter().map(|&(_, row)| &rows[row]) {
+                let others = block.iter().map(|&(_, other)| &rows[other]);
+                if joints.is_empty() {
+                    // Nobody but the two groups feels it.
+                    let [a, b] = row.groups;
+                    matrix.extend(others.map(|other| {
+                        let felt = |k: usize| match other.groups[k] {
+                            group if group == a => row.moved[0].dot(&other.press[k]),
+                            group if group == b => row.moved[1].dot(&other.press[k]),
+                            _ => 0.0,
+                        };
+                        felt(0) + felt(1)
+                    }));
+                } else {
+                    let c = &constraints[row.constraint];
+                    felt.clear();
+                    felt.resize(count, Vector3::zeros());
+                    joints.feel(c.a, &c.to[row.equation], felt);
+                    if let Some(b) = c.b {
+                        joints.feel(b, &-c.from[row.equation], felt);
+                    }
+                    matrix.extend(others.map(|Row { groups: [a, b], press, .. }| {
+                        let second = felt.get(b.0).map_or(0.0, |felt| felt.dot(&press[1]));
+                        felt[a.0].dot(&press[0]) + second
+                    }));
                 }
-                matrix.extend(rows.iter().map(
-                    |Row { groups: [a, b], press: [on_a, on_b], .. }| {
-                        felt[a.0].dot(on_a) + felt[b.0].dot(on_b)
-                    },
-                ));
+                matrix.push(row.target);
             }
-            matrix.push(*target);
+            for (k, &(_, row)) in block.iter().enumerate() {
+                matrix[k * (n + 1) + k] += rows[row].give;
+            }
+            if !solve_in_place(matrix, n) {
+                return false;
+            }
+            for (&(_, row), line) in block.iter().zip(matrix.chunks_exact(n + 1)) {
+                rows[row].force = line[n];
+            }
         }
-        for (k, row) in rows.iter().enumerate() {
-            matrix[k * width + k] += row.give;
-        }
-        solve_in_place(matrix, n)
+        true
     }
 
     /// Sets the trial forces found.
     fn apply(&self, constraints: &mut [Constraint]) {
         constraints.iter_mut().for_each(|constraint| constraint.trial = Vector2::zeros());
-        let n = self.rows.len();
-        for (row, line) in self.rows.iter().zip(self.matrix.chunks_exact(n + 1)) {
-            constraints[row.constraint].trial += row.along * line[n];
+        for row in &self.rows {
+            constraints[row.constraint].trial += row.along * row.force;
         }
     }
 }
 
-/// Gaussian elimination with pivots of n equations of n + 1 numbers each; the last number of
-/// equation k becomes the k-th unknown. Returns whether all of them are finite.
-fn solve_in_place(matrix: &mut [f64], n: usize) -> bool {
-    let width = n + 1;
-    for k in 0..n {
-        let size = |row: usize| matrix[row * width + k].abs();
-        let pivot = (k + 1..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
-        if pivot != k {
-            let (above, below) = matrix.split_at_mut(pivot * width);
-            above[k * width + k..(k + 1) * width].swap_with_slice(&mut below[k..width]);
-        }
-        let (above, below) = matrix.split_at_mut((k + 1) * width);
-        let first = &above[k * width + k..];
-        let inverse = 1.0 / first[0];
-        for line in below.chunks_exact_mut(width) {
-            let share = line[k] * inverse;
-            if share != 0.0 {
-                for (entry, above) in line[k + 1..].iter_mut().zip(&first[1..]) {
-                    *entry -= share * above;
-                }
-            }
+/// Which groups feel each other's forces, through contacts that press or through joints.
+#[derive(Clone, Debug, Default)]
+struct Blocks {
+    /// For every group one of those that it is together with, itself if it is the first.
+    first: Vec<usize>,
+}
+
+impl Blocks {
+    fn find(&mut self, count: usize, rows: &[Row], joints: &Eliminated) {
+        self.first.clear();
+        self.first.extend((0..count).map(|group| joints.mechanism(GroupIndex(group))));
+        for row in rows.iter().filter(|row| row.groups[1] != NOBODY) {
+            let [a, b] = row.groups.map(|group| self.of(group));
+            self.first[a.max(b)] = a.min(b);
         }
     }
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| matrix[k * width + j] * matrix[j * width + n]).sum();
-        let value = (matrix[k * width + n] - known) / matrix[k * width + k];
-        if !value.is_finite() {
-            return false;
+
+    /// The lowest group that `group` is together with.
+    fn of(&self, group: GroupIndex) -> usize {
+        let mut at = group.0;
+        while self.first[at] != at {
+            at = self.first[at];
         }
-        matrix[k * width + n] = value;
+        at
     }
-    true
 }
 
 #[cfg(test)]
@@ -325,15 +351,5 @@ mod tests {
                 assert!(!sticks || left.y.abs() < 1e-9, "{seed}: {left}");
             }
         }
-    }
-
-    #[test]
-    fn equations_that_need_their_rows_swapped_are_solved() {
-        // 2 y = 4; x + y + z = 6; x - z = -2.
-        let mut matrix = [0.0, 2.0, 0.0, 4.0, 1.0, 1.0, 1.0, 6.0, 1.0, 0.0, -1.0, -2.0];
-        assert!(solve_in_place(&mut matrix, 3));
-        assert_eq!([matrix[3], matrix[7], matrix[11]], [1.0, 2.0, 3.0]);
-        let mut none = [1.0, 1.0, 1.0, 1.0, 1.0, 2.0];
-        assert!(!solve_in_place(&mut none, 2));
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    geometry::{ContactPoint, Footprint, Pose, Rim},
+    geometry::{ContactPoint, Footprint, Placed, Pose, Rim},
     scene::{
         Body, Feet, GRAVITY, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
         Span, Surface, Tool, face_height, pair_friction,
@@ -151,11 +151,11 @@ pub enum Partner {
 }
 
 impl Bodies {
-    /// Whether the tool can be touched where a body meets number `part` of its pieces, which is at
-    /// `pose`: not at a seam between pieces.
-    pub fn shows(&self, part: usize, pose: &Pose, point: &ContactPoint) -> bool {
+    /// Whether the tool can be touched where a body meets number `part` of its pieces, placed there:
+    /// not at a seam between pieces.
+    pub fn shows(&self, part: usize, placed: &Placed, point: &ContactPoint) -> bool {
         self.rims[self.parts[part].index].as_ref().is_none_or(|rim| {
-            rim.shows(pose.local_point(point.on_second), pose.local_vector(point.normal))
+            rim.shows(placed.local_point(point.on_second), placed.local_vector(point.normal))
         })
     }
 

@@ -1,7 +1,9 @@
 //! Contacts: points of two bodies close enough to matter in a frame, each pair once.
 
 use crate::{
-    geometry::{ContactPoint, Follows, Vector, contact_points, wrap_angle},
+    geometry::{
+        ContactPoint, Follows, Placed, Pose, Turn, Vector, contact_points_of, far_apart, wrap_angle,
+    },
     scene::{FrameStep, State},
 };
 
@@ -53,23 +55,41 @@ pub(super) struct Scenery<'a> {
     pub margin: f64,
 }
 
+/// What everything in a frame needs of the tool.
+struct Pusher {
+    from: Turn,
+    to: Turn,
+    /// How far it turns, radians.
+    turned: f64,
+}
+
+impl Pusher {
+    fn new(step: &FrameStep) -> Self {
+        let turned = wrap_angle(step.to.heading - step.from.heading);
+        Self { from: step.from.turn(), to: step.to.turn(), turned }
+    }
+}
+
 /// Every contact point close enough to matter in this frame. Objects of one rigid group do not
 /// touch each other.
 pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     let bodies = scenery.bodies;
     contacts.clear();
+    let tool = Pusher::new(scenery.step);
     for (object, body) in bodies.objects.iter().enumerate() {
+        let placed = Placed::new(&body.footprint, scenery.state.poses[object]);
+        let mut meet = |with| scenery.meet(&tool, (object, &placed), with, contacts);
         for (index, part) in bodies.parts.iter().enumerate() {
             if part.span.0 < body.height {
-                scenery.meet(object, Partner::Part(index), contacts);
+                meet(Partner::Part(index));
             }
         }
         for index in 0..bodies.obstacles.len() {
-            scenery.meet(object, Partner::Obstacle(index), contacts);
+            meet(Partner::Obstacle(index));
         }
         for other in object + 1..bodies.objects.len() {
             if bodies.groups.of[object] != bodies.groups.of[other] {
-                scenery.meet(object, Partner::Object(other), contacts);
+                meet(Partner::Object(other));
             }
         }
     }
@@ -78,18 +98,27 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
 /// The contact points of those pairs alone that have some in `known`.
 pub(super) fn find_again(scenery: Scenery, known: &[Contact], contacts: &mut Vec<Contact>) {
     contacts.clear();
+    let tool = Pusher::new(scenery.step);
     let mut last = None;
     for contact in known {
         // The points of a pair stand together.
         if last.replace(contact.pair) != Some(contact.pair) {
-            scenery.meet(contact.object, contact.with, contacts);
+            let body = &scenery.bodies.objects[contact.object];
+            let placed = Placed::new(&body.footprint, scenery.state.poses[contact.object]);
+            scenery.meet(&tool, (contact.object, &placed), contact.with, contacts);
         }
     }
 }
 
 impl Scenery<'_> {
     /// Adds the contact points of an object and another body.
-    fn meet(&self, object: usize, with: Partner, contacts: &mut Vec<Contact>) {
+    fn meet(
+        &self,
+        tool: &Pusher,
+        (object, placed): (usize, &Placed),
+        with: Partner,
+        contacts: &mut Vec<Contact>,
+    ) {
         let Self { bodies, state, step, coasts, .. } = *self;
         let travel = (step.to.position - step.from.position).norm();
         let own = |object: usize| {
@@ -97,46 +126,47 @@ impl Scenery<'_> {
         };
         // While the tool turns, its far ends travel more than its frame; margins allow for that.
         let reach = self.margin + travel + own(object);
-        let body = &bodies.objects[object];
-        let pose = &state.poses[object];
-        let part_pose;
-        let (other, reach) = match with {
+        let (footprint, pose, reach) = match with {
             Partner::Part(index) => {
                 let part = &bodies.parts[index];
-                part_pose = step.from * part.pose;
-                ((&part.footprint, &part_pose), reach)
+                let Pose { position, heading } = part.pose;
+                let position = step.from.position + tool.from.of(position);
+                (&part.footprint, Pose { position, heading: step.from.heading + heading }, reach)
             }
             Partner::Obstacle(index) => {
                 let obstacle = &bodies.obstacles[index];
-                ((&obstacle.footprint, &obstacle.pose), reach)
+                (&obstacle.footprint, obstacle.pose, reach)
             }
             Partner::Object(other) => {
-                let second = &bodies.objects[other];
-                let at = &state.poses[other];
-                ((&second.footprint, at), reach + own(other))
+                (&bodies.objects[other].footprint, state.poses[other], reach + own(other))
             }
         };
-        let pair = bodies.pair(object, with);
+        let body = &bodies.objects[object].footprint;
+        if far_apart((body, placed.position()), (footprint, pose.position), reach) {
+            return;
+        }
+        let other = Placed::new(footprint, pose);
         let shows = |point: &&ContactPoint| match with {
-            Partner::Part(index) => bodies.shows(index, other.1, point),
+            Partner::Part(index) => bodies.shows(index, &other, point),
             _ => true,
         };
-        let points = contact_points((&body.footprint, pose), other, reach).0;
+        let pair = bodies.pair(object, with);
+        let points = contact_points_of(placed, &other, reach).0;
         for point in points.iter().flatten().filter(shows) {
             let (given, given_turn) = match with {
-                Partner::Part(_) if step.from != step.to => (
-                    step.to.point(step.from.local_point(point.on_second)) - point.on_second,
-                    wrap_angle(step.to.heading - step.from.heading),
-                ),
+                Partner::Part(_) if step.from != step.to => {
+                    let local = tool.from.back(point.on_second - step.from.position);
+                    (step.to.position + tool.to.of(local) - point.on_second, tool.turned)
+                }
                 _ => (Vector::zeros(), 0.0),
             };
             contacts.push(Contact {
                 pair,
                 object,
                 with,
-                arm: point.on_first - pose.position,
+                arm: point.on_first - placed.position(),
                 other_arm: match with {
-                    Partner::Object(_) => point.on_second - other.1.position,
+                    Partner::Object(_) => point.on_second - pose.position,
                     _ => Vector::zeros(),
                 },
                 normal: point.normal,

@@ -114,7 +114,7 @@ impl Prior {
             });
             joints.push((ties.len() > before).then_some(before));
         }
-        system.solve(bodies, state, duration, |constraints, ties, unknowns| {
+        system.solve(bodies, state, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
                 let at = midway(bodies, state, contact, unknowns, HALF);
@@ -155,7 +155,7 @@ impl Prior {
             limit.target = [if limit.presses() { 0.0 } else { OUT_OF_REACH }, 0.0];
         }
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
-        velocities.solve(bodies, state, duration, |_, _, _| {});
+        velocities.solve(bodies, state, |_, _, _| {});
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is

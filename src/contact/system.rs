@@ -23,6 +23,7 @@ use super::{
     bodies::Bodies,
     constraint::{Constraint, Tie},
     eliminated::Eliminated,
+    lone,
     motion::Motion,
     tally::Tally,
     unknown::{Quantity, Unknown},
@@ -92,7 +93,7 @@ impl System {
                 unknown.forget();
                 several && unknown.carry_on(members[0], state, duration)
             };
-            unknown.weigh((bodies, members), state, of, (!goes_on).then_some(reach), tally);
+            unknown.weigh((bodies, members), state, of.0, (!goes_on).then_some(reach), tally);
             if !goes_on {
                 unknown.twist = unknown.free;
             }
@@ -125,7 +126,7 @@ impl System {
         for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
             unknown.pull((bodies, members), state, of, coasts);
         }
-        self.weigh(bodies, state, duration);
+        self.weigh(bodies, state);
     }
 
     /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
@@ -134,7 +135,6 @@ impl System {
         &mut self,
         bodies: &Bodies,
         state: &State,
-        duration: f64,
         mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
         self.tally.systems += 1;
@@ -146,7 +146,7 @@ impl System {
         };
         for update in 0..UPDATES {
             if update > 0 {
-                self.weigh(bodies, state, duration);
+                self.weigh(bodies, state);
             }
             turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
@@ -162,11 +162,10 @@ impl System {
         }
     }
 
-    fn weigh(&mut self, bodies: &Bodies, state: &State, duration: f64) {
-        let of = (self.quantity, duration);
-        let Self { unknowns, tally, .. } = self;
+    fn weigh(&mut self, bodies: &Bodies, state: &State) {
+        let Self { unknowns, quantity, tally, .. } = self;
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.weigh((bodies, members), state, of, None, tally);
+            unknown.weigh((bodies, members), state, *quantity, None, tally);
         }
     }
 
@@ -181,7 +180,13 @@ impl System {
                 constraint.own = joints.own(constraint);
             }
         }
-        if !active.solve(unknowns, constraints, ties, joints, tally) {
+        let found = match &mut unknowns[..] {
+            [unknown] if joints.is_empty() && constraints.len() <= lone::MOST => {
+                lone::solve(unknown, constraints, tally)
+            }
+            unknowns => active.solve(unknowns, constraints, ties, joints, tally),
+        };
+        if !found {
             tally.approached += 1;
             approach.run(unknowns, constraints, ties, joints);
         }

@@ -48,7 +48,6 @@ impl Tally {
     /// and solved backwards.
     pub(super) fn solve(&mut self, n: usize) {
         let n = n as u64;
-        self.rounds += 1;
         self.rows += n;
         self.operations += 24 * n * n + 2 * n * n * n / 3 + 2 * n * n;
     }

@@ -69,13 +69,21 @@ const FOLLOWING: usize = 5;
 /// Weights are kept while motion (metres, radians) and pressing have changed by less.
 const SAME: f64 = 1e-9;
 
+/// What does not change while a member's frame is solved.
+#[derive(Clone, Copy, Debug)]
+struct Member {
+    /// Where its own x axis points at the start of the frame, a unit vector.
+    axis: Vector,
+    /// What its inertia adds to the resistance to shifts, N/m, and to turns, N m.
+    inertia: (f64, f64),
+}
+
 /// A rigid group and its motion.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Unknown {
     /// Mean position of its members at the start of the frame.
     pub centre: Vector,
-    /// Where the own x axis of every member points then, unit vectors.
-    axes: Vec<Vector>,
+    members: Vec<Member>,
     /// Force and torque per displacement.
     pub resistance: Matrix3<f64>,
     /// Displacement per force and torque, the inverse of the resistance.
@@ -100,15 +108,28 @@ pub(super) struct Unknown {
     pub turn: Turn,
 }
 
+impl Clone for Unknown {
+    fn clone(&self) -> Self {
+        Self { members: self.members.clone(), ..*self }
+    }
+
+    /// On the memory that is there: it happens in every frame.
+    fn clone_from(&mut self, other: &Self) {
+        let mut members = std::mem::take(&mut self.members);
+        members.clone_from(&other.members);
+        *self = Self { members, ..*other };
+    }
+}
+
 impl Unknown {
     /// Puts the group where its `members` are; it has not moved yet.
     pub fn place(&mut self, members: &[usize], state: &State) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
-        self.axes.clear();
-        self.axes.extend(members.iter().map(|&k| {
+        self.members.clear();
+        self.members.extend(members.iter().map(|&k| {
             let (sin, cos) = state.poses[k].heading.sin_cos();
-            Vector::new(cos, sin)
+            Member { axis: Vector::new(cos, sin), inertia: (0.0, 0.0) }
         }));
         (self.share, self.turn) = (0.0, Turn::NONE);
         self.updates = 0;
@@ -157,15 +178,16 @@ impl Unknown {
     ) {
         self.pull = Vector3::zeros();
         self.weighed = None;
-        for (&k, axis) in members.iter().zip(&self.axes) {
+        for (&k, member) in members.iter().zip(&mut self.members) {
             let body = &bodies.objects[k];
-            let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
+            member.inertia = inertias(body, quantity.inertia_of(body, duration));
+            let (slide, turn) = member.inertia;
             let arm = state.poses[k].position - self.centre;
             let own = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
                     let moved = (coast.shift, coast.turn);
-                    let rub = rub((bodies, k), *axis, moved, quantity, Vector::zeros());
+                    let rub = rub((bodies, k), member.axis, moved, quantity, Vector::zeros());
                     let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
                     rub.about(Vector::zeros()) * moved
                         + Vector3::new(slide, slide, turn).component_mul(&moved)
@@ -186,7 +208,7 @@ impl Unknown {
         &mut self,
         (bodies, members): (&Bodies, &[usize]),
         state: &State,
-        (quantity, duration): (Quantity, f64),
+        quantity: Quantity,
         reach: Option<f64>,
         tally: &mut Tally,
     ) {
@@ -203,7 +225,7 @@ impl Unknown {
         }
         self.weighed = reach.is_none().then_some(self.twist);
         let mut weight = Matrix3::zeros();
-        for (&k, axis) in members.iter().zip(&self.axes) {
+        for (&k, Member { axis, inertia: (slide, turn) }) in members.iter().zip(&self.members) {
             let body = &bodies.objects[k];
             tally.weigh(bodies.feet(k).count);
             let arm = state.poses[k].position - self.centre;
@@ -217,7 +239,6 @@ impl Unknown {
                     rub((bodies, k), *axis, (moved, self.twist.z), quantity, lean)
                 }
             };
-            let (slide, turn) = inertias(body, quantity.inertia_of(body, duration));
             rub.sum += slide;
             rub.second += turn;
             weight += rub.about(arm);

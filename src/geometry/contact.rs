@@ -63,6 +63,45 @@ impl ContactPoint {
     }
 }
 
+/// A footprint at a place, with the turn by its heading: sines are taken once for all that it meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    footprint: &'a Footprint,
+    pose: Pose,
+    turn: Turn,
+}
+
+impl<'a> Placed<'a> {
+    /// The footprint at that pose.
+    pub fn new(footprint: &'a Footprint, pose: Pose) -> Self {
+        Self { footprint, pose, turn: pose.turn() }
+    }
+
+    /// Where its centre is, metres.
+    pub fn position(&self) -> Vector {
+        self.pose.position
+    }
+
+    /// Maps a point of the world into its frame, metres.
+    pub fn local_point(&self, point: Vector) -> Vector {
+        self.turn.back(point - self.pose.position)
+    }
+
+    /// Turns a vector of the world into its frame.
+    pub fn local_vector(&self, vector: Vector) -> Vector {
+        self.turn.back(vector)
+    }
+}
+
+/// Whether two footprints around these centres are farther apart than `reach` metres for sure.
+pub fn far_apart(
+    (first, at): (&Footprint, Vector),
+    (second, other): (&Footprint, Vector),
+    reach: f64,
+) -> bool {
+    (at - other).norm() > first.bounding_radius() + second.bounding_radius() + reach
+}
+
 /// The one or two contact points of two posed footprints whose gap is at most `reach` metres,
 /// closest first; none if the bodies are farther apart.
 ///
@@ -73,26 +112,33 @@ pub fn contact_points(
     second: (&Footprint, &Pose),
     reach: f64,
 ) -> ([Option<ContactPoint>; 2], usize) {
-    let apart = (first.1.position - second.1.position).norm();
-    if apart > first.0.bounding_radius() + second.0.bounding_radius() + reach {
+    if far_apart((first.0, first.1.position), (second.0, second.1.position), reach) {
         return ([None, None], 0);
     }
-    let (at, bt) = (first.1, second.1);
-    match (first.0, second.0) {
+    contact_points_of(&Placed::new(first.0, *first.1), &Placed::new(second.0, *second.1), reach)
+}
+
+/// [`contact_points`] of two that are not [`far_apart`].
+pub fn contact_points_of(
+    at: &Placed,
+    bt: &Placed,
+    reach: f64,
+) -> ([Option<ContactPoint>; 2], usize) {
+    match (at.footprint, bt.footprint) {
         (&Footprint::Disc { radius: a }, &Footprint::Disc { radius: b }) => {
-            single(disc_disc(at.position, a, bt.position, b), reach)
+            single(disc_disc(at.position(), a, bt.position(), b), reach)
         }
         (&Footprint::Disc { radius }, &Footprint::Rectangle { half }) => {
-            single(disc_flat(at.position, radius, bt, &Rectangle(half)), reach)
+            single(disc_flat(at.position(), radius, bt, &Rectangle(half)), reach)
         }
         (&Footprint::Disc { radius }, Footprint::Polygon(polygon)) => {
-            single(disc_flat(at.position, radius, bt, &Faced::new(polygon)), reach)
+            single(disc_flat(at.position(), radius, bt, &Faced::new(polygon)), reach)
         }
         (&Footprint::Rectangle { half }, &Footprint::Disc { radius }) => {
-            single(disc_flat(bt.position, radius, at, &Rectangle(half)).flipped(), reach)
+            single(disc_flat(bt.position(), radius, at, &Rectangle(half)).flipped(), reach)
         }
         (Footprint::Polygon(polygon), &Footprint::Disc { radius }) => {
-            single(disc_flat(bt.position, radius, at, &Faced::new(polygon)).flipped(), reach)
+            single(disc_flat(bt.position(), radius, at, &Faced::new(polygon)).flipped(), reach)
         }
         (&Footprint::Rectangle { half: a }, &Footprint::Rectangle { half: b }) => {
             flats((at, &Rectangle(a)), (bt, &Rectangle(b)), reach, &mut [Candidate::NONE; 8])
@@ -127,8 +173,12 @@ fn disc_disc(a: Vector, radius_a: f64, b: Vector, radius_b: f64) -> ContactPoint
     }
 }
 
-fn disc_flat(centre: Vector, radius: f64, pose: &Pose, shape: &impl Flat) -> ContactPoint {
-    let turn = pose.turn();
+fn disc_flat(
+    centre: Vector,
+    radius: f64,
+    Placed { pose, turn, .. }: &Placed,
+    shape: &impl Flat,
+) -> ContactPoint {
     let nearest = shape.nearest(turn.back(centre - pose.position));
     let on_second = pose.position + turn.of(nearest.point);
     let follows =
@@ -172,13 +222,12 @@ impl Candidate {
 
 /// `room` for the candidates, one for each corner of both.
 fn flats<A: Flat, B: Flat>(
-    (a, first): (&Pose, &A),
-    (b, second): (&Pose, &B),
+    (Placed { pose: a, turn, .. }, first): (&Placed, &A),
+    (Placed { pose: b, .. }, second): (&Placed, &B),
     reach: f64,
     room: &mut [Candidate],
 ) -> ([Option<ContactPoint>; 2], usize) {
     // The relative pose once, so that the corners cost no further sine.
-    let turn = a.turn();
     let (b_from_a, b_turn) = (turn.back(b.position - a.position), Turn::by(b.heading - a.heading));
     let to_a = |p: Vector| b_from_a + b_turn.of(p);
     let to_b = |p: Vector| b_turn.back(p - b_from_a);

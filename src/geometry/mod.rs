@@ -20,7 +20,7 @@ mod turn;
 
 pub use cast::travel_to_contact;
 pub use clearance::{clearance, swept_clearance};
-pub use contact::{ContactPoint, Follows, contact_points};
+pub use contact::{ContactPoint, Follows, Placed, contact_points, contact_points_of, far_apart};
 pub use cuboids::{Box3, BoxContact};
 pub use outline::{Extent, OutlinePiece, outline};
 pub use polygon::{ConvexPolygon, MAX_CORNERS, PolygonError, centroid};

@@ -25,6 +25,9 @@ impl Turn {
     /// By `angle`, radians, to the left.
     pub fn by(angle: f64) -> Self {
         // Nearly all turns of a frame are small, and most tools never turn.
+        if angle == 0.0 {
+            return Self::NONE;
+        }
         if angle.abs() < SMALL {
             return Self::small(angle);
         }

@@ -21,12 +21,24 @@ impl Velocity {
 }
 
 /// Poses and velocities of all objects, in the order of [`super::Scene::objects`].
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Poses in the world frame.
     pub poses: Vec<Pose>,
     /// Velocities in the world frame.
     pub velocities: Vec<Velocity>,
+}
+
+impl Clone for State {
+    fn clone(&self) -> Self {
+        Self { poses: self.poses.clone(), velocities: self.velocities.clone() }
+    }
+
+    /// On the memory that is there: rollouts do so in every frame.
+    fn clone_from(&mut self, other: &Self) {
+        self.poses.clone_from(&other.poses);
+        self.velocities.clone_from(&other.velocities);
+    }
 }
 
 impl State {
