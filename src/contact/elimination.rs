@@ -48,11 +48,13 @@ pub(super) fn solve<const N: usize>(
             matrix.swap(pivot, k);
             target.swap(pivot, k);
         }
-        let inverse = 1.0 / matrix[k][k];
+        let first = matrix[k];
+        let inverse = 1.0 / first[k];
         for row in k + 1..N {
             let share = matrix[row][k] * inverse;
-            for column in k + 1..N {
-                matrix[row][column] -= share * matrix[k][column];
+            // What is before the pivot is not looked at again.
+            for (entry, above) in matrix[row].iter_mut().zip(&first) {
+                *entry -= share * above;
             }
             target[row] -= share * target[k];
         }
