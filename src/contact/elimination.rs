@@ -33,6 +33,7 @@ fn solve_few<const N: usize>(lines: &mut [f64]) -> bool {
 
 /// The unknowns of `matrix` x = `target`, if all of them are finite: those of [`solve_many`] to the bit, in
 /// less time as the compiler knows how many they are.
+#[inline(always)]
 pub(super) fn solve<const N: usize>(
     mut matrix: [[f64; N]; N],
     mut target: [f64; N],
