@@ -161,10 +161,14 @@ impl Browser {
         sent.filter_map(|event| event["params"]["request"]["url"].as_str()).collect()
     }
 
-    /// What was written to the console since the page was opened, faults included.
+    /// What was written to the console since the page was opened, faults included; without what
+    /// the browser has to say of the way in which it draws, which changes with its version.
     pub fn complaints(&self) -> Vec<String> {
         let heard = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
-        let of = |event: &&Json| heard.iter().any(|method| event["method"] == *method);
+        let of = |event: &&Json| {
+            heard.iter().any(|method| event["method"] == *method)
+                && event["params"]["entry"]["source"] != "rendering"
+        };
         self.events.iter().filter(of).map(Json::to_string).collect()
     }
 
