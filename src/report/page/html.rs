@@ -1,43 +1,19 @@
 //! The file: data, style and script in one document that loads nothing.
 
+use pushplan_page::{BODY, SCRIPT, SOLID, STYLE};
 use pushplan_three::THREE;
 
 use crate::report::svg::escape;
 
 use super::data::Data;
 
-/// The page's looks.
-const STYLE: &str = include_str!("page.css");
-
-/// What stands on the page before the script fills it.
-const BODY: &str = include_str!("page.html");
-
 /// Where the table from above is drawn.
 const STAGE: &str = "<figure class=\"stage\" id=\"stage\">";
-
-/// What the page does. One script, so that one hash allows it and nothing else.
-const SCRIPT: &str = concat!(
-    include_str!("script/elements.js"),
-    include_str!("script/replay.js"),
-    include_str!("script/clock.js"),
-    include_str!("script/stage.js"),
-    include_str!("script/chart.js"),
-    include_str!("script/ends.js"),
-    include_str!("script/tables.js"),
-    include_str!("script/candidates.js"),
-    include_str!("script/run.js"),
-    include_str!("script/belief.js"),
-    include_str!("script/copy.js"),
-    include_str!("script/controls.js"),
-);
 
 /// SHA-256 of [`SCRIPT`] and [`STYLE`], base 64: all that the browser may run or apply. A test
 /// compares them, so that no release needs a hash function.
 const SCRIPT_HASH: &str = "BZxhGfpqc9uqJR5VpHnKrq2qvDX13LJoTLR+dTNquPc=";
 const STYLE_HASH: &str = "+H6CH7Q0P1r3la8PyUK9l+RxjGi00SaBKA7F2xFN4W0=";
-
-/// The 3-D view, which three.js draws.
-const SOLID: &str = include_str!("script/solid.js");
 
 /// SHA-256 of [`SOLID`], and of three.js as it is when it is unpacked.
 const SOLID_HASH: &str = "wVheOYGyCsscjZ6KzcGnylz38FIG1CIqZGfti8NsUs8=";
