@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::dataset::{LeverDataset, LeverEpisode, LeverPart};
+use crate::network::Config;
 use crate::scene::LeverFeatures;
 use crate::store::FolderLock;
-use crate::network::Config;
 use crate::train::{Descent, LeverSettings, PartsSettings, train_lever, train_parts};
 
 use super::{

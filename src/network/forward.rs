@@ -174,12 +174,7 @@ impl Forward {
             &mut w.relations,
         );
         product(&w.relations, &self.message_relation, r, h, &mut w.messages, false);
-        self.object.run(
-            (batch.node_even, batch.node_odd),
-            (n, h),
-            &mut w.next,
-            &mut w.objects,
-        );
+        self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
         // With a single object per graph nobody but kinematic bodies sends anything.

@@ -14,7 +14,8 @@ use crate::{
     dataset::{Dataset, DatasetError},
     effect::Network,
     network::{
-        Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Tables, Weights, WeightsError,
+        Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Tables, Weights,
+        WeightsError,
     },
     store::FolderLock,
     watch::Watch,

@@ -10,7 +10,8 @@ use crate::network::{LEVER_POSE, LeverCell, LeverSizes, LeverWeights, PartsWeigh
 use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
 
 use super::{
-    LeverInputs, LeverModel, LeverParts, LeverPrior, LeverTrust, LeverView, PriorSettings, lever_inputs,
+    LeverInputs, LeverModel, LeverParts, LeverPrior, LeverTrust, LeverView, PriorSettings,
+    lever_inputs,
 };
 
 /// Why weights of lever-ups cannot be used.

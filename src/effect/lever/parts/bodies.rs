@@ -35,7 +35,8 @@ impl LeverBodies {
         let centre = plate.weight().centre;
         let cuboids = plate.slabs.iter().map(|slab| {
             let (middle, heading, [x, y]) = slab.rectangle()?;
-            let position = Vector3::new(middle.x, middle.y, slab.bottom + 0.5 * slab.height) - centre;
+            let position =
+                Vector3::new(middle.x, middle.y, slab.bottom + 0.5 * slab.height) - centre;
             let rotation = Turn3::from_axis_angle(&Vector3::z_axis(), heading);
             let half = 0.5 * Vector3::new(x, y, slab.height);
             Some(Box3 { pose: Pose3 { position, rotation }, half })

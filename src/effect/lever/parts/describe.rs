@@ -68,7 +68,8 @@ pub(super) fn describe(
     for (k, part) in parts.iter().enumerate() {
         let away = (part.pose.position - state.centre) / SIZE;
         let axes = part.pose.rotation.to_rotation_matrix();
-        let squares = Matrix3::from_diagonal(&(part.half / SIZE).component_mul(&(part.half / SIZE)));
+        let squares =
+            Matrix3::from_diagonal(&(part.half / SIZE).component_mul(&(part.half / SIZE)));
         let shape = axes * squares * axes.inverse();
         let even = [
             is(k == 0),
@@ -150,16 +151,8 @@ pub(super) fn describe(
                 (least / BLUR).clamp(-2.0, 2.0),
                 (-least.max(0.0) / (0.5 * BLUR)).exp(),
             ];
-            let odd = [
-                n.y,
-                arm.y,
-                torque.x,
-                torque.z,
-                spread[(0, 1)],
-                spread[(1, 2)],
-                surface.y,
-                own.y,
-            ];
+            let odd =
+                [n.y, arm.y, torque.x, torque.z, spread[(0, 1)], spread[(1, 2)], surface.y, own.y];
             graphs.relation((k, None), even, odd);
         };
         for (j, (fixed, friction)) in bodies.fixed.iter().enumerate() {

@@ -13,9 +13,7 @@ use crate::{
     asset::write_atomic,
     dataset::LeverEpisode,
     effect::LeverParts,
-    network::{
-        Forward, Inputs, Normaliser, PARTS, Parameters, PartsCard, PartsWeights, Predictor,
-    },
+    network::{Forward, Inputs, Normaliser, PARTS, Parameters, PartsCard, PartsWeights, Predictor},
     store::FolderLock,
     train::{AdamW, TrainError, gradients::gradients_of, learning_rate, log::Log},
     watch::Watch,
@@ -147,8 +145,7 @@ fn gradients(run: &Checkpoint, examples: &Examples) -> Result<(f64, Parameters),
         let network = Predictor::of(&PARTS, settings.config, &optimiser.weights)?;
         gradients_of(&loss(run, &network, &drawn)?, network.variables())
     };
-    let parts =
-        (0..REPLICAS).into_par_iter().map(replica).collect::<CandleResult<Vec<_>>>()?;
+    let parts = (0..REPLICAS).into_par_iter().map(replica).collect::<CandleResult<Vec<_>>>()?;
     Ok(mean_gradient(parts))
 }
 
