@@ -2,11 +2,33 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{Box3, Pose3, Turn3, Vector3};
+use crate::geometry::{Box3, Matrix3, Pose3, Turn3, Vector3};
 use crate::scene::{LeverJob, LeverScene, LeverUp};
 
 /// Half the width of the table, metres, and half its thickness.
 const TABLE: [f64; 2] = [2.0, 0.25];
+
+/// A cuboid that stays where it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fixed {
+    pub solid: Box3,
+    pub bounds: [Vector3; 2],
+    /// Friction coefficient against the body.
+    pub rub: f64,
+}
+
+impl Fixed {
+    fn new((solid, rub): (Box3, f64)) -> Self {
+        let axes = solid.pose.rotation.to_rotation_matrix().into_inner();
+        Self { solid, bounds: bounds(&solid, &axes), rub }
+    }
+}
+
+/// The least and the most of a cuboid's coordinates, metres; `axes` is its turn.
+pub(super) fn bounds(solid: &Box3, axes: &Matrix3) -> [Vector3; 2] {
+    let extents = axes.abs() * solid.half;
+    [solid.pose.position - extents, solid.pose.position + extents]
+}
 
 /// A levered body of cuboids, and what is around it.
 #[derive(Clone, Debug)]
@@ -17,8 +39,8 @@ pub(super) struct LeverBodies {
     pub(super) parts: Vec<Box3>,
     /// Largest distance of their points from it, metres.
     pub(super) reach: f64,
-    /// What is fixed, the table first, with its friction coefficient against the body.
-    pub(super) fixed: Vec<(Box3, f64)>,
+    /// What is fixed, the table first.
+    pub(super) fixed: Vec<Fixed>,
     /// Friction coefficient with the blade.
     pub(super) rub: f64,
     scene: Arc<LeverScene>,
@@ -60,7 +82,10 @@ impl LeverBodies {
             lever: *lever,
             reach: parts.iter().map(far).fold(0.0, f64::max),
             parts,
-            fixed: std::iter::once((table, mean(scene.table_friction))).chain(blocks).collect(),
+            fixed: std::iter::once((table, mean(scene.table_friction)))
+                .chain(blocks)
+                .map(Fixed::new)
+                .collect(),
             rub: mean(scene.blade.friction),
             scene: scene.clone(),
             frame,
