@@ -4,6 +4,9 @@ use crate::geometry::{SupportEdge, Vector, support_edge};
 
 use super::{LeverJob, Place, Plate, lever_frame};
 
+/// Corners that are no farther inward than others by more than this are as high, metres.
+const LEVEL: f64 = 1e-9;
+
 impl Plate {
     /// A place on its outline, plate frame, metres.
     pub fn point(&self, place: Place) -> Vector {
@@ -45,15 +48,16 @@ impl LeverJob {
         };
         let (left, right) = (from(half)?, from(-half)?);
         let inward = |corner: usize| frame.local_point(corners[corner % count]).x;
-        // The ray from the left passes through the side that comes first, counter-clockwise.
-        match (left, right) {
-            _ if left == right => Some(left),
-            _ if (left + 1) % count == right => {
-                Some(if inward(left) > inward(right + 1) { left } else { right })
-            }
-            // The blade is wider than a whole side.
-            _ => plate.support(self.lever.place).map(|support| support.edge),
+        if left == right {
+            return Some(left);
         }
+        // The ray from the left passes through the side that comes first, counter-clockwise.
+        let [one, other] = [inward(left), inward(right + 1)];
+        if (left + 1) % count == right && (one - other).abs() > LEVEL {
+            return Some(if one > other { left } else { right });
+        }
+        // Both are the ends of the levered edge, of a triangle, or the blade is wider than a whole side.
+        plate.support(self.lever.place).map(|support| support.edge)
     }
 }
 
