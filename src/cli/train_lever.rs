@@ -36,7 +36,9 @@ Examples:
       --features shape-context --no-prior
   pushplan train-lever runs/image --data data/levers --held-out data/levers-held-out \\
       --features image --no-prior
-  pushplan bench levers --network runs/context/best.safetensors"
+  pushplan bench levers --network runs/context/best.safetensors
+  pushplan train-lever runs/parts --data data/hdd --held-out data/hdd-held-out --model parts --no-prior
+  pushplan bench hdd --network runs/parts/best.safetensors"
 )]
 pub struct TrainLeverArgs {
     /// Folder of the run
@@ -62,7 +64,7 @@ pub struct TrainLeverArgs {
     /// What the network is; parts are those of lever-ups `hdd`, and all of them are seen
     #[arg(long, value_parser = words(&LEVER_FORMS), default_value = "memory")]
     model: LeverForm,
-    /// What the network is told of the shape [default: support]
+    /// What the network is told of the shape
     #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support",
           default_value_if("model", "parts", None))]
     features: Option<LeverFeatures>,
@@ -126,6 +128,9 @@ impl TrainLeverArgs {
 }
 
 pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
+    if args.model == LeverForm::Parts {
+        args.check_parts()?;
+    }
     let read = |folders: &[PathBuf]| {
         let open = |folder: &PathBuf| LeverDataset::open(folder).map_err(data_error);
         folders.iter().map(open).collect::<Result<Vec<_>, CliError>>()
@@ -138,9 +143,6 @@ pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
         return Err(CliError::usage(message, "generate them with another --seed"));
     }
     let default = LeverSettings::default();
-    if args.model == LeverForm::Parts {
-        args.check_parts()?;
-    }
     let share = |count: usize| (count * usize::from(args.share)).div_ceil(100);
     let settings = LeverSettings {
         features: args.features.unwrap_or(default.features),
