@@ -10,7 +10,6 @@ use crate::{
     geometry::{Pose3, Turn3, Vector3},
     network::Forward,
     scene::LeverFrame,
-    sim::LeverSimulator,
 };
 
 /// Steps after everything rests that are learned from, too.
@@ -96,7 +95,7 @@ impl Track {
     fn new(episode: &LeverEpisode, prior: bool) -> Option<Self> {
         let job = episode.job();
         let course = LeverCourse::new(&job, prior.then_some(&LeverParts::PRIOR))?;
-        let (_, motion) = LeverSimulator::FINE.record(&job, 0.0);
+        let motion = episode.motion();
         let end = motion.frames.last()?.time;
         let plate = job.lever.plate;
         let mut truth = vec![course.see(&job.scene.plates[plate].start())];
