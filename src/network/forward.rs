@@ -163,7 +163,8 @@ impl Forward {
         let batch = batch.into();
         let (h, r) = (self.half, batch.receivers.len());
         let n = batch.node_even.len() * h / self.object.even.len();
-        (w.even.clear(), w.odd.clear());
+        w.even.clear();
+        w.odd.clear();
         if n == 0 {
             return (&w.even, &w.odd);
         }

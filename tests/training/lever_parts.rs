@@ -18,7 +18,7 @@ use pushplan::store::FolderLock;
 use pushplan::train::{PartsSettings, train_parts};
 use pushplan::watch::{Unwatched, Watch};
 
-const CONFIG: Config = Config { width: 16, steps: 2 };
+const CONFIG: Config = Config { width: 32, steps: 2 };
 
 fn episodes(seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset: LeverPreset::Drive };
@@ -75,11 +75,11 @@ fn settings(prior: bool) -> PartsSettings {
     let mut settings = PartsSettings {
         config: CONFIG,
         prior,
-        batch: 32,
-        evaluate_every: 40,
+        batch: 64,
+        evaluate_every: 100,
         ..PartsSettings::default()
     };
-    settings.descent.steps = 160;
+    settings.descent.steps = 300;
     settings.descent.warm_up = 10;
     settings.descent.average = 0.9;
     settings
@@ -127,7 +127,7 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
     // Stopped before examples come from rollouts, and after that between two evaluations.
-    for steps in [20, 100] {
+    for steps in [40, 240] {
         assert!(train(parts.path(), &settings, &Until(steps, AtomicU64::new(0))) != wanted);
     }
     assert!(train(parts.path(), &settings, &Unwatched) == wanted);
@@ -136,7 +136,7 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
     assert_eq!(network.name(), "propagation network, parts");
     // An untrained one moves nothing.
     let (learned, still) = (error(&network, &held_out), error(&fresh(false, &data), &held_out));
-    assert!(learned < 0.4 * still, "{learned} {still}");
+    assert!(learned < 0.3 * still, "{learned} {still}");
 
     let other = PartsSettings { seed: 2, ..settings };
     let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
