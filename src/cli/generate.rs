@@ -1,17 +1,22 @@
 //! `pushplan generate`: training data in a folder.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use serde_json::json;
 
+use crate::asset::write_atomic;
 #[cfg(feature = "formats")]
 use crate::dataset::generate_npz;
 use crate::dataset::{
-    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, Solids, generate,
-    generate_levers,
+    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
+    generate, generate_levers,
 };
-
-use crate::store::Shard;
+use crate::export::{LEVER_SCRIPT, lever_mjcf};
+use crate::geometry::Pose3;
+use crate::scene::LeverTrajectory;
+use crate::store::{Shard, StoreError};
 
 use super::{
     error::CliError,
@@ -40,6 +45,9 @@ Examples:
       --objects 9 --joints mixed --solids cylinders --speed 0.21
   pushplan generate data/levers --preset levers --episodes 1600 --seed 1
   pushplan generate data/arrays --episodes 2000 --format npz
+
+mjcf writes every lever-up as a scene of MuJoCo, lever.py, which plays such scenes, and ours.jsonl, where the
+plate comes to here, in the same words.
 
 npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
 statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
@@ -82,6 +90,8 @@ pub struct GenerateArgs {
 enum Format {
     /// Our own training
     Records,
+    /// MuJoCo: a scene of every lever-up, and what comes of it here
+    Mjcf,
     /// NumPy: arrays of 128 episodes a file, and their statistics
     #[cfg(feature = "formats")]
     Npz,
@@ -111,6 +121,10 @@ impl GenerateArgs {
             Data::Pushes(preset) => {
                 let config = DatasetConfig { seed, episodes, preset, constraints };
                 match self.format {
+                    Format::Mjcf => {
+                        let why = "plans with pushes are written by `pushplan export`";
+                        Err(DatasetError::Constraint(why.to_owned()))
+                    }
                     Format::Records => generate(&config, shard, &self.folder, following),
                     #[cfg(feature = "formats")]
                     Format::Npz if shard != Shard::WHOLE => {
@@ -123,19 +137,62 @@ impl GenerateArgs {
                     }
                 }
             }
-            Data::Levers(_) if self.format != Format::Records => {
-                Err(DatasetError::Constraint("only pushes can be written as npz".to_owned()))
-            }
             Data::Levers(_) if constraints != Constraints::default() => {
                 let why = "objects, joints, solids and speed can be fixed for crowds only";
                 Err(DatasetError::Constraint(why.to_owned()))
             }
             Data::Levers(preset) => {
                 let config = LeverConfig { seed, episodes, preset };
-                generate_levers(&config, shard, &self.folder, following)
+                match self.format {
+                    Format::Records => generate_levers(&config, shard, &self.folder, following),
+                    Format::Mjcf if shard == Shard::WHOLE => {
+                        twins(&config, &self.folder, following)
+                    }
+                    _ => {
+                        let why = "lever-ups cannot be written as npz, nor their scenes in shards";
+                        Err(DatasetError::Constraint(why.to_owned()))
+                    }
+                }
             }
         }
     }
+}
+
+/// Writes a scene of every lever-up, the script that plays them, and `ours.jsonl`, what comes of them
+/// here, as the script says it; how many, and their size in bytes.
+fn twins(
+    config: &LeverConfig,
+    folder: &Path,
+    following: &Following,
+) -> Result<(usize, u64), DatasetError> {
+    let set = LeverDataset::in_memory(config, following)?;
+    let mut size = 0;
+    let mut write = |name: String, text: String| {
+        size += text.len() as u64;
+        write_atomic(folder.join(name), text.as_bytes()).map_err(StoreError::Write)
+    };
+    fs::create_dir_all(folder).map_err(|source| StoreError::Io {
+        doing: "make the folder",
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut ours = String::new();
+    for episode in set.episodes() {
+        let name = format!("{}-{:05}.xml", config.preset, episode.index);
+        let numbers = |pose: &Pose3| {
+            let ([x, y, z], [i, j, k, w]) = (pose.position.into(), pose.quaternion());
+            [x, y, z, w, i, j, k]
+        };
+        let LeverTrajectory { lift, rest, .. } = &episode.trajectory;
+        let lift: Vec<_> = lift.iter().map(numbers).collect();
+        let slips = episode.trajectory.slipped();
+        let line = json!({"scene": name, "lift": lift, "rest": numbers(rest), "slips": slips});
+        ours += &format!("{line}\n");
+        write(name, lever_mjcf(&episode.job()))?;
+    }
+    write("lever.py".to_owned(), LEVER_SCRIPT.to_owned())?;
+    write("ours.jsonl".to_owned(), ours)?;
+    Ok((set.episodes().len(), size))
 }
 
 pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {

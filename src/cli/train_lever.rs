@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::dataset::{LeverDataset, LeverEpisode, LeverPart};
+use crate::network::Config;
 use crate::scene::LeverFeatures;
 use crate::store::FolderLock;
-use crate::train::{Descent, LeverSettings, train_lever};
+use crate::train::{Descent, LeverSettings, PartsSettings, train_lever, train_parts};
 
 use super::{
     error::CliError,
@@ -17,7 +18,7 @@ use super::{
     interrupt,
     session::Session,
     train::train_error,
-    words::{LEVER_FEATURES, words},
+    words::{LEVER_FEATURES, LEVER_FORMS, LeverForm, words},
 };
 
 /// Train a network of lever-ups; the same command goes on with an interrupted run
@@ -35,7 +36,9 @@ Examples:
       --features shape-context --no-prior
   pushplan train-lever runs/image --data data/levers --held-out data/levers-held-out \\
       --features image --no-prior
-  pushplan bench levers --network runs/context/best.safetensors"
+  pushplan bench levers --network runs/context/best.safetensors
+  pushplan train-lever runs/parts --data data/hdd --held-out data/hdd-held-out --model parts --no-prior
+  pushplan bench hdd --network runs/parts/best.safetensors"
 )]
 pub struct TrainLeverArgs {
     /// Folder of the run
@@ -58,9 +61,13 @@ pub struct TrainLeverArgs {
     /// As in the thesis, leave out the frames from a slip on
     #[arg(long)]
     cut: bool,
+    /// What the network is; parts are those of lever-ups `hdd`, and all of them are seen
+    #[arg(long, value_parser = words(&LEVER_FORMS), default_value = "memory")]
+    model: LeverForm,
     /// What the network is told of the shape
-    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support")]
-    features: LeverFeatures,
+    #[arg(long, value_parser = words(&LEVER_FEATURES), default_value = "support",
+          default_value_if("model", "parts", None))]
+    features: Option<LeverFeatures>,
     /// Predict everything, and correct no prior
     #[arg(long)]
     no_prior: bool,
@@ -71,24 +78,59 @@ pub struct TrainLeverArgs {
     /// Leave out plates of this many corners
     #[arg(long, value_name = "CORNERS")]
     leave_out: Option<usize>,
-    /// Steps of the whole schedule
-    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.steps,
-          value_parser = clap::value_parser!(u64).range(1..))]
-    steps: u64,
+    /// Steps of the whole schedule [default: 8000; of parts 20000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    steps: Option<u64>,
     /// Steps between held-out evaluations and checkpoints
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
-    /// Width of the hidden state
-    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().width as u32,
-          value_parser = clap::value_parser!(u32).range(1..=1024))]
-    width: u32,
+    /// Width of the hidden state, of parts even [default: 56; of parts 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    width: Option<u32>,
     /// Seed of first weights and batches
     #[arg(long, value_name = "N", default_value_t = LeverSettings::default().seed)]
     seed: u64,
 }
 
+impl TrainLeverArgs {
+    /// The schedule, of as many steps as were asked for.
+    fn descent(&self, default: Descent) -> Descent {
+        let steps = self.steps.unwrap_or(default.steps);
+        // A short run must get past its warm-up as well.
+        Descent { steps, warm_up: default.warm_up.min(steps / 10), ..default }
+    }
+
+    /// Refuses what only a memory knows, and widths that have no halves.
+    fn check_parts(&self) -> Result<(), CliError> {
+        let others = self.feedback || self.cut || self.random_split || self.leave_out.is_some();
+        if others || self.features.is_some() || self.width.is_some_and(|width| width % 2 != 0) {
+            let message = "parts know no features, feedback, cut, split or corners, nor odd widths";
+            return Err(CliError::usage(message, "leave them out"));
+        }
+        Ok(())
+    }
+
+    /// The settings of a network of parts, else as those of a memory.
+    fn parts(&self, of: &LeverSettings) -> PartsSettings {
+        let default = PartsSettings::default();
+        let width = self.width.map_or(default.config.width, |width| width as usize);
+        PartsSettings {
+            config: Config { width, ..default.config },
+            prior: of.prior,
+            seed: of.seed,
+            evaluate_every: of.evaluate_every,
+            descent: self.descent(default.descent),
+            data: of.data.clone(),
+            ..default
+        }
+    }
+}
+
 pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
+    if args.model == LeverForm::Parts {
+        args.check_parts()?;
+    }
     let read = |folders: &[PathBuf]| {
         let open = |folder: &PathBuf| LeverDataset::open(folder).map_err(data_error);
         folders.iter().map(open).collect::<Result<Vec<_>, CliError>>()
@@ -103,17 +145,12 @@ pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
     let default = LeverSettings::default();
     let share = |count: usize| (count * usize::from(args.share)).div_ceil(100);
     let settings = LeverSettings {
-        features: args.features,
+        features: args.features.unwrap_or(default.features),
         prior: !args.no_prior,
-        width: args.width as usize,
+        width: args.width.map_or(default.width, |width| width as usize),
         seed: args.seed,
         evaluate_every: args.evaluate_every,
-        descent: Descent {
-            steps: args.steps,
-            // A short run must get past its warm-up as well.
-            warm_up: default.descent.warm_up.min(args.steps / 10),
-            ..default.descent
-        },
+        descent: args.descent(default.descent),
         data: data
             .iter()
             .map(|set| set.config().split(set.config().seed, share(set.episodes().len()) as u64))
@@ -143,7 +180,12 @@ pub fn run(args: &TrainLeverArgs, session: &Session) -> Result<u8, CliError> {
     interrupt::watch();
     let folder = FolderLock::take(&args.folder, &Following::bar(session, "folder"))?;
     let following = Following::bar(session, "steps");
-    let best = session.compute(|| train_lever(&settings, &known, &asked, &folder, &following));
+    let best = session.compute(|| match args.model {
+        LeverForm::Memory => train_lever(&settings, &known, &asked, &folder, &following),
+        LeverForm::Parts => {
+            train_parts(&args.parts(&settings), &known, &asked, &folder, &following)
+        }
+    });
     following.finish()?;
     let best = best.map_err(train_error)?;
     if interrupt::requested() {

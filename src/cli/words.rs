@@ -82,6 +82,23 @@ pub static LEVER_FEATURES: [(&str, LeverFeatures, &str); 9] = [
     ("depth", LeverFeatures::Depth, "Heights from above, by convolutions"),
 ];
 
+/// What a network of lever-ups is.
+#[cfg(feature = "train")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LeverForm {
+    /// A long short-term memory, told the whole at once.
+    Memory,
+    /// Propagation between the cuboids of body and drive, step by step.
+    Parts,
+}
+
+/// Both.
+#[cfg(feature = "train")]
+pub static LEVER_FORMS: [(&str, LeverForm, &str); 2] = [
+    ("memory", LeverForm::Memory, "A long short-term memory that is told the whole at once"),
+    ("parts", LeverForm::Parts, "Propagation between cuboids that are near, step by step"),
+];
+
 /// What data can be made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Data {

@@ -2,13 +2,19 @@
 """Plays lever-ups of pushplan in MuJoCo and says where the plates come to.
 
     python3 lever.py SCENE.xml ... > results.jsonl
+    python3 lever.py --against ours.jsonl --played results.jsonl
 
 Needs Python 3.11 and `pip install mujoco`. A line of JSON for each scene: `lift`, the levered plate at
-the end of each of equal times of the turn, and `rest`, as x, y, z and the quaternion w, x, y, z.
+the end of each of equal times of the turn, and `rest`, as x, y, z and the quaternion w, x, y, z. With
+`--against` (what `pushplan generate --format mjcf` says of the same scenes) it ends with how far both are
+from each other, on standard error; `--played` takes lines that were written before.
 """
 
+import argparse
 import json
 import math
+import os
+import statistics
 import sys
 
 import mujoco
@@ -109,7 +115,40 @@ class Lever:
         return {"lift": lift, "rest": self.pose()}
 
 
-for path in sys.argv[1:]:
+def apart(one, other):
+    """Distance in millimetres and angle in degrees between two poses."""
+    cosine = abs(np.dot(one[3:], other[3:]))
+    return 1e3 * math.dist(one[:3], other[:3]), 2 * math.degrees(math.acos(min(1, cosine)))
+
+
+parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
+parser.add_argument("scenes", nargs="*", metavar="SCENE")
+parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
+parser.add_argument("--against", metavar="FILE", help="what comes of them in pushplan")
+arguments = parser.parse_args()
+ours = {}
+if arguments.against:
+    with open(arguments.against) as lines:
+        ours = {line["scene"]: line for line in map(json.loads, lines)}
+played = []
+if arguments.played:
+    with open(arguments.played) as lines:
+        played = [json.loads(line) for line in lines]
+for path in arguments.scenes:
     scene = Lever(path)
     STEP = scene.model.opt.timestep
-    print(json.dumps({"scene": path, **scene.run()}), flush=True)
+    played.append({"scene": path, **scene.run()})
+    print(json.dumps(played[-1]), flush=True)
+differences = []
+for found in played:
+    if other := ours.get(os.path.basename(found["scene"])):
+        end, rest = apart(found["lift"][-1], other["lift"][-1]), apart(found["rest"], other["rest"])
+        squares = [apart(*pair)[0] ** 2 for pair in zip(found["lift"], other["lift"])]
+        differences.append([math.sqrt(statistics.mean(squares)), *end, rest[0]])
+if differences:
+    middle = [statistics.median(column) for column in zip(*differences)]
+    print(
+        "{} lever-ups, medians: over the turn {:.2f} mm, at its end {:.2f} mm and "
+        "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
+        file=sys.stderr,
+    )

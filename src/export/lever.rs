@@ -1,8 +1,8 @@
 //! A lever-up as a scene of MuJoCo (MJCF), the motion of the blade included.
 //!
 //! Plates are bodies of meshes and boxes on the same feet as in our engine; the table is a cuboid and
-//! the blade a heavy free body whose pose *and* velocity the script sets before every step: a `mocap`
-//! body has no velocity. Friction is the mean of the two values, pair by pair.
+//! the blade a heavy free body without weight whose pose *and* velocity the script sets before every step: a
+//! `mocap` body has no velocity. Friction is the mean of the two values, pair by pair.
 
 use crate::geometry::{Pose3, Vector, Vector3};
 use crate::scene::{GRAVITY, LEVER_FRAMES, LeverJob, Plate, Slab};
@@ -89,7 +89,9 @@ pub fn lever_mjcf(job: &LeverJob) -> String {
         plates.push(body(&mut xml, plate));
     }
     let start = lever.blade(scene, 0.0);
-    let mut attributes = vec![("name", "blade".to_owned())];
+    // Without gravity: the solver would see blade and plate fall together, and let the plate creep down
+    // the blade at some millimetres a second.
+    let mut attributes = vec![("name", "blade".to_owned()), ("gravcomp", "1".to_owned())];
     attributes.extend(placed(&start));
     xml.open("body", &attributes);
     xml.leaf("freejoint", &[]);

@@ -4,12 +4,10 @@
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 
-use crate::graph::{
-    Batch, KINEMATIC, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD,
-};
+use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Statistics, Weights,
+    Config, Normaliser, Parameters, Rows, Statistics, Weights,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -61,8 +59,15 @@ pub struct Buffers {
 impl Forward {
     /// Takes the weights apart into the layout of the fused pass.
     pub fn new(weights: &Weights) -> Self {
-        let get = |name: &str| weights.parameters.values[name].clone();
-        let normaliser = &weights.card.normaliser;
+        Self::of(&weights.card.config, &weights.card.normaliser, &weights.parameters)
+    }
+
+    /// The same of parameters in the layout that [`super::layout_of`] gives.
+    ///
+    /// # Panics
+    /// If one is missing.
+    pub fn of(config: &Config, normaliser: &Normaliser, parameters: &Parameters) -> Self {
+        let get = |name: &str| parameters.values[name].clone();
         let encoder = |layer: &str, even: &Statistics, odd: &Statistics| {
             let mut bias = get(&format!("{layer}.bias"));
             Encoder {
@@ -74,8 +79,8 @@ impl Forward {
             }
         };
         Self {
-            half: weights.card.config.half(),
-            steps: weights.card.config.steps,
+            half: config.half(),
+            steps: config.steps,
             relation: encoder("relation", &normaliser.relation_even, &normaliser.relation_odd),
             object: encoder("object", &normaliser.node_even, &normaliser.node_odd),
             message_relation: get("message.relation"),
@@ -130,11 +135,10 @@ impl Forward {
     pub fn operations(&self, batch: &Batch) -> u64 {
         let (nodes, relations, h) = (batch.node_count(), batch.relation_count(), self.half);
         let square = 2 * h * h;
-        let per_relation = (RELATION_EVEN + RELATION_ODD) * h + 2 * square;
-        let per_step = if objects_send(batch) { 4 } else { 3 } * square;
-        let per_node = (NODE_EVEN + NODE_ODD + OUTPUT_EVEN + OUTPUT_ODD) * h
-            + 3 * square
-            + self.steps * per_step;
+        let per_relation = self.relation.first() + 2 * square;
+        let per_step = if objects_send(&batch.senders) { 4 } else { 3 } * square;
+        let read = self.motion_even.len() + self.motion_odd.len();
+        let per_node = self.object.first() + read + 3 * square + self.steps * per_step;
         2 * (per_relation * relations + per_node * nodes) as u64
     }
 
@@ -142,29 +146,40 @@ impl Forward {
     /// `corrections`.
     pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<[f64; 6]>) {
         corrections.clear();
-        let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
+        let (even, odd) = self.read(batch, w);
+        corrections.extend(
+            even.chunks_exact(OUTPUT_EVEN)
+                .zip(odd.chunks_exact(OUTPUT_ODD))
+                .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
+        );
+    }
+
+    /// What is read from every node, [N, even] and [N, odd].
+    pub fn read<'a, 'w>(
+        &self,
+        batch: impl Into<Rows<'a>>,
+        w: &'w mut Buffers,
+    ) -> (&'w [f32], &'w [f32]) {
+        let batch = batch.into();
+        let (h, r) = (self.half, batch.receivers.len());
+        let n = batch.node_even.len() * h / self.object.even.len();
+        w.even.clear();
+        w.odd.clear();
         if n == 0 {
-            return;
+            return (&w.even, &w.odd);
         }
         self.relation.run(
-            (&batch.relation_even, RELATION_EVEN),
-            (&batch.relation_odd, RELATION_ODD),
-            h,
+            (batch.relation_even, batch.relation_odd),
+            (r, h),
             &mut w.messages,
             &mut w.relations,
         );
         product(&w.relations, &self.message_relation, r, h, &mut w.messages, false);
-        self.object.run(
-            (&batch.node_even, NODE_EVEN),
-            (&batch.node_odd, NODE_ODD),
-            h,
-            &mut w.next,
-            &mut w.objects,
-        );
+        self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
         // With a single object per graph nobody but kinematic bodies sends anything.
-        let objects_send = objects_send(batch);
+        let objects_send = objects_send(batch.senders);
         w.to_sender.resize(2 * n * h, 0.0);
         for _ in 0..self.steps {
             product(&w.state, &self.message_receiver, n, h, &mut w.to_receiver, false);
@@ -177,8 +192,8 @@ impl Forward {
                 a: &w.messages,
                 b: &w.to_receiver,
                 c: &w.to_sender,
-                receivers: &batch.receivers,
-                senders: &batch.senders,
+                receivers: batch.receivers,
+                senders: batch.senders,
                 h,
                 sum: &mut w.sum,
             };
@@ -192,37 +207,35 @@ impl Forward {
         product(&w.state, &self.motion_hidden, n, h, &mut w.next, false);
         rectify_rows(&mut w.next, &self.motion_hidden_bias);
         let (even, odd) = w.next.split_at(n * h);
-        dense(even, &self.motion_even, n, h, OUTPUT_EVEN, &mut w.even, false);
-        dense(odd, &self.motion_odd, n, h, OUTPUT_ODD, &mut w.odd, false);
-        corrections.extend(
-            w.even
-                .chunks_exact(OUTPUT_EVEN)
-                .zip(w.odd.chunks_exact(OUTPUT_ODD))
-                .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
-        );
+        dense(even, &self.motion_even, n, h, self.motion_even.len() / h, &mut w.even, false);
+        dense(odd, &self.motion_odd, n, h, self.motion_odd.len() / h, &mut w.odd, false);
+        (&w.even, &w.odd)
     }
 }
 
 /// Whether any relation comes from an object rather than from a body whose motion is given.
-fn objects_send(batch: &Batch) -> bool {
-    batch.senders.iter().any(|&sender| sender != KINEMATIC)
+fn objects_send(senders: &[u32]) -> bool {
+    senders.iter().any(|&sender| sender != KINEMATIC)
 }
 
 impl Encoder {
+    /// Numbers of the first layer's matrices.
+    fn first(&self) -> usize {
+        self.even.len() + self.odd.len()
+    }
+
     /// Two layers: features [M, even] and [M, odd] to `out` [2, M, h]; `scratch` is overwritten.
     fn run(
         &self,
-        even: (&[f32], usize),
-        odd: (&[f32], usize),
-        h: usize,
+        (even, odd): (&[f32], &[f32]),
+        (rows, h): (usize, usize),
         scratch: &mut Vec<f32>,
         out: &mut Vec<f32>,
     ) {
-        let rows = even.0.len() / even.1;
         scratch.resize(2 * rows * h, 0.0);
         let (to_even, to_odd) = scratch.split_at_mut(rows * h);
-        multiply(even.0, &self.even, rows, even.1, h, to_even, false);
-        multiply(odd.0, &self.odd, rows, odd.1, h, to_odd, false);
+        multiply(even, &self.even, rows, self.even.len() / h, h, to_even, false);
+        multiply(odd, &self.odd, rows, self.odd.len() / h, h, to_odd, false);
         rectify_rows(scratch, &self.bias);
         product(scratch, &self.second, rows, h, out, false);
         rectify_rows(out, &self.second_bias);

@@ -3,7 +3,8 @@
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
 //! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
 //! training differentiates and that is the reference, and as a fused forward pass on preallocated
-//! buffers that planning runs and that needs no candle. The belief regulator reads its effects. Loops over time are not here but in
+//! buffers that planning runs and that needs no candle. Both take feature tables of any widths: the parts of
+//! what is levered propagate in the same way. The belief regulator reads its effects. Loops over time are not here but in
 //! `rollout`.
 
 mod config;
@@ -14,9 +15,11 @@ mod normaliser;
 mod operations;
 mod parameters;
 mod parity;
+mod parts;
 #[cfg(feature = "train")]
 mod predictor;
 mod regulator;
+mod tables;
 mod tensors;
 mod weights;
 
@@ -29,7 +32,8 @@ pub use lever::{
     fresh_lever, lever_layout,
 };
 pub use normaliser::{Normaliser, Statistics};
-pub use parameters::{Parameters, layout};
+pub use parameters::{Parameters, layout, layout_of};
+pub use parts::{PARTS, PartsCard, PartsWeights};
 #[cfg(feature = "train")]
 pub use predictor::{Inputs, Predictor};
 pub use regulator::{
@@ -37,5 +41,6 @@ pub use regulator::{
 };
 #[cfg(feature = "train")]
 pub use regulator::{RegulatorGraph, Unrolled};
+pub use tables::{Rows, Tables};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::graph::Batch;
-
-use crate::graph::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
+use super::{Rows, Tables};
 
 /// Mean and standard deviation of one feature table's columns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,12 +65,14 @@ pub struct Normaliser {
 
 impl Normaliser {
     /// Measures the scales on a large batch.
-    pub fn measure(batch: &Batch) -> Self {
+    pub fn measure<'a>(tables: &Tables, rows: impl Into<Rows<'a>>) -> Self {
+        let Tables { node, relation, .. } = *tables;
+        let rows = rows.into();
         Self {
-            node_even: Statistics::measure(&batch.node_even, NODE_EVEN, true),
-            node_odd: Statistics::measure(&batch.node_odd, NODE_ODD, false),
-            relation_even: Statistics::measure(&batch.relation_even, RELATION_EVEN, true),
-            relation_odd: Statistics::measure(&batch.relation_odd, RELATION_ODD, false),
+            node_even: Statistics::measure(rows.node_even, node[0], true),
+            node_odd: Statistics::measure(rows.node_odd, node[1], false),
+            relation_even: Statistics::measure(rows.relation_even, relation[0], true),
+            relation_odd: Statistics::measure(rows.relation_odd, relation[1], false),
         }
     }
 }

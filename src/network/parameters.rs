@@ -7,9 +7,7 @@ use std::collections::BTreeMap;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::graph::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
-
-use super::Config;
+use super::{Config, Tables};
 
 /// Parameter values by name, each row-major in the shape that [`layout`] gives.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,21 +16,27 @@ pub struct Parameters {
     pub values: BTreeMap<String, Vec<f32>>,
 }
 
+/// [`layout_of`] pushes.
+pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+    layout_of(&Tables::PUSHES, config)
+}
+
 /// Names and shapes of all parameters, in the order of their names' use. h is half the width.
 ///
 /// A matrix `[2, h, h]` acts on the even half and on the odd half separately; biases `[h]` exist
 /// for the even half alone, since a constant cannot change sign under mirroring.
-pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+pub fn layout_of(tables: &Tables, config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+    let Tables { node, relation, output } = *tables;
     let h = config.half();
     let square = || vec![2, h, h];
     vec![
-        ("relation.even", vec![RELATION_EVEN, h]),
-        ("relation.odd", vec![RELATION_ODD, h]),
+        ("relation.even", vec![relation[0], h]),
+        ("relation.odd", vec![relation[1], h]),
         ("relation.bias", vec![h]),
         ("relation.second", square()),
         ("relation.second_bias", vec![h]),
-        ("object.even", vec![NODE_EVEN, h]),
-        ("object.odd", vec![NODE_ODD, h]),
+        ("object.even", vec![node[0], h]),
+        ("object.odd", vec![node[1], h]),
         ("object.bias", vec![h]),
         ("object.second", square()),
         ("object.second_bias", vec![h]),
@@ -45,18 +49,23 @@ pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
         ("update.bias", vec![h]),
         ("motion.hidden", square()),
         ("motion.hidden_bias", vec![h]),
-        ("motion.even", vec![h, OUTPUT_EVEN]),
-        ("motion.odd", vec![h, OUTPUT_ODD]),
+        ("motion.even", vec![h, output[0]]),
+        ("motion.odd", vec![h, output[1]]),
     ]
 }
 
 impl Parameters {
+    /// [`Parameters::fresh_of`] pushes.
+    pub fn fresh(config: &Config, seed: u64) -> Self {
+        Self::fresh_of(&Tables::PUSHES, config, seed)
+    }
+
     /// Random first values from `seed`: uniform with the variance 1 / fan-in, divided among
     /// the matrices that add up in one layer; biases and the last layer are zero, so that an
     /// untrained network predicts the prior exactly.
-    pub fn fresh(config: &Config, seed: u64) -> Self {
+    pub fn fresh_of(tables: &Tables, config: &Config, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
-        let values = layout(config)
+        let values = layout_of(tables, config)
             .into_iter()
             .map(|(name, shape)| {
                 let count: usize = shape.iter().product();

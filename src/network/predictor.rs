@@ -16,10 +16,8 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use candle_core::{Device, Result, Tensor, Var, bail};
 
-use crate::graph::{Batch, NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
-
 use super::{
-    Config, Normaliser, Parameters, layout,
+    Config, Normaliser, Parameters, Rows, Statistics, Tables, layout_of,
     operations::{BiasRectify, Messages},
 };
 
@@ -34,30 +32,24 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Normalises the feature tables of `batch`.
+    /// Normalises the feature tables of a batch.
     ///
     /// # Errors
-    /// Those of candle, which a batch built by `graph` does not cause.
-    pub fn new(batch: &Batch, normaliser: &Normaliser) -> Result<Self> {
-        let (n, r) = (batch.node_count(), batch.relation_count());
-        let table = |values: Vec<f32>, rows, columns| {
-            Tensor::from_vec(values, (rows, columns), &Device::Cpu)
+    /// Those of candle, which tables of whole rows do not cause.
+    pub fn new<'a>(batch: impl Into<Rows<'a>>, normaliser: &Normaliser) -> Result<Self> {
+        let rows = batch.into();
+        let table = |values: &[f32], scales: &Statistics| {
+            let columns = scales.mean.len();
+            let shape = (values.len() / columns, columns);
+            Tensor::from_vec(scales.apply(values), shape, &Device::Cpu)
         };
         Ok(Self {
-            node_even: table(normaliser.node_even.apply(&batch.node_even), n, NODE_EVEN)?,
-            node_odd: table(normaliser.node_odd.apply(&batch.node_odd), n, NODE_ODD)?,
-            relation_even: table(
-                normaliser.relation_even.apply(&batch.relation_even),
-                r,
-                RELATION_EVEN,
-            )?,
-            relation_odd: table(
-                normaliser.relation_odd.apply(&batch.relation_odd),
-                r,
-                RELATION_ODD,
-            )?,
-            receivers: batch.receivers.as_slice().into(),
-            senders: batch.senders.as_slice().into(),
+            node_even: table(rows.node_even, &normaliser.node_even)?,
+            node_odd: table(rows.node_odd, &normaliser.node_odd)?,
+            relation_even: table(rows.relation_even, &normaliser.relation_even)?,
+            relation_odd: table(rows.relation_odd, &normaliser.relation_odd)?,
+            receivers: rows.receivers.into(),
+            senders: rows.senders.into(),
         })
     }
 }
@@ -69,13 +61,21 @@ pub struct Predictor {
 }
 
 impl Predictor {
-    /// A network with the given parameters.
+    /// A network of pushes with the given parameters.
     ///
     /// # Errors
-    /// If a parameter is missing or has another shape than [`layout`] says.
+    /// As those of [`Predictor::of`].
     pub fn new(config: Config, parameters: &Parameters) -> Result<Self> {
+        Self::of(&Tables::PUSHES, config, parameters)
+    }
+
+    /// A network on these tables with the given parameters.
+    ///
+    /// # Errors
+    /// If a parameter is missing or has another shape than [`layout_of`] says.
+    pub fn of(tables: &Tables, config: Config, parameters: &Parameters) -> Result<Self> {
         let mut variables = BTreeMap::new();
-        for (name, shape) in layout(&config) {
+        for (name, shape) in layout_of(tables, &config) {
             let Some(values) = parameters.values.get(name) else {
                 bail!("the parameter {name} is missing")
             };
@@ -103,8 +103,8 @@ impl Predictor {
         Ok(Parameters { values })
     }
 
-    /// The correction of the prior in output units, [N, 6] in the order of
-    /// [`crate::graph::Node::prior`].
+    /// What is read from every node, even columns first: of pushes the correction of the prior in
+    /// output units, [N, 6] in the order of [`crate::graph::Node::prior`].
     ///
     /// # Errors
     /// Those of candle.

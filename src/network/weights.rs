@@ -17,7 +17,7 @@ use crate::{
 };
 
 use super::{
-    Config, Normaliser, Parameters, layout,
+    Config, Normaliser, Parameters, Tables, layout,
     normaliser::MIN_DEVIATION,
     tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
@@ -212,7 +212,7 @@ impl Weights {
     }
 }
 
-fn check_parameters(parameters: &Parameters) -> Result<(), WeightsError> {
+pub(super) fn check_parameters(parameters: &Parameters) -> Result<(), WeightsError> {
     for (name, values) in &parameters.values {
         if let Some(value) = values.iter().find(|value| value.abs() > LARGEST) {
             let (name, value) = (format!("`{name}`"), f64::from(*value));
@@ -223,7 +223,7 @@ fn check_parameters(parameters: &Parameters) -> Result<(), WeightsError> {
 }
 
 fn check_card(card: &Card) -> Result<(), WeightsError> {
-    check_normaliser(&card.normaliser)?;
+    check_normaliser(&card.normaliser, &Tables::PUSHES)?;
     if let Some((name, value)) = card.ranges.unsound() {
         let name = format!("ranges.{name}");
         return Err(WeightsError::Value { name, value, expected: "a number up to its upper end" });
@@ -241,13 +241,15 @@ fn check_card(card: &Card) -> Result<(), WeightsError> {
     Ok(())
 }
 
-fn check_normaliser(normaliser: &Normaliser) -> Result<(), WeightsError> {
-    use crate::graph::{NODE_EVEN, NODE_ODD, RELATION_EVEN, RELATION_ODD};
+pub(super) fn check_normaliser(
+    normaliser: &Normaliser,
+    Tables { node, relation, .. }: &Tables,
+) -> Result<(), WeightsError> {
     for (name, table, columns) in [
-        ("node_even", &normaliser.node_even, NODE_EVEN),
-        ("node_odd", &normaliser.node_odd, NODE_ODD),
-        ("relation_even", &normaliser.relation_even, RELATION_EVEN),
-        ("relation_odd", &normaliser.relation_odd, RELATION_ODD),
+        ("node_even", &normaliser.node_even, node[0]),
+        ("node_odd", &normaliser.node_odd, node[1]),
+        ("relation_even", &normaliser.relation_even, relation[0]),
+        ("relation_odd", &normaliser.relation_odd, relation[1]),
     ] {
         let name = format!("normaliser.{name}");
         if table.mean.len() != columns || table.deviation.len() != columns {

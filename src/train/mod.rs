@@ -23,7 +23,9 @@ mod trainer;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use descent::Descent;
 pub use example::{Examples, Exposure, Noise};
-pub use lever::{LeverCheckpoint, LeverLine, LeverScore, LeverSettings, train_lever};
+pub use lever::{
+    LeverCheckpoint, LeverLine, LeverScore, LeverSettings, PartsSettings, train_lever, train_parts,
+};
 pub use metrics::{HeldOutError, MetricLine};
 pub use optimiser::AdamW;
 pub use regulator::{

@@ -14,7 +14,8 @@ use crate::{
     dataset::{Dataset, DatasetError},
     effect::Network,
     network::{
-        Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Weights, WeightsError,
+        Card, ErrorCard, Forward, Inputs, Normaliser, Parameters, Predictor, Tables, Weights,
+        WeightsError,
     },
     store::FolderLock,
     watch::Watch,
@@ -165,7 +166,7 @@ fn open(
             Ok(Checkpoint {
                 settings: settings.clone(),
                 data: data.config().clone(),
-                normaliser: Normaliser::measure(&sample.batch),
+                normaliser: Normaliser::measure(&Tables::PUSHES, &sample.batch),
                 optimiser: AdamW::new(Parameters::fresh(&settings.config, settings.seed)),
                 best: None,
             })

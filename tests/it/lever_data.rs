@@ -2,6 +2,7 @@
 //! seed alone.
 
 use std::fs;
+use std::process::Command;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use pushplan::dataset::{
@@ -192,4 +193,40 @@ fn boxes_and_cylinders_look_alike_from_above() {
         assert!((plate.z - 0.006).abs() < 1e-12 && plate.has_feet() == (plate.slabs.len() == 1));
     }
     assert!(kinds[0] > 15 && kinds[1] > 15, "{kinds:?}");
+}
+
+/// For MuJoCo: a scene of every lever-up, the script that plays them, and what comes of them here.
+#[test]
+fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let generate = |preset: &str| {
+        Command::new(env!("CARGO_BIN_EXE_pushplan"))
+            .args(["generate", "scenes", "--episodes", "3", "--seed", "5", "--format", "mjcf"])
+            .args(["--preset", preset])
+            .current_dir(folder.path())
+            .output()
+            .expect("the command runs")
+    };
+    assert_eq!(generate("dense").status.code(), Some(2));
+    assert!(generate("hdd").status.success());
+    let read = |name: &str| fs::read_to_string(folder.path().join("scenes").join(name));
+    assert_eq!(read("lever.py").expect("a script"), pushplan::export::LEVER_SCRIPT);
+    let ours = read("ours.jsonl").expect("lines");
+    let set = LeverDataset::in_memory(&config(LeverPreset::Drive, 3), &Unwatched);
+    let set = set.expect("lever-ups");
+    assert_eq!(ours.lines().count(), 3);
+    for (line, episode) in ours.lines().zip(set.episodes()) {
+        let line: serde_json::Value = serde_json::from_str(line).expect("JSON");
+        let scene = read(line["scene"].as_str().expect("a name")).expect("a scene");
+        assert_eq!(scene, pushplan::export::lever_mjcf(&episode.job()));
+        // The solver must not see the blade fall with the plate.
+        assert!(scene.contains(r#"<body name="blade" gravcomp="1""#));
+        let (rest, told) = (episode.trajectory.rest, &line["rest"]);
+        let [x, y, z, w] = rest.quaternion();
+        let at = rest.position;
+        for (k, wanted) in [at.x, at.y, at.z, w, x, y, z].into_iter().enumerate() {
+            assert_eq!(told[k].as_f64(), Some(wanted));
+        }
+        assert_eq!(line["lift"].as_array().map(Vec::len), Some(episode.trajectory.lift.len()));
+    }
 }

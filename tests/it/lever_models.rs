@@ -101,7 +101,7 @@ fn mirrored_and_moved_lever_ups_have_mirrored_and_moved_predictions() {
 }
 
 /// Mirrored and moved lever-ups of a family have mirrored and moved predictions up to `most` metres.
-fn is_symmetric(model: &dyn LeverModel, preset: LeverPreset, most: f64) {
+pub fn is_symmetric(model: &dyn LeverModel, preset: LeverPreset, most: f64) {
     let drawn = episodes(preset, 4, 12);
     let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
     let by = Pose::new(-0.2, 0.4, 2.5);

@@ -28,6 +28,7 @@ mod lever_data;
 mod lever_engine;
 mod lever_follow_up;
 mod lever_models;
+mod lever_parts;
 mod levers;
 mod models;
 mod network;

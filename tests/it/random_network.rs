@@ -6,7 +6,7 @@ use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::dataset::DatasetConfig;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::graph::Batch;
-use pushplan::network::{Card, Config, Normaliser, Parameters, Weights};
+use pushplan::network::{Card, Config, Normaliser, Parameters, Tables, Weights};
 use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
 
 /// Random weights whose last layer is not zero, so that the network matters, nor large, so
@@ -25,7 +25,7 @@ pub fn weights(width: usize) -> Weights {
     Weights {
         card: Card {
             config,
-            normaliser: Normaliser::measure(&batch),
+            normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
             ranges: DatasetConfig::default().ranges(),
             data_seed: 0,
             episodes: 0,

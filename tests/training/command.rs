@@ -52,6 +52,9 @@ fn what_does_not_fit_together_in_training_of_lever_ups_is_refused() {
         ("--held-out b --random-split", "cannot be used with"),
         ("--held-out b --features picture", "image-code"),
         ("--no-prior", "--held-out"),
+        ("--held-out b --model parts --features corners", "parts know no features"),
+        ("--held-out b --model parts --width 7", "odd widths"),
+        ("--held-out b --model gears", "parts"),
     ];
     for (arguments, part) in wrong {
         let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))

@@ -3,6 +3,7 @@
 mod command;
 mod descent;
 mod lever;
+mod lever_parts;
 mod predictor;
 mod regulator;
 

@@ -50,13 +50,13 @@ fn count(episode: &LeverEpisode) -> usize {
 /// Whether the two lowest corners are those of the support edge.
 fn is_right(episode: &LeverEpisode) -> bool {
     let plate = &episode.scene.plates[episode.lever.plate];
-    let Some(support) = plate.support(episode.lever.place) else { return false };
+    let Some(edge) = episode.job().support() else { return false };
     let Some(pose) = episode.trajectory.lift.get(FRAME) else { return false };
     let count = plate.corners().len();
     let height =
         |k: usize| pose.point(Vector3::new(plate.corners()[k].x, plate.corners()[k].y, 0.0)).z;
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|a, b| height(*a).total_cmp(&height(*b)));
-    let pair = [support.edge, (support.edge + 1) % count];
+    let pair = [edge, (edge + 1) % count];
     order[..2].iter().all(|corner| pair.contains(corner))
 }

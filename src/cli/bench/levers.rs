@@ -1,6 +1,7 @@
 //! `pushplan bench levers`: errors of models of lever-ups.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
@@ -16,9 +17,7 @@ use crate::cli::{
     words::{LEVER_PRESETS, words},
 };
 use crate::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
-use crate::effect::{
-    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
-};
+use crate::effect::{LeverModel, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers};
 use crate::report::levers_document;
 use crate::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use crate::sim::LeverSimulator;
@@ -140,7 +139,7 @@ fn corners_of(episode: &LeverEpisode) -> usize {
 
 /// A network that is called after its file.
 pub(super) struct Named {
-    network: LeverNetwork,
+    network: Arc<dyn LeverModel>,
     path: String,
     /// Whether it is measured among blocks too, of which shipped networks know nothing.
     among_blocks: bool,

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::cli::error::CliError;
-use crate::effect::{LeverModel, LeverNetwork, LeverPrior, SimulatedLevers};
+use crate::effect::{LeverModel, LeverNetwork, LeverPrior, SimulatedLevers, load_lever};
 use crate::scene::{Engine, ModelKind, ModelSpec, Stride};
 use crate::sim::LeverSimulator;
 
@@ -19,7 +19,7 @@ pub fn lever_model(spec: Option<&ModelSpec>) -> Result<Arc<dyn LeverModel>, CliE
     match kind {
         _ if *spec == ModelSpec::of(ModelKind::PRIOR) => Ok(Arc::new(LeverPrior::default())),
         ModelKind::Network { weights, steps: None, stride: Stride::ONE } if plain => {
-            Ok(Arc::new(lever_network(weights.as_ref().map(Path::new))?))
+            lever_network(weights.as_ref().map(Path::new))
         }
         ModelKind::Simulated { engine: Engine::Spatial, rate } if spec.others().is_empty() => {
             Ok(Arc::new(SimulatedLevers { simulator: LeverSimulator { rate: *rate } }))
@@ -31,14 +31,15 @@ pub fn lever_model(spec: Option<&ModelSpec>) -> Result<Arc<dyn LeverModel>, CliE
     }
 }
 
-/// The network of lever-ups with these weights, or else with the shipped ones.
+/// The network of lever-ups with these weights, a memory or one of parts, or else the shipped one.
 ///
 /// # Errors
 /// [`CliError::File`] for weights that cannot be used.
-pub fn lever_network(weights: Option<&Path>) -> Result<LeverNetwork, CliError> {
+pub fn lever_network(weights: Option<&Path>) -> Result<Arc<dyn LeverModel>, CliError> {
     match weights {
-        Some(path) => LeverNetwork::load(path).map_err(|error| CliError::File(error.to_string())),
+        Some(path) => load_lever(path).map_err(|error| CliError::File(error.to_string())),
         None => LeverNetwork::shipped()
+            .map(|network| Arc::new(network) as _)
             .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error)),
     }
 }

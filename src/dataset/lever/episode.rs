@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{LeverJob, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
+use crate::scene::{LeverJob, LeverMotion, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
 use crate::sim::LeverSimulator;
 
 use super::super::chance::generator;
@@ -48,6 +48,11 @@ impl LeverEpisode {
     /// Scene and lever-up.
     pub fn job(&self) -> LeverJob {
         LeverJob { scene: Arc::new(self.scene.clone()), lever: self.lever }
+    }
+
+    /// Everything that moves, after every step of the engine: simulated again.
+    pub fn motion(&self) -> LeverMotion {
+        LeverSimulator::FINE.record(&self.job(), 0.0).1
     }
 
     /// The same with a trajectory that ends where the plate slips off the blade; none if it does at

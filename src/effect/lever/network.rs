@@ -1,15 +1,17 @@
 //! Trained networks as models of lever-ups.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::network::{LEVER_POSE, LeverCell, LeverSizes, LeverWeights, WeightsError};
+use crate::network::{LEVER_POSE, LeverCell, LeverSizes, LeverWeights, PartsWeights, WeightsError};
 use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
 
 use super::{
-    LeverInputs, LeverModel, LeverPrior, LeverTrust, LeverView, PriorSettings, lever_inputs,
+    LeverInputs, LeverModel, LeverParts, LeverPrior, LeverTrust, LeverView, PriorSettings,
+    lever_inputs,
 };
 
 /// Why weights of lever-ups cannot be used.
@@ -34,6 +36,21 @@ pub enum LeverNetworkError {
     /// They are told other features than these.
     #[error("the weights have other inputs than their card says")]
     Inputs,
+}
+
+/// Reads the weights of a network of lever-ups of either kind: a memory, or one of parts.
+///
+/// # Errors
+/// [`LeverNetworkError`] if they cannot be used.
+pub fn load_lever(path: &Path) -> Result<Arc<dyn LeverModel>, LeverNetworkError> {
+    let name = || path.display().to_string();
+    let bytes =
+        std::fs::read(path).map_err(|error| LeverNetworkError::File { path: name(), error })?;
+    let weights = |error| LeverNetworkError::Weights { path: name(), error };
+    if PartsWeights::are_in(&bytes) {
+        return Ok(Arc::new(LeverParts::new(&PartsWeights::from_bytes(&bytes).map_err(weights)?)));
+    }
+    Ok(Arc::new(LeverNetwork::new(&LeverWeights::from_bytes(&bytes).map_err(weights)?)?))
 }
 
 /// A network, alone or as a correction of the prior.

@@ -5,10 +5,12 @@
 mod autoencoder;
 mod batch;
 mod checkpoint;
+mod parts;
 mod replicas;
 mod settings;
 mod trainer;
 
 pub use checkpoint::LeverCheckpoint;
+pub use parts::{PartsSettings, train_parts};
 pub use settings::{LeverLine, LeverScore, LeverSettings};
 pub use trainer::train_lever;

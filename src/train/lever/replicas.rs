@@ -9,7 +9,7 @@ use super::batch::Example;
 
 /// A step's lever-ups are split into this many parts, differentiated in parallel and added in order,
 /// so that the bits do not depend on the number of threads.
-const REPLICAS: usize = 2;
+pub(super) const REPLICAS: usize = 2;
 
 /// Mean loss and gradient over `count` examples, drawn by seed and step alone; `replica` says those
 /// of a part.
@@ -26,6 +26,11 @@ pub(super) fn gradients(
         .par_chunks(count.div_ceil(REPLICAS).max(1))
         .map(replica)
         .collect::<Result<Vec<_>, candle_core::Error>>()?;
+    Ok(mean_gradient(parts))
+}
+
+/// Means of losses and gradients of parts of a batch, added in order.
+pub(super) fn mean_gradient(parts: Vec<(f64, Parameters)>) -> (f64, Parameters) {
     let share = 1.0 / parts.len() as f32;
     let mut total = 0.0;
     let mut sum = Parameters::default();
@@ -36,5 +41,5 @@ pub(super) fn gradients(
             sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value);
         }
     }
-    Ok((total, sum))
+    (total, sum)
 }

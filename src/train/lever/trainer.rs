@@ -27,7 +27,7 @@ use super::{
 };
 
 /// The file in a run's folder from which it goes on.
-const CHECKPOINT: &str = "checkpoint.safetensors";
+pub(super) const CHECKPOINT: &str = "checkpoint.safetensors";
 
 /// Steps after which a run looks whether it is to stop.
 pub(super) const LOOK: u64 = 20;
@@ -77,7 +77,9 @@ pub fn train_lever(
         watch.progress(step, steps);
         if step.is_multiple_of(settings.evaluate_every) || step == steps {
             let weights = weights(&run, examples.len());
-            let score = score(&weights, &held_out);
+            // Weights that cannot be used have no error.
+            let network = LeverNetwork::new(&weights);
+            let score = network.map_or_else(|_| LeverScore::default(), |n| score(&n, &held_out));
             let bytes = weights.to_bytes()?;
             write_atomic(folder.join("last.safetensors"), &bytes)?;
             if run.best.is_none_or(|best| score.lift < best.lift) {
@@ -182,9 +184,8 @@ fn weights(run: &LeverCheckpoint, episodes: usize) -> LeverWeights {
     }
 }
 
-/// Errors of `weights` on held-out lever-ups; none where they cannot be used.
-fn score(weights: &LeverWeights, held_out: &[LeverEpisode]) -> LeverScore {
-    let Ok(network) = LeverNetwork::new(weights) else { return LeverScore::default() };
+/// Errors of a network on held-out lever-ups.
+pub(super) fn score(network: &dyn LeverModel, held_out: &[LeverEpisode]) -> LeverScore {
     let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
     let share = 1.0 / jobs.len().max(1) as f64;
     let mut score = LeverScore::default();

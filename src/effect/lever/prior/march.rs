@@ -1,6 +1,6 @@
 //! The turn in frames, the wait, the way back, and until everything rests.
 
-use crate::geometry::Vector3;
+use crate::geometry::{Pose3, Vector3};
 use crate::scene::{
     Ending, GRAVITY, LEVER_FRAMES, LeverTrajectory, LeverWarning, REST_SPEED, has_slipped,
 };
@@ -29,16 +29,7 @@ pub(super) struct Marcher {
 
 impl Marcher {
     pub fn march(&mut self, setup: &Setup, settings: &PriorSettings) -> LeverTrajectory {
-        self.solver.reset(contacts::count(setup));
-        let mut way = Way {
-            marcher: self,
-            setup,
-            settings,
-            body: Body::at(setup.centre),
-            time: 0.0,
-            last: settings.step,
-            blade: setup.blade_at(0.0),
-        };
+        let mut way = self.begin(setup, settings);
         let (mut lift, mut held) = (Vec::new(), Vec::new());
         let turn = setup.lever.turn_time();
         for k in 1..=LEVER_FRAMES {
@@ -56,6 +47,42 @@ impl Marcher {
             warnings.push(LeverWarning::Moving);
         }
         LeverTrajectory { lift, held, rest, ending: Ending::of(&rest), warnings }
+    }
+
+    /// The poses at these times, until the plate rests with the blade gone.
+    pub fn follow(
+        &mut self,
+        setup: &Setup,
+        settings: &PriorSettings,
+        times: impl Iterator<Item = f64>,
+    ) -> Vec<Pose3> {
+        let mut way = self.begin(setup, settings);
+        let (mut poses, mut moved) = (Vec::new(), 0.0);
+        for time in times {
+            way.go_on_until(time);
+            poses.push(setup.pose(&way.body));
+            let turning = time <= setup.lever.turn_time();
+            if turning || way.is_near_blade() || way.body.fastest(setup.reach) > REST_SPEED {
+                moved = time;
+            }
+            if time - moved >= STILL {
+                break;
+            }
+        }
+        poses
+    }
+
+    fn begin<'a>(&'a mut self, setup: &'a Setup, settings: &'a PriorSettings) -> Way<'a> {
+        self.solver.reset(contacts::count(setup));
+        Way {
+            marcher: self,
+            setup,
+            settings,
+            body: Body::at(setup.centre),
+            time: 0.0,
+            last: settings.step,
+            blade: setup.blade_at(0.0),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::effect::{LeverModel, LeverTrust};
+use crate::geometry::Pose3;
 use crate::scene::{LeverJob, LeverTrajectory};
 
 use super::march::Marcher;
@@ -14,6 +15,23 @@ use super::setup::Setup;
 pub struct LeverPrior {
     /// How finely it computes.
     pub settings: PriorSettings,
+}
+
+impl LeverPrior {
+    /// Where the plate is at these times, seconds from the start of the turn and in order, until it rests;
+    /// the last pose then holds for the others.
+    pub(in crate::effect) fn follow(
+        &self,
+        job: &LeverJob,
+        times: impl Iterator<Item = f64>,
+    ) -> Vec<Pose3> {
+        let setup = Setup::new(job);
+        Marcher::default().follow(&setup, &self.settings_for(&setup), times)
+    }
+
+    fn settings_for(&self, setup: &Setup) -> PriorSettings {
+        if setup.blocks.is_empty() { self.settings } else { self.settings.among_blocks() }
+    }
 }
 
 impl LeverModel for LeverPrior {
@@ -42,10 +60,7 @@ impl LeverModel for LeverPrior {
         jobs.par_iter()
             .map_init(Marcher::default, |marcher, job| {
                 let setup = Setup::new(job);
-                let among_blocks = !setup.blocks.is_empty();
-                let settings = self.settings;
-                let settings = if among_blocks { settings.among_blocks() } else { settings };
-                marcher.march(&setup, &settings)
+                marcher.march(&setup, &self.settings_for(&setup))
             })
             .collect()
     }
