@@ -11,7 +11,7 @@ use crate::{
     scene::{Job, Scene},
 };
 
-use super::testimony::{EVIDENCE, Testimony};
+use super::testimony::{Draft, EVIDENCE, Testimony};
 
 /// Why a regulator cannot be made.
 #[derive(Debug, Error)]
@@ -89,18 +89,23 @@ impl BeliefRegulator {
 pub(super) struct Regulation {
     by: BeliefRegulator,
     memory: Memory,
-    /// What windows told, if it only listens.
+    /// What windows told, if it only listens; and of pushes that were taken again, the first time.
     pub heard: Vec<Testimony>,
+    pub drafts: Vec<Draft>,
 }
 
 impl Regulation {
     pub fn new(by: BeliefRegulator) -> Self {
-        Self { by, memory: Memory::default(), heard: Vec::new() }
+        Self { by, memory: Memory::default(), heard: Vec::new(), drafts: Vec::new() }
     }
 
-    /// Whether it corrects nothing and keeps what it hears as training data.
-    pub fn listens(&self) -> bool {
-        self.by.cell.is_none()
+    /// Keeps what `first` heard since this one, where all of that is taken again from here on.
+    pub fn keep(&mut self, first: &Self) {
+        let after = self.heard.len();
+        let windows = first.heard[after..].to_vec();
+        if !windows.is_empty() {
+            self.drafts.push(Draft { after, windows });
+        }
     }
 
     /// Takes a window: the evidence of every pair of which anything was `told`, and the `job` that
