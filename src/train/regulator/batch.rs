@@ -1,6 +1,8 @@
 //! Lessons side by side, as tensors.
 
 use candle_core::{Device, Result, Tensor};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use crate::{
     belief::{JointType, Testimony},
@@ -22,6 +24,10 @@ const BOUND: f32 = 10.0;
 /// A lesson, and those of its windows that are learned from.
 pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
 
+/// Share of the features of a pair in a window that are left out, so that no few of them are enough to
+/// know a lesson by heart.
+const LEFT_OUT: f64 = 0.1;
+
 /// Of what a loss is made besides the network's answer.
 pub(super) struct Examples {
     unrolled: Unrolled,
@@ -34,8 +40,9 @@ pub(super) struct Examples {
 }
 
 impl Examples {
-    /// Lays `lessons` side by side; shorter ones are told nothing at their end.
-    pub fn new(lessons: &[Heard], scales: &Statistics) -> Result<Self> {
+    /// Lays `lessons` side by side; shorter ones are told nothing at their end. `rng` says what is left
+    /// out of them.
+    pub fn new(lessons: &[Heard], scales: &Statistics, rng: &mut Pcg64) -> Result<Self> {
         let windows = lessons.iter().map(|(_, windows)| windows.len()).max().unwrap_or(0);
         let pairs: usize = lessons.iter().map(|(lesson, _)| lesson.pairs.len()).sum();
         let f = scales.mean.len();
@@ -71,7 +78,8 @@ impl Examples {
                         for (k, (into, x)) in rows[row * f..][..f].iter_mut().zip(from).enumerate()
                         {
                             let x = (x - scales.mean[k]) / scales.deviation[k];
-                            *into = x.clamp(-BOUND, BOUND);
+                            let left_out = rng.random_bool(LEFT_OUT);
+                            *into = if left_out { 0.0 } else { x.clamp(-BOUND, BOUND) };
                         }
                         for kind in JointType::ALL {
                             let k = kind as usize;

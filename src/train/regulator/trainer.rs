@@ -7,6 +7,7 @@ use std::{
 };
 
 use rand::Rng;
+use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::{
@@ -156,9 +157,11 @@ fn gradients(
             (lesson, lesson.windows(draft))
         })
         .collect();
+    let seed: u64 = rng.random();
     let parts = drawn
         .par_chunks(settings.batch.div_ceil(REPLICAS).max(1))
-        .map(|part| replica(run, part))
+        .enumerate()
+        .map(|(index, part)| replica(run, part, &mut generator(seed, index as u64)))
         .collect::<Result<Vec<_>, candle_core::Error>>()?;
     let share = 1.0 / parts.len() as f32;
     let mut total = 0.0;
@@ -177,10 +180,11 @@ fn gradients(
 fn replica(
     run: &RegulatorCheckpoint,
     lessons: &[Heard],
+    rng: &mut Pcg64,
 ) -> Result<(f64, Parameters), candle_core::Error> {
     let (features, width) = (run.scales.mean.len(), run.settings.width);
     let network = RegulatorGraph::new(features, width, &run.optimiser.weights)?;
-    let loss = Examples::new(lessons, &run.scales)?.loss(&network)?;
+    let loss = Examples::new(lessons, &run.scales, rng)?.loss(&network)?;
     gradients_of(&loss, network.variables())
 }
 
