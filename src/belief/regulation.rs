@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::{
     effect::{EffectModels, ModelError, Network},
-    network::{Memory, Regulator, RegulatorWeights, WeightsError},
+    network::{Correction, Memory, Regulator, RegulatorWeights, WeightsError},
     scene::{Job, Scene},
 };
 
@@ -130,7 +130,11 @@ impl Regulation {
         match &self.by.cell {
             Some(cell) => {
                 let pairs = (pairs, scene.objects.len());
-                cell.step(&features, &told, pairs, &mut self.memory)
+                let answers = cell.step(&features, &told, pairs, &mut self.memory);
+                let add = |(answer, filtered): (Option<Correction>, &[f64; 4])| {
+                    answer.map(|answer| answer.of_filtered(filtered))
+                };
+                answers.into_iter().zip(&filtered).map(add).collect()
             }
             None => {
                 self.heard.push(Testimony { features, told, filtered });

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use crate::{
     belief::{JointType, Testimony},
     dataset::Lesson,
-    network::{RegulatorGraph, Statistics, TYPES, Unrolled},
+    network::{LEAST, RegulatorGraph, Statistics, TYPES, Unrolled, sigmoid},
 };
 
 /// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
@@ -83,7 +83,7 @@ impl Examples {
                         }
                         for kind in JointType::ALL {
                             let k = kind as usize;
-                            before[row * TYPES + k] = window.filtered[p][k].max(1e-12).ln() as f32;
+                            before[row * TYPES + k] = window.filtered[p][k].max(LEAST).ln() as f32;
                         }
                         right[row * TYPES + lesson.types[p] as usize] = late;
                         weight += f64::from(late);
@@ -104,10 +104,11 @@ impl Examples {
 
     /// Cross entropy of the regulated beliefs, weighed over time, and the smoothness of memories.
     pub fn loss(&self, network: &RegulatorGraph) -> Result<Tensor> {
-        let (logits, changes) = network.forward(&self.unrolled)?;
+        let (outputs, changes) = network.forward(&self.unrolled)?;
         let mut loss = (changes * CHANGES)?;
-        for ((logits, filtered), wanted) in logits.iter().zip(&self.filtered).zip(&self.wanted) {
-            let logits = (logits + filtered)?;
+        for ((outputs, filtered), wanted) in outputs.iter().zip(&self.filtered).zip(&self.wanted) {
+            let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
+            let logits = (outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?)?;
             let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
             loss = (loss - ((shares * wanted)?.sum_all()? / self.weight.max(1e-9))?)?;
         }
