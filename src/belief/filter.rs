@@ -21,7 +21,7 @@ use super::{
     regulation::{BeliefRegulator, Regulation},
     relative::{relative, spread},
     settings::BeliefSettings,
-    testimony::{Circumstances, Draft, Testimony, Together, features},
+    testimony::{Circumstances, Testimony, features},
     track::Track,
     weighing::Stretch,
 };
@@ -45,8 +45,6 @@ pub struct Belief {
     pub(super) masses: Option<Masses>,
     pub(super) stretch: Option<Stretch>,
     pub(super) push: Option<Push>,
-    /// Of every pair, while a push is taken again after its joints were inferred together.
-    pub(super) together: Option<Vec<Together>>,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
@@ -97,7 +95,6 @@ impl Belief {
             masses: None,
             stretch: None,
             push: None,
-            together: None,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -113,11 +110,6 @@ impl Belief {
     /// What windows told a regulator that only listens.
     pub fn heard(&self) -> &[Testimony] {
         self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
-    }
-
-    /// What it heard of pushes before their joints were inferred together, where they were.
-    pub fn drafts(&self) -> &[Draft] {
-        self.regulation.as_ref().map_or(&[], |regulation| &regulation.drafts)
     }
 
     /// Pairs of objects that were near each other at the start and so may be joined: indices, the
@@ -224,7 +216,7 @@ impl Belief {
         let seen = |k: usize| {
             window.iter().any(|one| one.seen[k].is_some_and(|sight| sight.heading.is_some()))
         };
-        let of = |(p, (pair, told)): (usize, (&PairBelief, &Told))| {
+        let of = |(pair, told): (&PairBelief, &Told)| {
             let around = Circumstances {
                 noise: self.settings.noise,
                 windows: self.history.len(),
@@ -235,10 +227,9 @@ impl Belief {
                 taken: JointType::of(joint_of(&job.physics, pair.between)),
                 follows: follows(&now, pair),
             };
-            let together = self.together.as_ref().map(|together| &together[p]);
-            told.judged.as_ref().map(|judged| features(pair, judged, &around, together))
+            told.judged.as_ref().map(|judged| features(pair, judged, &around))
         };
-        let evidence: Vec<_> = self.pairs.iter().zip(&looked.told).enumerate().map(of).collect();
+        let evidence: Vec<_> = self.pairs.iter().zip(&looked.told).map(of).collect();
         let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
         let pairs: Vec<[usize; 2]> = self.pairs().collect();
         let corrections = regulation.take((scene, job), &pairs, &evidence, filtered);
@@ -296,7 +287,7 @@ impl Belief {
 }
 
 /// Whether the motion of a pair is likest to a joint but follows from likelier ones already.
-fn follows(physics: &Physics, pair: &PairBelief) -> bool {
+pub(super) fn follows(physics: &Physics, pair: &PairBelief) -> bool {
     pair.likeliest() != JointType::None && joint_of(physics, pair.between).is_none()
 }
 

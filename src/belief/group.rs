@@ -17,9 +17,8 @@ use crate::{
 
 use super::{
     density::log_sum,
-    filter::{Belief, joint_of, weigh},
+    filter::{Belief, follows, joint_of, weigh},
     pair::{JointType, PairBelief},
-    testimony::Together,
 };
 
 /// Most windows that are played again.
@@ -63,20 +62,16 @@ impl Belief {
             return;
         }
         let Some(Push { before, windows }) = self.push.take() else { return };
-        let unseen = windows.iter().any(|window| has_unseen_headings(window));
-        if !unseen && self.regulation.is_none() {
+        // One that only listens is to hear what windows say as they come.
+        let listens = self.regulation.as_ref().is_some_and(|regulation| regulation.listens());
+        if listens || !windows.iter().any(|window| has_unseen_headings(window)) {
             return;
         }
-        let (types, together) = self.assign(model, &before, &windows);
+        let types = self.assign(model, &before, &windows);
         let mut again = *before;
-        if let (Some(again), Some(first)) = (&mut again.regulation, &self.regulation) {
-            again.keep(first);
-        }
-        again.together = Some(together);
         for window in &windows {
             again.take(model, window, Some(&types));
         }
-        again.together = None;
         again.history = std::mem::take(&mut self.history);
         *self = again;
         let probabilities = self.probabilities();
@@ -85,25 +80,24 @@ impl Belief {
         }
     }
 
-    /// The likeliest types of all pairs together, searched for from the filter's; and what was found of
-    /// every pair on the way.
+    /// The likeliest types of all pairs together, searched for from the filter's.
     fn assign(
         &self,
         model: &dyn EffectModel,
         before: &Belief,
         windows: &[Vec<Observation>],
-    ) -> (Vec<JointType>, Vec<Together>) {
-        let marginals = self.probabilities();
+    ) -> Vec<JointType> {
         let map = self.map();
+        let marginals: Vec<[f64; 4]> =
+            self.pairs.iter().map(|pair| pair.corrected(follows(&map, pair))).collect();
         let mut best: Vec<JointType> =
             self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
         let mut most = before.play(model, &best, windows);
-        let mut played = Played::new(&best, most);
         let mut plays = 1;
         let mut order: Vec<usize> = (0..best.len()).collect();
         let share = |p: usize| marginals[p][best[p] as usize];
         order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
-        'search: for _ in 0..SWEEPS {
+        for _ in 0..SWEEPS {
             let before_sweep = best.clone();
             for &p in &order {
                 let likely =
@@ -113,11 +107,10 @@ impl Belief {
                     kinds.into_iter().flat_map(|kind| self.changed(&best, p, kind)).collect();
                 for option in options {
                     if plays == PLAYS {
-                        break 'search;
+                        return best;
                     }
                     plays += 1;
                     let score = before.play(model, &option, windows);
-                    played.take(&option, score);
                     if score > most {
                         (most, best) = (score, option);
                     }
@@ -127,8 +120,7 @@ impl Belief {
                 break;
             }
         }
-        let together = played.found(&best, most, &marginals);
-        (best, together)
+        best
     }
 
     /// `types` with one pair of another kind; where that closes a loop, every joint in it gives way in
@@ -181,38 +173,6 @@ impl Belief {
             played.learn(window, &looked);
         }
         log
-    }
-}
-
-/// Of every pair, by type, the best score of assignments in which it is joined so.
-struct Played(Vec<[f64; 4]>);
-
-impl Played {
-    fn new(types: &[JointType], score: f64) -> Self {
-        let mut played = Self(vec![[f64::NEG_INFINITY; 4]; types.len()]);
-        played.take(types, score);
-        played
-    }
-
-    fn take(&mut self, types: &[JointType], score: f64) {
-        for (scores, kind) in self.0.iter_mut().zip(types) {
-            let best = &mut scores[*kind as usize];
-            *best = best.max(score);
-        }
-    }
-
-    /// What was found beside the `best` assignment, whose score is `most`; where a type was not played,
-    /// what the filter thought of it.
-    fn found(&self, best: &[JointType], most: f64, marginals: &[[f64; 4]]) -> Vec<Together> {
-        let of = |((scores, kind), before): ((&[f64; 4], &JointType), &[f64; 4])| {
-            let share = |k: usize| before[k].max(1e-6);
-            let against = |k: usize| match scores[k] == f64::NEG_INFINITY {
-                true => (share(k) / share(*kind as usize)).ln(),
-                false => scores[k] - most,
-            };
-            Together { best: [0, 1, 2, 3].map(against), before: *before }
-        };
-        self.0.iter().zip(best).zip(marginals).map(of).collect()
     }
 }
 

@@ -7,11 +7,11 @@ use thiserror::Error;
 
 use crate::{
     effect::{EffectModels, ModelError, Network},
-    network::{Correction, Memory, Regulator, RegulatorWeights, WeightsError},
+    network::{Memory, Regulator, RegulatorWeights, WeightsError},
     scene::{Job, Scene},
 };
 
-use super::testimony::{Draft, EVIDENCE, Testimony};
+use super::testimony::{EVIDENCE, Testimony};
 
 /// Why a regulator cannot be made.
 #[derive(Debug, Error)]
@@ -89,23 +89,18 @@ impl BeliefRegulator {
 pub(super) struct Regulation {
     by: BeliefRegulator,
     memory: Memory,
-    /// What windows told, if it only listens; and of pushes that were taken again, the first time.
+    /// What windows told, if it only listens.
     pub heard: Vec<Testimony>,
-    pub drafts: Vec<Draft>,
 }
 
 impl Regulation {
     pub fn new(by: BeliefRegulator) -> Self {
-        Self { by, memory: Memory::default(), heard: Vec::new(), drafts: Vec::new() }
+        Self { by, memory: Memory::default(), heard: Vec::new() }
     }
 
-    /// Keeps what `first` heard since this one, where all of that is taken again from here on.
-    pub fn keep(&mut self, first: &Self) {
-        let after = self.heard.len();
-        let windows = first.heard[after..].to_vec();
-        if !windows.is_empty() {
-            self.drafts.push(Draft { after, windows });
-        }
+    /// Whether it corrects nothing and keeps what it hears as training data.
+    pub fn listens(&self) -> bool {
+        self.by.cell.is_none()
     }
 
     /// Takes a window: the evidence of every pair of which anything was `told`, and the `job` that
@@ -130,11 +125,7 @@ impl Regulation {
         match &self.by.cell {
             Some(cell) => {
                 let pairs = (pairs, scene.objects.len());
-                let answers = cell.step(&features, &told, pairs, &mut self.memory);
-                let add = |(answer, filtered): (Option<Correction>, &[f64; 4])| {
-                    answer.map(|answer| answer.of_filtered(filtered))
-                };
-                answers.into_iter().zip(&filtered).map(add).collect()
+                cell.step(&features, &told, pairs, &mut self.memory)
             }
             None => {
                 self.heard.push(Testimony { features, told, filtered });

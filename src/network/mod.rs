@@ -33,10 +33,9 @@ pub use parameters::{Parameters, layout};
 #[cfg(feature = "train")]
 pub use predictor::{Inputs, Predictor};
 pub use regulator::{
-    Correction, LEAST, Memory, OUTPUTS, Regulator, RegulatorCard, RegulatorWeights, TYPES,
-    fresh_regulator, regulator_layout,
+    Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator, regulator_layout,
 };
 #[cfg(feature = "train")]
-pub use regulator::{RegulatorGraph, Unrolled, sigmoid};
+pub use regulator::{RegulatorGraph, Unrolled};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

@@ -1,13 +1,11 @@
 //! Lessons side by side, as tensors.
 
 use candle_core::{Device, Result, Tensor};
-use rand::Rng;
-use rand_pcg::Pcg64;
 
 use crate::{
-    belief::{JointType, Testimony},
+    belief::JointType,
     dataset::Lesson,
-    network::{LEAST, RegulatorGraph, Statistics, TYPES, Unrolled, sigmoid},
+    network::{RegulatorGraph, Statistics, TYPES, Unrolled},
 };
 
 /// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
@@ -21,13 +19,6 @@ const CHANGES: f64 = 1e-6;
 /// Normalised features beyond this are cut off, as the cell does.
 const BOUND: f32 = 10.0;
 
-/// A lesson, and those of its windows that are learned from.
-pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
-
-/// Share of the features of a pair in a window that are left out, so that no few of them are enough to
-/// know a lesson by heart.
-const LEFT_OUT: f64 = 0.1;
-
 /// Of what a loss is made besides the network's answer.
 pub(super) struct Examples {
     unrolled: Unrolled,
@@ -40,15 +31,14 @@ pub(super) struct Examples {
 }
 
 impl Examples {
-    /// Lays `lessons` side by side; shorter ones are told nothing at their end. `rng` says what is left
-    /// out of them.
-    pub fn new(lessons: &[Heard], scales: &Statistics, rng: &mut Pcg64) -> Result<Self> {
-        let windows = lessons.iter().map(|(_, windows)| windows.len()).max().unwrap_or(0);
-        let pairs: usize = lessons.iter().map(|(lesson, _)| lesson.pairs.len()).sum();
+    /// Lays `lessons` side by side; shorter ones are told nothing at their end.
+    pub fn new(lessons: &[&Lesson], scales: &Statistics) -> Result<Self> {
+        let windows = lessons.iter().map(|lesson| lesson.windows.len()).max().unwrap_or(0);
+        let pairs: usize = lessons.iter().map(|lesson| lesson.pairs.len()).sum();
         let f = scales.mean.len();
         let mut ends = [Vec::with_capacity(pairs), Vec::with_capacity(pairs)];
         let mut objects = 0;
-        for (lesson, _) in lessons {
+        for lesson in lessons {
             for pair in &lesson.pairs {
                 for (ends, object) in ends.iter_mut().zip(pair) {
                     ends.push((objects + object) as u32);
@@ -67,9 +57,9 @@ impl Examples {
             let [mut known, mut before, mut right] =
                 [vec![0.0; pairs], vec![0.0; pairs * TYPES], vec![0.0; pairs * TYPES]];
             let mut first = 0;
-            for (lesson, windows) in lessons {
-                let through = windows.len().saturating_sub(1).max(1) as f32;
-                if let Some(window) = windows.get(t) {
+            for lesson in lessons {
+                let through = lesson.windows.len().saturating_sub(1).max(1) as f32;
+                if let Some(window) = lesson.windows.get(t) {
                     let late = WEIGHT[0] + (WEIGHT[1] - WEIGHT[0]) * t as f32 / through;
                     for p in (0..lesson.pairs.len()).filter(|p| window.told[*p]) {
                         let row = first + p;
@@ -78,12 +68,11 @@ impl Examples {
                         for (k, (into, x)) in rows[row * f..][..f].iter_mut().zip(from).enumerate()
                         {
                             let x = (x - scales.mean[k]) / scales.deviation[k];
-                            let left_out = rng.random_bool(LEFT_OUT);
-                            *into = if left_out { 0.0 } else { x.clamp(-BOUND, BOUND) };
+                            *into = x.clamp(-BOUND, BOUND);
                         }
                         for kind in JointType::ALL {
                             let k = kind as usize;
-                            before[row * TYPES + k] = window.filtered[p][k].max(LEAST).ln() as f32;
+                            before[row * TYPES + k] = window.filtered[p][k].max(1e-12).ln() as f32;
                         }
                         right[row * TYPES + lesson.types[p] as usize] = late;
                         weight += f64::from(late);
@@ -104,11 +93,10 @@ impl Examples {
 
     /// Cross entropy of the regulated beliefs, weighed over time, and the smoothness of memories.
     pub fn loss(&self, network: &RegulatorGraph) -> Result<Tensor> {
-        let (outputs, changes) = network.forward(&self.unrolled)?;
+        let (logits, changes) = network.forward(&self.unrolled)?;
         let mut loss = (changes * CHANGES)?;
-        for ((outputs, filtered), wanted) in outputs.iter().zip(&self.filtered).zip(&self.wanted) {
-            let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
-            let logits = (outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?)?;
+        for ((logits, filtered), wanted) in logits.iter().zip(&self.filtered).zip(&self.wanted) {
+            let logits = (logits + filtered)?;
             let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
             loss = (loss - ((shares * wanted)?.sum_all()? / self.weight.max(1e-9))?)?;
         }
