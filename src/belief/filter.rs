@@ -287,7 +287,7 @@ impl Belief {
 }
 
 /// Whether the motion of a pair is likest to a joint but follows from likelier ones already.
-fn follows(physics: &Physics, pair: &PairBelief) -> bool {
+pub(super) fn follows(physics: &Physics, pair: &PairBelief) -> bool {
     pair.likeliest() != JointType::None && joint_of(physics, pair.between).is_none()
 }
 

@@ -17,7 +17,7 @@ use crate::{
 
 use super::{
     density::log_sum,
-    filter::{Belief, joint_of, weigh},
+    filter::{Belief, follows, joint_of, weigh},
     pair::{JointType, PairBelief},
 };
 
@@ -87,8 +87,9 @@ impl Belief {
         before: &Belief,
         windows: &[Vec<Observation>],
     ) -> Vec<JointType> {
-        let marginals = self.probabilities();
         let map = self.map();
+        let marginals: Vec<[f64; 4]> =
+            self.pairs.iter().map(|pair| pair.corrected(follows(&map, pair))).collect();
         let mut best: Vec<JointType> =
             self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
         let mut most = before.play(model, &best, windows);

@@ -23,6 +23,7 @@ mod chance;
 mod density;
 mod filter;
 mod fit;
+mod foreseen;
 mod group;
 mod joints;
 mod look;

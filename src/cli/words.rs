@@ -4,7 +4,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::act::ProbeRule;
 use crate::bench::{CrowdFamily, JointMethod, Layout, Sighting, TaskKind};
-use crate::dataset::{JointRule, LeverPreset, Preset, Solids};
+use crate::dataset::{Controlled, JointRule, LeverPreset, Preset, Solids};
 use crate::effect::Outside;
 use crate::report::PageView;
 use crate::scene::Engine;
@@ -222,6 +222,12 @@ pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
     ("coarse", Sighting::Coarse, "3 mm and 2 degrees of noise"),
     ("unmarked", Sighting::Unmarked, "Cylinders alone, true positions, no headings"),
     ("unmarked-fine", Sighting::UnmarkedFine, "Cylinders alone, 1 mm of noise, no headings"),
+];
+
+/// Set-ups in which only masses differ.
+pub static CONTROLLED: [(&str, Controlled, &str); 2] = [
+    ("rows", Controlled::Rows, "Three rows of three, every second cylinder somewhat aside"),
+    ("wedges", Controlled::Wedges, "Three times one before the gap between two"),
 ];
 
 /// Kinds of random tasks.

@@ -13,6 +13,7 @@ use crate::{
 use super::{
     chance::{generator, log_uniform},
     constraints::TEST_SPEED,
+    controlled::{self, Controlled},
     curriculum::Block,
     dense::grid,
     hand::HandPlay,
@@ -41,6 +42,8 @@ pub enum MassSetup {
     Touching(usize),
     /// So many in a grid, almost touching, and three strokes.
     Crowd(usize),
+    /// Always the same, but for the masses.
+    Controlled(Controlled),
 }
 
 /// A scene with masses from [`MASS_RANGES`], what the hand did to it and what came of it.
@@ -88,23 +91,35 @@ fn attempt(rng: &mut Pcg64, ranges: &Ranges, setup: MassSetup) -> Option<MassEpi
     let (mut scene, strokes) = match setup {
         MassSetup::Touching(count) => {
             let crowd = Crowd { count, solids: Solids::Cylinders, touching: 1.0, polygons: 0.0 };
-            (random_scene(rng, ranges, crowd), 1)
+            let scene = random_scene(rng, ranges, crowd);
+            (anywhere(rng, scene), 1)
         }
         MassSetup::Crowd(count) => {
             let objects = Span::new(count as f64, count as f64);
-            (grid(rng, &Ranges { objects, ..*ranges }, &CYLINDERS), STROKES)
+            let scene = grid(rng, &Ranges { objects, ..*ranges }, &CYLINDERS);
+            (anywhere(rng, scene), STROKES)
         }
+        MassSetup::Controlled(controlled) => (controlled.scene(), 0),
     };
-    scene = anywhere(rng, scene);
     let of = |_| rng.random_range(0..MASS_RANGES.len());
     let in_ranges: Vec<usize> = scene.objects.iter().map(of).collect();
     for (object, range) in scene.objects.iter_mut().zip(&in_ranges) {
         object.mass = log_uniform(rng, MASS_RANGES[*range]);
     }
+    let ranges = match setup {
+        MassSetup::Controlled(_) => &Ranges { friction: controlled::FRICTION, ..*ranges },
+        _ => ranges,
+    };
     let mut play = HandPlay::new(rng, &scene, ranges);
     for _ in 0..strokes {
         let stroke = aimed(rng, &scene, &play, TRAVEL, ranges.speed.high)?;
         play = play.play(stroke)?;
+    }
+    if let MassSetup::Controlled(controlled) = setup {
+        for ([from, travel], speed) in controlled.strokes() {
+            let stroke = play.stroke(&play.state(), from, travel, speed)?;
+            play = play.play(stroke)?;
+        }
     }
     let (motion, frames) = play.finish();
     let touched = touched(&scene, &motion);
@@ -133,6 +148,27 @@ fn touched(scene: &Scene, motion: &ToolMotion) -> Vec<Touched> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn in_controlled_set_ups_only_masses_differ_and_every_object_is_touched_by_another() {
+        for controlled in [Controlled::Rows, Controlled::Wedges] {
+            let drawn =
+                [0, 1, 2].map(|k| MassEpisode::draw(MassSetup::Controlled(controlled), 3, k));
+            let [first, others @ ..] = &drawn;
+            for other in others {
+                assert_eq!(first.motion.strokes, other.motion.strokes);
+                let masses = other.scene.objects.iter().map(|object| object.mass);
+                let mut scene = first.scene.clone();
+                scene.objects.iter_mut().zip(masses).for_each(|(object, mass)| object.mass = mass);
+                assert_ne!(scene, first.scene);
+                assert_eq!(scene, other.scene);
+            }
+            let touched = drawn.iter().flat_map(|episode| &episode.touched);
+            let all = touched.clone().count();
+            let by_another = touched.filter(|touched| **touched == Touched::Object).count();
+            assert_eq!((by_another, all), (27, 27), "{controlled:?}");
+        }
+    }
 
     #[test]
     fn masses_are_in_their_ranges_and_what_is_touched_moves() {

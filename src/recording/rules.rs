@@ -2,7 +2,7 @@
 //! or a size is wrong.
 
 use crate::geometry::{Footprint, Pose, clearance};
-use crate::scene::DisjointSets;
+use crate::scene::{DisjointSets, near_pairs};
 
 use super::observed::{RecordedFrame, Recording};
 
@@ -157,9 +157,11 @@ impl Recording {
             clearance(a, b, 2.0 * Self::NOISE) < Self::NOISE
         };
         let objects = 0..self.scene.objects.len();
-        // Whatever is near each other, or joined, moves together.
-        let mut pairs: Vec<[usize; 2]> =
-            self.scene.joints.iter().map(|joint| joint.between).collect();
+        // Whatever is near each other, or joined, moves together; what may be joined without the
+        // recording saying so is near enough at the start.
+        let joined = self.scene.joints.iter().map(|joint| joint.between);
+        let joinable = near_pairs(&self.scene).into_iter().map(|(pair, _)| pair);
+        let mut pairs: Vec<[usize; 2]> = joined.chain(joinable).collect();
         for a in objects.clone() {
             let (own, others) = (footprint(a), a + 1..objects.end);
             pairs.extend(others.map(|b| [a, b]).filter(|[_, b]| {

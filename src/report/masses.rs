@@ -7,7 +7,7 @@ use crate::bench::MassSummary;
 use super::document::{Document, Section};
 use super::table::{
     Align::{Left, Right},
-    Table,
+    NONE, Table,
 };
 
 /// What the columns mean.
@@ -44,7 +44,7 @@ pub fn masses_document(summaries: &[MassSummary]) -> Document {
             percent(one.right),
             format!("{:.3}", one.surprise),
             percent(one.calibration),
-            percent(one.unknown),
+            if one.untouched == 0 { NONE.to_owned() } else { percent(one.unknown) },
             one.ratios.to_string(),
             format!("{:.2} times", one.ratio_error),
             format!("{:.2} times", one.ratio_blind),

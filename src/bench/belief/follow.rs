@@ -156,6 +156,10 @@ impl Followed<'_> {
                 types.push((method, self.types(&physics)));
             }
             if rest {
+                let physics = match method {
+                    JointMethod::Filter | JointMethod::Regulator => belief.foreseen(),
+                    _ => physics,
+                };
                 rests.push(Rest { by: method, error: self.rest(count, &situation, physics) });
             }
         }

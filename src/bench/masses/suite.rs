@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     belief::{Belief, BeliefSettings},
     bench::Sighting,
-    dataset::{MASS_RANGES, MassEpisode, MassSetup, Touched, generator},
+    dataset::{Controlled, MASS_RANGES, MassEpisode, MassSetup, Touched, generator},
     effect::EffectModel,
     recording::Recording,
     scene::Unknowns,
@@ -30,6 +30,8 @@ impl MassCase {
         match self.setup {
             MassSetup::Touching(count) => format!("{count} touching, 1 stroke"),
             MassSetup::Crowd(count) => format!("crowd of {count}, 3 strokes"),
+            MassSetup::Controlled(Controlled::Rows) => "three rows of 3, 3 strokes".to_owned(),
+            MassSetup::Controlled(Controlled::Wedges) => "three wedges of 3, 3 strokes".to_owned(),
         }
     }
 }

@@ -9,9 +9,9 @@ use crate::cli::{
     form::Form,
     model,
     session::Session,
-    words::{SIGHTINGS, words},
+    words::{CONTROLLED, SIGHTINGS, words},
 };
-use crate::dataset::MassSetup;
+use crate::dataset::{Controlled, MassSetup};
 use crate::report::{Document, masses_document};
 use crate::scene::ModelSpec;
 use crate::store::{Finished, RunManifest};
@@ -26,6 +26,7 @@ pub const SUITE: &str = "masses";
 #[command(after_help = format!("Examples:
   pushplan bench masses --count 100
   pushplan bench masses --touching 2 3 --crowds 9 --seen exact --seen fine
+  pushplan bench masses --touching --controlled rows wedges
 
 {}", keep::HELP))]
 pub struct MassesArgs {
@@ -37,6 +38,9 @@ pub struct MassesArgs {
     #[arg(long, value_name = "N", num_args = 0..,
           value_parser = clap::value_parser!(u8).range(2..=12))]
     crowds: Vec<u8>,
+    /// Nine cylinders that always stand alike and are always pushed alike, only their masses differ
+    #[arg(long, num_args = 1.., value_parser = words(&CONTROLLED), value_name = "SETUP")]
+    controlled: Vec<Controlled>,
     /// How things are seen; may be given several times [default: exact, fine and coarse]
     #[arg(long, num_args = 1.., value_parser = words(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
@@ -62,7 +66,8 @@ pub struct MassesArgs {
 pub fn run(args: &MassesArgs, session: &Session) -> Result<(), CliError> {
     let touching = args.touching.iter().map(|count| MassSetup::Touching((*count).into()));
     let crowds = args.crowds.iter().map(|count| MassSetup::Crowd((*count).into()));
-    let setups: Vec<MassSetup> = touching.chain(crowds).collect();
+    let controlled = args.controlled.iter().map(|setup| MassSetup::Controlled(*setup));
+    let setups: Vec<MassSetup> = touching.chain(crowds).chain(controlled).collect();
     let sights = match &args.seen[..] {
         [] => &[Sighting::Exact, Sighting::Fine, Sighting::Coarse][..],
         some => some,

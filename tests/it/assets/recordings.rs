@@ -104,6 +104,25 @@ fn a_simulation_written_as_a_recording_reads_back_and_replays_to_itself() {
 }
 
 #[test]
+fn what_hangs_together_across_a_gap_without_the_recording_saying_so_is_not_in_motion_at_the_start()
+{
+    let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
+    for (gap, sound) in [(0.02, true), (0.2, false)] {
+        let scene = Scene::new([can("a", 0.105), can("b", 0.205 + gap)])
+            .with_joint([0, 1], JointKind::Fixed);
+        let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.2 };
+        let motion = ToolMotion::pushes(hand(), 0.002, 0.0, &[push], true);
+        let job = Job::stated(&scene, motion.clone());
+        let frames = Simulator::planar().run(&scene, &job, Record::Frames).frames;
+        let mut recording = Recording::of_frames("gap", &scene, &motion, &frames);
+        recording.scene.joints.clear();
+        let moving = recording.moving_at_the_start();
+        assert_eq!(moving.is_empty(), sound, "{gap}: {moving:?}");
+        assert!(moving.iter().all(|moving| moving.object == 1), "{moving:?}");
+    }
+}
+
+#[test]
 fn frictions_of_pairs_are_read_and_written() {
     let text = SOUND.replace(
         "yaw_deg: 10}",
