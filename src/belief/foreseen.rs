@@ -2,7 +2,7 @@
 //!
 //! Before much has moved, half of the near pairs are joined and nobody knows how, so that *none* is
 //! likelier than every single joint. But two that touch mostly go along with each other at first, whatever
-//! holds them together: to take them for one body then errs by less.
+//! holds them together, so a prediction that takes them for one body is then off by less.
 
 use crate::{geometry::clearance, scene::Physics};
 

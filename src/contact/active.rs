@@ -19,7 +19,7 @@ use super::{
 
 /// Rounds in which all constraints may do something else than before. After these only the one may
 /// that is farthest from what it should do: all at once go in circles where things jam.
-pub(super) const TOGETHER: usize = 6;
+const TOGETHER: usize = 6;
 
 /// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in crowds
 /// with joints what 12 do not find 24 do not either, and a tenth of the time goes into looking.
@@ -91,27 +91,9 @@ impl ActiveSet {
             }
             self.apply(constraints);
             joints.spread(unknowns, constraints, ties);
-            let mut worst: Option<(usize, Status, f64)> = None;
-            for (k, constraint) in constraints.iter_mut().enumerate() {
-                constraint.read(unknowns);
-                let alone = constraint.alone();
-                let (status, force) = constraint.respond(&alone);
-                if status == constraint.status {
-                    continue;
-                }
-                let off = (alone * (force - constraint.trial)).amax();
-                if worst.is_none_or(|(.., most)| off > most) {
-                    worst = Some((k, status, off));
-                }
-                if round < TOGETHER {
-                    constraint.status = status;
-                }
-            }
-            let Some((worst, status, _)) = worst else {
-                constraints.iter_mut().for_each(|constraint| constraint.force = constraint.trial);
+            if agreed(unknowns, constraints, round) {
                 return true;
-            };
-            constraints[worst].status = status;
+            }
         }
         false
     }
@@ -214,6 +196,33 @@ impl ActiveSet {
             constraints[row.constraint].trial += row.along * row.force;
         }
     }
+}
+
+/// Whether every constraint would do under its trial force what it was taken to do, which is then its
+/// force. If not, all are taken to do what they would, or in later rounds only the one that is farthest off.
+pub(super) fn agreed(unknowns: &[Unknown], constraints: &mut [Constraint], round: usize) -> bool {
+    let mut worst: Option<(usize, Status, f64)> = None;
+    for (k, constraint) in constraints.iter_mut().enumerate() {
+        constraint.read(unknowns);
+        let alone = constraint.alone();
+        let (status, force) = constraint.respond(&alone);
+        if status == constraint.status {
+            continue;
+        }
+        let off = (alone * (force - constraint.trial)).amax();
+        if worst.is_none_or(|(.., most)| off > most) {
+            worst = Some((k, status, off));
+        }
+        if round < TOGETHER {
+            constraint.status = status;
+        }
+    }
+    let Some((worst, status, _)) = worst else {
+        constraints.iter_mut().for_each(|constraint| constraint.force = constraint.trial);
+        return true;
+    };
+    constraints[worst].status = status;
+    false
 }
 
 /// Which groups feel each other's forces, through contacts that press or through joints.

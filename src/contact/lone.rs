@@ -1,12 +1,12 @@
 //! The forces of [`super::active`] on one group to which nothing is joined.
 //!
 //! Most frames are of one pushed object in one or two contacts, for which lists of rows and groups
-//! are several times the work of the equations. What is computed is the same, to the last bit.
+//! take more instructions than the equations. What is computed is the same, to the last bit.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::{
-    active::{ROUNDS, TOGETHER},
+    active::{ROUNDS, agreed},
     constraint::{Constraint, Status, apply},
     elimination,
     tally::Tally,
@@ -86,27 +86,9 @@ pub(super) fn solve(
             unknown.pressed += c.to[0] * c.trial.x + c.to[1] * c.trial.y;
         }
         unknown.settle();
-        let mut worst: Option<(usize, Status, f64)> = None;
-        for (k, constraint) in constraints.iter_mut().enumerate() {
-            constraint.value = apply(&constraint.to, &unknown.twist);
-            let alone = constraint.alone();
-            let (status, force) = constraint.respond(&alone);
-            if status == constraint.status {
-                continue;
-            }
-            let off = (alone * (force - constraint.trial)).amax();
-            if worst.is_none_or(|(.., most)| off > most) {
-                worst = Some((k, status, off));
-            }
-            if round < TOGETHER {
-                constraint.status = status;
-            }
-        }
-        let Some((worst, status, _)) = worst else {
-            constraints.iter_mut().for_each(|constraint| constraint.force = constraint.trial);
+        if agreed(std::slice::from_ref(unknown), constraints, round) {
             return true;
-        };
-        constraints[worst].status = status;
+        }
     }
     false
 }
