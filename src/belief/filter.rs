@@ -7,7 +7,8 @@ use serde::Serialize;
 use crate::{
     effect::EffectModel,
     scene::{
-        Job, Joint, Observation, Physics, Scene, Situation, State, Tool, Unknowns, near_pairs,
+        JOINABLE, Job, Joint, NearPair, Noise, Observation, Physics, Scene, Situation, State, Tool,
+        Unknowns, pairs_within,
     },
 };
 
@@ -22,13 +23,17 @@ use super::{
     relative::{relative, spread},
     settings::BeliefSettings,
     testimony::{Circumstances, Testimony, features},
-    track::Track,
+    track::{ARM, Track},
     weighing::Stretch,
 };
 
 /// Observations that are looked at together: fewer show less than the noise, more let errors of the
 /// rollout grow.
 const WINDOW: usize = 5;
+
+/// How far beyond what may be joined two objects may be seen and yet be thought to be joined: standard
+/// deviations of their gap.
+const BEYOND: f64 = 2.0;
 
 /// What is believed about a scene.
 #[derive(Clone, Debug)]
@@ -73,14 +78,16 @@ impl Belief {
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
         let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
         let track = Track::new(scene.start(), settings.noise);
-        let pairs = near_pairs(&scene)
+        let doubt = gap_deviation(settings.noise);
+        let pairs = pairs_within(&scene, JOINABLE + BEYOND * doubt)
             .into_iter()
-            .map(|([a, b], midway)| {
+            .map(|NearPair { between: [a, b], gap, midway }| {
                 let [first, second] = [a, b].map(|k| &scene.objects[k].pose);
                 let seen = relative(first, second);
                 let variance = |which: usize| [a, b].map(|k| track.variance[k][which]);
                 let spread = spread(&seen, variance(0), variance(1));
-                PairBelief::new([a, b], seen, &spread, first.local_point(midway))
+                let near = joinable(gap, doubt);
+                PairBelief::new([a, b], seen, &spread, first.local_point(midway), near)
             })
             .collect();
         Self {
@@ -284,6 +291,21 @@ impl Belief {
         }
         scene
     }
+}
+
+/// Standard deviation of the gap between two objects that were seen with this noise, metres.
+fn gap_deviation(noise: Noise) -> f64 {
+    noise.position.hypot(ARM * noise.heading) * std::f64::consts::SQRT_2
+}
+
+/// How likely objects that were seen with this gap and its standard deviation, metres, are so near that
+/// they may be joined: the logistic function, within a hundredth of the normal distribution (Bowling et
+/// al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
+fn joinable(gap: f64, doubt: f64) -> f64 {
+    if doubt == 0.0 {
+        return 1.0;
+    }
+    (1.0 + (1.702 * (gap - JOINABLE) / doubt).exp()).recip()
 }
 
 /// Whether the motion of a pair is likest to a joint but follows from likelier ones already.

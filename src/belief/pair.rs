@@ -108,30 +108,35 @@ pub(super) struct PairBelief {
 }
 
 impl PairBelief {
-    /// Before anything has moved: the pair was seen so, with this spread, and `midway` lies between
-    /// its closest points, in the frame of the first.
+    /// Before anything has moved: the pair was seen so, with this spread, `midway` lies between its
+    /// closest points, in the frame of the first, and so likely it is `near` enough to be joined.
     pub fn new(
         between: [usize; 2],
         seen: Vector3<f64>,
         spread: &Matrix3<f64>,
         midway: Vector,
+        near: f64,
     ) -> Self {
+        let prior = |kind: JointType| match kind {
+            JointType::None => 1.0 - near * (1.0 - PRIOR[0]),
+            _ => near * PRIOR[kind as usize],
+        };
         let line = seen.y.atan2(seen.x);
         let mut hypotheses = vec![
-            Hypothesis { log: PRIOR[0].ln(), fit: Fit::none() },
-            Hypothesis { log: PRIOR[1].ln(), fit: Fit::fixed(&seen, spread) },
+            Hypothesis { log: prior(JointType::None).ln(), fit: Fit::none() },
+            Hypothesis { log: prior(JointType::Fixed).ln(), fit: Fit::fixed(&seen, spread) },
         ];
         for (share, far) in [REGULAR, 1.0 - REGULAR].into_iter().zip(MIDWAY) {
             let fit = Fit::revolute(&seen, spread, midway, far);
-            hypotheses.push(Hypothesis { log: (PRIOR[2] * share).ln(), fit });
+            hypotheses.push(Hypothesis { log: (prior(JointType::Revolute) * share).ln(), fit });
         }
         let fit = Fit::prismatic(&seen, spread, line, ALONG[0]);
-        hypotheses.push(Hypothesis { log: (PRIOR[3] * REGULAR).ln(), fit });
+        hypotheses.push(Hypothesis { log: (prior(JointType::Prismatic) * REGULAR).ln(), fit });
         for k in 0..DIRECTIONS {
             let angle = line + std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
             let fit = Fit::prismatic(&seen, spread, angle, ALONG[1]);
             let share = (1.0 - REGULAR) / DIRECTIONS as f64;
-            hypotheses.push(Hypothesis { log: (PRIOR[3] * share).ln(), fit });
+            hypotheses.push(Hypothesis { log: (prior(JointType::Prismatic) * share).ln(), fit });
         }
         Self { between, hypotheses, midway, line, regulated: [0.0; 4] }
     }
@@ -334,7 +339,7 @@ mod tests {
     fn a_regulated_belief_is_less_sure_and_in_the_same_order() {
         let spread = Matrix3::from_diagonal(&Vector3::new(1e-8, 1e-8, 1e-6));
         let seen = Vector3::new(0.1, 0.0, 0.0);
-        let mut pair = PairBelief::new([0, 1], seen, &spread, Vector::new(0.05, 0.0));
+        let mut pair = PairBelief::new([0, 1], seen, &spread, Vector::new(0.05, 0.0), 1.0);
         let mut untouched = pair.probabilities(false).into_iter().zip(pair.filtered(false));
         assert!(untouched.all(|(told, filtered)| (told - filtered).abs() < 1e-12));
         pair.regulated = [0.0, 3.0, 1.0, -2.0];

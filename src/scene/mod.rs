@@ -61,7 +61,7 @@ pub use model::{
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
 };
-pub use near::{JOINABLE, near_pairs};
+pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use observation::{Noise, Observation, Sight};
 pub use outline::Piece;
 pub use physics::{Physics, face_height};

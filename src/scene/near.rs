@@ -10,14 +10,32 @@ pub const JOINABLE: f64 = 0.03;
 /// Pairs of objects that may be joined, lower index first, and the point midway between the closest
 /// points of each.
 pub fn near_pairs(scene: &Scene) -> Vec<([usize; 2], Vector)> {
+    let pairs = pairs_within(scene, JOINABLE).into_iter();
+    pairs.map(|pair| (pair.between, pair.midway)).collect()
+}
+
+/// Two objects that stand near each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearPair {
+    /// Their indices, the lower first.
+    pub between: [usize; 2],
+    /// Distance of their closest points, metres; below zero where they overlap.
+    pub gap: f64,
+    /// The point midway between these.
+    pub midway: Vector,
+}
+
+/// Pairs of objects with a gap of at most `reach` metres.
+pub fn pairs_within(scene: &Scene, reach: f64) -> Vec<NearPair> {
     let objects = &scene.objects;
     let mut pairs = Vec::new();
     for (a, first) in objects.iter().enumerate() {
         for (b, second) in objects.iter().enumerate().skip(a + 1) {
             let (one, other) = (first.shape.footprint(), second.shape.footprint());
-            let (points, _) = contact_points((&one, &first.pose), (&other, &second.pose), JOINABLE);
+            let (points, _) = contact_points((&one, &first.pose), (&other, &second.pose), reach);
             if let Some(point) = points[0] {
-                pairs.push(([a, b], (point.on_first + point.on_second) / 2.0));
+                let midway = (point.on_first + point.on_second) / 2.0;
+                pairs.push(NearPair { between: [a, b], gap: point.gap, midway });
             }
         }
     }

@@ -11,7 +11,7 @@ use crate::{
     recording::Recording,
     scene::{
         Job, Joint, JointKind, Noise, Observation, Physics, Record, Scene, Situation, Span,
-        ToolMotion,
+        ToolMotion, near_pairs,
     },
 };
 
@@ -65,7 +65,10 @@ pub fn follow(
 ) -> (BeliefRecord, Vec<(JointMethod, Duration)>) {
     let settings = BeliefSettings::new(noise);
     let filter = Belief::new(seen, recording.tool.clone(), recording.lift, settings);
-    let pairs: Vec<[usize; 2]> = filter.pairs().collect();
+    // Those that are near, whatever the noise says: whoever does not think of a pair takes it not to be
+    // joined.
+    let near = near_pairs(&recording.scene).into_iter();
+    let pairs = near.map(|(between, _)| between).collect();
     let of = Followed { recording, seen, observations, pairs, noise, model };
     let regulated = regulator.map(|regulator| filter.clone().regulated(regulator.clone()));
     let mut beliefs = vec![(JointMethod::Filter, filter)];
@@ -134,7 +137,8 @@ impl Followed<'_> {
             },
             JointMethod::Residuals => {
                 let seen = &self.observations[..count];
-                let types = residual_types(self.seen, &self.pairs, seen, self.noise);
+                let pairs: Vec<[usize; 2]> = filter.pairs().collect();
+                let types = residual_types(self.seen, &pairs, seen, self.noise);
                 filter.physics_of(&types)
             }
             JointMethod::LastWindow => filter.physics_of(&filter.last_types()),
@@ -164,7 +168,7 @@ impl Followed<'_> {
             }
         }
         let probabilities =
-            beliefs.iter().map(|(method, belief)| (*method, belief.probabilities()));
+            beliefs.iter().map(|(method, belief)| (*method, self.probabilities(belief)));
         Checkpoint {
             when,
             moved: self.pairs.iter().map(|pair| self.moved(*pair, count)).collect(),
@@ -177,6 +181,16 @@ impl Followed<'_> {
     fn types(&self, physics: &Physics) -> Vec<JointType> {
         let of = |pair: &[usize; 2]| {
             JointType::of(physics.joints.iter().find(|joint| sorted(joint) == *pair))
+        };
+        self.pairs.iter().map(of).collect()
+    }
+
+    fn probabilities(&self, belief: &Belief) -> Vec<[f64; 4]> {
+        let believed: Vec<([usize; 2], [f64; 4])> =
+            belief.pairs().zip(belief.probabilities()).collect();
+        let of = |pair: &[usize; 2]| {
+            let found = believed.iter().find(|(between, _)| between == pair);
+            found.map_or([1.0, 0.0, 0.0, 0.0], |(_, probabilities)| *probabilities)
         };
         self.pairs.iter().map(of).collect()
     }
