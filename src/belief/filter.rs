@@ -35,6 +35,10 @@ const WINDOW: usize = 5;
 /// deviations of their gap.
 const BEYOND: f64 = 2.0;
 
+/// Share of the regulator's corrections that counts once a push was played again: it learned what a filter
+/// gets wrong that never did so. Of shares of 0.3, 0.6 and 1, tried on dense scenes of seed 11.
+const AFTER: f64 = 0.6;
+
 /// What is believed about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
@@ -50,6 +54,8 @@ pub struct Belief {
     pub(super) masses: Option<Masses>,
     pub(super) stretch: Option<Stretch>,
     pub(super) push: Option<Push>,
+    /// Whether a push was played again.
+    pub(super) played: bool,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
@@ -102,6 +108,7 @@ impl Belief {
             masses: None,
             stretch: None,
             push: None,
+            played: false,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -157,17 +164,18 @@ impl Belief {
         self.look_together(model);
     }
 
-    /// Takes a window, in which the joints are those of `assumed` types, or else the likeliest.
+    /// Takes a window, in which physics is as `assumed`, or else the likeliest.
     pub(super) fn take(
         &mut self,
         model: &dyn EffectModel,
         window: &[Observation],
-        assumed: Option<&[JointType]>,
+        assumed: Option<Physics>,
     ) {
         self.seen += window.len();
-        let mut map = assumed.map_or_else(|| self.map(), |types| self.physics_of(types));
+        let open = assumed.is_none();
+        let mut map = assumed.unwrap_or_else(|| self.map());
         let Some(mut looked) = self.look(model, window, &map) else { return };
-        if assumed.is_none() && has_unseen_headings(window) {
+        if open && has_unseen_headings(window) {
             // Without headings a pair is told by how all of its group moves: once more, with the
             // others joined as this window has them.
             let mut pairs = self.pairs.clone();
@@ -240,8 +248,10 @@ impl Belief {
         let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
         let pairs: Vec<[usize; 2]> = self.pairs().collect();
         let corrections = regulation.take((scene, job), &pairs, &evidence, filtered);
+        let share = if self.played { AFTER } else { 1.0 };
         for (pair, correction) in self.pairs.iter_mut().zip(corrections) {
-            pair.regulated = correction.unwrap_or(pair.regulated);
+            pair.regulated =
+                correction.map_or(pair.regulated, |logits| logits.map(|logit| share * logit));
         }
         self.regulation = Some(regulation);
     }
@@ -266,7 +276,7 @@ impl Belief {
     }
 
     /// These joints of near pairs with all that is believed besides.
-    fn with_known(&self, mut physics: Physics) -> Physics {
+    pub(super) fn with_known(&self, mut physics: Physics) -> Physics {
         physics.joints.extend(carried(&self.known, &self.scene, &self.track.state));
         self.with_numbers(physics)
     }

@@ -1,23 +1,25 @@
-//! Joints of a group of objects, inferred together where headings are not seen.
+//! Joints of a group of objects, inferred together.
 //!
-//! The filter judges each pair beside what it takes the others for at that moment. A heading that is
-//! not seen follows from the joints around it, so one wrong joint misleads its neighbours, and what they
-//! said then is never taken back. Hence after every push whole assignments of joints to pairs are
-//! played again from where the push began, each with headings and geometry of its own, and compared by
-//! how likely what was seen is under them: coordinate ascent on the likeliest joints, a pair at a time
-//! (iterated conditional modes, Besag 1986, doi:10.1111/j.2517-6161.1986.tb01412.x). Under the best of
-//! them the filter follows the push once more.
+//! The filter judges each pair beside what it takes the others for at that moment. One wrong joint
+//! misleads its neighbours, above all where headings are not seen and follow from the joints around them,
+//! and what they said then is never taken back. Hence after every push whole assignments of joints to
+//! pairs are played again from where the push began, and compared by how likely what was seen is under
+//! them: coordinate ascent on the likeliest joints, a pair at a time (iterated conditional modes, Besag
+//! 1986, doi:10.1111/j.2517-6161.1986.tb01412.x). Under the best of them the filter follows the push once
+//! more.
 //!
-//! Where headings are seen a pair can be told by itself, and nothing is played again.
+//! Anchors and axes are those that all of the push showed. Only where headings are not seen they are found
+//! anew with every assignment: what they look like then depends on it.
 
 use crate::{
     effect::EffectModel,
-    scene::{DisjointSets, Observation},
+    scene::{DisjointSets, Observation, Physics},
 };
 
 use super::{
     density::log_sum,
     filter::{Belief, follows, joint_of, weigh},
+    joints::of_types,
     pair::{JointType, PairBelief},
 };
 
@@ -54,8 +56,8 @@ impl Belief {
         self.push = Some(push);
     }
 
-    /// At the end of a push in which headings were not seen, and after many windows, has all joints
-    /// inferred together and takes what follows from them.
+    /// At the end of a push, and after many windows, has all joints inferred together and takes what
+    /// follows from them.
     pub(super) fn look_together(&mut self, model: &dyn EffectModel) {
         let windows = self.push.as_ref().map_or(&[][..], |push| &push.windows);
         if windows.len() < LONGEST && !windows.iter().flatten().last().is_some_and(is_lifted) {
@@ -63,14 +65,17 @@ impl Belief {
         }
         let Some(Push { before, windows }) = self.push.take() else { return };
         // One that only listens is to hear what windows say as they come.
-        let listens = self.regulation.as_ref().is_some_and(|regulation| regulation.listens());
-        if listens || !windows.iter().any(|window| has_unseen_headings(window)) {
+        if self.regulation.as_ref().is_some_and(|regulation| regulation.listens()) {
             return;
         }
-        let types = self.assign(model, &before, &windows);
+        let seen = !windows.iter().any(|window| has_unseen_headings(window));
+        let learnt = seen.then_some(&self.pairs[..]);
+        let types = self.assign(model, &before, &windows, learnt);
         let mut again = *before;
+        again.played = true;
         for window in &windows {
-            again.take(model, window, Some(&types));
+            let physics = again.physics_as(&types, learnt);
+            again.take(model, window, Some(physics));
         }
         again.history = std::mem::take(&mut self.history);
         *self = again;
@@ -80,19 +85,21 @@ impl Belief {
         }
     }
 
-    /// The likeliest types of all pairs together, searched for from the filter's.
+    /// The likeliest types of all pairs together, searched for from the filter's, their joints where
+    /// they are `learnt` to be.
     fn assign(
         &self,
         model: &dyn EffectModel,
         before: &Belief,
         windows: &[Vec<Observation>],
+        learnt: Option<&[PairBelief]>,
     ) -> Vec<JointType> {
         let map = self.map();
         let marginals: Vec<[f64; 4]> =
             self.pairs.iter().map(|pair| pair.corrected(follows(&map, pair))).collect();
         let mut best: Vec<JointType> =
             self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
-        let mut most = before.play(model, &best, windows);
+        let mut most = before.play(model, &best, windows, learnt);
         let mut plays = 1;
         let mut order: Vec<usize> = (0..best.len()).collect();
         let share = |p: usize| marginals[p][best[p] as usize];
@@ -110,7 +117,7 @@ impl Belief {
                         return best;
                     }
                     plays += 1;
-                    let score = before.play(model, &option, windows);
+                    let score = before.play(model, &option, windows, learnt);
                     if score > most {
                         (most, best) = (score, option);
                     }
@@ -140,6 +147,12 @@ impl Belief {
         without.filter(|types| self.is_forest(types)).collect()
     }
 
+    /// Physics of `types` now, their joints where they are `learnt` to be.
+    fn physics_as(&self, types: &[JointType], learnt: Option<&[PairBelief]>) -> Physics {
+        let Some(learnt) = learnt else { return self.physics_of(types) };
+        self.with_known(of_types(&self.scene, learnt, &self.track.state, types))
+    }
+
     fn is_forest(&self, types: &[JointType]) -> bool {
         let mut sets = DisjointSets::new(self.scene.objects.len());
         let mut joined = self.pairs.iter().zip(types);
@@ -153,6 +166,7 @@ impl Belief {
         model: &dyn EffectModel,
         types: &[JointType],
         windows: &[Vec<Observation>],
+        learnt: Option<&[PairBelief]>,
     ) -> f64 {
         let mut played = self.clone();
         let mut log = 0.0;
@@ -161,7 +175,7 @@ impl Belief {
             pair.hypotheses.retain(|hypothesis| hypothesis.fit.kind == *kind);
         }
         for window in windows {
-            let map = played.physics_of(types);
+            let map = played.physics_as(types, learnt);
             let Some((looked, places)) = played.look_at(model, window, &map) else { break };
             for (pair, told) in played.pairs.iter().zip(&looked.told) {
                 if let Some(judged) = &told.judged {

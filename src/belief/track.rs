@@ -1,5 +1,7 @@
 //! Where every object is thought to be, from where it was rolled out to and where it was seen.
 
+use nalgebra::{Matrix2, Vector2};
+
 use crate::{
     geometry::{Pose, Vector, contact_points, wrap_angle},
     scene::{Noise, Observation, Scene, Sight, State},
@@ -8,6 +10,7 @@ use crate::{
 use super::{
     chance::{generator, normal},
     rolled::Rolled,
+    window::UNEVEN,
 };
 
 /// What moves by less in a window says nothing, metres.
@@ -127,39 +130,38 @@ impl Track {
     }
 
     /// Goes to the end of a window: where things were rolled out to, corrected by where they were
-    /// seen, as far as that is surer.
+    /// seen all through it, as far as that is surer.
     pub fn follow(&mut self, rolled: &Rolled, window: &[Observation]) {
-        let (Some(now), Some(end)) = (window.last(), rolled.states.last()) else { return };
+        let Some(end) = rolled.states.last() else { return };
         for k in 0..self.state.poses.len() {
-            let (before, rolled) = (self.state.poses[k], end.poses[k]);
-            let motion = (rolled.position - before.position).norm();
-            let turn = (rolled.heading - before.heading).abs();
-            let grown = |far: f64| match far > 0.0 {
-                true => (ASTRAY[0] + ASTRAY[1] * far).powi(2),
-                false => 0.0,
-            };
-            let mut variance = self.variance[k];
-            variance[0] += grown(motion);
-            variance[1] += grown(ARM * turn.max(motion)) / (ARM * ARM);
-            let mut pose = rolled;
-            if let Some((seen, noise)) = self.sight(now.seen[k], &rolled) {
+            let (before, last) = (self.state.poses[k], end.poses[k]);
+            let motion = (last.position - before.position).norm();
+            let turn = (last.heading - before.heading).abs();
+            let astray = |far: f64| if far > 0.0 { ASTRAY[0] + ASTRAY[1] * far } else { 0.0 };
+            let mut places = [Error::new(self.variance[k][0], astray(motion)); 2];
+            let mut heading = Error::new(self.variance[k][1], astray(ARM * turn.max(motion)) / ARM);
+            for (at, (now, state)) in window.iter().zip(&rolled.states).enumerate() {
+                let rolled = &state.poses[k];
+                let Some((seen, noise)) = self.sight(now.seen[k], rolled) else { continue };
+                let share = (at + 1) as f64 / window.len() as f64;
                 let off = seen.position - rolled.position;
-                // A rollout that was wrong is no reason not to believe one's eyes.
-                variance[0] = variance[0].max(off.norm_squared() / 9.0 - noise[0]);
-                let share = gain(variance[0], noise[0]);
-                pose.position += share * off;
-                variance[0] *= 1.0 - share;
+                for (axis, place) in places.iter_mut().enumerate() {
+                    place.see(share, off[axis], off.norm(), noise[0]);
+                }
                 if now.seen[k].is_some_and(|sight| sight.heading.is_some()) {
                     let turned = seen.heading - rolled.heading;
-                    variance[1] = variance[1].max(turned * turned / 9.0 - noise[1]);
-                    let share = gain(variance[1], noise[1]);
-                    pose.heading += share * turned;
-                    variance[1] *= 1.0 - share;
+                    heading.see(share, turned, turned, noise[1]);
                 }
             }
-            self.state.poses[k] = pose;
+            let [x, y] = places.map(|place| place.end());
+            let turned = heading.end();
+            self.state.poses[k] = Pose {
+                position: last.position + Vector::new(x.0, y.0),
+                heading: last.heading + turned.0,
+            };
             self.state.velocities[k] = end.velocities[k];
-            self.variance[k] = variance;
+            // What either coordinate has seen is the same but for how far it was off.
+            self.variance[k] = [x.1.max(y.1), turned.1];
         }
     }
 }
@@ -176,6 +178,57 @@ fn overlap(scene: &Scene, state: &State) -> f64 {
         }
     }
     sum
+}
+
+/// What is known of how far a rollout is off in one coordinate all through a window: it begins somewhere,
+/// goes astray evenly, and is uneven beside that from instant to instant.
+#[derive(Clone, Copy, Debug)]
+struct Error {
+    /// At the start, and by how much it grows to the end.
+    mean: Vector2<f64>,
+    covariance: Matrix2<f64>,
+    /// Standard deviation of the growth before anything was seen.
+    astray: f64,
+    /// At the end, with its variance, if it was seen then.
+    end: Option<(f64, f64)>,
+}
+
+impl Error {
+    /// Of this variance at the start, and this standard deviation of what it grows by.
+    fn new(variance: f64, astray: f64) -> Self {
+        let covariance = Matrix2::from_diagonal(&Vector2::new(variance, astray * astray));
+        Self { mean: Vector2::zeros(), covariance, astray, end: None }
+    }
+
+    /// Takes what was seen after a `share` of the window: with this variance the rollout is `off` in this
+    /// coordinate, and `far` in all of them.
+    fn see(&mut self, share: f64, off: f64, far: f64, noise: f64) {
+        // A rollout that was wrong is no reason not to believe one's eyes.
+        let known = self.covariance[(0, 0)] + (share * self.astray).powi(2);
+        let more = (far * far / 9.0 - noise - known).max(0.0) / (share * share);
+        self.covariance[(1, 1)] += more;
+        self.astray = (self.astray * self.astray + more).sqrt();
+        let by = Vector2::new(1.0, share);
+        let across = self.covariance * by;
+        let variance = by.dot(&across) + (UNEVEN * self.astray).powi(2);
+        let left = off - by.dot(&self.mean);
+        if share == 1.0 {
+            let gain = gain(variance, noise);
+            self.end = Some((off - (1.0 - gain) * left, (1.0 - gain) * variance));
+        } else if variance + noise > 0.0 {
+            self.mean += across * (left / (variance + noise));
+            self.covariance -= across * across.transpose() / (variance + noise);
+        }
+    }
+
+    /// At the end, with its variance.
+    fn end(&self) -> (f64, f64) {
+        self.end.unwrap_or_else(|| {
+            let by = Vector2::new(1.0, 1.0);
+            let uneven = (UNEVEN * self.astray).powi(2);
+            (by.dot(&self.mean), by.dot(&(self.covariance * by)) + uneven)
+        })
+    }
 }
 
 /// By how much an observation moves an estimate of this variance.

@@ -16,7 +16,7 @@ use super::{
 const MODEL: (f64, [f64; 2], f64) = (4e-4, [0.2, 0.1], 0.01);
 
 /// How unevenly that grows: the error of a single instant as a share of that at the end.
-const UNEVEN: f64 = 0.2;
+pub(super) const UNEVEN: f64 = 0.2;
 
 /// Standard deviation of what the rollout of a window adds to the error of a heading that is not
 /// seen: radians, and a share of the turn.
