@@ -1,10 +1,13 @@
 //! What a belief foresees, which is not always what it takes for likeliest.
 //!
 //! Before much has moved, half of the near pairs are joined and nobody knows how, so that *none* is
-//! likelier than every single joint. But two that touch mostly go along with each other at first, whatever
-//! holds them together, so a prediction that takes them for one body is then off by less.
+//! likelier than every single joint. But in a crowd two that touch mostly go along with each other at first,
+//! whatever holds them together, so a prediction that takes them for one body is then off by less.
 
-use crate::{geometry::clearance, scene::Physics};
+use crate::{
+    geometry::clearance,
+    scene::{DisjointSets, Physics},
+};
 
 use super::{
     filter::{Belief, joint_of},
@@ -14,12 +17,15 @@ use super::{
 /// Objects with a smaller gap touch as soon as either moves, metres.
 const TOUCHING: f64 = 0.005;
 
+/// So many objects that touch, one the next, are a crowd. Of fewer one is often pushed past the others.
+const CROWD: usize = 5;
+
 /// Share of the pairs of which nothing was told, above which little has moved.
 const MOST: f64 = 0.5;
 
 impl Belief {
-    /// Physics to predict with: the likeliest, but for touching pairs of which nothing was told while this
-    /// is so of most pairs. These are taken for fixed.
+    /// Physics to predict with: the likeliest, but for touching pairs of a crowd of which nothing was told
+    /// while this is so of most pairs. These are taken for fixed.
     pub fn foreseen(&self) -> Physics {
         let map = self.map();
         let told = |p: usize| self.history.iter().any(|step| step.evidence[p].is_some());
@@ -34,8 +40,13 @@ impl Belief {
             let (one, other) = (a.shape.footprint(), b.shape.footprint());
             clearance((&one, &a.pose), (&other, &b.pose), TOUCHING) < TOUCHING
         };
+        let touching: Vec<[usize; 2]> = self.pairs().filter(|pair| touch(*pair)).collect();
+        let groups = DisjointSets::of(scene.objects.len(), touching.clone()).names().to_vec();
+        let crowded = |[a, _]: [usize; 2]| {
+            groups.iter().filter(|group| **group == groups[a]).count() >= CROWD
+        };
         let of = |(pair, told): (&PairBelief, &bool)| match *told {
-            false if touch(pair.between) => JointType::Fixed,
+            false if touching.contains(&pair.between) && crowded(pair.between) => JointType::Fixed,
             _ => JointType::of(joint_of(&map, pair.between)),
         };
         let types: Vec<JointType> = self.pairs.iter().zip(&told).map(of).collect();
