@@ -335,3 +335,30 @@ pub(super) fn weigh(pairs: &mut [PairBelief], told: &[Told], tempering: f64) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{Pose, Shape},
+        scene::{Object, Part},
+    };
+
+    #[test]
+    fn what_noise_may_have_moved_apart_may_be_joined() {
+        let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
+        let scene = Scene::new([can("a", 0.0), can("b", 0.1 + JOINABLE + 1e-3), can("c", 0.5)]);
+        let none = |position: f64| {
+            let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
+            let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+            let settings = BeliefSettings::new(Noise { position, heading: 0.0 });
+            let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
+            belief.pairs().zip(belief.probabilities()).map(|(_, [none, ..])| none).next()
+        };
+        assert_eq!(none(0.0), None);
+        // With more noise it says less that they stood too far apart.
+        let (fine, coarse) = (none(1e-3).expect("a pair"), none(5e-3).expect("a pair"));
+        assert!(0.85 < fine && fine < 0.9, "{fine}");
+        assert!(0.75 < coarse && coarse < 0.8, "{coarse}");
+    }
+}

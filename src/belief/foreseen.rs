@@ -66,17 +66,25 @@ mod tests {
     };
 
     #[test]
-    fn what_touches_is_foreseen_to_go_along_until_something_is_known() {
-        let can = |name: &str, x| Object::cylinder(name, 0.05, 0.1).at(x, 0.0, 0.0);
-        let scene = Scene::new([can("a", 0.0), can("b", 0.101), can("c", 0.221)]);
-        let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
-        let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
-        let settings = BeliefSettings::new(Noise { position: 0.0, heading: 0.0 });
-        let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
-        assert_eq!(belief.pairs().collect::<Vec<_>>(), [[0, 1], [1, 2]]);
-        assert!(belief.map().joints.is_empty());
-        let joints = belief.foreseen().joints;
-        assert_eq!(joints.len(), 1);
-        assert_eq!((joints[0].between, joints[0].kind), ([0, 1], JointKind::Fixed));
+    fn in_a_crowd_what_touches_is_foreseen_to_go_along_until_something_is_known() {
+        let can = |k: usize, x| Object::cylinder(format!("{k}"), 0.05, 0.1).at(x, 0.0, 0.0);
+        let row = |count: usize| (0..count).map(|k| can(k, 0.101 * k as f64));
+        // The last one is near, but does not touch.
+        let scene = |count| Scene::new(row(count).chain([can(count, 0.101 * count as f64 + 0.02)]));
+        let believed = |scene: &Scene| {
+            let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
+            let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+            let settings = BeliefSettings::new(Noise { position: 0.0, heading: 0.0 });
+            Belief::new(scene, Arc::new(tool.expect("one piece")), 0.0, settings)
+        };
+        let crowd = believed(&scene(CROWD));
+        assert_eq!(crowd.pairs().len(), CROWD);
+        assert!(crowd.map().joints.is_empty());
+        let joints = crowd.foreseen().joints;
+        assert_eq!(joints.len(), CROWD - 1);
+        for (k, joint) in joints.iter().enumerate() {
+            assert_eq!((joint.between, joint.kind), ([k, k + 1], JointKind::Fixed));
+        }
+        assert!(believed(&scene(CROWD - 1)).foreseen().joints.is_empty());
     }
 }

@@ -235,3 +235,39 @@ impl Error {
 fn gain(variance: f64, noise: f64) -> f64 {
     if variance + noise > 0.0 { variance / (variance + noise) } else { 1.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What was seen after each fifth of a window, with this variance.
+    fn seen(mut error: Error, off: [f64; 5], noise: f64) -> (f64, f64) {
+        for (k, off) in off.into_iter().enumerate() {
+            error.see((k + 1) as f64 / 5.0, off, off, noise);
+        }
+        error.end()
+    }
+
+    #[test]
+    fn what_stands_still_is_where_it_was_seen_on_average() {
+        let (mean, variance) = seen(Error::new(4.0, 0.0), [1.0, -1.0, 2.0, 0.0, 1.0], 1.0);
+        // Of Gaussians precisions add up: 1/4 before, and 1 of each observation.
+        assert!((mean - 3.0 / 5.25).abs() < 1e-12, "{mean}");
+        assert!((variance - 1.0 / 5.25).abs() < 1e-12, "{variance}");
+    }
+
+    #[test]
+    fn true_poses_are_believed_to_the_bit() {
+        assert_eq!(seen(Error::new(0.0, 1e-3), [0.1, 0.2, 0.3, 0.4, 0.7], 0.0), (0.7, 0.0));
+    }
+
+    #[test]
+    fn a_rollout_that_goes_astray_evenly_is_corrected_by_more_than_the_last_observation() {
+        let off = |share: f64| 4.0 * share;
+        let line = [0.2, 0.4, 0.6, 0.8, 1.0].map(off);
+        let (mean, variance) = seen(Error::new(0.01, 4.0), line, 1.0);
+        assert!((mean - 4.0).abs() < 0.2, "{mean}");
+        // The last one alone would have left 0.94 of its variance.
+        assert!(variance < 0.7, "{variance}");
+    }
+}
