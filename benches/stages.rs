@@ -7,7 +7,7 @@ use std::time::Duration;
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use pushplan::asset::ToolLibrary;
 use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
-use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
+use pushplan::contact::{Bodies, Frame, FrameProblem, FrameSolver};
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::graph::Batch;
 use pushplan::network::{Buffers, Forward};
@@ -70,7 +70,8 @@ fn fill(solver: &mut FrameSolver, batch: &mut Batch, frames: &[Near]) {
     }
 }
 
-/// What everything does in a frame, without forces and features.
+/// What everything does in a frame, without forces and features: one after another, and those of one
+/// object side by side as in a search.
 fn frame(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("64 frames");
     group.throughput(Throughput::Elements(BATCH as u64));
@@ -80,6 +81,20 @@ fn frame(criterion: &mut Criterion) {
             b.iter(|| {
                 for (bodies, state, step, axis) in black_box(&frames).iter().cycle().take(BATCH) {
                     black_box(solver.solve(FrameProblem { bodies, state, step, axis: *axis }));
+                }
+            });
+        });
+        let problems: Vec<_> = (frames.iter().cycle().take(BATCH))
+            .map(|(bodies, state, step, axis)| {
+                Some(FrameProblem { bodies, state, step, axis: *axis })
+            })
+            .collect();
+        let mut memory = vec![Frame::default(); BATCH];
+        group.bench_function(format!("{name}, side by side"), |b| {
+            b.iter(|| {
+                solver.begin(black_box(&problems), &mut memory);
+                for (problem, frame) in problems.iter().flatten().zip(&mut memory) {
+                    black_box(solver.finish(*problem, frame, 0));
                 }
             });
         });

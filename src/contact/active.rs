@@ -19,7 +19,7 @@ use super::{
 
 /// Rounds in which all constraints may do something else than before. After these only the one may
 /// that is farthest from what it should do: all at once go in circles where things jam.
-const TOGETHER: usize = 6;
+pub(super) const TOGETHER: usize = 6;
 
 /// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in crowds
 /// with joints what 12 do not find 24 do not either, and a tenth of the time goes into looking.
@@ -200,7 +200,7 @@ impl ActiveSet {
 
 /// Whether every constraint would do under its trial force what it was taken to do, which is then its
 /// force. If not, all are taken to do what they would, or in later rounds only the one that is farthest off.
-pub(super) fn agreed(unknowns: &[Unknown], constraints: &mut [Constraint], round: usize) -> bool {
+fn agreed(unknowns: &[Unknown], constraints: &mut [Constraint], round: usize) -> bool {
     let mut worst: Option<(usize, Status, f64)> = None;
     for (k, constraint) in constraints.iter_mut().enumerate() {
         constraint.read(unknowns);

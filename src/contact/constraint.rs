@@ -11,10 +11,10 @@ pub(super) const GIVE: f64 = 2e-3;
 
 /// Smallest share of a sliding contact's own compliance along the normal that counts: below it
 /// the contact wedges, which these equations cannot answer.
-const MIN_COMPLIANCE: f64 = 0.2;
+pub(super) const MIN_COMPLIANCE: f64 = 0.2;
 
 /// A displacement that does not count, metres: rounding must not decide anything.
-const OPEN: f64 = 1e-9;
+pub(super) const OPEN: f64 = 1e-9;
 
 /// What a constraint allows its two forces to be.
 #[derive(Clone, Copy, Debug)]

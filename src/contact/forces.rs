@@ -4,53 +4,75 @@ use nalgebra::Vector3;
 
 use crate::{geometry::Vector, scene::State};
 
-use super::{bodies::Bodies, prior::Prior, twist::shift};
+use super::{bodies::Bodies, lone::LoneSolution, prior::Prior, twist::shift};
 
 /// The forces of a frame taken as a whole.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameForces<'a> {
     bodies: &'a Bodies,
     state: &'a State,
-    prior: &'a Prior,
+    found: Found<'a>,
+}
+
+/// What has found them.
+#[derive(Clone, Copy, Debug)]
+enum Found<'a> {
+    Alone(&'a LoneSolution),
+    Together(&'a Prior),
 }
 
 impl<'a> FrameForces<'a> {
     pub(super) fn new(bodies: &'a Bodies, state: &'a State, prior: &'a Prior) -> Self {
-        Self { bodies, state, prior }
+        Self { bodies, state, found: Found::Together(prior) }
+    }
+
+    /// Those of a frame of one object.
+    pub(super) fn alone(bodies: &'a Bodies, state: &'a State, solution: &'a LoneSolution) -> Self {
+        Self { bodies, state, found: Found::Alone(solution) }
     }
 
     /// The force of contact `index` along its normal, newtons.
     pub fn normal(&self, index: usize) -> f64 {
-        self.prior.system.constraints[index].force.x
+        match self.found {
+            Found::Alone(solution) => solution.normal[index],
+            Found::Together(prior) => prior.system.constraints[index].force.x,
+        }
     }
 
     /// The motion that the force of contact `index` alone gives to `object`: shift (metres) and
     /// turn (radians).
     pub fn by_contact(&self, index: usize, object: usize) -> (Vector, f64) {
-        let c = &self.prior.system.constraints[index];
+        let prior = match self.found {
+            Found::Alone(solution) => {
+                let twist = solution.moved(&solution.pressed[index]);
+                return (shift(&twist, Vector::zeros()), twist.z);
+            }
+            Found::Together(prior) => prior,
+        };
+        let c = &prior.system.constraints[index];
         let pressed = if c.a == self.bodies.groups.of[object] {
             c.to[0] * c.force.x + c.to[1] * c.force.y
         } else {
             -(c.from[0] * c.force.x + c.from[1] * c.force.y)
         };
-        self.moved(object, &pressed)
+        self.moved(prior, object, &pressed)
     }
 
     /// The same for the force of joint `index`; none for a joint within a rigid group.
     pub fn by_joint(&self, index: usize, object: usize) -> (Vector, f64) {
-        let Some(tie) = self.prior.joints[index].map(|tie| &self.prior.system.ties[tie]) else {
-            return (Vector::zeros(), 0.0);
-        };
+        let none = (Vector::zeros(), 0.0);
+        let Found::Together(prior) = self.found else { return none };
+        let Some(tie) = prior.joints[index].map(|tie| &prior.system.ties[tie]) else { return none };
         let pressed = if tie.b == self.bodies.groups.of[object] {
             tie.to[0] * tie.force.x + tie.to[1] * tie.force.y
         } else {
             -(tie.from[0] * tie.force.x + tie.from[1] * tie.force.y)
         };
-        self.moved(object, &pressed)
+        self.moved(prior, object, &pressed)
     }
 
-    fn moved(&self, object: usize, pressed: &Vector3<f64>) -> (Vector, f64) {
-        let unknown = &self.prior.system.unknowns[self.bodies.groups.of[object].0];
+    fn moved(&self, prior: &Prior, object: usize, pressed: &Vector3<f64>) -> (Vector, f64) {
+        let unknown = &prior.system.unknowns[self.bodies.groups.of[object].0];
         let twist = unknown.inverse * pressed;
         (shift(&twist, self.state.poses[object].position - unknown.centre), twist.z)
     }

@@ -18,7 +18,7 @@ use super::{
 
 /// Smallest distance of two points whose line gives a normal, metres: that of nearer ones may
 /// point anywhere a moment later.
-const NEAR: f64 = 5e-3;
+pub(super) const NEAR: f64 = 5e-3;
 
 /// A contact at some moment of a frame. World axes, metres.
 #[derive(Clone, Copy, Debug)]

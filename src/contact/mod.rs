@@ -3,8 +3,8 @@
 //!
 //! Closed form and implicit, second order in time, joints eliminated, independent of any order;
 //! objects that nothing can push in a frame coast or stay, exactly. Nothing is learned here, and
-//! nothing is known of the network that corrects it. One frame at a time: the loop over time is in
-//! [`crate::rollout`].
+//! nothing is known of the network that corrects it. One frame at a time, or those of candidates side
+//! by side: the loop over time is in [`crate::rollout`].
 
 mod active;
 mod approach;
@@ -16,6 +16,7 @@ mod eliminated;
 mod elimination;
 mod fall;
 mod forces;
+mod frame;
 mod hold;
 mod index;
 mod joint;
@@ -37,12 +38,13 @@ mod unknown;
 
 pub use bodies::{Bodies, Given, Groups, Jointed, Movable, Partner};
 pub use forces::FrameForces;
+pub use frame::{Frame, FrameProblem, FrameSolution, Touch};
 pub use hold::hold;
 pub use index::{AwakeIndex, GroupIndex, Index, ListIndex, SceneIndex};
 pub use motion::Motion;
 pub use pairs::{PairId, Pairs};
 pub use points::{Contact, MARGIN};
 pub use sight::Sight;
-pub use solver::{FrameProblem, FrameSolution, FrameSolver, Touch};
+pub use solver::FrameSolver;
 pub use subset::Subset;
 pub use tally::Tally;

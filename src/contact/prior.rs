@@ -22,8 +22,8 @@ const OUT_OF_REACH: f64 = -10.0;
 
 /// Where in a frame contacts and joints are taken: half-way for displacements, at the end for
 /// velocities.
-const HALF: f64 = 0.5;
-const WHOLE: f64 = 1.0;
+pub(super) const HALF: f64 = 0.5;
+pub(super) const WHOLE: f64 = 1.0;
 
 /// The prior and what it is made of.
 #[derive(Clone, Debug, Default)]

@@ -1,20 +1,11 @@
-//! One frame: what everything does in it, and the forces that make it so.
-
-use crate::{
-    geometry::Vector,
-    scene::{FrameStep, State},
-};
+//! The equations of frames, and the forces that make things so.
 
 use super::{
-    awake::{Awake, View},
-    bodies::Bodies,
-    coast::coast,
     forces::FrameForces,
-    index::{AwakeIndex, ListIndex},
+    frame::{Frame, FrameProblem, FrameSolution},
+    lone::{self, Waiting},
     march::March,
-    motion::Motion,
-    pairs::PairId,
-    points::{Contact, MARGIN, Scenery, find_contacts},
+    points::Scenery,
     prior::Prior,
     tally::Tally,
 };
@@ -24,72 +15,28 @@ use super::{
 /// 3.4 mm with 1, 1.06 with 4 and 1.07 with 8. One object alone needs no such care.
 const PIECES: usize = 4;
 
-/// What a frame begins with, and what the tool does in it.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameProblem<'a> {
-    /// The bodies that matter.
-    pub bodies: &'a Bodies,
-    /// Where their objects are and how they move.
-    pub state: &'a State,
-    /// What the tool does.
-    pub step: &'a FrameStep,
-    /// Unit vector of the tool's motion, the last one while it stands still.
-    pub axis: Vector,
-}
-
-/// The equations of a frame, and memory to solve them that one frame leaves for the next. The
-/// answer depends on the frame alone.
+/// The equations of frames, and memory to solve them that one leaves for the next. The answer
+/// depends on the frame alone.
 #[derive(Clone, Debug, Default)]
 pub struct FrameSolver {
-    coasts: Vec<Motion>,
-    contacts: Vec<Contact>,
-    awake: Awake,
+    frame: Frame,
+    equations: Equations,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Equations {
     prior: Prior,
     march: March,
-}
-
-/// A solved frame. Only what may do anything but coast enters its equations; all that is public
-/// here is about those objects, under their numbers in `bodies`.
-#[derive(Clone, Copy, Debug)]
-pub struct FrameSolution<'a> {
-    /// The objects that are awake, the tool's parts and the obstacles.
-    pub bodies: &'a Bodies,
-    /// The objects' state as the frame begins.
-    pub state: &'a State,
-    /// What the tool does.
-    pub step: &'a FrameStep,
-    /// Unit vector of the tool's motion, the last one while it stands still.
-    pub axis: Vector,
-    /// What the objects would do if nothing touched or held them.
-    pub coasts: &'a [Motion],
-    /// What they do.
-    pub motions: &'a [Motion],
-    /// Where bodies touch or may come to.
-    pub contacts: &'a [Contact],
-    all: &'a [Motion],
-    awake: &'a Awake,
-}
-
-/// Two bodies that touch, or come to touch, in a frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
-    /// The two.
-    pub pair: PairId,
-    /// Whether they would overlap if the first of them (see [`super::Pairs::bodies`]) only
-    /// coasted, and whether if the second did; one of it at least.
-    pub stops: [bool; 2],
-    /// How deep they are inside each other as the frame begins, metres; negative before they
-    /// touch.
-    pub depth: f64,
-    /// Unit, into the first.
-    pub normal: Vector,
+    waiting: Vec<Waiting>,
+    tally: Tally,
 }
 
 impl FrameSolver {
     /// What all frames so far took.
     pub fn tally(&self) -> Tally {
-        let mut tally = Tally::default();
-        for prior in [&self.prior, &self.march.prior] {
+        let Equations { prior, march, tally, .. } = &self.equations;
+        let mut tally = *tally;
+        for prior in [prior, &march.prior] {
             tally.add(&prior.system.tally);
             tally.add(&prior.velocities.tally);
         }
@@ -98,15 +45,7 @@ impl FrameSolver {
 
     /// What everything does in the frame.
     pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
-        if self.wake(problem) {
-            let Self { coasts, contacts, awake, prior, march } = &mut *self;
-            let scenery = scenery(problem, awake, coasts);
-            match scenery.bodies.objects[..] {
-                [_] => prior.solve(scenery, problem.axis, contacts),
-                _ => march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions),
-            }
-        }
-        self.solution(problem)
+        self.solve_with_forces_of_few(problem, 0).0
     }
 
     /// The same with the forces that, acting over the whole frame, do so.
@@ -114,10 +53,10 @@ impl FrameSolver {
         &'a mut self,
         problem: FrameProblem<'a>,
     ) -> (FrameSolution<'a>, FrameForces<'a>) {
-        self.press(problem, usize::MAX);
-        let solution = self.solution(problem);
-        let FrameSolution { bodies, state, .. } = solution;
-        (solution, FrameForces::new(bodies, state, &self.prior))
+        let Self { frame, equations } = self;
+        equations.begin(&[Some(problem)], std::slice::from_mut(frame));
+        equations.end(problem, frame, usize::MAX);
+        (frame.solution(problem), equations.forces(problem, frame))
     }
 
     /// The same, without the forces where more than `most` objects are awake.
@@ -126,92 +65,84 @@ impl FrameSolver {
         problem: FrameProblem<'a>,
         most: usize,
     ) -> (FrameSolution<'a>, Option<FrameForces<'a>>) {
-        let few = self.press(problem, most);
-        let solution = self.solution(problem);
-        let FrameSolution { bodies, state, .. } = solution;
-        (solution, few.then(|| FrameForces::new(bodies, state, &self.prior)))
+        let Self { frame, equations } = self;
+        equations.begin(&[Some(problem)], std::slice::from_mut(frame));
+        equations.finish(problem, frame, most)
+    }
+
+    /// Begins all `problems` that there are, each on a frame of its own: finds what is awake, and
+    /// solves frames of one object side by side. [`Self::finish`] says what became of them.
+    pub fn begin(&mut self, problems: &[Option<FrameProblem>], frames: &mut [Frame]) {
+        self.equations.begin(problems, frames);
+    }
+
+    /// What everything does in a frame that has begun, and by which forces if at most `most` objects
+    /// are awake.
+    pub fn finish<'a>(
+        &'a mut self,
+        problem: FrameProblem<'a>,
+        frame: &'a mut Frame,
+        most: usize,
+    ) -> (FrameSolution<'a>, Option<FrameForces<'a>>) {
+        self.equations.finish(problem, frame, most)
+    }
+}
+
+impl Equations {
+    fn begin(&mut self, problems: &[Option<FrameProblem>], frames: &mut [Frame]) {
+        let Self { waiting, tally, .. } = self;
+        waiting.clear();
+        for (place, (problem, frame)) in problems.iter().zip(&mut *frames).enumerate() {
+            let Some(problem) = *problem else { continue };
+            let effort = frame.lone.map_or([0; 3], |lone| lone.effort);
+            if frame.wake(problem) && lone::is_lone(&frame.scenery(problem), &frame.contacts) {
+                waiting.push(Waiting { contacts: frame.contacts.len(), effort, place });
+            }
+        }
+        waiting.sort_unstable();
+        lone::solve_each(problems, frames, waiting, tally);
+    }
+
+    fn finish<'a>(
+        &'a mut self,
+        problem: FrameProblem<'a>,
+        frame: &'a mut Frame,
+        most: usize,
+    ) -> (FrameSolution<'a>, Option<FrameForces<'a>>) {
+        let few = self.end(problem, frame, most);
+        (frame.solution(problem), few.then(|| self.forces(problem, frame)))
     }
 
     /// Finds motions, and forces if at most `most` objects are awake; returns whether so few are.
-    fn press(&mut self, problem: FrameProblem, most: usize) -> bool {
-        if !self.wake(problem) {
-            return true;
-        }
-        let Self { coasts, contacts, awake, prior, march } = &mut *self;
-        let scenery = scenery(problem, awake, coasts);
+    fn end(&mut self, problem: FrameProblem, frame: &mut Frame, most: usize) -> bool {
+        let Self { prior, march, .. } = self;
+        let mut motions = std::mem::take(&mut frame.motions);
+        let scenery = frame.scenery(problem);
         let few = scenery.bodies.objects.len() <= most;
-        if let [_] = scenery.bodies.objects[..] {
-            prior.solve(scenery, problem.axis, contacts);
-        } else {
-            if few {
-                prior.press(scenery, problem.axis, contacts, None);
+        match (&scenery.bodies.objects[..], &frame.lone) {
+            ([], _) => {}
+            (_, Some(lone)) => motions.push(lone.motion.unwrap_or(scenery.coasts[0])),
+            ([_], _) => {
+                prior.solve(scenery, problem.axis, &frame.contacts);
+                std::mem::swap(&mut motions, &mut prior.motions);
             }
-            march.run(scenery, contacts, problem.axis, PIECES, &mut prior.motions);
+            _ => {
+                if few {
+                    prior.press(scenery, problem.axis, &frame.contacts, None);
+                }
+                march.run(scenery, &frame.contacts, problem.axis, PIECES, &mut motions);
+            }
         }
+        frame.motions = motions;
         few
     }
 
-    /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
-    /// returns whether anything is.
-    fn wake(&mut self, FrameProblem { bodies, state, step, .. }: FrameProblem) -> bool {
-        let Self { coasts, contacts, awake, prior, .. } = self;
-        coasts.clear();
-        let objects = bodies.objects.iter().zip(&state.velocities);
-        coasts.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
-        find_contacts(Scenery { bodies, state, step, coasts, margin: MARGIN }, contacts);
-        awake.find(bodies, contacts, coasts, step);
-        prior.motions.clear();
-        awake.gather(bodies, state, coasts, contacts)
-    }
-
-    fn solution<'a>(&'a self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
-        let FrameProblem { bodies, state, step, axis } = problem;
-        let View { bodies, state, coasts } = self.awake.view(bodies, state, &self.coasts);
-        FrameSolution {
-            bodies,
-            state,
-            step,
-            axis,
-            coasts,
-            motions: &self.prior.motions,
-            contacts: &self.contacts,
-            all: &self.coasts,
-            awake: &self.awake,
+    fn forces<'a>(&'a self, problem: FrameProblem<'a>, frame: &'a Frame) -> FrameForces<'a> {
+        let Scenery { bodies, state, .. } = frame.scenery(problem);
+        match &frame.lone {
+            Some(lone) => FrameForces::alone(bodies, state, lone),
+            None => FrameForces::new(bodies, state, &self.prior),
         }
-    }
-}
-
-fn scenery<'a>(problem: FrameProblem<'a>, awake: &'a Awake, coasts: &'a [Motion]) -> Scenery<'a> {
-    let View { bodies, state, coasts } = awake.view(problem.bodies, problem.state, coasts);
-    Scenery { bodies, state, step: problem.step, coasts, margin: MARGIN }
-}
-
-impl FrameSolution<'_> {
-    /// Which of the frame's objects an object that is awake is.
-    pub fn listed(&self, object: AwakeIndex) -> ListIndex {
-        self.awake.listed(object)
-    }
-
-    /// Fills `motions` with those of all of the frame's objects, awake or not.
-    pub fn fill(&self, motions: &mut Vec<Motion>) {
-        motions.clear();
-        motions.extend_from_slice(self.all);
-        for (object, motion) in self.motions.iter().enumerate() {
-            motions[self.listed(AwakeIndex(object)).0] = *motion;
-        }
-    }
-
-    /// What touches, or comes to.
-    pub fn touches(&self) -> impl Iterator<Item = Touch> {
-        self.contacts.iter().filter_map(|contact| {
-            let stops = contact.sights().map(|sight| {
-                sight.is_some_and(|sight| {
-                    sight.overlap(&self.coasts[sight.receiver], self.motions) > 0.0
-                })
-            });
-            let Contact { pair, gap, normal, .. } = *contact;
-            stops.contains(&true).then_some(Touch { pair, stops, depth: -gap, normal })
-        })
     }
 }
 
@@ -219,9 +150,11 @@ impl FrameSolution<'_> {
 mod tests {
     use super::*;
     use crate::{
-        contact::{Pairs, Partner, SceneIndex},
-        geometry::Pose,
-        scene::{Body, GRAVITY, Object, Part, Physics, Scene, Tool},
+        contact::{
+            AwakeIndex, Bodies, ListIndex, Motion, PairId, Pairs, Partner, SceneIndex, coast::coast,
+        },
+        geometry::{Pose, Vector},
+        scene::{Body, FrameStep, GRAVITY, Object, Part, Physics, Scene, Tool},
     };
 
     /// A can far off, one that a bar touches and one behind that.

@@ -23,17 +23,16 @@ use super::{
     bodies::Bodies,
     constraint::{Constraint, Tie},
     eliminated::Eliminated,
-    lone,
     motion::Motion,
     tally::Tally,
     unknown::{Quantity, Unknown},
 };
 
 /// Most updates of the weights A.
-const UPDATES: usize = 8;
+pub(super) const UPDATES: usize = 8;
 
 /// A change by an update below this is the last, metres.
-const SETTLED: f64 = 1e-5;
+pub(super) const SETTLED: f64 = 1e-5;
 
 /// The same for displacements of more than [`FEW`] groups, of which a seventh of the time is saved
 /// so: of 4800 sparse and dense trajectories the mean errors of scenes with fixed joints that touch
@@ -180,12 +179,7 @@ impl System {
                 constraint.own = joints.own(constraint);
             }
         }
-        let found = match &mut unknowns[..] {
-            [unknown] if joints.is_empty() && constraints.len() <= lone::MOST => {
-                lone::solve(unknown, constraints, tally)
-            }
-            unknowns => active.solve(unknowns, constraints, ties, joints, tally),
-        };
+        let found = active.solve(unknowns, constraints, ties, joints, tally);
         if !found {
             tally.approached += 1;
             approach.run(unknowns, constraints, ties, joints);

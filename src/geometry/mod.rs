@@ -30,4 +30,4 @@ pub use shape::{Footprint, Shape};
 pub use solid::{Solid, common_area};
 pub use spatial::{Matrix3, Pose3, Turn3, Vector3};
 pub use support_edge::{SupportEdge, support_edge};
-pub use turn::Turn;
+pub use turn::{Turn, sines};

@@ -24,25 +24,8 @@ impl Turn {
 
     /// By `angle`, radians, to the left.
     pub fn by(angle: f64) -> Self {
-        // Nearly all turns of a frame are small, and most tools never turn.
-        if angle == 0.0 {
-            return Self::NONE;
-        }
-        if angle.abs() < SMALL {
-            return Self::small(angle);
-        }
-        let (sin, cos) = angle.sin_cos();
+        let [[sin], [cos]] = sines([angle]);
         Self { sin, cos }
-    }
-
-    /// By less than [`SMALL`]: Taylor series, exact to rounding.
-    fn small(angle: f64) -> Self {
-        let x = angle * angle;
-        let sin =
-            [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0];
-        let cos = [1.0, -0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0];
-        let sum = |terms: [f64; 6]| terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
-        Self { sin: angle * sum(sin), cos: sum(cos) }
     }
 
     /// `v`, turned.
@@ -56,6 +39,46 @@ impl Turn {
     }
 }
 
+/// Sines and cosines of angles, radians: those of one are the same bits beside any others.
+#[inline(always)]
+pub fn sines<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
+    // Nearly all turns of a frame are small, and most tools never turn.
+    let [mut sin, mut cos] = [[0.0; N], [1.0; N]];
+    let (mut none, mut large) = (true, false);
+    for angle in angles {
+        none &= angle == 0.0;
+        large |= angle.abs() >= SMALL;
+    }
+    if large {
+        for k in 0..N {
+            let small = angles[k].abs() < SMALL;
+            (sin[k], cos[k]) = if small { series(angles[k]) } else { angles[k].sin_cos() };
+        }
+    } else if !none {
+        for k in 0..N {
+            (sin[k], cos[k]) = series(angles[k]);
+        }
+    }
+    for k in 0..N {
+        // Not minus zero.
+        sin[k] = if angles[k] == 0.0 { 0.0 } else { sin[k] };
+    }
+    [sin, cos]
+}
+
+/// Sine and cosine of less than [`SMALL`]: Taylor series, exact to rounding.
+#[inline(always)]
+fn series(angle: f64) -> (f64, f64) {
+    let x = angle * angle;
+    let sin = [1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362_880.0, -1.0 / 39_916_800.0];
+    let cos = [1.0, -0.5, 1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0];
+    let (mut s, mut c) = (0.0, 0.0);
+    for k in (0..6).rev() {
+        (s, c) = (s * x + sin[k], c * x + cos[k]);
+    }
+    (angle * s, c)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,7 +87,7 @@ mod tests {
     fn small_turns_are_those_of_sine_and_cosine() {
         for k in -100..=100 {
             let angle = SMALL * f64::from(k) / 100.0;
-            let Turn { sin, cos } = Turn::small(angle);
+            let (sin, cos) = series(angle);
             assert!((sin - angle.sin()).abs() < 2e-17 && (cos - angle.cos()).abs() < 2e-16);
         }
         assert_eq!(Turn::by(0.0), Turn::NONE);

@@ -1,7 +1,7 @@
 //! One frame of many rollouts side by side: solved, corrected by the network, applied.
 
 use crate::{
-    contact::{FrameProblem, FrameSolver, Motion, Tally, Touch},
+    contact::{Frame, FrameProblem, FrameSolver, Motion, Tally, Touch},
     graph::Batch,
 };
 
@@ -39,10 +39,20 @@ pub struct Stepper {
     solver: FrameSolver,
     batch: Batch,
     corrections: Vec<[f64; 6]>,
-    touches: Vec<Touch>,
     /// Of every walk.
-    motions: Vec<Vec<Motion>>,
-    walking: Vec<bool>,
+    frames: Vec<Frame>,
+    steps: Vec<Step>,
+}
+
+/// What a walk does in a frame.
+#[derive(Clone, Debug, Default)]
+struct Step {
+    /// Whether it has one.
+    walking: bool,
+    motions: Vec<Motion>,
+    touches: Vec<Touch>,
+    awake: usize,
+    relations: usize,
 }
 
 impl Stepper {
@@ -53,9 +63,8 @@ impl Stepper {
             solver: FrameSolver::default(),
             batch: Batch::default(),
             corrections: Vec::new(),
-            touches: Vec::new(),
-            motions: Vec::new(),
-            walking: Vec::new(),
+            frames: Vec::new(),
+            steps: Vec::new(),
         }
     }
 
@@ -74,57 +83,53 @@ impl Stepper {
         walks: &mut [W],
         correct: Option<&mut (impl FnMut(&Batch, &mut Vec<[f64; 6]>) + ?Sized)>,
     ) -> bool {
-        let Self { most, solver, batch, corrections, touches, motions, walking } = self;
+        let Self { most, solver, batch, corrections, frames, steps } = self;
         batch.clear();
-        walking.clear();
-        if motions.len() < walks.len() {
-            motions.resize_with(walks.len(), Vec::new);
+        if steps.len() < walks.len() {
+            frames.resize_with(walks.len(), Frame::default);
+            steps.resize_with(walks.len(), Step::default);
         }
-        for ((graph, walk), motions) in walks.iter_mut().enumerate().zip(&mut *motions) {
-            let Some(problem) = walk.next() else {
-                walking.push(false);
-                continue;
-            };
-            walking.push(true);
+        let problems: Vec<_> = walks.iter_mut().map(W::next).collect();
+        solver.begin(&problems, frames);
+        let most = if correct.is_some() { *most } else { 0 };
+        let all = problems.iter().zip(frames).zip(&mut *steps);
+        for (graph, ((problem, frame), step)) in all.enumerate() {
+            step.walking = problem.is_some();
+            let Some(problem) = *problem else { continue };
             let relations = batch.relation_count();
-            let frame = if correct.is_some() {
-                let (frame, forces) = solver.solve_with_forces_of_few(problem, *most);
-                if let Some(forces) = forces {
-                    batch.add(graph as u32, &frame, &forces);
-                }
-                frame
-            } else {
-                solver.solve(problem)
-            };
-            frame.fill(motions);
-            touches.clear();
-            touches.extend(frame.touches());
-            let awake = frame.motions.len();
-            let relations = batch.relation_count() - relations;
-            walk.note(Found { awake, relations, touches });
+            let (frame, forces) = solver.finish(problem, frame, most);
+            if let Some(forces) = forces.filter(|_| correct.is_some()) {
+                batch.add(graph as u32, &frame, &forces);
+            }
+            frame.fill(&mut step.motions);
+            step.touches.clear();
+            step.touches.extend(frame.touches());
+            step.awake = frame.motions.len();
+            step.relations = batch.relation_count() - relations;
         }
-        if !walking.contains(&true) {
+        if problems.iter().all(Option::is_none) {
             return false;
         }
         if let Some(correct) = correct {
             correct(batch, corrections);
-            apply(batch, corrections, motions);
+            apply(batch, corrections, steps);
         }
-        let walks = walks.iter_mut().zip(motions).zip(walking);
-        for ((walk, motions), _) in walks.filter(|(_, walking)| **walking) {
-            walk.advance(motions);
+        for (walk, step) in walks.iter_mut().zip(steps).filter(|(_, step)| step.walking) {
+            let Step { awake, relations, ref touches, .. } = *step;
+            walk.note(Found { awake, relations, touches });
+            walk.advance(&step.motions);
         }
         true
     }
 }
 
 /// Puts the corrected motion of every node in its graph's list.
-fn apply(batch: &Batch, corrections: &[[f64; 6]], motions: &mut [Vec<Motion>]) {
+fn apply(batch: &Batch, corrections: &[[f64; 6]], steps: &mut [Step]) {
     for (node, correction) in batch.nodes.iter().zip(corrections) {
         let mut output = node.prior;
         for (value, change) in output.iter_mut().zip(correction) {
             *value += change;
         }
-        motions[node.graph as usize][node.object.0] = node.decode(&output);
+        steps[node.graph as usize].motions[node.object.0] = node.decode(&output);
     }
 }

@@ -31,25 +31,33 @@ impl Feet {
     /// `axis`, when every point drags with its load along its own motion, and those slower than
     /// `least` as if they were so fast. With d the motion of a point, the weight of its place is
     /// load / max(|d|, `least`). The object leans: the centre of its load lies `lean` metres aside.
-    pub fn drag(
+    pub fn drag(&self, axis: Vector, motion: (Vector, f64), least: f64, lean: Vector) -> Drag {
+        ARCH.get_or_init(Arch::new).dispatch(Moving { feet: self, axis, motion, least, lean })
+    }
+
+    /// The same as part of the function that it is called from, which is compiled for wide vectors
+    /// already.
+    #[inline(always)]
+    pub fn drag_here(
         &self,
         axis: Vector,
         (linear, angular): (Vector, f64),
         least: f64,
         lean: Vector,
     ) -> Drag {
-        let speed = linear.norm();
+        let speed = (linear.x * linear.x + linear.y * linear.y).sqrt();
         // The points of what is round stand for all of its turns, so they turn with the motion.
         let (cos, sin) = match self.round {
             true if speed > 0.0 => (linear.x / speed, linear.y / speed),
             true => (1.0, 0.0),
             false => (axis.x, axis.y),
         };
-        let local = |v: Vector| Vector::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x);
-        let mut drag = self.drag_along(local(linear), angular, least, self.slope(local(lean)));
-        let Drag { first, .. } = drag;
-        drag.first = Vector::new(cos * first.x - sin * first.y, sin * first.x + cos * first.y);
-        drag
+        let (u, v) = (cos * linear.x + sin * linear.y, cos * linear.y - sin * linear.x);
+        let (along, across) = (cos * lean.x + sin * lean.y, cos * lean.y - sin * lean.x);
+        let slope = self.slope(Vector::new(along, across));
+        let [sum, x, y, second] = self.moments([u, v], angular, least, [slope.x, slope.y]);
+        let first = Vector::new(cos * x - sin * y, sin * x + cos * y);
+        Drag { sum, first, second }
     }
 
     /// The same where every point moves by `moved`.
@@ -58,41 +66,21 @@ impl Feet {
         Drag { sum: 1.0 / moved, first, second: self.mean_square / moved }
     }
 
-    /// [`Self::drag`] in the points' own frame.
-    fn drag_along(&self, linear: Vector, angular: f64, least: f64, slope: Vector) -> Drag {
-        let moving = Moving { feet: self, linear, angular, least, slope };
-        ARCH.get_or_init(Arch::new).dispatch(moving)
-    }
-}
-
-/// Points that move, in their own frame: see [`Feet::drag`].
-struct Moving<'a> {
-    feet: &'a Feet,
-    linear: Vector,
-    angular: f64,
-    least: f64,
-    /// How much more of its load than at the centre a point carries per metre.
-    slope: Vector,
-}
-
-impl WithSimd for Moving<'_> {
-    type Output = Drag;
-
-    /// Plain loops over lanes, of which the compiler makes the vectors that the processor has;
-    /// spare points carry nothing.
+    /// The moments in the points' own frame: plain loops over lanes, of which the compiler makes
+    /// the vectors that the processor has; spare points carry nothing. `slope` says how much more of
+    /// its load than at the centre a point carries per metre.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Drag {
-        let Self { feet, linear, angular, least, slope } = self;
+    fn moments(&self, linear: [f64; 2], angular: f64, least: f64, slope: [f64; 2]) -> [f64; 4] {
         let mut sums = [[0.0; LANES]; 5];
-        for block in 0..feet.count.div_ceil(LANES).min(MAX_FEET / LANES) {
+        for block in 0..self.count.div_ceil(LANES).min(MAX_FEET / LANES) {
             let mut lanes = [[0.0; LANES]; 3];
-            for (lanes, of) in lanes.iter_mut().zip([&feet.x, &feet.y, &feet.load]) {
+            for (lanes, of) in lanes.iter_mut().zip([&self.x, &self.y, &self.load]) {
                 lanes.copy_from_slice(&of[block * LANES..(block + 1) * LANES]);
             }
             let [x, y, load] = &lanes;
             for k in 0..LANES {
-                let (u, v) = (linear.x - angular * y[k], linear.y + angular * x[k]);
-                let load = load[k] * (1.0 + slope.x * x[k] + slope.y * y[k]).max(0.0);
+                let (u, v) = (linear[0] - angular * y[k], linear[1] + angular * x[k]);
+                let load = load[k] * (1.0 + slope[0] * x[k] + slope[1] * y[k]).max(0.0);
                 let weight = load * inverse_root((u * u + v * v).max(least * least));
                 sums[0][k] += weight;
                 sums[1][k] += weight * x[k];
@@ -107,7 +95,25 @@ impl WithSimd for Moving<'_> {
         }
         let [sum, x, y, second, whole] = totals;
         let scale = 1.0 / whole;
-        Drag { sum: scale * sum, first: scale * Vector::new(x, y), second: scale * second }
+        [scale * sum, scale * x, scale * y, scale * second]
+    }
+}
+
+/// Points that move: see [`Feet::drag`].
+struct Moving<'a> {
+    feet: &'a Feet,
+    axis: Vector,
+    motion: (Vector, f64),
+    least: f64,
+    lean: Vector,
+}
+
+impl WithSimd for Moving<'_> {
+    type Output = Drag;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Drag {
+        self.feet.drag_here(self.axis, self.motion, self.least, self.lean)
     }
 }
 

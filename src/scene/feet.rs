@@ -193,6 +193,7 @@ impl Feet {
 
     /// How much more of its load than at the centre a point carries per metre, so that the centre
     /// of the load lies at `lean`: the least change that does it (even springs).
+    #[inline(always)]
     pub(super) fn slope(&self, lean: Vector) -> Vector {
         let [xx, xy, yy] = self.stiffness;
         Vector::new(xx * lean.x + xy * lean.y, xy * lean.x + yy * lean.y)

@@ -123,7 +123,7 @@ const DOORS: [(&str, &[&str]); 24] = [
     ("candle_core", &["network", "train"]),
     ("safetensors", &["network", "train"]),
     ("gemm", &["network", "train"]),
-    ("pulp", &["network", "scene"]),
+    ("pulp", &["contact", "network", "scene"]),
     ("clarabel", &["plan"]),
     (
         "rand",

@@ -245,6 +245,49 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
     assert!(tools > 3 && physics > 3, "{tools} {physics}");
 }
 
+/// Candidates of a search: frames of one object are solved side by side.
+#[test]
+fn candidates_end_alike_in_any_order_and_number() {
+    let mut rng = Pcg64::seed_from_u64(10);
+    let mut moved = 0;
+    for _ in 0..20 {
+        let (mut scene, plain) = random_job(&mut rng);
+        scene.objects.truncate(1);
+        scene.joints.clear();
+        let middle = scene.objects[0].pose.position;
+        let candidates = (0..13).map(|_| {
+            let mut motion = plain.motion.clone();
+            let reach = scene.objects[0].shape.footprint().bounding_radius() + 0.1;
+            let way = Pose::new(0.0, 0.0, rng.random_range(-3.1..3.1)).vector(Vector::x());
+            let aside =
+                0.03 * Vector::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
+            let heading = rng.random_range(-3.1..3.1);
+            let at = |travel: f64| Pose { position: middle + aside + travel * way, heading };
+            let settle = true;
+            motion.strokes = vec![Stroke { from: at(-reach), to: at(0.03), duration: 1.0, settle }];
+            Job::stated(&scene, motion)
+        });
+        let jobs: Vec<Job> = candidates.collect();
+        let roll = |jobs: &[Job]| {
+            let mut roller = Roller::new(ModelKind::PRIOR.into(), RollSettings::default());
+            let rolled = roller.roll(&scene, jobs, Record::Frames, None);
+            (rolled, *roller.work(), roller.tally())
+        };
+        let (together, work, tally) = roll(&jobs);
+        for few in 1..6 {
+            let apart: Vec<_> = jobs.chunks(few).flat_map(|jobs| roll(jobs).0).collect();
+            assert_eq!(apart, together, "{few} at a time");
+        }
+        let backwards: Vec<Job> = jobs.iter().rev().cloned().collect();
+        let (mut turned, same_work, same_tally) = roll(&backwards);
+        turned.reverse();
+        assert_eq!((turned, same_work, same_tally), (together.clone(), work, tally));
+        let ends = |k: usize| together[k].frames.last().expect("an end").state.poses[0];
+        moved += (0..13).filter(|&k| ends(k) != scene.objects[0].pose).count();
+    }
+    assert!(moved > 100, "{moved}");
+}
+
 #[test]
 fn a_rollout_without_a_network_is_that_of_one_that_corrects_nothing() {
     let mut rng = Pcg64::seed_from_u64(9);

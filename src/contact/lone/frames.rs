@@ -1,0 +1,289 @@
+//! Lone frames side by side, from their contacts to motions.
+
+use std::sync::OnceLock;
+
+use nalgebra::{SVector, Vector3};
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::{
+    geometry::{Follows, Footprint, Vector},
+    scene::JOINT_ARM,
+};
+
+use super::{
+    super::{
+        bodies::Partner,
+        motion::Motion,
+        points::{Contact, Scenery},
+        prior::{HALF, WHOLE},
+        system::{SETTLED, UPDATES},
+        tally::Tally,
+        twist::shift,
+        unknown::Quantity,
+    },
+    LoneSolution,
+    forces::{self, MOST, Pressing},
+    lanes::{Lanes, Which, dot, left_of, minus, norm},
+    object::{Inverse, Moves, Object},
+    touching::{Look, Touching},
+};
+
+/// The widest vectors of this processor.
+static ARCH: OnceLock<Arch> = OnceLock::new();
+
+/// The frames, with what they begin with in lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Frames<'a, const N: usize> {
+    present: Which<N>,
+    object: Object<'a, N>,
+    contacts: [Touching<N>; MOST],
+}
+
+impl<'a, const N: usize> Frames<'a, N> {
+    /// Puts a lone frame in place `k`.
+    #[inline(always)]
+    pub fn set(&mut self, k: usize, scenery: Scenery<'a>, contacts: &[Contact]) {
+        let Scenery { bodies, state, step, coasts, .. } = scenery;
+        let (body, pose, coast) = (&bodies.objects[0], &state.poses[0], &coasts[0]);
+        let (object, velocity) = (&mut self.object, &state.velocities[0]);
+        self.present.set(k, true);
+        let feet = bodies.feet(0);
+        object.feet[k] = Some(feet);
+        set(&mut object.place, k, pose.position);
+        if !feet.round {
+            let (sin, cos) = pose.heading.sin_cos();
+            set(&mut object.axis, k, Vector::new(cos, sin));
+        }
+        for (lanes, value) in [
+            (&mut object.mass, body.mass),
+            (&mut object.load, body.load()),
+            (&mut object.lean, body.lean),
+            (&mut object.support, body.support),
+            (&mut object.spin, body.spin),
+            (&mut object.duration, step.duration),
+        ] {
+            lanes.0[k] = value;
+        }
+        set(&mut object.coast, k, coast.shift.push(coast.turn));
+        set(&mut object.velocity, k, velocity.linear.push(velocity.angular));
+        let travel = (step.to.position - step.from.position).norm();
+        object.reach.0[k] = coast.shift.norm().max(travel);
+        if let Footprint::Disc { radius } = body.footprint {
+            object.radius.0[k] = radius;
+            object.round.set(k, true);
+        }
+        for (touching, contact) in self.contacts.iter_mut().zip(contacts) {
+            touching.present.set(k, true);
+            set(&mut touching.normal, k, contact.normal);
+            set(&mut touching.arm, k, contact.arm);
+            set(&mut touching.given, k, contact.given);
+            touching.gap.0[k] = contact.gap;
+            touching.friction.0[k] = contact.friction;
+            touching.given_turn.0[k] = contact.given_turn;
+            // Obstacles stay where they are, so only faces and corners matter.
+            if let Partner::Part(index) = contact.with
+                && let Footprint::Disc { radius } = bodies.parts[index].footprint
+            {
+                touching.radius.0[k] = radius;
+                touching.round.set(k, true);
+            }
+            match contact.follows {
+                Follows::Nothing => {}
+                Follows::First => touching.first.set(k, true),
+                Follows::Second => touching.second.set(k, true),
+                Follows::Both => touching.both.set(k, true),
+                Follows::Between(p, q) => {
+                    touching.between.set(k, true);
+                    set(&mut touching.points[0], k, p);
+                    set(&mut touching.points[1], k, q);
+                }
+            }
+        }
+    }
+
+    /// What becomes of all of them; none where the contacts' forces were not found.
+    pub fn solve(&self, tally: &mut Tally) -> [Option<LoneSolution>; N] {
+        ARCH.get_or_init(Arch::new).dispatch(Solving { frames: self, tally })
+    }
+
+    /// The displacements and the forces that make them, and where these were found.
+    #[inline(always)]
+    fn displace(&self, tally: &mut Tally) -> (Moves<N>, [Pressing<N>; MOST], Which<N>) {
+        let Self { present, object, contacts } = self;
+        let mut moves = Moves::begin(object, *present);
+        let mut pressing = [Pressing::default(); MOST];
+        for (pressing, touching) in pressing.iter_mut().zip(contacts) {
+            pressing.present = touching.present;
+            pressing.friction = touching.friction;
+        }
+        let (mut ended, mut presses) = (moves, pressing);
+        let (mut left, mut found) = (*present, *present);
+        for update in 0..UPDATES {
+            if update > 0 {
+                moves.weigh(object, Quantity::Displacement, left, tally);
+            }
+            let look = Look::new(object, &moves, HALF);
+            for (pressing, touching) in pressing.iter_mut().zip(contacts) {
+                if touching.present.any() {
+                    let met = touching.at(object, &look);
+                    pressing.to = met.rows();
+                    pressing.target = touching.target(object, &moves, &met);
+                }
+            }
+            let settled = self.settle(&mut moves, &mut pressing, left, tally);
+            found = found & (settled.found | !left);
+            left = left & found;
+            let ends = match update {
+                0 => Which::NONE,
+                _ if update + 1 == UPDATES => left,
+                _ => left & !settled.changed,
+            };
+            if ends.any() {
+                ended.take(ends, &moves);
+                for (presses, pressing) in presses.iter_mut().zip(&pressing) {
+                    presses.take(ends, pressing);
+                }
+                left = left & !ends;
+            }
+            if !left.any() {
+                break;
+            }
+        }
+        (ended, presses, found)
+    }
+
+    /// The velocities at the frame's end, times its duration, from displacements and their forces, where
+    /// those were `found`: what has come into contact stays there.
+    #[inline(always)]
+    fn release(
+        &self,
+        ended: &Moves<N>,
+        pressed: &[Pressing<N>; MOST],
+        found: &mut Which<N>,
+        tally: &mut Tally,
+    ) -> Moves<N> {
+        let Self { object, contacts, .. } = self;
+        let (mut moves, mut pressing) = (*ended, *pressed);
+        moves.pull(object, Quantity::Velocity, *found);
+        moves.weigh(object, Quantity::Velocity, *found, tally);
+        let look = Look::new(object, ended, WHOLE);
+        for (pressing, touching) in pressing.iter_mut().zip(contacts) {
+            pressing.keep(pressing.presses());
+            if pressing.present.any() {
+                let met = touching.at(object, &look);
+                pressing.to = met.rows();
+                let given = touching.given;
+                pressing.target = [dot(given, met.normal), dot(given, left_of(met.normal))];
+            }
+            tally.constraints += (pressing.present & *found).count();
+        }
+        let (mut end, mut left) = (moves, *found);
+        for update in 0..UPDATES {
+            if update > 0 {
+                moves.weigh(object, Quantity::Velocity, left, tally);
+            }
+            let settled = self.settle(&mut moves, &mut pressing, left, tally);
+            *found = *found & (settled.found | !left);
+            left = left & *found;
+            let ends = if update + 1 == UPDATES { left } else { left & !settled.changed };
+            if ends.any() {
+                end.take(ends, &moves);
+                left = left & !ends;
+            }
+            if !left.any() {
+                break;
+            }
+        }
+        end
+    }
+
+    /// Forces and twists at fixed weights.
+    #[inline(always)]
+    fn settle(
+        &self,
+        moves: &mut Moves<N>,
+        pressing: &mut [Pressing<N>; MOST],
+        of: Which<N>,
+        tally: &mut Tally,
+    ) -> Settled<N> {
+        tally.updates += of.count();
+        let before = moves.twist;
+        let found = forces::solve(moves, pressing, of, tally);
+        let [x, y, turn] = minus(moves.twist, before);
+        let change = norm([x, y]).max(turn.abs() * Lanes::all(JOINT_ARM));
+        Settled { found, changed: Lanes::all(SETTLED).below(change) }
+    }
+}
+
+/// What an update did.
+struct Settled<const N: usize> {
+    /// Where forces were found.
+    found: Which<N>,
+    /// Where the motion has changed by more than what ends the updates.
+    changed: Which<N>,
+}
+
+/// Puts a vector in place `k`.
+#[inline(always)]
+fn set<const K: usize, const N: usize>(
+    lanes: &mut [Lanes<N>; K],
+    k: usize,
+    vector: SVector<f64, K>,
+) {
+    for row in 0..K {
+        lanes[row].0[k] = vector[row];
+    }
+}
+
+/// Frames that are solved in the processor's widest vectors.
+struct Solving<'a, 'b, const N: usize> {
+    frames: &'b Frames<'a, N>,
+    tally: &'b mut Tally,
+}
+
+impl<const N: usize> WithSimd for Solving<'_, '_, N> {
+    type Output = [Option<LoneSolution>; N];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        let Self { frames, tally } = self;
+        let Frames { present, object, contacts } = frames;
+        tally.systems += 2 * present.count();
+        for k in 0..N {
+            if let Some(feet) = object.feet[k] {
+                tally.weigh(feet.count);
+            }
+        }
+        for contact in contacts {
+            tally.constraints += contact.present.count();
+        }
+        let (ended, presses, mut found) = frames.displace(tally);
+        let end = frames.release(&ended, &presses, &mut found, tally);
+        let mut solutions = [None; N];
+        for (k, place) in solutions.iter_mut().enumerate().filter(|&(k, _)| found.has(k)) {
+            let mut solution = LoneSolution::default();
+            let duration = object.duration.0[k];
+            let at =
+                |lanes: &[Lanes<N>; 3]| Vector3::new(lanes[0].0[k], lanes[1].0[k], lanes[2].0[k]);
+            if at(&ended.pressed) != Vector3::zeros() {
+                let (twist, end, arm) = (at(&ended.twist), at(&end.twist), Vector::zeros());
+                solution.motion = Some(Motion {
+                    shift: twist.xy() + arm,
+                    turn: twist.z,
+                    velocity: shift(&end, arm) / duration,
+                    spin: end.z / duration,
+                });
+            }
+            for (c, contact) in presses.iter().enumerate() {
+                let [normal, tangent] = [0, 1].map(|row| contact.force[row].0[k]);
+                solution.normal[c] = normal;
+                solution.pressed[c] = at(&contact.to[0]) * normal + at(&contact.to[1]) * tangent;
+            }
+            solution.inverse = Inverse(ended.inverse.0.map(|lanes| Lanes([lanes.0[k]])));
+            let rows = presses.iter().map(|contact| contact.rows(k)).sum();
+            solution.effort = [ended.updates.0[k] as u32, rows, end.updates.0[k] as u32];
+            *place = Some(solution);
+        }
+        solutions
+    }
+}
