@@ -1,5 +1,6 @@
-//! Style and scripts of the pages that [pushplan](https://crates.io/crates/pushplan) writes: what plays
-//! plans, runs and recordings in a browser, from data that the library puts beside it.
+//! What [pushplan](https://crates.io/crates/pushplan) writes beside its results so that others can play them:
+//! style and scripts of its pages, for plans, runs and recordings in a browser, and scripts that play exported
+//! scenes in MuJoCo.
 
 /// The page's looks.
 pub const STYLE: &str = include_str!("page.css");
@@ -25,3 +26,9 @@ pub const SCRIPT: &str = concat!(
 
 /// The 3-D view, which three.js draws.
 pub const SOLID: &str = include_str!("script/solid.js");
+
+/// Plays exported plans in MuJoCo, in Python.
+pub const REPLAY: &str = include_str!("mujoco/replay.py");
+
+/// Plays exported lever-ups in MuJoCo, in Python.
+pub const LEVER: &str = include_str!("mujoco/lever.py");

@@ -10,7 +10,7 @@ use crate::scene::{GRAVITY, LEVER_FRAMES, LeverJob, Plate, Slab};
 use super::xml::{Xml, numbers};
 
 /// Plays scenes that [`lever_mjcf()`] wrote and says where the plates come to.
-pub const LEVER_SCRIPT: &str = include_str!("lever.py");
+pub const LEVER_SCRIPT: &str = pushplan_page::LEVER;
 
 /// Of a step, seconds. What slides in MuJoCo is pushed off a little, less in finer and harder steps: with
 /// twice this and softer contacts plates slide 3 mm where they hardly do in ours, with this 1.5 mm.

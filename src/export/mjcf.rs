@@ -30,7 +30,7 @@ use super::xml::{Xml, numbers};
 
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
 /// the package `mujoco`, of which 3.3 and 4.0 were tried.
-pub const REPLAY_SCRIPT: &str = include_str!("replay.py");
+pub const REPLAY_SCRIPT: &str = pushplan_page::REPLAY;
 
 /// Of a step, seconds.
 const STEP: f64 = 2.5e-4;

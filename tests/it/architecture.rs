@@ -111,7 +111,7 @@ const DOORS: [(&str, &[&str]); 24] = [
     ("parry2d_f64", &["geometry"]),
     ("parry3d_f64", &["geometry"]),
     ("pushplan_models", &["effect", "belief"]),
-    ("pushplan_page", &["report"]),
+    ("pushplan_page", &["export", "report"]),
     ("pushplan_three", &["report"]),
     ("serde_yaml", &["asset"]),
     ("rapier2d", &["sim"]),
