@@ -36,7 +36,7 @@ const WINDOW: usize = 5;
 const BEYOND: f64 = 2.0;
 
 /// Share of the regulator's corrections that counts once a push was played again: it learned what a filter
-/// gets wrong that never did so. Of shares of 0.3, 0.6 and 1, tried on dense scenes of seed 11.
+/// gets wrong that never did so. Chosen among 0.3, 0.6 and 1 on dense scenes of seed 11.
 const AFTER: f64 = 0.6;
 
 /// What is believed about a scene.
