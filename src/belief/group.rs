@@ -8,8 +8,8 @@
 //! 1986, doi:10.1111/j.2517-6161.1986.tb01412.x). Under the best of them the filter follows the push once
 //! more.
 //!
-//! Anchors and axes are those that all of the push showed. Only where headings are not seen they are found
-//! anew with every assignment: what they look like then depends on it.
+//! Joints are placed where the whole push showed their anchors and axes to be. Where headings are not
+//! seen, that depends on the assignment, so each is played with anchors and axes of its own.
 
 use crate::{
     effect::EffectModel,
