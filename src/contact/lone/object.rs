@@ -222,19 +222,19 @@ impl<const N: usize> Moves<N> {
         for change in minus(self.pressing, before) {
             near = near & change.abs().below(same);
         }
-        let anew = of & !near;
-        if !anew.any() {
+        let stale = of & !near;
+        if !stale.any() {
             return;
         }
         for k in 0..N {
-            if let Some(feet) = object.feet[k].filter(|_| anew.has(k)) {
+            if let Some(feet) = object.feet[k].filter(|_| stale.has(k)) {
                 tally.weigh(feet.count);
             }
         }
         self.weighed = near.pick_each(self.weighed, self.twist);
         self.known = Which::ALL;
         let lean = [object.lean * self.pressing[0], object.lean * self.pressing[1]];
-        let rub = Rub::new(object, self.twist, quantity.stuck(), lean, anew);
+        let rub = Rub::new(object, self.twist, quantity.stuck(), lean, stale);
         let (kept, free) = (self.inverse.0, self.free);
         self.answer(object, rub, quantity);
         self.inverse.0 = near.pick_each(kept, self.inverse.0);
