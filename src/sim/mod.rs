@@ -13,6 +13,7 @@
 //! twelve objects on revolute joints drift by up to 0.4 mm over a metre, pairs by hundredths
 //! (`tests/it/simulation/joint_drift.rs`).
 
+mod asleep;
 mod drive;
 mod footprints;
 mod groups;

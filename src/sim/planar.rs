@@ -15,6 +15,7 @@ use rapier2d::prelude::{
 use crate::geometry::{Pose, Vector, perpendicular, wrap_angle};
 use crate::scene::{Body, FrameStep, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity};
 
+use super::asleep::Asleep;
 use super::drive::World;
 use super::footprints::{collider, vector, weighing};
 use super::groups::{Group, Member};
@@ -47,6 +48,7 @@ pub(super) struct PlanarWorld {
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
     seams: Seams,
+    asleep: Asleep<RigidBodyHandle>,
 }
 
 /// A body and how far it has come since the world was built.
@@ -70,6 +72,9 @@ impl World for PlanarWorld {
             return;
         }
         for tracked in &mut self.bodies {
+            if self.world.bodies[tracked.handle].is_sleeping() {
+                continue;
+            }
             tracked.pressed.hurry(factor);
             let body = &mut self.world.bodies[tracked.handle];
             let (linear, angular) = (body.linvel(), body.angvel());
@@ -93,6 +98,7 @@ impl World for PlanarWorld {
             objects: Vec::with_capacity(scene.objects.len()),
             labels: Vec::new(),
             seams: Seams::default(),
+            asleep: Asleep::none(),
         };
         this.add_tool(motion, tool);
         let groups = Group::of(scene, state, physics);
@@ -106,6 +112,8 @@ impl World for PlanarWorld {
             this.ask_for_contacts(label);
         }
         this.add_joints(scene, physics);
+        let bodies = this.bodies.iter().map(|tracked| tracked.handle);
+        this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
         this
     }
 
@@ -121,8 +129,12 @@ impl World for PlanarWorld {
     }
 
     fn step(&mut self) {
+        self.asleep.wake_near(&mut self.world);
         let dt = f64::from(self.world.integration_parameters.dt);
         for tracked in &mut self.bodies {
+            if self.world.bodies[tracked.handle].is_sleeping() {
+                continue;
+            }
             let body = &mut self.world.bodies[tracked.handle];
             let velocity = velocity(body);
             let inertia = Inertia {

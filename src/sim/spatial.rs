@@ -19,6 +19,7 @@ use crate::scene::{
     Body, Feet, FrameStep, GRAVITY, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity,
 };
 
+use super::asleep::Asleep;
 use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
@@ -52,6 +53,7 @@ pub(super) struct SpatialWorld<const TIPS: bool> {
     /// What the `user_data` of a collider stands for.
     labels: Vec<Body>,
     seams: Seams,
+    asleep: Asleep<RigidBodyHandle>,
 }
 
 /// A body and how far it has come since the world was built.
@@ -81,6 +83,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             upright: Upright::default(),
             labels: Vec::new(),
             seams: Seams::default(),
+            asleep: Asleep::none(),
         };
         for table in [table(physics.table_friction), floor()] {
             this.world.insert_collider(table.user_data(TABLE), None);
@@ -100,6 +103,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             this.ask_for_contacts(label);
         }
         this.add_joints(scene, physics);
+        if TIPS {
+            let bodies = this.bodies.iter().map(|tracked| tracked.handle);
+            this.asleep = Asleep::new(&mut this.world, (&groups, bodies), this.tool);
+        }
         this
     }
 
@@ -120,6 +127,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             let dt = self.world.integration_parameters.dt;
             self.upright.load(&state, &mut self.world.colliders, dt);
         }
+        self.asleep.wake_near(&mut self.world);
         self.world.step_with_events(&self.seams, &());
         for tracked in &mut self.bodies {
             let angle = yaw(self.world.bodies[tracked.handle].rotation());

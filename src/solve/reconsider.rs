@@ -62,7 +62,7 @@ impl Solving<'_> {
             .filter(|one| !known.iter().any(|known| one.candidate.is_variant_of(known)))
             .cloned()
             .collect();
-        let most_behind = self.planner.settings().verified_at_once;
+        let most_behind = self.at_once();
         if others.is_empty() && known.is_empty() {
             distinct(found, count, most_behind)
         } else {
@@ -90,7 +90,7 @@ impl Solving<'_> {
                 self.refuted.push(Way::of(&candidate.pushes));
             }
         }
-        let at_once = self.planner.settings().verified_at_once.max(1);
+        let at_once = self.at_once();
         let mut next = self.shortened(failed);
         next.extend(self.set_down_farther(failed, pushes));
         next.extend(self.aim_again(failed, at_once.div_ceil(2), pushes));

@@ -70,7 +70,17 @@ pub struct Settings {
     pub disturbed: usize,
 }
 
+/// A replay costs as many objects as are on the table, so that so many of them are replayed together at most:
+/// with four objects, eight plans.
+const REPLAYED_AT_ONCE: usize = 32;
+
 impl Settings {
+    /// Plans verified together where so many objects are on the table: fewer in a crowd, where a replay costs more
+    /// than a second look at what came out of the first.
+    pub(super) fn at_once(&self, objects: usize) -> usize {
+        self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
+    }
+
     /// The least that still searches, refines and verifies.
     pub const FIRST_LOOK: Settings = Settings {
         offsets: 3,

@@ -133,14 +133,15 @@ impl<'a> Solving<'a> {
         self.statistics.timing.search += began.elapsed().as_secs_f64();
 
         let began = Instant::now();
-        let at_once = settings.verified_at_once.max(1);
+        let at_once = self.at_once();
+        let most = settings.verified_at_once.max(1) * settings.verify_batches;
         let candidates = self.choose(&found, settings.refined, &[]);
         let first = self.tried.len();
         let mut queue = self.refined(&candidates, self.task.goal, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
 
         let mut failed = Vec::new();
-        for batch in 0..settings.verify_batches {
+        for batch in 0..most.div_ceil(at_once) {
             if batch > 0 {
                 let began = Instant::now();
                 self.reconsider(&mut queue, &failed, &found, (first, pushes));
@@ -152,9 +153,8 @@ impl<'a> Solving<'a> {
                 break;
             }
             let began = Instant::now();
-            let left = settings.verify_batches * at_once;
             self.tell("verify", pushes);
-            self.watch.progress((batch * at_once) as u64, left as u64);
+            self.watch.progress((batch * at_once) as u64, most as u64);
             self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
@@ -164,6 +164,11 @@ impl<'a> Solving<'a> {
             }
             failed = indices;
         }
+    }
+
+    /// Plans verified together.
+    pub(super) fn at_once(&self) -> usize {
+        self.planner.settings().at_once(self.situation.scene.objects.len())
     }
 
     /// Says what is done to plans of so many pushes.
@@ -188,7 +193,7 @@ impl<'a> Solving<'a> {
             extra: settings.refine_extra,
             // Another stream for every length, so that no two share their samples.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
-            enough: settings.verified_at_once,
+            enough: self.at_once(),
             rollouts: REFINE_WORK / self.situation.scene.objects.len().max(1),
         };
         let mut refined = refine(

@@ -1,0 +1,273 @@
+//! What nothing has come near yet sleeps: it costs nothing, and stays where it is to the last bit.
+//!
+//! rapier leaves out what sleeps and wakes it when something awake touches it. But it does so in the middle
+//! of a step, in which a body in 3-D has no table yet and falls by 0.17 mm. So bodies are woken here, before
+//! the step in which that could happen; and they never sleep again, as what is pushed slowly, or turns back,
+//! is slow without being at rest.
+
+use super::groups::Group;
+use crate::scene::Velocity;
+
+/// What is so near to something awake wakes, metres: rapier looks for contacts up to 2 mm away.
+const NEAR: f64 = 4e-3;
+
+/// A box around a body on the table, in the engine's coordinates: metres.
+#[derive(Clone, Copy)]
+pub(super) struct Extent {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Extent {
+    /// Around everything: what is inside nothing yet.
+    const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+
+    fn grown(mut self, low: [f64; 2], high: [f64; 2]) -> Self {
+        for axis in 0..2 {
+            self.low[axis] = self.low[axis].min(low[axis]);
+            self.high[axis] = self.high[axis].max(high[axis]);
+        }
+        self
+    }
+
+    fn is_near(&self, other: &Self, margin: f64) -> bool {
+        (0..2).all(|axis| {
+            self.low[axis] - margin <= other.high[axis]
+                && other.low[axis] - margin <= self.high[axis]
+        })
+    }
+}
+
+/// What sleep needs of an engine's world.
+pub(super) trait Sleepable {
+    /// Names a body.
+    type Handle: Copy;
+
+    /// Where a body is.
+    fn extent(&self, body: Self::Handle) -> Extent;
+
+    /// How far it goes in a step, metres, as fast as it is.
+    fn stride(&self, body: Self::Handle) -> f64;
+
+    /// Whether it sleeps.
+    fn sleeps(&self, body: Self::Handle) -> bool;
+
+    /// Lets a body that rests sleep from the next step on.
+    fn let_sleep(&mut self, body: Self::Handle);
+
+    /// Wakes a body for good.
+    fn wake(&mut self, body: Self::Handle);
+}
+
+/// A speed, m/s or rad/s, of nothing that moves; but at rest nothing in an engine is faster.
+const AT_REST: f64 = 1e-9;
+
+/// A time, seconds, shorter than any step, but some: what moves is eligible for sleep after none.
+const AT_ONCE: f64 = 1e-9;
+
+/// The bodies of a world by whether they sleep.
+pub(super) struct Asleep<H> {
+    asleep: Vec<Sleeper<H>>,
+    awake: Vec<H>,
+}
+
+struct Sleeper<H> {
+    body: H,
+    around: Extent,
+    /// Whether it fell asleep by now.
+    sleeps: bool,
+}
+
+impl<H: Copy> Asleep<H> {
+    /// Lets all of `groups` sleep that rest, whose `bodies` these are; the tool is awake.
+    pub fn new<W: Sleepable<Handle = H>>(
+        world: &mut W,
+        (groups, bodies): (&[Group], impl Iterator<Item = H>),
+        tool: H,
+    ) -> Self {
+        let mut this = Self { asleep: Vec::new(), awake: vec![tool] };
+        for (group, body) in groups.iter().zip(bodies) {
+            if group.velocity == Velocity::default() {
+                let around = world.extent(body);
+                this.asleep.push(Sleeper { body, around, sleeps: false });
+                world.let_sleep(body);
+            } else {
+                this.awake.push(body);
+            }
+        }
+        this
+    }
+
+    /// Nothing sleeps, ever.
+    pub fn none() -> Self {
+        Self { asleep: Vec::new(), awake: Vec::new() }
+    }
+
+    /// Wakes what something awake is near to, or will be in this step.
+    pub fn wake_near<W: Sleepable<Handle = H>>(&mut self, world: &mut W) {
+        let mut k = 0;
+        // What wakes wakes what it is near to in turn.
+        while k < self.awake.len() && !self.asleep.is_empty() {
+            let body = self.awake[k];
+            let (extent, margin) = (world.extent(body), NEAR + world.stride(body));
+            self.asleep.retain_mut(|sleeper| {
+                let sleeps = world.sleeps(sleeper.body);
+                // What the engine woke was hit by something faster than we look ahead.
+                let woken = sleeper.sleeps && !sleeps;
+                sleeper.sleeps = sleeps;
+                let wakes = woken || extent.is_near(&sleeper.around, margin);
+                if wakes {
+                    world.wake(sleeper.body);
+                    self.awake.push(sleeper.body);
+                }
+                !wakes
+            });
+            k += 1;
+        }
+    }
+}
+
+impl Sleepable for rapier2d::prelude::PhysicsWorld {
+    type Handle = rapier2d::prelude::RigidBodyHandle;
+
+    fn extent(&self, body: Self::Handle) -> Extent {
+        let colliders = self.bodies[body].colliders().iter();
+        colliders.fold(Extent::EMPTY, |extent, collider| {
+            let around = self.colliders[*collider].compute_aabb();
+            let of = |x: f32, y: f32| [f64::from(x), f64::from(y)];
+            extent.grown(of(around.mins.x, around.mins.y), of(around.maxs.x, around.maxs.y))
+        })
+    }
+
+    fn stride(&self, body: Self::Handle) -> f64 {
+        f64::from(self.bodies[body].linvel().length() * self.integration_parameters.dt)
+    }
+
+    fn sleeps(&self, body: Self::Handle) -> bool {
+        self.bodies[body].is_sleeping()
+    }
+
+    fn let_sleep(&mut self, body: Self::Handle) {
+        let activation = self.bodies[body].activation_mut();
+        activation.normalized_linear_threshold = AT_REST as f32;
+        activation.angular_threshold = AT_REST as f32;
+        activation.time_until_sleep = AT_ONCE as f32;
+    }
+
+    fn wake(&mut self, body: Self::Handle) {
+        let body = &mut self.bodies[body];
+        body.activation_mut().normalized_linear_threshold = -1.0;
+        body.activation_mut().angular_threshold = -1.0;
+        body.wake_up(true);
+    }
+}
+
+impl Sleepable for rapier3d_f64::prelude::PhysicsWorld {
+    type Handle = rapier3d_f64::prelude::RigidBodyHandle;
+
+    fn extent(&self, body: Self::Handle) -> Extent {
+        let colliders = self.bodies[body].colliders().iter();
+        colliders.fold(Extent::EMPTY, |extent, collider| {
+            let around = self.colliders[*collider].compute_aabb();
+            extent.grown([around.mins.x, around.mins.y], [around.maxs.x, around.maxs.y])
+        })
+    }
+
+    fn stride(&self, body: Self::Handle) -> f64 {
+        self.bodies[body].linvel().length() * self.integration_parameters.dt
+    }
+
+    fn sleeps(&self, body: Self::Handle) -> bool {
+        self.bodies[body].is_sleeping()
+    }
+
+    fn let_sleep(&mut self, body: Self::Handle) {
+        let activation = self.bodies[body].activation_mut();
+        activation.normalized_linear_threshold = AT_REST;
+        activation.angular_threshold = AT_REST;
+        activation.time_until_sleep = AT_ONCE;
+    }
+
+    fn wake(&mut self, body: Self::Handle) {
+        let body = &mut self.bodies[body];
+        body.activation_mut().normalized_linear_threshold = -1.0;
+        body.activation_mut().angular_threshold = -1.0;
+        body.wake_up(true);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use crate::geometry::{Pose, Vector};
+    use crate::scene::{
+        GRAVITY, Job, JointKind, Object, Part, Push, Record, Scene, State, Tool, ToolMotion,
+    };
+    use crate::sim::Simulator;
+
+    const ENGINES: [Simulator; 2] = [Simulator::planar(), Simulator::spatial()];
+
+    fn can(name: &str, x: f64) -> Object {
+        Object::cylinder(name, 0.04, 0.08).at(x, 0.0, 0.0)
+    }
+
+    /// A finger pushes along the x axis, from 0 to 0.2 m.
+    fn pushed(engine: &Simulator, scene: &Scene) -> State {
+        let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
+        let tool = Arc::new(Tool::new("finger", [finger]).expect("one piece"));
+        let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
+        let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
+        engine.run(scene, &Job::stated(scene, motion), Record::Outcome).outcome().clone()
+    }
+
+    #[test]
+    fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
+        for engine in &ENGINES {
+            let alone = pushed(engine, &Scene::new([can("a", 0.1)]));
+            let apart = Scene::new([can("a", 0.1), can("b", 0.4), can("c", 0.5)]);
+            let joint = JointKind::Prismatic { axis: Vector::y(), limits: None };
+            let joined = apart.clone().with_joint([1, 2], joint);
+            let [beside, beside_joined] = [&apart, &joined].map(|scene| pushed(engine, scene));
+            for k in [1, 2] {
+                assert_eq!(beside.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
+                assert_eq!(beside_joined.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
+            }
+            let off = (beside.poses[0].position - alone.poses[0].position).norm();
+            // The planar engine counts in f32 from the middle of all objects.
+            assert!(off < 2e-4, "{:?}: {off}", engine.engine());
+        }
+    }
+
+    #[test]
+    fn what_is_pushed_into_others_wakes_one_after_the_other() {
+        for engine in &ENGINES {
+            let scene = Scene::new([can("a", 0.1), can("b", 0.2), can("c", 0.3)]);
+            let end = pushed(engine, &scene);
+            // The finger's tip ends at 0.21 m; then comes one can after the other.
+            for (k, at) in [0.25, 0.33, 0.41].into_iter().enumerate() {
+                let off = end.poses[k].position - Vector::new(at, 0.0);
+                // They slide on for v² / (2 µ g) = 1.3 mm.
+                assert!(off.norm() < 3e-3, "{:?}: {k} is off by {off:?}", engine.engine());
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_hit_fast_goes_as_far_as_momentum_and_friction_say() {
+        for engine in &ENGINES {
+            let scene = Scene::new([can("a", 0.3), can("b", 0.42)]);
+            let finger = Part::cuboid("finger", [0.02; 3], Pose::new(-1.0, 0.0, 0.0));
+            let tool = Arc::new(Tool::new("finger", [finger]).expect("one piece"));
+            let away = Push { start: Vector::zeros(), direction: 3.0, length: 0.01, speed: 0.1 };
+            let mut job = Job::stated(&scene, ToolMotion::pushes(tool, 0.002, 0.0, &[away], true));
+            job.start.velocities[0].linear = Vector::new(2.0, 0.0);
+            let end = engine.run(&scene, &job, Record::Outcome).outcome().clone();
+            // Equal masses that do not bounce go on at half of the speed.
+            let braking = 2.0 * job.physics.support_friction(1) * GRAVITY;
+            let far = (2.0 * 2.0 - braking * 0.04) / 4.0 / braking;
+            let moved = end.poses[1].position.x - 0.42;
+            assert!((moved - far).abs() < 0.05 * far, "{:?}: {moved} {far}", engine.engine());
+        }
+    }
+}
