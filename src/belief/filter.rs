@@ -1,6 +1,6 @@
 //! The belief, and how it follows what is seen.
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use serde::Serialize;
 
@@ -22,7 +22,7 @@ use super::{
     regulation::{BeliefRegulator, Regulation},
     relative::{relative, spread},
     settings::BeliefSettings,
-    testimony::{Circumstances, Testimony, features},
+    testimony::{Circumstances, Draft, Testimony, Together, features},
     track::{ARM, Track},
     weighing::Stretch,
 };
@@ -35,10 +35,6 @@ const WINDOW: usize = 5;
 /// deviations of their gap.
 const BEYOND: f64 = 2.0;
 
-/// Share of the regulator's corrections that counts once a push was played again: it learned what a filter
-/// gets wrong that never did so. Chosen among 0.3, 0.6 and 1 on dense scenes of seed 11.
-const AFTER: f64 = 0.6;
-
 /// What is believed about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
@@ -46,6 +42,7 @@ pub struct Belief {
     pub(super) tool: Arc<Tool>,
     pub(super) lift: f64,
     pub(super) settings: BeliefSettings,
+    /// As the filter has them.
     pub(super) pairs: Vec<PairBelief>,
     pub(super) track: Track,
     /// Joints that are not to be found out, where the scene states its objects.
@@ -54,8 +51,8 @@ pub struct Belief {
     pub(super) masses: Option<Masses>,
     pub(super) stretch: Option<Stretch>,
     pub(super) push: Option<Push>,
-    /// Whether a push was played again.
-    pub(super) played: bool,
+    /// Of every pair, while a push is taken again after its joints were inferred together.
+    pub(super) together: Option<Vec<Together>>,
     /// Not looked at yet.
     window: Vec<Observation>,
     seen: usize,
@@ -108,7 +105,7 @@ impl Belief {
             masses: None,
             stretch: None,
             push: None,
-            played: false,
+            together: None,
             window: Vec::new(),
             seen: 0,
             history: Vec::new(),
@@ -126,6 +123,11 @@ impl Belief {
         self.regulation.as_ref().map_or(&[], |regulation| &regulation.heard)
     }
 
+    /// What it heard of pushes before their joints were inferred together, where they were.
+    pub fn drafts(&self) -> &[Draft] {
+        self.regulation.as_ref().map_or(&[], |regulation| &regulation.drafts)
+    }
+
     /// Pairs of objects that were near each other at the start and so may be joined: indices, the
     /// lower first.
     pub fn pairs(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
@@ -134,8 +136,19 @@ impl Belief {
 
     /// Of each of these pairs the probabilities of [`JointType::ALL`].
     pub fn probabilities(&self) -> Vec<[f64; 4]> {
-        let map = self.map();
-        self.pairs.iter().map(|pair| pair.probabilities(follows(&map, pair))).collect()
+        let pairs = self.regulated_pairs();
+        let map = likeliest(&self.scene, &pairs, &self.track.state);
+        pairs.iter().map(|pair| pair.probabilities(follows(&map, pair))).collect()
+    }
+
+    /// Pairs as the regulator has them, where it told of them.
+    pub(super) fn regulated_pairs(&self) -> Cow<'_, [PairBelief]> {
+        let Some(regulation) = &self.regulation else { return Cow::Borrowed(&self.pairs) };
+        let mut pairs = self.pairs.clone();
+        for (pair, shares) in pairs.iter_mut().zip(&regulation.shares) {
+            pair.regulated = *shares;
+        }
+        Cow::Owned(pairs)
     }
 
     /// What was believed when, and why.
@@ -173,7 +186,7 @@ impl Belief {
     ) {
         self.seen += window.len();
         let open = assumed.is_none();
-        let mut map = assumed.unwrap_or_else(|| self.map());
+        let mut map = assumed.unwrap_or_else(|| self.filtered_map());
         let Some(mut looked) = self.look(model, window, &map) else { return };
         if open && has_unseen_headings(window) {
             // Without headings a pair is told by how all of its group moves: once more, with the
@@ -227,11 +240,11 @@ impl Belief {
     fn regulate(&mut self, played: (Scene, Job), window: &[Observation], looked: &Looked) {
         let Some(mut regulation) = self.regulation.take() else { return };
         let (scene, job) = (&played.0, &played.1);
-        let now = self.map();
+        let now = self.filtered_map();
         let seen = |k: usize| {
             window.iter().any(|one| one.seen[k].is_some_and(|sight| sight.heading.is_some()))
         };
-        let of = |(pair, told): (&PairBelief, &Told)| {
+        let of = |(p, (pair, told)): (usize, (&PairBelief, &Told))| {
             let around = Circumstances {
                 noise: self.settings.noise,
                 windows: self.history.len(),
@@ -242,17 +255,14 @@ impl Belief {
                 taken: JointType::of(joint_of(&job.physics, pair.between)),
                 follows: follows(&now, pair),
             };
-            told.judged.as_ref().map(|judged| features(pair, judged, &around))
+            let together = self.together.as_ref().map(|together| &together[p]);
+            told.judged.as_ref().map(|judged| features(pair, judged, &around, together))
         };
-        let evidence: Vec<_> = self.pairs.iter().zip(&looked.told).map(of).collect();
+        let told = self.pairs.iter().zip(&looked.told).enumerate();
+        let evidence: Vec<_> = told.map(of).collect();
         let filtered = self.pairs.iter().map(|pair| pair.filtered(follows(&now, pair))).collect();
         let pairs: Vec<[usize; 2]> = self.pairs().collect();
-        let corrections = regulation.take((scene, job), &pairs, &evidence, filtered);
-        let share = if self.played { AFTER } else { 1.0 };
-        for (pair, correction) in self.pairs.iter_mut().zip(corrections) {
-            pair.regulated =
-                correction.map_or(pair.regulated, |logits| logits.map(|logit| share * logit));
-        }
+        regulation.take((scene, job), &pairs, &evidence, filtered);
         self.regulation = Some(regulation);
     }
 
@@ -272,6 +282,12 @@ impl Belief {
     /// The likeliest physics: anchors and axes are where they are with the objects as in
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
+        self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
+    }
+
+    /// The likeliest physics by the filter alone. Windows are rolled out in it: what they tell is then what the
+    /// regulator heard in its lessons.
+    pub(super) fn filtered_map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.pairs, &self.track.state))
     }
 

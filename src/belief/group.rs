@@ -21,6 +21,7 @@ use super::{
     filter::{Belief, follows, joint_of, weigh},
     joints::of_types,
     pair::{JointType, PairBelief},
+    testimony::Together,
 };
 
 /// Most windows that are played again.
@@ -64,19 +65,19 @@ impl Belief {
             return;
         }
         let Some(Push { before, windows }) = self.push.take() else { return };
-        // One that only listens is to hear what windows say as they come.
-        if self.regulation.as_ref().is_some_and(|regulation| regulation.listens()) {
-            return;
-        }
         let seen = !windows.iter().any(|window| has_unseen_headings(window));
         let learnt = seen.then_some(&self.pairs[..]);
-        let types = self.assign(model, &before, &windows, learnt);
+        let (types, together) = self.assign(model, &before, &windows, learnt);
         let mut again = *before;
-        again.played = true;
+        if let (Some(again), Some(first)) = (&mut again.regulation, &self.regulation) {
+            again.keep(first);
+        }
+        again.together = Some(together);
         for window in &windows {
             let physics = again.physics_as(&types, learnt);
             again.take(model, window, Some(physics));
         }
+        again.together = None;
         again.history = std::mem::take(&mut self.history);
         *self = again;
         let probabilities = self.probabilities();
@@ -86,25 +87,26 @@ impl Belief {
     }
 
     /// The likeliest types of all pairs together, searched for from the filter's, their joints where
-    /// they are `learnt` to be.
+    /// they are `learnt` to be; and what was found of every pair on the way.
     fn assign(
         &self,
         model: &dyn EffectModel,
         before: &Belief,
         windows: &[Vec<Observation>],
         learnt: Option<&[PairBelief]>,
-    ) -> Vec<JointType> {
-        let map = self.map();
+    ) -> (Vec<JointType>, Vec<Together>) {
+        let map = self.filtered_map();
         let marginals: Vec<[f64; 4]> =
-            self.pairs.iter().map(|pair| pair.corrected(follows(&map, pair))).collect();
+            self.pairs.iter().map(|pair| pair.filtered(follows(&map, pair))).collect();
         let mut best: Vec<JointType> =
             self.pairs.iter().map(|pair| JointType::of(joint_of(&map, pair.between))).collect();
         let mut most = before.play(model, &best, windows, learnt);
+        let mut played = Played::new(&best, most);
         let mut plays = 1;
         let mut order: Vec<usize> = (0..best.len()).collect();
         let share = |p: usize| marginals[p][best[p] as usize];
         order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
-        for _ in 0..SWEEPS {
+        'search: for _ in 0..SWEEPS {
             let before_sweep = best.clone();
             for &p in &order {
                 let likely =
@@ -114,10 +116,11 @@ impl Belief {
                     kinds.into_iter().flat_map(|kind| self.changed(&best, p, kind)).collect();
                 for option in options {
                     if plays == PLAYS {
-                        return best;
+                        break 'search;
                     }
                     plays += 1;
                     let score = before.play(model, &option, windows, learnt);
+                    played.take(&option, score);
                     if score > most {
                         (most, best) = (score, option);
                     }
@@ -127,7 +130,8 @@ impl Belief {
                 break;
             }
         }
-        best
+        let together = played.found(&best, most, &marginals);
+        (best, together)
     }
 
     /// `types` with one pair of another kind; where that closes a loop, every joint in it gives way in
@@ -187,6 +191,38 @@ impl Belief {
             played.learn(window, &looked);
         }
         log
+    }
+}
+
+/// Of every pair, by type, the best score of assignments in which it is joined so.
+struct Played(Vec<[f64; 4]>);
+
+impl Played {
+    fn new(types: &[JointType], score: f64) -> Self {
+        let mut played = Self(vec![[f64::NEG_INFINITY; 4]; types.len()]);
+        played.take(types, score);
+        played
+    }
+
+    fn take(&mut self, types: &[JointType], score: f64) {
+        for (scores, kind) in self.0.iter_mut().zip(types) {
+            let best = &mut scores[*kind as usize];
+            *best = best.max(score);
+        }
+    }
+
+    /// What was found beside the `best` assignment, whose score is `most`; where a type was not played,
+    /// what the filter thought of it.
+    fn found(&self, best: &[JointType], most: f64, marginals: &[[f64; 4]]) -> Vec<Together> {
+        let of = |((scores, kind), before): ((&[f64; 4], &JointType), &[f64; 4])| {
+            let share = |k: usize| before[k].max(1e-6);
+            let against = |k: usize| match scores[k] == f64::NEG_INFINITY {
+                true => (share(k) / share(*kind as usize)).ln(),
+                false => scores[k] - most,
+            };
+            Together { best: [0, 1, 2, 3].map(against), before: *before }
+        };
+        self.0.iter().zip(best).zip(marginals).map(of).collect()
     }
 }
 

@@ -50,4 +50,4 @@ pub use particles::Numbers;
 pub use regulation::{BeliefRegulator, RegulatorError};
 pub use residual::residual_types;
 pub use settings::BeliefSettings;
-pub use testimony::{EVIDENCE, Testimony};
+pub use testimony::{Draft, EVIDENCE, Testimony};

@@ -11,7 +11,7 @@ use crate::{
     scene::{Job, Scene},
 };
 
-use super::testimony::{EVIDENCE, Testimony};
+use super::testimony::{Draft, EVIDENCE, Testimony};
 
 /// Why a regulator cannot be made.
 #[derive(Debug, Error)]
@@ -89,32 +89,45 @@ impl BeliefRegulator {
 pub(super) struct Regulation {
     by: BeliefRegulator,
     memory: Memory,
-    /// What windows told, if it only listens.
+    /// Of every pair the probabilities of [`JointType::ALL`]; `None` of what it did not tell of.
+    pub shares: Vec<Option<[f64; 4]>>,
+    /// What windows told, if it only listens; and of pushes that were taken again, the first time.
     pub heard: Vec<Testimony>,
+    pub drafts: Vec<Draft>,
 }
 
 impl Regulation {
     pub fn new(by: BeliefRegulator) -> Self {
-        Self { by, memory: Memory::default(), heard: Vec::new() }
+        Self {
+            by,
+            memory: Memory::default(),
+            shares: Vec::new(),
+            heard: Vec::new(),
+            drafts: Vec::new(),
+        }
     }
 
-    /// Whether it corrects nothing and keeps what it hears as training data.
-    pub fn listens(&self) -> bool {
-        self.by.cell.is_none()
+    /// Keeps what `first` heard since this one, where all of that is taken again from here on.
+    pub fn keep(&mut self, first: &Self) {
+        let after = self.heard.len();
+        let windows = first.heard[after..].to_vec();
+        if !windows.is_empty() {
+            self.drafts.push(Draft { after, windows });
+        }
     }
 
-    /// Takes a window: the evidence of every pair of which anything was `told`, and the `job` that
-    /// was played. Returns what to add to the logarithms of the types of these pairs.
+    /// Takes a window: the evidence of every pair of which anything was told, the `job` that was played,
+    /// and the filter's probabilities, which are corrected.
     pub fn take(
         &mut self,
         (scene, job): (&Scene, &Job),
         pairs: &[[usize; 2]],
         evidence: &[Option<[f32; EVIDENCE]>],
         filtered: Vec<[f64; 4]>,
-    ) -> Vec<Option<[f64; 4]>> {
+    ) {
         let told: Vec<bool> = evidence.iter().map(Option::is_some).collect();
         if !told.contains(&true) {
-            return vec![None; pairs.len()];
+            return;
         }
         let effects = self.by.network.effects(scene, job, pairs);
         let mut features = Vec::new();
@@ -122,14 +135,18 @@ impl Regulation {
             features.extend(evidence.unwrap_or([0.0; EVIDENCE]));
             features.extend(effects.iter().map(|x| if evidence.is_some() { *x } else { 0.0 }));
         }
-        match &self.by.cell {
-            Some(cell) => {
-                let pairs = (pairs, scene.objects.len());
-                cell.step(&features, &told, pairs, &mut self.memory)
-            }
-            None => {
-                self.heard.push(Testimony { features, told, filtered });
-                vec![None; pairs.len()]
+        let Some(cell) = &self.by.cell else {
+            self.heard.push(Testimony { features, told, filtered });
+            return;
+        };
+        let objects = scene.objects.len();
+        let corrections = cell.step(&features, &told, (pairs, objects), &mut self.memory);
+        self.shares.resize(pairs.len(), None);
+        for ((shares, correction), filtered) in
+            self.shares.iter_mut().zip(corrections).zip(&filtered)
+        {
+            if let Some(correction) = correction {
+                *shares = Some(correction.of_filtered(filtered));
             }
         }
     }

@@ -24,7 +24,8 @@ impl Belief {
     pub fn sample(&self, rng: &mut impl Rng) -> Physics {
         let state = &self.track.state;
         let mut physics = Physics::stated(&self.scene);
-        let mut order: Vec<&PairBelief> = self.pairs.iter().collect();
+        let pairs = self.regulated_pairs();
+        let mut order: Vec<&PairBelief> = pairs.iter().collect();
         order.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
         let mut sets = DisjointSets::new(self.scene.objects.len());
         for pair in order {

@@ -7,7 +7,7 @@ use crate::scene::Noise;
 use super::pair::{JointType, PairBelief};
 
 /// Number of features of a pair without the effects of propagation.
-pub const EVIDENCE: usize = 42;
+pub const EVIDENCE: usize = 51;
 
 /// What one window told of every pair.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +19,26 @@ pub struct Testimony {
     pub told: Vec<bool>,
     /// The filter's probabilities of [`JointType::ALL`] after the window.
     pub filtered: Vec<[f64; 4]>,
+}
+
+/// What windows told of all pairs before they were looked at together, in a push whose windows were
+/// taken again after that.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Draft {
+    /// How many of the windows that count in the end came before the push.
+    pub after: usize,
+    /// Those of the push.
+    pub windows: Vec<Testimony>,
+}
+
+/// What was found of a pair when whole assignments of joints were compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Together {
+    /// By type, how likely the best assignment is in which the pair is joined so, as a logarithm against
+    /// the best of all.
+    pub best: [f64; 4],
+    /// Probabilities by the filter before that.
+    pub before: [f64; 4],
 }
 
 /// What the filter found of a pair in a window.
@@ -52,11 +72,13 @@ pub(super) struct Circumstances {
 }
 
 /// The features of a pair, all of the order of one: lengths are logarithms against 1 mm, angles
-/// against 0.01 rad, so that noise and motion of any size stay apart.
+/// against 0.01 rad, so that noise and motion of any size stay apart. The last are zero where nothing was
+/// compared `together`.
 pub(super) fn features(
     pair: &PairBelief,
     judged: &Judged,
     around: &Circumstances,
+    together: Option<&Together>,
 ) -> [f32; EVIDENCE] {
     let length = |x: f64| (x / 1e-3).ln_1p();
     let angle = |x: f64| (x / 1e-2).ln_1p();
@@ -78,6 +100,11 @@ pub(super) fn features(
     row.extend(JointType::ALL.map(|kind| number(kind == around.taken)));
     row.push(0.5 * around.cylinders.iter().map(|round| number(*round)).sum::<f64>());
     row.extend([1.0, (around.windows as f64).ln_1p()]);
+    if let Some(Together { best, before }) = together {
+        row.extend(best.map(|log| log.max(-20.0) / 5.0));
+        row.extend(before.map(|share| share.max(1e-6).ln() / 4.0));
+        row.push(1.0);
+    }
     let mut features = [0.0; EVIDENCE];
     for (feature, value) in features.iter_mut().zip(row) {
         *feature = if value.is_finite() { value as f32 } else { 0.0 };

@@ -76,7 +76,7 @@ impl Belief {
         let Stretch { before, seen } = stretch;
         let start = &before.state;
         // With the joints as they are believed by now, where they were then.
-        let mut physics = likeliest(&self.scene, &self.pairs, start);
+        let mut physics = likeliest(&self.scene, &self.regulated_pairs(), start);
         physics.joints.extend(carried(&self.known, &self.scene, start));
         let strokes: Vec<Stroke> = seen.iter().flat_map(|seen| seen.strokes.clone()).collect();
         let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    belief::{Belief, BeliefRegulator, BeliefSettings, JointType, Testimony},
+    belief::{Belief, BeliefRegulator, BeliefSettings, Draft, JointType, Testimony},
     effect::{EffectModel, Network},
     recording::Recording,
     scene::{Joint, Noise, Scene, Span},
@@ -21,17 +21,18 @@ use super::{
     episode::Episode,
     observed::Seeing,
     preset::Preset,
+    tabletop::Solids,
 };
 
 /// Keeps the random numbers of noise apart from those of episodes.
 const SALT: u64 = 0x6E6F_6973_7900_0000;
 
 /// Share of lessons in dense scenes, in which pairs are harder to tell apart; the rest are sparse.
-const DENSE: f64 = 0.67;
+const DENSE: f64 = 0.75;
 
 /// Share of lessons with all types of joints alike, as in the test sets; the others follow the
 /// curriculum of training.
-const MIXED: f64 = 0.6;
+const MIXED: f64 = 0.7;
 
 /// Share of lessons without any noise, and noise of the others: metres, radians.
 const EXACT: f64 = 0.25;
@@ -40,6 +41,9 @@ const HEADING: Span = Span::new(8.7e-4, 5.2e-2);
 
 /// Share of lessons in which the headings of cylinders are not seen.
 const UNMARKED: f64 = 0.33;
+
+/// Share of these in which all objects are cylinders, so that no heading is seen.
+const CYLINDERS: f64 = 0.6;
 
 /// Objects that moved by less are none of a test's business, metres.
 const MOVED: f64 = 0.01;
@@ -57,8 +61,10 @@ pub struct Lesson {
     pub types: Vec<JointType>,
     /// Whether either of the two moved in the end.
     pub moved: Vec<bool>,
-    /// Window by window.
+    /// Window by window; of pushes whose joints were inferred together, as they were taken after that.
     pub windows: Vec<Testimony>,
+    /// What was heard of these pushes while they went on.
+    pub drafts: Vec<Draft>,
 }
 
 impl Lesson {
@@ -69,7 +75,9 @@ impl Lesson {
         let preset = if rng.random_bool(DENSE) { Preset::Dense } else { Preset::Sparse };
         let joints = rng.random_bool(MIXED).then_some(JointRule::Mixed);
         let seeing = seeing(&mut rng);
-        let constraints = Constraints { joints, ..Constraints::default() };
+        let alone = !seeing.round_headings && rng.random_bool(CYLINDERS);
+        let solids = alone.then_some(Solids::Cylinders);
+        let constraints = Constraints { joints, solids, ..Constraints::default() };
         // Numbered by themselves: scenes must not follow from which presets came before.
         let config = DatasetConfig { seed, episodes: u64::MAX, preset, constraints };
         let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
@@ -90,6 +98,19 @@ impl Lesson {
             moved: pairs.iter().map(|pair| pair.iter().any(|k| moved(&recording, *k))).collect(),
             pairs,
             windows: belief.heard().to_vec(),
+            drafts: belief.drafts().to_vec(),
+        }
+    }
+}
+
+impl Lesson {
+    /// Windows as a belief takes them at the end of one of its `drafts`, or else in the end.
+    pub fn windows(&self, draft: Option<usize>) -> Vec<&Testimony> {
+        match draft.and_then(|draft| self.drafts.get(draft)) {
+            Some(Draft { after, windows }) => {
+                self.windows[..*after].iter().chain(windows).collect()
+            }
+            None => self.windows.iter().collect(),
         }
     }
 }

@@ -71,9 +71,11 @@ fn the_cell_computes_what_training_differentiates() {
         let answers = cell.step(row, told, (&pairs, objects), &mut memory);
         for (answer, wanted) in answers.iter().zip(&wanted) {
             let Some(answer) = answer else { continue };
-            for (a, b) in answer.iter().zip(wanted) {
+            for (a, b) in answer.logits.iter().zip(wanted) {
                 assert!((a - f64::from(*b)).abs() < 1e-4, "{a} {b}");
             }
+            let trust = 2.0 / (1.0 + f64::from(-wanted[4]).exp());
+            assert!((answer.trust - trust).abs() < 1e-4, "{} {trust}", answer.trust);
             compared += 1;
         }
     }

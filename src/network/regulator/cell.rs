@@ -2,7 +2,10 @@
 
 use crate::network::{Parameters, Statistics};
 
-use super::{layout::TYPES, weights::RegulatorWeights};
+use super::{
+    layout::{OUTPUTS, TYPES},
+    weights::RegulatorWeights,
+};
 
 /// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any in
 /// training cannot drive it anywhere.
@@ -23,6 +26,37 @@ pub struct Memory {
     hidden: Vec<f32>,
 }
 
+/// What a regulator says of a pair: the filter's logarithms count `trust` times, and `logits` are added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction {
+    /// Of every type.
+    pub logits: [f64; TYPES],
+    /// Between nothing and 2, untrained 1.
+    pub trust: f64,
+}
+
+/// Probabilities of the filter below this count as this.
+pub const LEAST: f64 = 1e-12;
+
+impl Correction {
+    fn of(outputs: &[f32; OUTPUTS]) -> Self {
+        let [logits @ .., trust] = outputs;
+        Self { logits: logits.map(f64::from), trust: f64::from(2.0 * sigmoid(*trust)) }
+    }
+
+    /// The filter's probabilities, corrected.
+    pub fn of_filtered(&self, filtered: &[f64; TYPES]) -> [f64; TYPES] {
+        let mut logs = self.logits;
+        for (log, share) in logs.iter_mut().zip(filtered) {
+            *log += self.trust * share.max(LEAST).ln();
+        }
+        let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let shares = logs.map(|log| (log - most).exp());
+        let all: f64 = shares.iter().sum();
+        shares.map(|share| share / all)
+    }
+}
+
 impl Regulator {
     /// Of these weights.
     pub fn new(weights: &RegulatorWeights) -> Self {
@@ -35,14 +69,14 @@ impl Regulator {
     }
 
     /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
-    /// `pairs` of so many `objects`. Returns the logits of these pairs, `None` for the others.
+    /// `pairs` of so many `objects`. Returns what to correct of these pairs, `None` for the others.
     pub fn step(
         &self,
         features: &[f32],
         told: &[bool],
         (pairs, objects): (&[[usize; 2]], usize),
         memory: &mut Memory,
-    ) -> Vec<Option<[f64; TYPES]>> {
+    ) -> Vec<Option<Correction>> {
         let (f, h) = (self.features, self.width);
         memory.hidden.resize(pairs.len() * h, 0.0);
         let before = memory.hidden.clone();
@@ -69,17 +103,17 @@ impl Regulator {
             }
         }
         let messages = super::cell::messages(&memory.hidden, (pairs, objects), h);
-        let logits = |p: usize| {
+        let correction = |p: usize| {
             let mut hidden = self.get("head.bias").to_vec();
             multiply(&memory.hidden[p * h..][..h], self.get("head.hidden"), &mut hidden);
             multiply(&messages[p * h..][..h], self.get("head.message"), &mut hidden);
             hidden.iter_mut().for_each(|value| *value = value.max(0.0));
-            let mut logits = [0.0; TYPES];
-            logits.copy_from_slice(self.get("head.logits_bias"));
-            multiply(&hidden, self.get("head.logits"), &mut logits);
-            logits.map(f64::from)
+            let mut outputs = [0.0; OUTPUTS];
+            outputs.copy_from_slice(self.get("head.logits_bias"));
+            multiply(&hidden, self.get("head.logits"), &mut outputs);
+            Correction::of(&outputs)
         };
-        (0..pairs.len()).map(|p| told[p].then(|| logits(p))).collect()
+        (0..pairs.len()).map(|p| told[p].then(|| correction(p))).collect()
     }
 
     /// A parameter that reading the weights checked.

@@ -49,7 +49,7 @@ impl RegulatorGraph {
         &self.variables
     }
 
-    /// Logits [P, 4] after every window, and the sum of squared changes of hidden states.
+    /// Outputs [P, 5] after every window, the logits and then the trust before its sigmoid, and the sum of squared changes of hidden states.
     ///
     /// # Errors
     /// Those of candle.
@@ -104,6 +104,7 @@ fn messages(hidden: &Tensor, of: &Unrolled) -> Result<Tensor> {
     sums.index_select(a, 0)? + sums.index_select(b, 0)? - (hidden * 2.0)?
 }
 
-fn sigmoid(x: &Tensor) -> Result<Tensor> {
+/// Of every number.
+pub fn sigmoid(x: &Tensor) -> Result<Tensor> {
     ((x * 0.5)?.tanh()? * 0.5)? + 0.5
 }

@@ -8,6 +8,9 @@ use crate::network::Parameters;
 /// Types of joints, *none* among them.
 pub const TYPES: usize = 4;
 
+/// What the network says of a pair: a logit for every type, and how far the filter is to be trusted.
+pub const OUTPUTS: usize = TYPES + 1;
+
 /// Names and shapes of all parameters for F `features` and H `width`. Of every row of three gates the
 /// order is reset, update, candidate.
 pub fn regulator_layout(features: usize, width: usize) -> Vec<(&'static str, Vec<usize>)> {
@@ -20,13 +23,13 @@ pub fn regulator_layout(features: usize, width: usize) -> Vec<(&'static str, Vec
         ("head.hidden", vec![width, width]),
         ("head.message", vec![width, width]),
         ("head.bias", vec![width]),
-        ("head.logits", vec![width, TYPES]),
-        ("head.logits_bias", vec![TYPES]),
+        ("head.logits", vec![width, OUTPUTS]),
+        ("head.logits_bias", vec![OUTPUTS]),
     ]
 }
 
 /// Random first values from `seed`: uniform with the variance 1 / fan-in; biases and what gives the
-/// logits are zero, so that an untrained regulator leaves the filter as it is.
+/// outputs are zero, so that an untrained regulator leaves the filter as it is.
 pub fn fresh_regulator(features: usize, width: usize, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = regulator_layout(features, width).into_iter().map(|(name, shape)| {

@@ -9,10 +9,12 @@
 //! ```text
 //! r, z, c = x W_x + m W_m + b,  with h W_h
 //! r = sigmoid(r_x + r_h)   z = sigmoid(z_x + z_h)   c = tanh(c_x + r (c_h + b_c))
-//! h' = (1 - z) c + z h     logits = relu(h' V_h + m' V_m + b_v) V + b_l
+//! h' = (1 - z) c + z h     l, t = relu(h' V_h + m' V_m + b_v) V + b_l
 //! ```
 //!
-//! The logits of the four types of joints are added to those of the filter, and start at zero.
+//! The logits l of the four types of joints, which start at zero, are added to the filter's logarithms times
+//! 2 sigmoid(t), which starts at one: a filter that is too sure by itself is not to be outweighed, but
+//! believed less.
 
 mod cell;
 #[cfg(feature = "train")]
@@ -20,8 +22,8 @@ mod graph;
 mod layout;
 mod weights;
 
-pub use cell::{Memory, Regulator};
+pub use cell::{Correction, LEAST, Memory, Regulator};
 #[cfg(feature = "train")]
-pub use graph::{RegulatorGraph, Unrolled};
-pub use layout::{TYPES, fresh_regulator, regulator_layout};
+pub use graph::{RegulatorGraph, Unrolled, sigmoid};
+pub use layout::{OUTPUTS, TYPES, fresh_regulator, regulator_layout};
 pub use weights::{RegulatorCard, RegulatorWeights};

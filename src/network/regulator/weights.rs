@@ -15,7 +15,7 @@ use crate::{
 use super::layout::regulator_layout;
 
 /// Version of the feature layout and file format; a file of another version is refused.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Key of the card in the file's metadata.
 const KEY: &str = "pushplan-regulator";

@@ -3,9 +3,9 @@
 use candle_core::{Device, Result, Tensor};
 
 use crate::{
-    belief::JointType,
+    belief::{JointType, Testimony},
     dataset::Lesson,
-    network::{RegulatorGraph, Statistics, TYPES, Unrolled},
+    network::{LEAST, RegulatorGraph, Statistics, TYPES, Unrolled, sigmoid},
 };
 
 /// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
@@ -18,6 +18,9 @@ const CHANGES: f64 = 1e-6;
 
 /// Normalised features beyond this are cut off, as the cell does.
 const BOUND: f32 = 10.0;
+
+/// A lesson, and those of its windows that are learned from.
+pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
 
 /// Of what a loss is made besides the network's answer.
 pub(super) struct Examples {
@@ -32,13 +35,13 @@ pub(super) struct Examples {
 
 impl Examples {
     /// Lays `lessons` side by side; shorter ones are told nothing at their end.
-    pub fn new(lessons: &[&Lesson], scales: &Statistics) -> Result<Self> {
-        let windows = lessons.iter().map(|lesson| lesson.windows.len()).max().unwrap_or(0);
-        let pairs: usize = lessons.iter().map(|lesson| lesson.pairs.len()).sum();
+    pub fn new(lessons: &[Heard], scales: &Statistics) -> Result<Self> {
+        let windows = lessons.iter().map(|(_, windows)| windows.len()).max().unwrap_or(0);
+        let pairs: usize = lessons.iter().map(|(lesson, _)| lesson.pairs.len()).sum();
         let f = scales.mean.len();
         let mut ends = [Vec::with_capacity(pairs), Vec::with_capacity(pairs)];
         let mut objects = 0;
-        for lesson in lessons {
+        for (lesson, _) in lessons {
             for pair in &lesson.pairs {
                 for (ends, object) in ends.iter_mut().zip(pair) {
                     ends.push((objects + object) as u32);
@@ -57,9 +60,9 @@ impl Examples {
             let [mut known, mut before, mut right] =
                 [vec![0.0; pairs], vec![0.0; pairs * TYPES], vec![0.0; pairs * TYPES]];
             let mut first = 0;
-            for lesson in lessons {
-                let through = lesson.windows.len().saturating_sub(1).max(1) as f32;
-                if let Some(window) = lesson.windows.get(t) {
+            for (lesson, windows) in lessons {
+                let through = windows.len().saturating_sub(1).max(1) as f32;
+                if let Some(window) = windows.get(t) {
                     let late = WEIGHT[0] + (WEIGHT[1] - WEIGHT[0]) * t as f32 / through;
                     for p in (0..lesson.pairs.len()).filter(|p| window.told[*p]) {
                         let row = first + p;
@@ -72,7 +75,7 @@ impl Examples {
                         }
                         for kind in JointType::ALL {
                             let k = kind as usize;
-                            before[row * TYPES + k] = window.filtered[p][k].max(1e-12).ln() as f32;
+                            before[row * TYPES + k] = window.filtered[p][k].max(LEAST).ln() as f32;
                         }
                         right[row * TYPES + lesson.types[p] as usize] = late;
                         weight += f64::from(late);
@@ -93,10 +96,11 @@ impl Examples {
 
     /// Cross entropy of the regulated beliefs, weighed over time, and the smoothness of memories.
     pub fn loss(&self, network: &RegulatorGraph) -> Result<Tensor> {
-        let (logits, changes) = network.forward(&self.unrolled)?;
+        let (outputs, changes) = network.forward(&self.unrolled)?;
         let mut loss = (changes * CHANGES)?;
-        for ((logits, filtered), wanted) in logits.iter().zip(&self.filtered).zip(&self.wanted) {
-            let logits = (logits + filtered)?;
+        for ((outputs, filtered), wanted) in outputs.iter().zip(&self.filtered).zip(&self.wanted) {
+            let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
+            let logits = (outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?)?;
             let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
             loss = (loss - ((shares * wanted)?.sum_all()? / self.weight.max(1e-9))?)?;
         }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     dataset::Lesson,
-    network::{Memory, Regulator, TYPES},
+    network::{Memory, Regulator},
 };
 
 /// Beliefs at the end of lessons, about pairs of which one moved by more than 1 cm.
@@ -59,25 +59,20 @@ pub fn score(regulator: &Regulator, lessons: &[Lesson]) -> RegulatorScore {
     let mut score = RegulatorScore::default();
     for lesson in lessons {
         let mut memory = Memory::default();
-        let mut logits = vec![[0.0; TYPES]; lesson.pairs.len()];
-        let mut filtered = vec![None; lesson.pairs.len()];
+        // By the filter alone and regulated.
+        let mut told = vec![None; lesson.pairs.len()];
         for window in &lesson.windows {
             let pairs = (&lesson.pairs[..], lesson.objects);
             let answers = regulator.step(&window.features, &window.told, pairs, &mut memory);
             for (p, answer) in answers.into_iter().enumerate() {
                 let Some(answer) = answer else { continue };
-                logits[p] = answer;
-                filtered[p] = Some(window.filtered[p]);
+                told[p] = Some([window.filtered[p], answer.of_filtered(&window.filtered[p])]);
             }
         }
         for p in (0..lesson.pairs.len()).filter(|p| lesson.moved[*p]) {
-            let Some(filtered) = filtered[p] else { continue };
+            let Some(both) = told[p] else { continue };
             score.pairs += 1;
-            let mut regulated = filtered;
-            for (share, logit) in regulated.iter_mut().zip(logits[p]) {
-                *share *= logit.exp();
-            }
-            for (which, shares) in [filtered, regulated].into_iter().enumerate() {
+            for (which, shares) in both.into_iter().enumerate() {
                 let all: f64 = shares.iter().sum();
                 let truth = shares[lesson.types[p] as usize];
                 let right = shares.iter().all(|share| *share <= truth);

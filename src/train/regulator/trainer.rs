@@ -21,11 +21,19 @@ use crate::{
     watch::Watch,
 };
 
-use super::{RegulatorCheckpoint, RegulatorLine, RegulatorSettings, batch::Examples, score};
+use super::{
+    RegulatorCheckpoint, RegulatorLine, RegulatorSettings,
+    batch::{Examples, Heard},
+    score,
+};
 
 /// A step's lessons are split into this many parts, differentiated in parallel and added in order, so
 /// that the bits do not depend on the number of threads.
 const REPLICAS: usize = 2;
+
+/// How often a lesson is learned as it was heard until some push was taken again, and not to its end:
+/// beliefs are asked at such moments, too.
+const DRAFTS: f64 = 0.4;
 
 /// Steps after which a run looks whether it is to stop.
 const LOOK: u64 = 20;
@@ -109,7 +117,9 @@ fn open(
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let mut table = Vec::new();
             let mut columns = 1;
-            for window in lessons.iter().flat_map(|lesson| &lesson.windows) {
+            let drafts = lessons.iter().flat_map(|lesson| &lesson.drafts);
+            let first = drafts.flat_map(|draft| &draft.windows);
+            for window in first.chain(lessons.iter().flat_map(|lesson| &lesson.windows)) {
                 columns = window.features.len() / window.told.len().max(1);
                 let rows = window.features.chunks_exact(columns.max(1)).zip(&window.told);
                 rows.filter(|(_, told)| **told).for_each(|(row, _)| table.extend_from_slice(row));
@@ -137,8 +147,15 @@ fn gradients(
 ) -> Result<(f64, Parameters), TrainError> {
     let settings = &run.settings;
     let mut rng = generator(settings.seed, run.optimiser.step);
-    let drawn: Vec<&Lesson> =
-        (0..settings.batch).map(|_| lessons[rng.random_range(0..lessons.len())]).collect();
+    let drawn: Vec<Heard> = (0..settings.batch)
+        .map(|_| {
+            let lesson = lessons[rng.random_range(0..lessons.len())];
+            let drafts = lesson.drafts.len();
+            let draft =
+                (drafts > 0 && rng.random_bool(DRAFTS)).then(|| rng.random_range(0..drafts));
+            (lesson, lesson.windows(draft))
+        })
+        .collect();
     let parts = drawn
         .par_chunks(settings.batch.div_ceil(REPLICAS).max(1))
         .map(|part| replica(run, part))
@@ -159,7 +176,7 @@ fn gradients(
 /// One replica's loss and gradient.
 fn replica(
     run: &RegulatorCheckpoint,
-    lessons: &[&Lesson],
+    lessons: &[Heard],
 ) -> Result<(f64, Parameters), candle_core::Error> {
     let (features, width) = (run.scales.mean.len(), run.settings.width);
     let network = RegulatorGraph::new(features, width, &run.optimiser.weights)?;
