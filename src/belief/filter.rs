@@ -66,7 +66,7 @@ pub struct Step {
     /// Observations until then.
     pub observations: usize,
     /// Of every near pair, in the order of [`Belief::pairs`]: probabilities of [`JointType::ALL`];
-    /// at the end of a push in which headings were not seen, those of all joints inferred together.
+    /// at the end of a push, those of all joints inferred together.
     pub probabilities: Vec<[f64; 4]>,
     /// What the window said for each type, as logarithms against the best; `None` where nothing of
     /// the pair moved.
@@ -285,8 +285,8 @@ impl Belief {
         self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
     }
 
-    /// The likeliest physics by the filter alone. Windows are rolled out in it: what they tell is then what the
-    /// regulator heard in its lessons.
+    /// The likeliest physics by the filter alone. Windows are rolled out in it, so that what they
+    /// tell is what the regulator heard in its lessons.
     pub(super) fn filtered_map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.pairs, &self.track.state))
     }

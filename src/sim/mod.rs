@@ -11,7 +11,8 @@
 //!
 //! Objects with fixed joints between them are one body and hold exactly; the axes of rows of
 //! twelve objects on revolute joints drift by up to 0.4 mm over a metre, pairs by hundredths
-//! (`tests/it/simulation/joint_drift.rs`).
+//! (`tests/it/simulation/joint_drift.rs`). What nothing has come near yet sleeps: it costs nothing and does
+//! not move.
 
 mod asleep;
 mod drive;

@@ -49,7 +49,8 @@ impl RegulatorGraph {
         &self.variables
     }
 
-    /// Outputs [P, 5] after every window, the logits and then the trust before its sigmoid, and the sum of squared changes of hidden states.
+    /// Outputs [P, 5] after every window, the logits and then the trust before its sigmoid, and the sum of
+    /// squared changes of hidden states.
     ///
     /// # Errors
     /// Those of candle.
