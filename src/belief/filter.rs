@@ -273,9 +273,9 @@ impl Belief {
         [change.xy().norm(), change.z.abs()]
     }
 
-    /// The scene as it is thought to stand now, with the likeliest joints.
+    /// The scene as it is thought to stand now, with the joints to predict with.
     pub fn situation(&self) -> Situation {
-        let physics = Arc::new(self.map());
+        let physics = Arc::new(self.supposed());
         Situation { scene: Arc::new(self.scene_now()), start: self.track.state.clone(), physics }
     }
 
@@ -283,6 +283,14 @@ impl Belief {
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
+    }
+
+    /// Physics to predict with: as [`Self::map`], but pairs are joined as soon as joints are likelier than none all
+    /// together, see [`PairBelief::supposed`].
+    pub(super) fn supposed(&self) -> Physics {
+        let pairs = self.regulated_pairs();
+        let types: Vec<JointType> = pairs.iter().map(PairBelief::supposed).collect();
+        self.with_known(of_types(&self.scene, &pairs, &self.track.state, &types))
     }
 
     /// The likeliest physics by the filter alone. Windows are rolled out in it, so that what they

@@ -27,7 +27,7 @@ impl Belief {
     /// Physics to predict with: the likeliest, but for touching pairs of a crowd of which nothing was told
     /// while this is so of most pairs. These are taken for fixed.
     pub fn foreseen(&self) -> Physics {
-        let map = self.map();
+        let map = self.supposed();
         let told = |p: usize| self.history.iter().any(|step| step.evidence[p].is_some());
         let told: Vec<bool> = (0..self.pairs.len()).map(told).collect();
         let untold = told.iter().filter(|told| !**told).count();

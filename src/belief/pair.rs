@@ -173,6 +173,19 @@ impl PairBelief {
         most.map_or(JointType::None, |(kind, _)| kind)
     }
 
+    /// The type to predict with: one of the joints as soon as these are likelier than none all together, though no
+    /// single one may be. Two that are joined somehow go with each other, whatever holds them together.
+    pub fn supposed(&self) -> JointType {
+        match self.regulated {
+            Some([none, joints @ ..]) if none < 0.5 => {
+                let each = JointType::ALL[1..].iter().copied().zip(joints);
+                let most = each.max_by(|a, b| a.1.total_cmp(&b.1));
+                most.map_or(JointType::None, |(kind, _)| kind)
+            }
+            _ => self.likeliest(),
+        }
+    }
+
     /// How much likelier the likeliest joint is than none, as a logarithm.
     pub fn joined(&self) -> f64 {
         let logs = match self.regulated {
@@ -329,5 +342,8 @@ mod tests {
         assert_eq!(pair.likeliest(), JointType::Fixed);
         assert!((pair.joined() - 2.0_f64.ln()).abs() < 1e-12);
         assert_eq!(pair.rank(), pair.joined());
+        pair.regulated = Some([0.4, 0.3, 0.2, 0.1]);
+        assert_eq!(pair.likeliest(), JointType::None);
+        assert_eq!(pair.supposed(), JointType::Fixed);
     }
 }
