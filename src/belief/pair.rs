@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{Pose, Vector},
+    network::LEAST,
     scene::{Joint, JointKind},
 };
 
@@ -75,9 +76,6 @@ const MOST: f64 = 8.0;
 /// first: logarithms.
 const SURE: f64 = 6.0;
 const FIRST: f64 = 10.0;
-
-/// No probability counts as less.
-const LEAST: f64 = 1e-12;
 
 /// Share of pairs that are joined themselves among those that move as if they were and whose motion
 /// also follows from likelier joints: 19 of 88 in dense sets of 9 objects.
@@ -173,8 +171,9 @@ impl PairBelief {
         most.map_or(JointType::None, |(kind, _)| kind)
     }
 
-    /// The type to predict with: one of the joints as soon as these are likelier than none all together, though no
-    /// single one may be. Two that are joined somehow go with each other, whatever holds them together.
+    /// The type to predict with: one of the joints as soon as these are likelier than none all together,
+    /// though no single one may be. Two that are joined somehow go with each other, whatever holds them
+    /// together.
     pub fn supposed(&self) -> JointType {
         match self.regulated {
             Some([none, joints @ ..]) if none < 0.5 => {

@@ -101,9 +101,7 @@ impl Lesson {
             drafts: belief.drafts().to_vec(),
         }
     }
-}
 
-impl Lesson {
     /// Windows as a belief takes them at the end of one of its `drafts`, or else in the end.
     pub fn windows(&self, draft: Option<usize>) -> Vec<&Testimony> {
         match draft.and_then(|draft| self.drafts.get(draft)) {

@@ -37,11 +37,11 @@ pub use parts::{PARTS, PartsCard, PartsWeights};
 #[cfg(feature = "train")]
 pub use predictor::{Inputs, Predictor};
 pub use regulator::{
-    Correction, LEAST, Memory, OUTPUTS, Regulator, RegulatorCard, RegulatorWeights, TYPES,
-    fresh_regulator, regulator_layout,
+    LEAST, Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator,
+    regulator_layout,
 };
 #[cfg(feature = "train")]
-pub use regulator::{RegulatorGraph, Unrolled, sigmoid};
+pub use regulator::{RegulatorGraph, Unrolled};
 pub use tables::{Rows, Tables};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

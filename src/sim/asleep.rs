@@ -19,7 +19,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Around everything: what is inside nothing yet.
+    /// Around nothing yet.
     const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
     fn grown(mut self, low: [f64; 2], high: [f64; 2]) -> Self {
@@ -38,7 +38,8 @@ impl Extent {
     }
 }
 
-/// What sleep needs of an engine's world.
+/// What sleep needs of an engine's world. The two that implement it look alike, but are of two crates with types of
+/// their own.
 pub(super) trait Sleepable {
     /// Names a body.
     type Handle: Copy;
@@ -59,10 +60,11 @@ pub(super) trait Sleepable {
     fn wake(&mut self, body: Self::Handle);
 }
 
-/// A speed, m/s or rad/s, of nothing that moves; but at rest nothing in an engine is faster.
+/// What is slower rests, m/s and rad/s.
 const AT_REST: f64 = 1e-9;
 
-/// A time, seconds, shorter than any step, but some: what moves is eligible for sleep after none.
+/// So long a body must rest before it sleeps, seconds: less than a step. With no time at all rapier would let
+/// what moves sleep, too.
 const AT_ONCE: f64 = 1e-9;
 
 /// The bodies of a world by whether they sleep.

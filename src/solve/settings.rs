@@ -62,7 +62,8 @@ pub struct Settings {
     pub refine_rounds: usize,
     /// Random samples a round besides two for each parameter: they average out contact noise.
     pub refine_extra: usize,
-    /// Plans verified together: about as many as there are threads lose no time.
+    /// Plans verified together: about as many as there are threads lose no time. Fewer where there are more
+    /// than four objects, in more batches.
     pub verified_at_once: usize,
     /// Batches verified for each number of pushes before giving up on it.
     pub verify_batches: usize,
@@ -70,13 +71,13 @@ pub struct Settings {
     pub disturbed: usize,
 }
 
-/// A replay costs as many objects as are on the table, so that so many of them are replayed together at most:
-/// with four objects, eight plans.
+/// A replay costs more the more objects there are, so at most so many, of all plans, are replayed together:
+/// with four on the table, eight plans.
 const REPLAYED_AT_ONCE: usize = 32;
 
 impl Settings {
-    /// Plans verified together where so many objects are on the table: fewer in a crowd, where a replay costs more
-    /// than a second look at what came out of the first.
+    /// Plans verified together where so many objects are on the table: fewer in a crowd, where the first
+    /// ones are often good and their replays are most of the cost.
     pub(super) fn at_once(&self, objects: usize) -> usize {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }

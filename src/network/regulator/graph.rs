@@ -7,7 +7,7 @@ use candle_core::{DType, Device, Result, Tensor, Var, bail};
 
 use crate::network::Parameters;
 
-use super::layout::regulator_layout;
+use super::layout::{TYPES, regulator_layout};
 
 /// Pairs of several episodes side by side, window by window.
 pub struct Unrolled {
@@ -90,6 +90,16 @@ impl RegulatorGraph {
         Ok((all, changes))
     }
 
+    /// Logarithms [P, 4] of the filter's probabilities, corrected by `outputs` [P, 5], up to what is the same for
+    /// all four: what [`Correction::of_filtered`](super::cell::Correction::of_filtered) makes shares of.
+    ///
+    /// # Errors
+    /// Those of candle.
+    pub fn corrected(outputs: &Tensor, filtered: &Tensor) -> Result<Tensor> {
+        let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
+        outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?
+    }
+
     /// A variable that the constructor put there.
     fn get(&self, name: &str) -> &Tensor {
         self.variables[name].as_tensor()
@@ -105,7 +115,6 @@ fn messages(hidden: &Tensor, of: &Unrolled) -> Result<Tensor> {
     sums.index_select(a, 0)? + sums.index_select(b, 0)? - (hidden * 2.0)?
 }
 
-/// Of every number.
-pub fn sigmoid(x: &Tensor) -> Result<Tensor> {
+fn sigmoid(x: &Tensor) -> Result<Tensor> {
     ((x * 0.5)?.tanh()? * 0.5)? + 0.5
 }

@@ -22,8 +22,8 @@ mod graph;
 mod layout;
 mod weights;
 
-pub use cell::{Correction, LEAST, Memory, Regulator};
+pub use cell::{LEAST, Memory, Regulator};
 #[cfg(feature = "train")]
-pub use graph::{RegulatorGraph, Unrolled, sigmoid};
-pub use layout::{OUTPUTS, TYPES, fresh_regulator, regulator_layout};
+pub use graph::{RegulatorGraph, Unrolled};
+pub use layout::{TYPES, fresh_regulator, regulator_layout};
 pub use weights::{RegulatorCard, RegulatorWeights};

@@ -5,7 +5,7 @@ use candle_core::{Device, Result, Tensor};
 use crate::{
     belief::{JointType, Testimony},
     dataset::Lesson,
-    network::{LEAST, RegulatorGraph, Statistics, TYPES, Unrolled, sigmoid},
+    network::{LEAST, RegulatorGraph, Statistics, TYPES, Unrolled},
 };
 
 /// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
@@ -99,8 +99,7 @@ impl Examples {
         let (outputs, changes) = network.forward(&self.unrolled)?;
         let mut loss = (changes * CHANGES)?;
         for ((outputs, filtered), wanted) in outputs.iter().zip(&self.filtered).zip(&self.wanted) {
-            let trust = (sigmoid(&outputs.narrow(1, TYPES, 1)?)? * 2.0)?;
-            let logits = (outputs.narrow(1, 0, TYPES)? + filtered.broadcast_mul(&trust)?)?;
+            let logits = RegulatorGraph::corrected(outputs, filtered)?;
             let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
             loss = (loss - ((shares * wanted)?.sum_all()? / self.weight.max(1e-9))?)?;
         }
