@@ -91,7 +91,7 @@ impl RegulatorGraph {
     }
 
     /// Logarithms [P, 4] of the filter's probabilities, corrected by `outputs` [P, 5], up to what is the same for
-    /// all four: what [`Correction::of_filtered`](super::cell::Correction::of_filtered) makes shares of.
+    /// all four: what `Correction::of_filtered` makes shares of.
     ///
     /// # Errors
     /// Those of candle.
