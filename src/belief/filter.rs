@@ -35,11 +35,6 @@ const WINDOW: usize = 5;
 /// deviations of their gap.
 const BEYOND: f64 = 2.0;
 
-/// Windows up to which predictions are made with what the regulator says: on 30 dense trajectories with
-/// true poses it closes 75 % of the gap to true joints after two where the filter closes 70, after four 87
-/// and 92.
-const FEW_WINDOWS: usize = 2;
-
 /// What is believed about a scene.
 #[derive(Clone, Debug)]
 pub struct Belief {
@@ -288,19 +283,6 @@ impl Belief {
     /// [`Self::situation`].
     pub fn map(&self) -> Physics {
         self.with_known(likeliest(&self.scene, &self.regulated_pairs(), &self.track.state))
-    }
-
-    /// Physics to predict with. After few windows pairs are joined as soon as the regulator finds joints
-    /// likelier than none all together, see [`PairBelief::supposed`]. Later the filter's joints are better:
-    /// each was judged beside the others, so that together they explain what was seen, which types that are
-    /// likeliest one by one may not.
-    pub(super) fn supposed(&self) -> Physics {
-        if self.history.len() > FEW_WINDOWS {
-            return self.filtered_map();
-        }
-        let pairs = self.regulated_pairs();
-        let types: Vec<JointType> = pairs.iter().map(PairBelief::supposed).collect();
-        self.with_known(of_types(&self.scene, &pairs, &self.track.state, &types))
     }
 
     /// The likeliest physics by the filter alone. Windows are rolled out in it, so that what they

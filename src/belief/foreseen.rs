@@ -11,8 +11,12 @@ use crate::{
 
 use super::{
     filter::{Belief, joint_of},
+    joints::of_types,
     pair::{JointType, PairBelief},
 };
+
+/// Windows up to which predictions are made with what the regulator says of each pair by itself.
+const FEW_WINDOWS: usize = 3;
 
 /// Objects with a smaller gap touch as soon as either moves, metres.
 const TOUCHING: f64 = 0.005;
@@ -24,6 +28,19 @@ const CROWD: usize = 5;
 const MOST: f64 = 0.5;
 
 impl Belief {
+    /// Physics to predict with. After few windows pairs are joined as soon as the regulator finds joints
+    /// likelier than none all together, see [`PairBelief::supposed`]. Later the filter's joints are better: each
+    /// was judged beside the others, so that together they explain what was seen, which types that are
+    /// likeliest one by one may not.
+    pub(super) fn supposed(&self) -> Physics {
+        if self.history.len() > FEW_WINDOWS {
+            return self.filtered_map();
+        }
+        let pairs = self.regulated_pairs();
+        let types: Vec<JointType> = pairs.iter().map(PairBelief::supposed).collect();
+        self.with_known(of_types(&self.scene, &pairs, &self.track.state, &types))
+    }
+
     /// Physics to predict with: the likeliest, but for touching pairs of a crowd of which nothing was told
     /// while this is so of most pairs. These are taken for fixed.
     pub fn foreseen(&self) -> Physics {
