@@ -156,8 +156,13 @@ impl Followed<'_> {
             let Some(belief) = belief else { continue };
             let situation = belief.situation();
             let physics = physics(method, &situation);
-            if method != JointMethod::True {
-                types.push((method, self.types(&physics)));
+            match method {
+                JointMethod::True => {}
+                // Not those that are predicted with.
+                JointMethod::Filter | JointMethod::Regulator => {
+                    types.push((method, self.types(&belief.map())));
+                }
+                _ => types.push((method, self.types(&physics))),
             }
             if rest {
                 let physics = match method {
