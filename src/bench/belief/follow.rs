@@ -128,7 +128,7 @@ impl Followed<'_> {
         rest: bool,
     ) -> Checkpoint {
         let (_, filter) = &beliefs[0];
-        let physics = |method: JointMethod, situation: &Situation| match method {
+        let physics = |method: JointMethod, belief: &Belief, situation: &Situation| match method {
             JointMethod::True => self.true_physics(situation),
             JointMethod::None => situation.physics.without_joints(),
             JointMethod::ContactsFixed => Physics {
@@ -142,7 +142,8 @@ impl Followed<'_> {
                 filter.physics_of(&types)
             }
             JointMethod::LastWindow => filter.physics_of(&filter.last_types()),
-            JointMethod::Filter | JointMethod::Regulator => (*situation.physics).clone(),
+            // The likeliest; what is predicted with may be something else.
+            JointMethod::Filter | JointMethod::Regulator => belief.map(),
         };
         let mut types = Vec::new();
         let mut rests = Vec::new();
@@ -155,14 +156,9 @@ impl Followed<'_> {
             };
             let Some(belief) = belief else { continue };
             let situation = belief.situation();
-            let physics = physics(method, &situation);
-            match method {
-                JointMethod::True => {}
-                // Not those that are predicted with.
-                JointMethod::Filter | JointMethod::Regulator => {
-                    types.push((method, self.types(&belief.map())));
-                }
-                _ => types.push((method, self.types(&physics))),
+            let physics = physics(method, belief, &situation);
+            if method != JointMethod::True {
+                types.push((method, self.types(&physics)));
             }
             if rest {
                 let physics = match method {
