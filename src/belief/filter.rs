@@ -55,7 +55,7 @@ pub struct Belief {
     pub(super) together: Option<Vec<Together>>,
     /// Not looked at yet.
     window: Vec<Observation>,
-    seen: usize,
+    pub(super) seen: usize,
     pub(super) history: Vec<Step>,
     pub(super) regulation: Option<Regulation>,
 }
@@ -213,8 +213,8 @@ impl Belief {
     /// Takes what was seen in a window into where everything is and the geometry of all hypotheses.
     pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
         self.track.follow(&looked.base, window);
-        for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
-            pair.learn(instants);
+        for (pair, Told { instants, ends, doubts, .. }) in self.pairs.iter_mut().zip(&looked.told) {
+            pair.learn(instants, doubts);
             let between = pair.between;
             pair.recount(&ends.map(|ends| {
                 [0, 1].map(|k| Some(ends[k]? - self.track.state.poses[between[k]].heading))

@@ -4,19 +4,27 @@
 //! likelier than every single joint. But in a crowd two that touch mostly go along with each other at first,
 //! whatever holds them together, so a prediction that takes them for one body is then off by less.
 
+use std::sync::Arc;
+
 use crate::{
-    geometry::clearance,
-    scene::{DisjointSets, Physics},
+    effect::EffectModel,
+    geometry::{Pose, clearance},
+    scene::{DisjointSets, Job, Physics, Record, ToolMotion},
 };
 
 use super::{
+    chance::generator,
     filter::{Belief, joint_of},
     joints::of_types,
+    median::{geometric_median, weighted_median},
     pair::{JointType, PairBelief},
 };
 
 /// Windows up to which predictions are made with what the regulator says of each pair by itself.
 const FEW_WINDOWS: usize = 3;
+
+/// So many physics are drawn to foresee with, and the likeliest counts as much as so many of them.
+const DRAWN: usize = 24;
 
 /// Objects with a smaller gap touch as soon as either moves, metres.
 const TOUCHING: f64 = 0.005;
@@ -39,6 +47,38 @@ impl Belief {
         let pairs = self.regulated_pairs();
         let types: Vec<JointType> = pairs.iter().map(PairBelief::supposed).collect();
         self.with_known(of_types(&self.scene, &pairs, &self.track.state, &types))
+    }
+
+    /// Where all objects are foreseen to be after a motion of the tool, which begins where they are thought
+    /// to be: of each, the place from which it is nearest on average to where drawn physics, and the
+    /// likeliest, take it.
+    pub fn foresee(&self, model: &dyn EffectModel, motion: ToolMotion) -> Vec<Pose> {
+        let mut rng = generator(self.seen as u64, DRAWN as u64);
+        let likeliest = if std::env::var("FORE").is_ok() { self.foreseen() } else { self.supposed() };
+        let drawn = (0..DRAWN).map(|_| self.sample(&mut rng));
+        let start = &self.track.state;
+        let motion = Arc::new(motion);
+        let job = |physics| Job {
+            start: start.clone(),
+            motion: ToolMotion::clone(&motion),
+            physics: Arc::new(physics),
+        };
+        let jobs: Vec<Job> = std::iter::once(likeliest).chain(drawn).map(job).collect();
+        let rolled = model.rollout(&self.scene_now(), &jobs, Record::Outcome);
+        let likely: f64 = std::env::var("LIKELY").map_or(4.0, |s| s.parse().unwrap());
+        let weight = |k: usize| if k == 0 { likely } else { 1.0 };
+        (0..start.poses.len())
+            .map(|object| {
+                let ends: Vec<(f64, Pose)> = rolled
+                    .iter()
+                    .enumerate()
+                    .map(|(k, trajectory)| (weight(k), trajectory.outcome().poses[object]))
+                    .collect();
+                let places: Vec<_> = ends.iter().map(|(weight, end)| (*weight, end.position)).collect();
+                let headings = ends.iter().map(|(weight, end)| (*weight, end.heading)).collect();
+                Pose { position: geometric_median(&places), heading: weighted_median(headings) }
+            })
+            .collect()
     }
 
     /// Physics to predict with: the likeliest, but for touching pairs of a crowd of which nothing was told

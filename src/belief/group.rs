@@ -96,6 +96,10 @@ impl Belief {
             again.take(model, window, Some(physics));
         }
         again.together = None;
+        // Rolled out with its stops a joint never tells of them.
+        for (again, first) in again.pairs.iter_mut().zip(&self.pairs) {
+            again.keep_stops(first);
+        }
         again.history = std::mem::take(&mut self.history);
         *self = again;
         self.push = (!ends).then_some(push);

@@ -43,6 +43,8 @@ pub(super) struct Told {
     /// out to its end; `None` for those that were seen then.
     pub instants: [Vec<Instant>; 4],
     pub ends: [[Option<f64>; 2]; 4],
+    /// By type, what is not known of the rollout; `None` where nothing of the pair was seen or moved.
+    pub doubts: [Option<Doubt>; 4],
 }
 
 impl Belief {
@@ -78,10 +80,14 @@ impl Belief {
             let instants =
                 by_type.map(|rolled| self.instants(pair.between, rolled, window, &moved));
             let places = by_type.map(|rolled| self.track.places(rolled, window, &moved));
-            let judged = tells(pair).then(|| self.judge(pair, &places, &instants, &moved));
+            let doubts = match tells(pair) {
+                true => self.doubts(pair, &instants, &moved),
+                false => [None; 4],
+            };
+            let judged = tells(pair).then(|| self.judge(pair, &places, &instants, &doubts));
             let ends =
                 by_type.map(|rolled| pair.between.map(|k| Track::unseen_end(k, rolled, window)));
-            Told { judged, instants, ends }
+            Told { judged, instants, ends, doubts }
         };
         let told = self.pairs.iter().enumerate().map(tell).collect();
         Some(Looked { base, told, moved })
@@ -102,9 +108,10 @@ impl Belief {
         let tell = |pair: &PairBelief| {
             let instants = self.instants(pair.between, &base, window, &moved);
             let instants = JointType::ALL.map(|_| instants.clone());
-            let judged = Some(self.judge(pair, &[0.0; 4], &instants, &moved));
+            let doubts = self.doubts(pair, &instants, &moved);
+            let judged = Some(self.judge(pair, &[0.0; 4], &instants, &doubts));
             let ends = pair.between.map(|k| Track::unseen_end(k, &base, window));
-            Told { judged, instants, ends: [ends; 4] }
+            Told { judged, instants, ends: [ends; 4], doubts }
         };
         let told = self.pairs.iter().map(tell).collect();
         let places = self.track.places(&base, window, &moved);
@@ -166,21 +173,18 @@ impl Belief {
         instants
     }
 
-    /// What a window says of every hypothesis about a pair, rolled out by type; by type too, how likely
-    /// the `places` of all objects are.
-    fn judge(
+    /// What is not known of how a pair was rolled out, by type; `None` where it was not seen.
+    fn doubts(
         &self,
         pair: &PairBelief,
-        places: &[f64; 4],
         instants: &[Vec<Instant>; 4],
         moved: &[f64],
-    ) -> Judged {
+    ) -> [Option<Doubt>; 4] {
         let [a, b] = pair.between;
         let [first, second] = [a, b].map(|k| &self.track.state.poses[k]);
         let before = relative(first, second);
-        let by_type = JointType::ALL.map(|kind| {
-            let instants = &instants[kind as usize];
-            let last = instants.last()?;
+        JointType::ALL.map(|kind| {
+            let last = instants[kind as usize].last()?;
             let variance = |which: usize| {
                 // Errors of headings that are not seen turn all of a pair's frame alike.
                 let known = |k: usize| which == 0 || last.headings[k];
@@ -191,7 +195,25 @@ impl Belief {
             let change: Vector3<f64> = relative(&last.rolled[0], &last.rolled[1]) - before;
             let relative = change.xy().norm().hypot(ARM * change.z);
             let unseen = last.headings == [false; 2];
-            let doubt = Doubt::new(start, relative, moved[a].max(moved[b]), ARM, unseen);
+            Some(Doubt::new(start, relative, moved[a].max(moved[b]), ARM, unseen))
+        })
+    }
+
+    /// What a window says of every hypothesis about a pair, rolled out by type with these `doubts`; by
+    /// type too, how likely the `places` of all objects are.
+    fn judge(
+        &self,
+        pair: &PairBelief,
+        places: &[f64; 4],
+        instants: &[Vec<Instant>; 4],
+        doubts: &[Option<Doubt>; 4],
+    ) -> Judged {
+        let [first, second] = pair.between.map(|k| &self.track.state.poses[k]);
+        let before = relative(first, second);
+        let by_type = JointType::ALL.map(|kind| {
+            let instants = &instants[kind as usize];
+            let unseen = instants.last()?.headings == [false; 2];
+            let doubt = doubts[kind as usize].as_ref()?;
             Some((instants, doubt, PLACES[usize::from(unseen)] * places[kind as usize]))
         });
         let of = |kind: JointType| by_type[kind as usize].as_ref();

@@ -11,7 +11,13 @@ use crate::{
     scene::{Joint, JointKind},
 };
 
-use super::{density::log_sum, fit::Fit, window::Instant};
+use super::{
+    density::log_sum,
+    fit::Fit,
+    relative::relative,
+    stops::Stops,
+    window::{Doubt, Instant},
+};
 
 /// Types of joints, *none* among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -86,6 +92,13 @@ const FOLLOWS: f64 = 0.2;
 pub(super) struct Hypothesis {
     pub log: f64,
     pub fit: Fit,
+    pub stops: Stops,
+}
+
+impl Hypothesis {
+    fn new(log: f64, fit: Fit) -> Self {
+        Self { log, fit, stops: Stops::new() }
+    }
 }
 
 /// What is believed about a pair of objects.
@@ -94,6 +107,8 @@ pub(super) struct PairBelief {
     /// Indices of the two in the scene, the lower first.
     pub between: [usize; 2],
     pub hypotheses: Vec<Hypothesis>,
+    /// The second in the frame of the first, at the start.
+    start: Vector3<f64>,
     /// The point midway between their closest points, and the direction of their line of centres, both
     /// in the frame of the first, at the start.
     midway: Vector,
@@ -118,22 +133,22 @@ impl PairBelief {
         };
         let line = seen.y.atan2(seen.x);
         let mut hypotheses = vec![
-            Hypothesis { log: prior(JointType::None).ln(), fit: Fit::none() },
-            Hypothesis { log: prior(JointType::Fixed).ln(), fit: Fit::fixed(&seen, spread) },
+            Hypothesis::new(prior(JointType::None).ln(), Fit::none()),
+            Hypothesis::new(prior(JointType::Fixed).ln(), Fit::fixed(&seen, spread)),
         ];
         for (share, far) in [REGULAR, 1.0 - REGULAR].into_iter().zip(MIDWAY) {
             let fit = Fit::revolute(&seen, spread, midway, far);
-            hypotheses.push(Hypothesis { log: (prior(JointType::Revolute) * share).ln(), fit });
+            hypotheses.push(Hypothesis::new((prior(JointType::Revolute) * share).ln(), fit));
         }
         let fit = Fit::prismatic(&seen, spread, line, ALONG[0]);
-        hypotheses.push(Hypothesis { log: (prior(JointType::Prismatic) * REGULAR).ln(), fit });
+        hypotheses.push(Hypothesis::new((prior(JointType::Prismatic) * REGULAR).ln(), fit));
         for k in 0..DIRECTIONS {
             let angle = line + std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
             let fit = Fit::prismatic(&seen, spread, angle, ALONG[1]);
             let share = (1.0 - REGULAR) / DIRECTIONS as f64;
-            hypotheses.push(Hypothesis { log: (prior(JointType::Prismatic) * share).ln(), fit });
+            hypotheses.push(Hypothesis::new((prior(JointType::Prismatic) * share).ln(), fit));
         }
-        Self { between, hypotheses, midway, line, regulated: None }
+        Self { between, hypotheses, start: seen, midway, line, regulated: None }
     }
 
     /// Probabilities of [`JointType::ALL`]: the regulator's, or else the filter's.
@@ -225,8 +240,19 @@ impl PairBelief {
     /// The joint of that type where it most likely is, while the two objects stand at these poses; its
     /// `limits` are not known. `None` for no joint.
     pub fn joint(&self, kind: JointType, poses: [&Pose; 2]) -> Option<Joint> {
-        let fit = &self.best(kind)?.fit;
-        Some(Joint::new(self.between, fit.joint(poses)?))
+        let best = self.best(kind)?;
+        Some(Joint::new(self.between, self.stopped(best, best.fit.joint(poses)?, poses)))
+    }
+
+    /// A joint of a hypothesis, with its stops, while the two objects stand at these poses.
+    pub fn stopped(&self, of: &Hypothesis, kind: JointKind, [one, other]: [&Pose; 2]) -> JointKind {
+        let now = relative(one, other);
+        let limits = of.stops.limits(&of.fit, &self.start, &now);
+        match kind {
+            JointKind::Fixed => JointKind::Fixed,
+            JointKind::Revolute { at, .. } => JointKind::Revolute { at, limits },
+            JointKind::Prismatic { axis, .. } => JointKind::Prismatic { axis, limits },
+        }
     }
 
     /// How far the likeliest anchor is from the point midway between the two, metres, and the sine of
@@ -267,9 +293,20 @@ impl PairBelief {
     }
 
     /// Takes what was seen in a window, rolled out by type, into the geometry of every hypothesis.
-    pub fn learn(&mut self, instants: &[Vec<Instant>; 4]) {
-        for Hypothesis { fit, .. } in &mut self.hypotheses {
-            fit.learn(&instants[fit.kind as usize]);
+    pub fn learn(&mut self, instants: &[Vec<Instant>; 4], doubts: &[Option<Doubt>; 4]) {
+        for Hypothesis { fit, stops, .. } in &mut self.hypotheses {
+            let instants = &instants[fit.kind as usize];
+            fit.learn(instants);
+            if let Some(doubt) = &doubts[fit.kind as usize] {
+                stops.learn(fit, &self.start, instants, doubt);
+            }
+        }
+    }
+
+    /// Takes over where joints stop.
+    pub fn keep_stops(&mut self, of: &Self) {
+        for (mine, theirs) in self.hypotheses.iter_mut().zip(&of.hypotheses) {
+            mine.stops = theirs.stops;
         }
     }
 

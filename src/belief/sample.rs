@@ -73,8 +73,9 @@ fn draw(pair: &PairBelief, poses: [&Pose; 2], rng: &mut impl Rng) -> Option<Join
     let of: Vec<_> = pair.hypotheses.iter().filter(|one| one.fit.kind == kind).collect();
     let most = of.iter().map(|one| one.log).fold(f64::NEG_INFINITY, f64::max);
     let weights: Vec<f64> = of.iter().map(|one| (one.log - most).exp()).collect();
-    let fit = drawn(&of.get(weighted(rng, &weights))?.fit, rng);
-    Some(Joint::new(pair.between, fit.joint(poses)?))
+    let drawn_one = of.get(weighted(rng, &weights))?;
+    let fit = drawn(&drawn_one.fit, rng);
+    Some(Joint::new(pair.between, pair.stopped(drawn_one, fit.joint(poses)?, poses)))
 }
 
 /// The geometry, and the errors of unseen headings, drawn from their Gaussian.

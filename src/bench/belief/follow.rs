@@ -161,11 +161,13 @@ impl Followed<'_> {
                 types.push((method, self.types(&physics)));
             }
             if rest {
-                let physics = match method {
-                    JointMethod::Filter | JointMethod::Regulator => belief.foreseen(),
-                    _ => physics,
+                let ends = match method {
+                    JointMethod::Filter | JointMethod::Regulator => {
+                        belief.foresee(self.model, self.motion_after(count))
+                    }
+                    _ => self.rest(count, &situation, physics),
                 };
-                rests.push(Rest { by: method, error: self.rest(count, &situation, physics) });
+                rests.push(Rest { by: method, error: self.error(&ends) });
             }
         }
         let probabilities =
@@ -245,20 +247,28 @@ impl Followed<'_> {
         Physics { joints, ..(*situation.physics).clone() }
     }
 
-    /// Error of the rest of the way, mean over all objects, metres.
-    fn rest(&self, count: usize, situation: &Situation, physics: Physics) -> f64 {
+    /// What the tool does after `count` observations.
+    fn motion_after(&self, count: usize) -> ToolMotion {
         let strokes = self.observations[count..].iter().flat_map(|one| one.strokes.clone());
-        let motion = ToolMotion {
+        ToolMotion {
             tool: Arc::clone(&self.recording.tool),
             lift: self.recording.lift,
             strokes: strokes.collect(),
-        };
+        }
+    }
+
+    /// Where the rest of the way takes all objects under some physics.
+    fn rest(&self, count: usize, situation: &Situation, physics: Physics) -> Vec<Pose> {
+        let motion = self.motion_after(count);
         let job = Job { start: situation.start.clone(), motion, physics: Arc::new(physics) };
         let rolled = self.model.rollout(&situation.scene, &[job], Record::Outcome);
         let end = rolled.first().and_then(|trajectory| trajectory.frames.last());
-        let predicted = end.map_or(&situation.start.poses, |frame| &frame.state.poses);
-        let truth = self.poses(self.observations.len());
-        let errors = predicted.iter().zip(truth);
+        end.map_or_else(|| situation.start.poses.clone(), |frame| frame.state.poses.clone())
+    }
+
+    /// How far off objects are predicted to end, mean over all of them, metres.
+    fn error(&self, predicted: &[Pose]) -> f64 {
+        let errors = predicted.iter().zip(self.poses(self.observations.len()));
         mean(&errors.map(|(a, b)| (a.position - b.position).norm()).collect::<Vec<_>>())
     }
 
