@@ -25,10 +25,12 @@ pub(super) fn geometric_median(points: &[(f64, Vector)]) -> Vector {
     let mut at = points.iter().map(|(weight, p)| *weight * p).sum::<Vector>() / all;
     for _ in 0..STEPS {
         let near = |(weight, p): &(f64, Vector)| (weight / (p - at).norm().max(1e-9), *p);
-        let (sum, of) = points.iter().map(near).fold(
-            (Vector::zeros(), 0.0),
-            |(sum, of): (Vector, f64), (weight, p)| (sum + weight * p, of + weight),
-        );
+        let (sum, of) = points
+            .iter()
+            .map(near)
+            .fold((Vector::zeros(), 0.0), |(sum, of): (Vector, f64), (weight, p)| {
+                (sum + weight * p, of + weight)
+            });
         at = sum / of;
     }
     at

@@ -52,4 +52,5 @@ pub use particles::Numbers;
 pub use regulation::{BeliefRegulator, RegulatorError};
 pub use residual::residual_types;
 pub use settings::BeliefSettings;
+pub use stops::NO_STOP;
 pub use testimony::{Draft, EVIDENCE, Testimony};

@@ -107,8 +107,10 @@ impl Regulation {
         }
     }
 
-    /// Keeps what `first` heard since this one, where all of that is taken again from here on.
+    /// Keeps what `first` heard since this one, where all of that is taken again from here on, and what it
+    /// had kept when the same push was taken again before.
     pub fn keep(&mut self, first: &Self) {
+        self.drafts.clone_from(&first.drafts);
         let after = self.heard.len();
         let windows = first.heard[after..].to_vec();
         if !windows.is_empty() {

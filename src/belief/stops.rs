@@ -28,18 +28,16 @@ const PLAY: [f64; 2] = [5e-3, 5e-4];
 /// Further than so many standard deviations beyond its reach a joint went on.
 const BEYOND: f64 = 2.0;
 
-/// What a window can say for or against a stop, as a logarithm, and the share of it that counts:
-/// windows share the errors of rollouts.
+/// What a window can say for or against a stop, as a logarithm.
 const MOST: f64 = 8.0;
-const SHARE: f64 = 0.5;
 
 /// The logistic function of so many times a number is nearest to the normal distribution's (Bowling et
 /// al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
 const LOGISTIC: f64 = 1.702;
 
-/// A joint goes no further than this to a side without a stop: radians, as engines want them, and
-/// metres.
-const FREE: [f64; 2] = [3.0, 10.0];
+/// How far a joint is believed to go to a side on which no stop was found, while one was on the other:
+/// radians, as far as engines take them, and metres.
+pub const NO_STOP: [f64; 2] = [3.0, 10.0];
 
 /// Where a joint stops to either side of where it started, as far as was seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,14 +78,14 @@ impl Stops {
         }
     }
 
-    /// How far a joint goes from where it is `now`, if it stops anywhere.
+    /// How far a joint goes on from where it is `now`, if it stops anywhere.
     pub fn limits(&self, fit: &Fit, start: &Vector3<f64>, now: &Vector3<f64>) -> Option<Span> {
         let which = coordinate(fit.kind)?;
         let gone = gone(fit, start, now);
         let [low, high] = &self.0;
         let left = |side: &Side, sign: f64| match side.odds > 0.0 {
             true => (side.reach - sign * gone).max(0.0),
-            false => FREE[which],
+            false => NO_STOP[which],
         };
         let stops = low.odds > 0.0 || high.odds > 0.0;
         stops.then(|| Span::new(-left(low, -1.0), left(high, 1.0)))
@@ -120,7 +118,7 @@ impl Side {
     }
 
     fn weigh(&mut self, evidence: f64) {
-        self.odds += std::env::var("SHARE").map_or(SHARE, |s| s.parse().unwrap()) * evidence.clamp(-MOST, MOST);
+        self.odds += evidence.clamp(-MOST, MOST);
     }
 }
 
@@ -151,12 +149,7 @@ fn axis(fit: &Fit) -> Vector {
 }
 
 /// How far a joint has gone by the last of these instants; `None` where a heading was not seen.
-fn travel(
-    fit: &Fit,
-    start: &Vector3<f64>,
-    instants: &[Instant],
-    doubt: &Doubt,
-) -> Option<Travel> {
+fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) -> Option<Travel> {
     let last = instants.last().filter(|last| last.headings == [true; 2])?;
     let (mut weight, mut off, mut noise) = (0.0, 0.0, 0.0);
     let across = |of: &nalgebra::Matrix3<f64>| match fit.kind {
@@ -191,4 +184,41 @@ fn travel(
 /// Logarithm of Student's density with four degrees of freedom.
 fn density(off: f64, variance: f64) -> f64 {
     0.375f64.ln() - 0.5 * variance.ln() - 2.5 * (0.25 * off * off / variance).ln_1p()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A slide of which windows see it at these places, metres, where it was rolled out to those.
+    fn slid(windows: &[[f64; 2]]) -> Side {
+        let mut side = Side { reach: 0.0, variance: 0.0, odds: prior() };
+        for [seen, rolled] in windows {
+            let doubt = 2e-3f64.powi(2);
+            let travel = Travel { seen: *seen, variance: 1e-8, rolled: *rolled, doubt };
+            side.learn(&travel, 1.0, 1);
+        }
+        side
+    }
+
+    #[test]
+    fn a_joint_stops_where_it_stayed_though_a_rollout_went_on() {
+        let on = [[0.01, 0.01], [0.02, 0.021], [0.03, 0.029]];
+        assert!(slid(&on).odds < 0.0);
+        let stayed = [&on[..], &[[0.0352, 0.04], [0.0349, 0.045]]].concat();
+        let side = slid(&stayed);
+        assert!(side.odds > 2.0 && (side.reach - 0.035).abs() < 3e-4, "{side:?}");
+        // What is still at a stop, comes back from it or stops short of it says nothing of it.
+        let after = [&stayed[..], &[[0.035, 0.035], [0.02, 0.022], [0.025, 0.034]]].concat();
+        assert!(slid(&after).odds > 2.0);
+        // It was none where it goes on later.
+        let beyond = [&after[..], &[[0.045, 0.044]]].concat();
+        assert!(slid(&beyond).odds < 0.0);
+    }
+
+    #[test]
+    fn one_that_outruns_its_rollout_or_hardly_moved_did_not_stop() {
+        assert!(slid(&[[0.05, 0.02]]).odds < 0.0);
+        assert!(slid(&[[0.002, 0.01], [0.002, 0.01], [0.002, 0.01]]).odds < 0.0);
+    }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use crate::belief::{Belief, JointType, MassShares};
+use crate::belief::{Belief, JointType, MassShares, NO_STOP};
 use crate::scene::{Joint, JointKind, Span};
 
 use super::chart::{Axis, Chart, Mark, Series};
@@ -118,9 +118,23 @@ fn mass_sections(masses: &MassShares, names: &[&str], ranges: &[Span]) -> Vec<Se
 fn place(joint: &Joint) -> String {
     match joint.kind {
         JointKind::Fixed => NONE.to_owned(),
-        JointKind::Revolute { at, .. } => format!("at ({:.3}, {:.3}) m", at.x, at.y),
-        JointKind::Prismatic { axis, .. } => format!("along {}", degrees(axis.y.atan2(axis.x))),
+        JointKind::Revolute { at, limits } => {
+            let left = stops(limits, NO_STOP[0], degrees);
+            format!("at ({:.3}, {:.3}) m{left}", at.x, at.y)
+        }
+        JointKind::Prismatic { axis, limits } => {
+            let left = stops(limits, NO_STOP[1], |far| format!("{:.0} mm", 1e3 * far));
+            format!("along {}{left}", degrees(axis.y.atan2(axis.x)))
+        }
     }
+}
+
+/// How much further a joint goes to either side where it was seen to stop.
+fn stops(limits: Option<Span>, free: f64, unit: impl Fn(f64) -> String) -> String {
+    let Some(limits) = limits else { return String::new() };
+    let sides = [limits.low, limits.high].into_iter().filter(|far| far.abs() < free);
+    let sides: Vec<String> = sides.map(unit).collect();
+    format!(", goes on to {} at most", sides.join(" and "))
 }
 
 /// The likeliest of four shares.

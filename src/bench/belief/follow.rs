@@ -163,7 +163,7 @@ impl Followed<'_> {
             if rest {
                 let ends = match method {
                     JointMethod::Filter | JointMethod::Regulator => {
-                        belief.foresee(self.model, self.motion_after(count))
+                        belief.foresee(self.model, &self.motion_after(count))
                     }
                     _ => self.rest(count, &situation, physics),
                 };
