@@ -11,6 +11,9 @@
 //! so a window is looked at twice, the second time with the joints that it spoke for, and after a push
 //! whole assignments of joints are played again and compared (`group`).
 //!
+//! A joint that stays where it is though a rollout goes on has come to a stop, which is learned (`stops`).
+//! What is foreseen is the middle of what drawn physics lead to (`foreseen`).
+//!
 //! A [`BeliefRegulator`] may correct what the filter finds: a recurrent network that reads what every
 //! window told of a pair (`testimony`).
 //!

@@ -3,7 +3,7 @@
 use std::process::{Command, Output};
 use std::sync::Arc;
 
-use pushplan::belief::{Belief, BeliefSettings, JointType, NO_STOP};
+use pushplan::belief::{Belief, BeliefSettings, JointType};
 use pushplan::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Shape, Vector};
@@ -16,10 +16,10 @@ use pushplan::sim::Simulator;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-const EXACT: Noise = Noise { position: 0.0, heading: 0.0 };
+pub const EXACT: Noise = Noise { position: 0.0, heading: 0.0 };
 
 /// Two boxes side by side, 4 mm apart, that a finger pushes off their middle.
-fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
+pub fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     let cuboid = |name: &str, y| Object::cuboid(name, [0.08, 0.06, 0.05]).at(0.5, y, 0.0);
     let mut scene = Scene::new([cuboid("first", 0.0), cuboid("second", 0.064)]);
     scene.joints.extend(joint.map(|kind| Joint::new([0, 1], kind)));
@@ -31,7 +31,7 @@ fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
 }
 
 /// Two cylinders side by side, 4 mm apart, likewise.
-fn cylinders(joint: Option<JointKind>) -> (Scene, ToolMotion) {
+pub fn cylinders(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     let cylinder = |name: &str, y| Object::cylinder(name, 0.035, 0.05).at(0.5, y, 0.0);
     let mut scene = Scene::new([cylinder("first", 0.0), cylinder("second", 0.074)]);
     scene.joints.extend(joint.map(|kind| Joint::new([0, 1], kind)));
@@ -40,7 +40,7 @@ fn cylinders(joint: Option<JointKind>) -> (Scene, ToolMotion) {
     (scene, ToolMotion::pushes(motion.tool, 0.0, 0.0, &[push], false))
 }
 
-fn recorded(scene: &Scene, motion: &ToolMotion, engine: Engine) -> Recording {
+pub fn recorded(scene: &Scene, motion: &ToolMotion, engine: Engine) -> Recording {
     let simulator = Simulator::new(engine, Rate::DEFAULT);
     let job = Job::stated(scene, motion.clone());
     let frames = simulator.run(scene, &job, Record::Frames).frames;
@@ -48,7 +48,7 @@ fn recorded(scene: &Scene, motion: &ToolMotion, engine: Engine) -> Recording {
 }
 
 /// What is believed after all of a recording that was seen with this noise.
-fn believed(recording: &Recording, noise: Noise, seed: u64) -> Belief {
+pub fn believed(recording: &Recording, noise: Noise, seed: u64) -> Belief {
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut normal = |sd: f64| {
         // Sums of twelve even numbers are nearly normal.
@@ -123,68 +123,6 @@ fn anchors_and_axes_are_found() {
             JointKind::Fixed => panic!("fixed"),
         }
     }
-}
-
-/// Where a joint stopped it stops again; to the other side nothing is known.
-#[test]
-fn where_joints_stop_is_found_once_they_stopped_there() {
-    let turned = |limits| {
-        let (scene, motion) =
-            cylinders(Some(JointKind::Revolute { at: Vector::new(0.5, 0.037), limits }));
-        // At the far end of the second, so that it turns about the hinge.
-        let push =
-            Push { start: Vector::new(0.44, 0.086), direction: 0.0, length: 0.25, speed: 0.1 };
-        (scene, ToolMotion::pushes(motion.tool, 0.0, 0.0, &[push], false))
-    };
-    let slid = |limits| pair(Some(JointKind::Prismatic { axis: Vector::new(0.6, 0.8), limits }));
-    let cases: [(&dyn Fn(Option<Span>) -> (Scene, ToolMotion), f64); 2] =
-        [(&turned, 0.2), (&slid, 0.03)];
-    let slight = Noise { position: 1e-3, heading: 0.5f64.to_radians() };
-    for ((made, most), free) in cases.into_iter().zip(NO_STOP) {
-        let stops = |limits, noise| {
-            let (scene, motion) = made(limits);
-            let recording = recorded(&scene, &motion, Engine::Planar);
-            believed(&recording, noise, 3).map().joints[0].limits()
-        };
-        assert_eq!(stops(None, EXACT), None);
-        // A joint that does not press hard against its stop has to be seen well.
-        for noise in if free == NO_STOP[0] { vec![EXACT, slight] } else { vec![EXACT] } {
-            let found = stops(Some(Span::new(-most, most)), noise).expect("a stop");
-            let (near, far) = match found.low > -free {
-                true => (-found.low, found.high),
-                false => (found.high, -found.low),
-            };
-            assert_eq!(far, free, "{found:?}");
-            assert!(near < 0.1 * most + 5.0 * noise.position, "{noise:?}: {found:?}");
-        }
-    }
-}
-
-/// Half of near pairs are not joined, so before anything is known one is foreseen to stay where the tool
-/// pulls the other away; and once they are known to be one body, to go along.
-#[test]
-fn what_is_foreseen_is_in_the_middle_of_what_is_possible() {
-    let (scene, motion) = pair(Some(JointKind::Fixed));
-    let model = Prior::default();
-    let before = Belief::new(&scene, motion.tool.clone(), 0.0, BeliefSettings::new(EXACT));
-    let start = scene.start().poses;
-    let still = ToolMotion { strokes: Vec::new(), ..motion.clone() };
-    assert_eq!(before.foresee(&model, &still), start);
-    assert_eq!(before.foresee(&model, &motion), before.foresee(&model, &motion));
-
-    let known = believed(&recorded(&scene, &motion, Engine::Planar), EXACT, 0);
-    let end = known.situation().start.poses;
-    let back = Push {
-        start: Vector::new(1.2, end[0].position.y),
-        direction: std::f64::consts::PI,
-        length: 0.7,
-        speed: 0.1,
-    };
-    let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[back], false);
-    let foreseen = known.foresee(&model, &motion);
-    let apart = |poses: &[Pose]| (poses[1].position - poses[0].position).norm();
-    assert!((foreseen[0].position - end[0].position).norm() > 0.1);
-    assert!((apart(&foreseen) - apart(&end)).abs() < 2e-3);
 }
 
 #[test]

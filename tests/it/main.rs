@@ -19,6 +19,7 @@ mod extremes;
 mod facade;
 mod fitting;
 mod fixtures;
+mod foreseen;
 mod formats;
 #[cfg(unix)]
 mod interrupted;
