@@ -15,6 +15,13 @@ pub(super) fn student(off: &DVector<f64>, spread: DMatrix<f64>) -> f64 {
     -volume - 0.5 * (FREEDOM + n) * (square / FREEDOM).ln_1p()
 }
 
+/// Logarithm of Student's density of one number with this scale squared.
+pub(super) fn student_of_one(off: f64, variance: f64) -> f64 {
+    // The density at zero of four degrees of freedom.
+    let most = 0.375f64.ln() - 0.5 * variance.ln();
+    most - 0.5 * (FREEDOM + 1.0) * (off * off / variance / FREEDOM).ln_1p()
+}
+
 /// Logarithm of the sum of what these are logarithms of.
 pub(super) fn log_sum(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     let most = logs.clone().fold(f64::NEG_INFINITY, f64::max);
@@ -38,6 +45,7 @@ mod tests {
         for x in [0.3, 1.0, 4.0] {
             let wanted = (density(x / 2.0) / density(0.0)).ln();
             assert!((log(x, 2.0) - log(0.0, 2.0) - wanted).abs() < 1e-12);
+            assert!((student_of_one(x, 4.0) - (0.5 * density(x / 2.0)).ln()).abs() < 1e-12);
         }
         assert!(
             (log(0.0, 1.0) - log(0.0, 2.0) - 2f64.ln()).abs() < 1e-12,

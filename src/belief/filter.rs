@@ -13,6 +13,7 @@ use crate::{
 };
 
 use super::{
+    chance::LOGISTIC,
     group::{Push, has_unseen_headings, is_lifted},
     joints::{carried, likeliest, of_types},
     look::{Looked, Told},
@@ -201,6 +202,9 @@ impl Belief {
         self.weigh_numbers(model, window);
         let played = (self.scene_now(), self.job(window, map));
         self.learn(window, &looked);
+        for (pair, told) in self.pairs.iter_mut().zip(&looked.told) {
+            pair.learn_stops(&told.instants, &told.doubts);
+        }
         let of = |(pair, told): (&PairBelief, &Told)| {
             told.judged.as_ref().map(|judged| pair.by_type(&judged.evidence))
         };
@@ -213,8 +217,8 @@ impl Belief {
     /// Takes what was seen in a window into where everything is and the geometry of all hypotheses.
     pub(super) fn learn(&mut self, window: &[Observation], looked: &Looked) {
         self.track.follow(&looked.base, window);
-        for (pair, Told { instants, ends, doubts, .. }) in self.pairs.iter_mut().zip(&looked.told) {
-            pair.learn(instants, doubts);
+        for (pair, Told { instants, ends, .. }) in self.pairs.iter_mut().zip(&looked.told) {
+            pair.learn(instants);
             let between = pair.between;
             pair.recount(&ends.map(|ends| {
                 [0, 1].map(|k| Some(ends[k]? - self.track.state.poses[between[k]].heading))
@@ -325,13 +329,12 @@ fn gap_deviation(noise: Noise) -> f64 {
 }
 
 /// How likely objects that were seen with this gap and its standard deviation, metres, are so near that
-/// they may be joined: the logistic function, within a hundredth of the normal distribution (Bowling et
-/// al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
+/// they may be joined.
 fn joinable(gap: f64, doubt: f64) -> f64 {
     if doubt == 0.0 {
         return 1.0;
     }
-    (1.0 + (1.702 * (gap - JOINABLE) / doubt).exp()).recip()
+    (1.0 + (LOGISTIC * (gap - JOINABLE) / doubt).exp()).recip()
 }
 
 /// Whether the motion of a pair is likest to a joint but follows from likelier ones already.

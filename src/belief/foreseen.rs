@@ -24,8 +24,8 @@ use super::{
 const FEW_WINDOWS: usize = 3;
 
 /// So many physics are drawn to foresee with, and the likeliest counts like so many of them. On 24 sparse
-/// and 24 dense trajectories of seed 11, 8 drawn ones are worse by up to a tenth, and without the likeliest
-/// most of what is known well is foreseen less well.
+/// and 24 dense trajectories of seed 11, 8 drawn ones are worse by up to an eighth, and without the likeliest
+/// what is known well, after 30 dense observations, is foreseen less well.
 const DRAWN: usize = 24;
 const LIKELIEST: f64 = 4.0;
 
@@ -45,7 +45,8 @@ impl Belief {
 
     /// Where a motion of the tool is foreseen to leave all objects, when it begins where they are thought to
     /// be: of each, the place that is nearest on average to where the likeliest physics and some that are
-    /// drawn take it. Objects may overlap a little there, as these differ.
+    /// drawn take it, metres, and a median heading, radians. Objects may overlap a little there, as these
+    /// differ.
     pub fn foresee(&self, model: &dyn EffectModel, motion: &ToolMotion) -> Vec<Pose> {
         let mut rng = generator(self.seen as u64, DRAWN as u64);
         let drawn = (0..DRAWN).map(|_| self.sample(&mut rng));
@@ -58,8 +59,12 @@ impl Belief {
         let jobs: Vec<Job> = std::iter::once(self.supposed()).chain(drawn).map(job).collect();
         let rolled = model.rollout(&self.scene_now(), &jobs, Record::Outcome);
         let weights = std::iter::once(LIKELIEST).chain(std::iter::repeat(1.0));
-        let ends: Vec<(f64, &State)> =
-            weights.zip(&rolled).map(|(weight, rolled)| (weight, rolled.outcome())).collect();
+        let ends = weights.zip(&rolled).map(|(weight, rolled)| (weight, rolled.outcome()));
+        // A rollout that broke off says nothing.
+        let ends: Vec<(f64, &State)> = ends.filter(|(_, end)| end.is_finite()).collect();
+        if ends.is_empty() {
+            return start.poses.clone();
+        }
         let of = |object: usize| {
             let poses = ends.iter().map(|(weight, end)| (*weight, end.poses[object]));
             let places: Vec<(f64, Vector)> =

@@ -293,12 +293,17 @@ impl PairBelief {
     }
 
     /// Takes what was seen in a window, rolled out by type, into the geometry of every hypothesis.
-    pub fn learn(&mut self, instants: &[Vec<Instant>; 4], doubts: &[Option<Doubt>; 4]) {
+    pub fn learn(&mut self, instants: &[Vec<Instant>; 4]) {
+        for Hypothesis { fit, .. } in &mut self.hypotheses {
+            fit.learn(&instants[fit.kind as usize]);
+        }
+    }
+
+    /// Takes it into where joints stop; `doubts` are those of the rollouts.
+    pub fn learn_stops(&mut self, instants: &[Vec<Instant>; 4], doubts: &[Option<Doubt>; 4]) {
         for Hypothesis { fit, stops, .. } in &mut self.hypotheses {
-            let instants = &instants[fit.kind as usize];
-            fit.learn(instants);
             if let Some(doubt) = &doubts[fit.kind as usize] {
-                stops.learn(fit, &self.start, instants, doubt);
+                stops.learn(fit, &self.start, &instants[fit.kind as usize], doubt);
             }
         }
     }

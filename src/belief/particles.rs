@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{Feet, Physics, Scene, Support, Unknowns};
 
-use super::chance::{generator, normal};
+use super::chance::{LOGISTIC, generator, normal};
 use super::density::log_sum;
 
 /// How many there are: means over them are then as good as the effect model.
@@ -25,9 +25,6 @@ const JITTER: f64 = 0.1;
 
 /// Nine in ten normal numbers lie within so many standard deviations.
 const NINE_IN_TEN: f64 = 1.645;
-
-/// The slope of the logistic function that is nearest to the normal distribution's.
-const LOGISTIC: f64 = 1.702;
 
 /// Friction values that files may hold.
 const FRICTIONS: [f64; 2] = [0.05, 2.0];

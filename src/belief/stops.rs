@@ -9,7 +9,8 @@ use nalgebra::Vector3;
 use crate::{geometry::Vector, scene::Span};
 
 use super::{
-    density::log_sum,
+    chance::LOGISTIC,
+    density::{log_sum, student_of_one},
     fit::Fit,
     pair::JointType,
     window::{Doubt, Instant, UNEVEN},
@@ -30,10 +31,6 @@ const BEYOND: f64 = 2.0;
 
 /// What a window can say for or against a stop, as a logarithm.
 const MOST: f64 = 8.0;
-
-/// The logistic function of so many times a number is nearest to the normal distribution's (Bowling et
-/// al. 2009, doi:10.3926/jiem.2009.v2n1.p114-127).
-const LOGISTIC: f64 = 1.702;
 
 /// How far a joint is believed to go to a side on which no stop was found, while one was on the other:
 /// radians, as far as engines take them, and metres.
@@ -93,12 +90,15 @@ impl Stops {
 }
 
 impl Side {
+    /// Without a stop what is seen is spread around what was rolled out. A stop takes all of that which
+    /// lies beyond it to itself. Where the joint has gone further than ever, the stop may be anywhere in the
+    /// rest of the range; where it is back at its reach, it is there; elsewhere either says the same.
     fn learn(&mut self, travel: &Travel, sign: f64, which: usize) {
         let range = [TURN, SLIDE][which];
         let (seen, rolled) = (sign * travel.seen, sign * travel.rolled);
         let play = PLAY[which].powi(2);
         let free = travel.variance + travel.doubt + play;
-        let going_on = density(seen - rolled, free);
+        let going_on = student_of_one(seen - rolled, free);
         // Without a stop it would have come at least that far, so likely.
         let beyond = |far: f64| -(-LOGISTIC * (rolled - far) / free.sqrt()).exp().ln_1p();
         let sd = (travel.variance + self.variance + play).sqrt();
@@ -109,7 +109,7 @@ impl Side {
                 self.weigh(beyond(seen) - left.ln() - going_on);
             }
         } else if seen > (self.reach - BEYOND * sd).max(range.low - BEYOND * sd) {
-            let stopped = beyond(self.reach) + density(seen - self.reach, sd * sd);
+            let stopped = beyond(self.reach) + student_of_one(seen - self.reach, sd * sd);
             self.weigh(log_sum([stopped - going_on, 0.5f64.ln()].into_iter()));
             let share = self.variance / (self.variance + travel.variance + 1e-12);
             self.reach += share * (seen - self.reach);
@@ -168,6 +168,9 @@ fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) 
     }
     let look = last.look(&fit.errors);
     let [seen, rolled] = [look.seen, look.predicted].map(|at| gone(fit, start, &at));
+    if !rolled.is_finite() {
+        return None;
+    }
     let which = coordinate(fit.kind)?;
     // What a rollout is off by grows evenly, unless a stop is reached meanwhile.
     let even = last.share * off / weight;
@@ -179,11 +182,6 @@ fn travel(fit: &Fit, start: &Vector3<f64>, instants: &[Instant], doubt: &Doubt) 
         rolled,
         doubt: doubt.model[1 - which].powi(2),
     })
-}
-
-/// Logarithm of Student's density with four degrees of freedom.
-fn density(off: f64, variance: f64) -> f64 {
-    0.375f64.ln() - 0.5 * variance.ln() - 2.5 * (0.25 * off * off / variance).ln_1p()
 }
 
 #[cfg(test)]

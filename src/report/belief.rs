@@ -123,7 +123,7 @@ fn place(joint: &Joint) -> String {
             format!("at ({:.3}, {:.3}) m{left}", at.x, at.y)
         }
         JointKind::Prismatic { axis, limits } => {
-            let left = stops(limits, NO_STOP[1], |far| format!("{:.0} mm", 1e3 * far));
+            let left = stops(limits, NO_STOP[1], |far| format!("{} mm", (1e3 * far).round() + 0.0));
             format!("along {}{left}", degrees(axis.y.atan2(axis.x)))
         }
     }
