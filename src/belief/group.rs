@@ -134,7 +134,12 @@ impl Belief {
         };
         let mut most = score(&logs);
         let mut played = Played(vec![(best.clone(), most)]);
-        let mut order: Vec<usize> = (0..best.len()).collect();
+        // Of what nothing moved nothing was told, and another joint there changes nothing.
+        let told = |p: &usize| {
+            let mut steps = self.history.iter().rev().take(windows.len());
+            steps.any(|step| step.evidence[*p].is_some())
+        };
+        let mut order: Vec<usize> = (0..best.len()).filter(told).collect();
         let share = |p: usize| marginals[p][best[p] as usize];
         order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
         'search: for _ in 0..SWEEPS {

@@ -22,9 +22,13 @@ impl Belief {
     /// axes are where they are with the objects as in [`Self::situation`]. Joints close no loop;
     /// where they would, the likelier ones stay, as in [`Self::map`].
     pub fn sample(&self, rng: &mut impl Rng) -> Physics {
+        self.sample_of(&self.regulated_pairs(), rng)
+    }
+
+    /// The same with joints of these pairs.
+    pub(super) fn sample_of(&self, pairs: &[PairBelief], rng: &mut impl Rng) -> Physics {
         let state = &self.track.state;
         let mut physics = Physics::stated(&self.scene);
-        let pairs = self.regulated_pairs();
         let mut order: Vec<&PairBelief> = pairs.iter().collect();
         order.sort_by(|a, b| b.rank().total_cmp(&a.rank()));
         let mut sets = DisjointSets::new(self.scene.objects.len());

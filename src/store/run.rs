@@ -1,8 +1,11 @@
 //! A run of tasks measured one by one: what is finished, what is left, and keeping each as it is
 //! done.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -113,6 +116,61 @@ impl<R: Serialize + DeserializeOwned> Store<R> {
             tell(self.finished.len());
         }
         Ok(())
+    }
+
+    /// The same with as many tasks side by side as there are `threads`, for tasks that do not keep a
+    /// machine busy one by one. Results are kept in order, each once all before it are there.
+    ///
+    /// # Errors
+    /// A result that cannot be kept; or that `watch`, asked before every task, says to stop. Then
+    /// tasks that have begun are finished and kept.
+    pub fn run_side_by_side(
+        &mut self,
+        watch: &dyn Watch,
+        threads: usize,
+        measure: impl Fn(usize) -> Measured<R> + Sync,
+    ) -> Result<(), StoreError>
+    where
+        R: Send,
+    {
+        let left: Vec<usize> = self.manifest.indices().skip(self.finished.len()).collect();
+        let total = self.manifest.indices().len();
+        watch.progress(self.finished.len() as u64, total as u64);
+        let next = AtomicUsize::new(0);
+        let (sender, receiver) = mpsc::channel();
+        thread::scope(|scope| {
+            // It goes when this closure returns, early or not, and nobody begins another task then.
+            let receiver = receiver;
+            for _ in 0..threads.clamp(1, left.len().max(1)) {
+                let (sender, next, left, measure) = (sender.clone(), &next, &left, &measure);
+                scope.spawn(move || {
+                    while !watch.cancelled() {
+                        let k = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(index) = left.get(k) else { return };
+                        if sender.send((k, measure(*index))).is_err() {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(sender);
+            let mut waiting = BTreeMap::new();
+            for (kept, index) in left.iter().enumerate() {
+                let measured = loop {
+                    if let Some(measured) = waiting.remove(&kept) {
+                        break measured;
+                    }
+                    let Ok((k, measured)) = receiver.recv() else {
+                        let done = self.finished.len();
+                        return Err(StoreError::Cancelled { done, total });
+                    };
+                    waiting.insert(k, measured);
+                };
+                self.keep(*index, measured)?;
+                watch.progress(self.finished.len() as u64, total as u64);
+            }
+            Ok(())
+        })
     }
 
     /// What is measured.

@@ -227,6 +227,47 @@ fn a_run_in_memory_gives_the_same_records() {
     assert_eq!(store.finished(), kept);
 }
 
+#[test]
+fn tasks_side_by_side_leave_the_same_bytes_whatever_comes_first() {
+    let folder = TempDir::new().expect("a folder");
+    let whole = folder.path().join("whole");
+    measure(&whole, manifest(), &Unwatched).expect("a run");
+    for threads in [1, 2, 5] {
+        let dir = folder.path().join(format!("with {threads}"));
+        let begun = Mutex::new(Vec::new());
+        let done = AtomicUsize::new(0);
+        let mut interrupted = 0;
+        loop {
+            let watch = Stopping::after(4);
+            // Every other task ends after its successor, if that begins at all.
+            let out_of_order = |index: usize| {
+                begun.lock().expect("a list").push(index);
+                let waits = threads > 1 && index.is_multiple_of(2) && index + 1 < TASKS;
+                while waits && !watch.cancelled() && done.load(Ordering::SeqCst) <= index / 2 {
+                    std::thread::yield_now();
+                }
+                done.fetch_add(index % 2, Ordering::SeqCst);
+                watch.measured.fetch_add(1, Ordering::SeqCst);
+                task(index).expect("a result")
+            };
+            let mut store = Store::open(&dir, manifest(), &Unwatched).expect("a store");
+            match store.run_side_by_side(&watch, threads, out_of_order) {
+                Ok(()) => break,
+                Err(StoreError::Cancelled { done, total }) => {
+                    assert_eq!((done, total), (store.finished().len(), TASKS));
+                    interrupted += 1;
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+        assert!(interrupted > 0, "nothing was interrupted");
+        assert_eq!(compared(&dir), compared(&whole), "{threads} threads");
+        let mut begun = begun.into_inner().expect("a list");
+        begun.sort_unstable();
+        assert_eq!(begun, (0..TASKS).collect::<Vec<_>>(), "{threads} threads");
+    }
+}
+
 fn manifest() -> RunManifest {
     RunManifest::new("test", TASKS, 7, "still").with_settings(json!({"effort": {"beam": 24}}))
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     dataset::Episode,
-    scene::{Engine, Frame, Job, Physics, Rate, Record, Scene},
+    scene::{Engine, Frame, Job, Physics, Rate, Record, Scene, Warning},
     sim::Simulator,
 };
 
@@ -30,7 +30,9 @@ impl Circumstances {
     /// The planar engine, and true numbers.
     pub const USUAL: Self = Self { engine: Engine::Planar, misled: false };
 
-    /// An episode's frames in this engine. Episodes are drawn with the planar one, which has them.
+    /// An episode's frames in this engine. Episodes are drawn with the planar one, which has them; in
+    /// another one objects come to stand elsewhere, and the first stroke that begins inside one of them,
+    /// which would fling it away, ends it.
     pub(super) fn frames(&self, episode: &Episode) -> Vec<Frame> {
         if self.engine == Engine::Planar {
             return episode.frames.clone();
@@ -38,7 +40,13 @@ impl Circumstances {
         let Episode { scene, motion, .. } = episode;
         let physics = Arc::new(Physics::stated(scene));
         let job = Job { start: scene.start(), motion: motion.clone(), physics };
-        Simulator::new(self.engine, Rate::DEFAULT).run(scene, &job, Record::Frames).frames
+        let played = Simulator::new(self.engine, Rate::DEFAULT).run(scene, &job, Record::Frames);
+        let set_down = played.warnings.iter().filter_map(|warning| match warning {
+            Warning::SetDownOn { stroke, .. } => Some(*stroke),
+            _ => None,
+        });
+        let strokes = set_down.min().unwrap_or(usize::MAX);
+        played.frames.into_iter().take_while(|frame| frame.stroke < strokes).collect()
     }
 
     /// A scene as the observer is told of it.
@@ -53,5 +61,35 @@ impl Circumstances {
             scene.table_friction *= table;
         }
         scene
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::{Pose, Shape, Vector},
+        scene::{Object, Part, Push, Tool, ToolMotion},
+    };
+
+    #[test]
+    fn a_stroke_that_begins_inside_an_object_ends_an_episode_in_another_engine() {
+        let finger = Shape::Cylinder { radius: 0.01, height: 0.1 };
+        let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
+        let tool = Arc::new(tool.expect("one piece"));
+        let scene = Scene::new([Object::cylinder("can", 0.05, 0.1).at(0.1, 0.0, 0.0)]);
+        let episode = |second: Vector| {
+            let push = |start| Push { start, direction: 0.0, length: 0.1, speed: 0.1 };
+            let pushes = [push(Vector::zeros()), push(second)];
+            let motion = ToolMotion::pushes(Arc::clone(&tool), 0.01, 0.0, &pushes, true);
+            Episode { index: 0, scene: scene.clone(), motion, frames: Vec::new() }
+        };
+        let strokes = |second| {
+            let circumstances = Circumstances { engine: Engine::Spatial, misled: false };
+            circumstances.frames(&episode(second)).last().map(|frame| frame.stroke)
+        };
+        // The first stroke leaves the can at 0.16.
+        assert_eq!(strokes(Vector::new(0.05, 0.0)), Some(1));
+        assert_eq!(strokes(Vector::new(0.15, 0.0)), Some(0));
     }
 }

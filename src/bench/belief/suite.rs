@@ -93,7 +93,7 @@ pub struct BeliefSuite {
 
 impl BeliefSuite {
     /// Version of the measurement; another one gives other records for the same settings.
-    pub const VERSION: u32 = 2;
+    pub const VERSION: u32 = 3;
 
     /// Every set of these families, numbers of objects and joints, seen in each of these ways. With
     /// `rest` the rest of the way is predicted as well, which costs more than the beliefs.

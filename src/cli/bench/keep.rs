@@ -51,6 +51,31 @@ impl KeepArgs {
         manifest: RunManifest,
         measure: impl FnMut(usize) -> Result<Measured<R>, CliError>,
     ) -> Result<Store<R>, CliError> {
+        self.kept(session, manifest, |store, following| store.run(following, measure))
+    }
+
+    /// The same with one task on each of the session's threads, which share no work.
+    ///
+    /// # Errors
+    /// What [`Store::open`] refuses, and an interruption.
+    pub fn measure_side_by_side<R: Serialize + DeserializeOwned + Send>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        measure: impl Fn(usize) -> Measured<R> + Sync,
+    ) -> Result<Store<R>, CliError> {
+        self.kept(session, manifest, |store, following| {
+            let alone = |index| session.compute_alone(|| measure(index));
+            Ok(store.run_side_by_side(following, session.threads(), alone)?)
+        })
+    }
+
+    fn kept<R: Serialize + DeserializeOwned>(
+        &self,
+        session: &Session,
+        manifest: RunManifest,
+        run: impl FnOnce(&mut Store<R>, &Following<'_>) -> Result<(), CliError>,
+    ) -> Result<Store<R>, CliError> {
         let manifest = match self.shard {
             Some(shard) => manifest.with_shard(shard),
             None => manifest,
@@ -61,7 +86,7 @@ impl KeepArgs {
             Some(dir) => Store::open(dir, manifest, &following)?,
             None => Store::in_memory(manifest),
         };
-        let measured = store.run(&following, measure);
+        let measured = run(&mut store, &following);
         following.finish()?;
         match measured {
             Err(CliError::Interrupted(message)) => Err(CliError::Interrupted(match &self.out {

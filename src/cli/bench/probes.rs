@@ -75,9 +75,8 @@ pub fn run(args: &ProbesArgs, session: &Session) -> Result<(), CliError> {
     let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
         .with_weights(keep::weights_digest(&args.model)?)
         .with_settings(settings);
-    let store = args
-        .keep
-        .measure(session, manifest, |index| Ok(session.compute(|| suite.measure(&model, index))))?;
+    let store =
+        args.keep.measure_side_by_side(session, manifest, |index| suite.measure(&model, index))?;
     let document = document(suite.cases(), store.finished());
     keep::show(args.form, session, &document, args.keep.out.as_deref())
 }
