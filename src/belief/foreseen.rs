@@ -38,12 +38,16 @@ impl Belief {
     /// was judged beside the others, so that together they explain what was seen, which types that are
     /// likeliest one by one may not.
     pub(super) fn supposed(&self) -> Physics {
-        if self.history.len() > FEW_WINDOWS {
+        if self.was_looked_at_often() {
             return self.filtered_map();
         }
         let pairs = self.regulated_pairs();
         let types: Vec<JointType> = pairs.iter().map(PairBelief::supposed).collect();
         self.with_known(of_types(&self.scene, &pairs, &self.track.state, &types))
+    }
+
+    fn was_looked_at_often(&self) -> bool {
+        self.history.len() > FEW_WINDOWS
     }
 
     /// Where a motion of the tool is foreseen to leave all objects, when it begins where they are thought to
@@ -53,9 +57,9 @@ impl Belief {
     pub fn foresee(&self, model: &dyn EffectModel, motion: &ToolMotion) -> Vec<Pose> {
         let mut rng = generator(self.seen as u64, DRAWN as u64);
         let regulated = self.regulated_pairs();
-        let late = self.history.len() > FEW_WINDOWS;
+        let often = self.was_looked_at_often();
         let drawn = (0..DRAWN).map(|k| {
-            let filtered = late && k % 2 == 1;
+            let filtered = often && k % 2 == 1;
             self.sample_of(if filtered { &self.pairs } else { &regulated }, &mut rng)
         });
         let start = &self.track.state;

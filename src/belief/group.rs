@@ -134,12 +134,7 @@ impl Belief {
         };
         let mut most = score(&logs);
         let mut played = Played(vec![(best.clone(), most)]);
-        // Of what nothing moved nothing was told, and another joint there changes nothing.
-        let told = |p: &usize| {
-            let mut steps = self.history.iter().rev().take(windows.len());
-            steps.any(|step| step.evidence[*p].is_some())
-        };
-        let mut order: Vec<usize> = (0..best.len()).filter(told).collect();
+        let mut order = self.told(windows.len());
         let share = |p: usize| marginals[p][best[p] as usize];
         order.sort_by(|&one, &other| share(one).total_cmp(&share(other)));
         'search: for _ in 0..SWEEPS {
@@ -168,6 +163,16 @@ impl Belief {
             }
         }
         played
+    }
+
+    /// The pairs of which the last `windows` told anything: of the others nothing moved, and how they are
+    /// joined changes nothing.
+    fn told(&self, windows: usize) -> Vec<usize> {
+        let told = |p: &usize| {
+            let mut steps = self.history.iter().rev().take(windows);
+            steps.any(|step| step.evidence[*p].is_some())
+        };
+        (0..self.pairs.len()).filter(told).collect()
     }
 
     /// `types` with one pair of another kind; where that closes a loop, every joint in it gives way in
@@ -289,7 +294,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        belief::BeliefSettings,
+        belief::{BeliefSettings, Step},
         geometry::{Pose, Shape},
         scene::{Noise, Object, Part, Scene, Tool},
     };
@@ -314,8 +319,34 @@ mod tests {
     }
 
     #[test]
+    fn pairs_are_told_of_in_the_windows_of_a_push_and_not_in_those_before() {
+        let mut belief = four_cans();
+        for told in [[true, false, false, true], [false, true, false, true], [false; 4]] {
+            let evidence = told.map(|told| told.then_some([0.0; 4])).to_vec();
+            belief.history.push(Step { observations: 5, probabilities: Vec::new(), evidence });
+        }
+        assert_eq!(belief.told(1), [0; 0]);
+        assert_eq!(belief.told(2), [1, 3]);
+        assert_eq!(belief.told(3), [0, 1, 3]);
+        assert_eq!(belief.told(9), [0, 1, 3]);
+    }
+
+    #[test]
     fn a_joint_that_closes_a_loop_makes_each_other_one_in_it_give_way() {
         use JointType::{Fixed, None, Revolute};
+        let belief = four_cans();
+        assert_eq!(belief.pairs().collect::<Vec<_>>(), [[0, 1], [0, 2], [1, 2], [1, 3]]);
+        let types = [Fixed, Revolute, None, Fixed];
+        assert_eq!(
+            belief.changed(&types, 2, Fixed),
+            [[None, Revolute, Fixed, Fixed], [Fixed, None, Fixed, Fixed]]
+        );
+        assert_eq!(belief.changed(&types, 3, None), [[Fixed, Revolute, None, None]]);
+        assert_eq!(belief.changed(&types, 1, Fixed), [[Fixed, Fixed, None, Fixed]]);
+    }
+
+    /// Three that touch each other, and one beside the second.
+    fn four_cans() -> Belief {
         let can = |name: &str, x, y| Object::cylinder(name, 0.05, 0.1).at(x, y, 0.0);
         let scene = Scene::new([
             can("a", 0.0, 0.0),
@@ -326,14 +357,6 @@ mod tests {
         let finger = Shape::Cylinder { radius: 0.01, height: 0.05 };
         let tool = Tool::new("finger", [Part::new("finger", finger, Pose::default())]);
         let settings = BeliefSettings::new(Noise { position: 0.0, heading: 0.0 });
-        let belief = Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings);
-        assert_eq!(belief.pairs().collect::<Vec<_>>(), [[0, 1], [0, 2], [1, 2], [1, 3]]);
-        let types = [Fixed, Revolute, None, Fixed];
-        assert_eq!(
-            belief.changed(&types, 2, Fixed),
-            [[None, Revolute, Fixed, Fixed], [Fixed, None, Fixed, Fixed]]
-        );
-        assert_eq!(belief.changed(&types, 3, None), [[Fixed, Revolute, None, None]]);
-        assert_eq!(belief.changed(&types, 1, Fixed), [[Fixed, Fixed, None, Fixed]]);
+        Belief::new(&scene, Arc::new(tool.expect("one piece")), 0.0, settings)
     }
 }

@@ -1,5 +1,5 @@
-//! A run of tasks measured one by one: what is finished, what is left, and keeping each as it is
-//! done.
+//! A run of tasks measured one by one or side by side: what is finished, what is left, and keeping
+//! each as it is done.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;

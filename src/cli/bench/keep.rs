@@ -17,8 +17,8 @@ const PAGE: &str = "report.html";
 const ROWS: &str = "tasks.csv";
 
 /// The section of `--help` for benchmarks that are kept.
-pub const HELP: &str = "With --out every finished task is kept at once: after an interruption \
-(Ctrl-C) the same command goes on.
+pub const HELP: &str = "With --out every finished task is kept as soon as those before it are: \
+after an interruption (Ctrl-C) the same command goes on.
 manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
 the wall times, which never are. --shard 2/3 measures every third task, on another machine say;
 `pushplan bench merge OUT SHARD...` makes of the parts what one run would have left, and
