@@ -1,6 +1,9 @@
 //! Which objects a frame's equations are about: those that may do anything but coast.
 
-use crate::scene::{DisjointSets, FrameStep, State};
+use crate::{
+    geometry::Turn,
+    scene::{DisjointSets, FrameStep, State},
+};
 
 use super::{
     bodies::{Bodies, Partner},
@@ -23,6 +26,7 @@ pub(super) struct Awake {
     subset: Subset<ListIndex, AwakeIndex>,
     state: State,
     coasts: Vec<Motion>,
+    turns: Vec<Turn>,
     /// Where nothing is awake.
     nothing: (Bodies, State),
 }
@@ -37,12 +41,13 @@ enum Share {
     All,
 }
 
-/// Bodies under numbers of their own, with their state and how they would coast.
+/// Bodies under numbers of their own, with their state, how they would coast and how they are turned.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View<'a> {
     pub bodies: &'a Bodies,
     pub state: &'a State,
     pub coasts: &'a [Motion],
+    pub turns: &'a [Turn],
 }
 
 impl Awake {
@@ -93,10 +98,11 @@ impl Awake {
         &mut self,
         bodies: &Bodies,
         state: &State,
-        coasts: &[Motion],
+        (coasts, turns): (&[Motion], &[Turn]),
         contacts: &mut Vec<Contact>,
     ) -> bool {
-        let Self { flags, share, subset, state: own, coasts: own_coasts, .. } = self;
+        let Self { flags, share, subset, state: own, coasts: own_coasts, turns: own_turns, .. } =
+            self;
         *share = match (flags.contains(&true), flags.contains(&false)) {
             (false, _) => Share::None,
             (true, true) => Share::Some,
@@ -128,6 +134,8 @@ impl Awake {
         subset.gather_state(state, own);
         own_coasts.clear();
         own_coasts.extend(subset.objects.iter().map(|k| coasts[k.0]));
+        own_turns.clear();
+        own_turns.extend(subset.objects.iter().map(|k| turns[k.0]));
         true
     }
 
@@ -137,13 +145,18 @@ impl Awake {
         bodies: &'a Bodies,
         state: &'a State,
         coasts: &'a [Motion],
+        turns: &'a [Turn],
     ) -> View<'a> {
+        let Self { nothing, subset, .. } = self;
         match self.share {
-            Share::None => View { bodies: &self.nothing.0, state: &self.nothing.1, coasts: &[] },
-            Share::Some => {
-                View { bodies: &self.subset.bodies, state: &self.state, coasts: &self.coasts }
-            }
-            Share::All => View { bodies, state, coasts },
+            Share::None => View { bodies: &nothing.0, state: &nothing.1, coasts: &[], turns: &[] },
+            Share::Some => View {
+                bodies: &subset.bodies,
+                state: &self.state,
+                coasts: &self.coasts,
+                turns: &self.turns,
+            },
+            Share::All => View { bodies, state, coasts, turns },
         }
     }
 

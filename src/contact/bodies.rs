@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::{
-    geometry::{ContactPoint, Footprint, Placed, Pose, Rim},
+    geometry::{ContactPoint, Footprint, Placed, Pose, Rim, Turn, Vector},
     scene::{
         Body, Feet, GRAVITY, JointKind, PairFriction, Physics, RigidGroups, Scene, Separation,
         Span, Surface, Tool, face_height, pair_friction,
@@ -61,6 +61,8 @@ pub struct Given {
     pub footprint: Footprint,
     /// Tool parts: pose in the tool frame. Obstacles: pose in the world.
     pub pose: Pose,
+    /// The turn by that pose's heading.
+    pub turn: Turn,
     /// Friction value.
     pub friction: f64,
     /// Heights above the table between which it stands, metres.
@@ -76,6 +78,8 @@ pub struct Jointed {
     pub kind: JointKind,
     /// The joint's frame as seen from each of the two, see [`crate::scene::Joint::frames`].
     pub frames: [Pose; 2],
+    /// The turn by the heading of the first of these.
+    pub turn: Turn,
     /// Range of turns (radians) or shifts (metres) against the start, where limited.
     pub limits: Option<Span>,
     /// Whether anchor or axis is only a guess.
@@ -86,6 +90,19 @@ impl Jointed {
     /// How its two sides stand when the objects are at `poses`.
     pub fn separation(&self, poses: &[Pose]) -> Separation {
         Separation::of(&self.frames, self.between.map(|object| poses[object]))
+    }
+
+    /// The same where the turns by the objects' headings are known, and where the first side's axis x
+    /// then points.
+    pub(super) fn separation_turned(&self, poses: &[Pose], turns: &[Turn]) -> (Separation, Vector) {
+        let end = |side: usize| {
+            let (object, frame) = (self.between[side], &self.frames[side]);
+            let Pose { position, heading } = poses[object];
+            let position = position + turns[object].of(frame.position);
+            Pose { position, heading: heading + frame.heading }
+        };
+        let axis = turns[self.between[0]].after(&self.turn).axis();
+        (Separation { ends: [0, 1].map(end) }, axis)
     }
 }
 
@@ -217,6 +234,7 @@ impl Bodies {
                 index,
                 footprint: piece.footprint(),
                 pose: piece.pose,
+                turn: piece.pose.turn(),
                 friction: tool.friction,
                 span: (lift, lift + piece.shape.height()),
             })
@@ -230,6 +248,7 @@ impl Bodies {
                 index,
                 footprint: obstacle.shape().footprint(),
                 pose: obstacle.pose,
+                turn: obstacle.pose.turn(),
                 friction: obstacle.friction,
                 span: (0.0, obstacle.size[2]),
             })
@@ -237,12 +256,16 @@ impl Bodies {
         let joints = physics
             .joints
             .iter()
-            .map(|joint| Jointed {
-                between: joint.between,
-                kind: joint.kind,
-                frames: joint.frames(&scene.objects),
-                limits: joint.limits(),
-                guessed: joint.guessed,
+            .map(|joint| {
+                let frames = joint.frames(&scene.objects);
+                Jointed {
+                    between: joint.between,
+                    kind: joint.kind,
+                    frames,
+                    turn: frames[0].turn(),
+                    limits: joint.limits(),
+                    guessed: joint.guessed,
+                }
             })
             .collect();
         let groups = Groups::new(scene, physics);

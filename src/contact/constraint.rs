@@ -63,6 +63,8 @@ pub(super) struct Constraint {
     pub own: [Matrix2<f64>; 2],
     /// By how much a force of one gives way.
     pub give: f64,
+    /// Whether these three are known at the present weights.
+    pub weighed: bool,
 }
 
 impl Constraint {
@@ -87,6 +89,7 @@ impl Constraint {
             moved: [[Vector3::zeros(); 2]; 2],
             own: [Matrix2::zeros(); 2],
             give: 0.0,
+            weighed: false,
         }
     }
 
@@ -99,6 +102,7 @@ impl Constraint {
             self.own[1] = -product(&self.from, &self.moved[1]);
         }
         self.give = 0.5 * GIVE * self.alone().trace();
+        self.weighed = true;
     }
 
     /// J A^-1 J^T of both bodies.
@@ -109,9 +113,16 @@ impl Constraint {
     /// Adds its trial forces to what presses on its bodies.
     pub fn press(&self, unknowns: &mut [Unknown]) {
         let trial = &self.trial;
-        unknowns[self.a.0].pressed += self.to[0] * trial.x + self.to[1] * trial.y;
+        if *trial == Vector2::zeros() {
+            return;
+        }
+        let first = &mut unknowns[self.a.0];
+        first.pressed += self.to[0] * trial.x + self.to[1] * trial.y;
+        first.touched = true;
         if let Some(b) = self.b {
-            unknowns[b.0].pressed -= self.from[0] * trial.x + self.from[1] * trial.y;
+            let second = &mut unknowns[b.0];
+            second.pressed -= self.from[0] * trial.x + self.from[1] * trial.y;
+            second.touched = true;
         }
     }
 

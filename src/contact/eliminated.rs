@@ -143,6 +143,16 @@ impl Eliminated {
         &self.blocks[one.0 * self.mechanism.len() + other.0]
     }
 
+    /// Takes how the bodies of a constraint answer its forces, if that is not known at the present weights.
+    pub fn weigh(&self, constraint: &mut Constraint, unknowns: &[Unknown]) {
+        if !constraint.weighed {
+            constraint.weigh(unknowns);
+            if !self.is_empty() {
+                constraint.own = self.own(constraint);
+            }
+        }
+    }
+
     /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
     /// side where both belong to one mechanism.
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
@@ -178,7 +188,9 @@ impl Eliminated {
         ties: &mut [Tie],
     ) {
         let Self { limbs, mechanism, load, moved, blocks, .. } = self;
-        unknowns.iter_mut().for_each(|unknown| unknown.pressed = Vector3::zeros());
+        for unknown in unknowns.iter_mut() {
+            (unknown.pressed, unknown.touched) = (Vector3::zeros(), false);
+        }
         constraints.iter().for_each(|constraint| constraint.press(unknowns));
         if limbs.is_empty() {
             unknowns.iter_mut().for_each(Unknown::settle);

@@ -1,7 +1,7 @@
 //! One frame: what is awake in it, and what becomes of it.
 
 use crate::{
-    geometry::Vector,
+    geometry::{Pose, Turn, Vector},
     scene::{FrameStep, State},
 };
 
@@ -33,6 +33,7 @@ pub struct FrameProblem<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     coasts: Vec<Motion>,
+    turns: Vec<Turn>,
     pub(super) contacts: Vec<Contact>,
     awake: Awake,
     /// Of the objects that are awake.
@@ -82,22 +83,24 @@ impl Frame {
     /// Finds how everything coasts, what touches and what is awake, and takes that by itself;
     /// returns whether anything is.
     pub(super) fn wake(&mut self, FrameProblem { bodies, state, step, .. }: FrameProblem) -> bool {
-        let Self { coasts, contacts, awake, motions, lone } = self;
+        let Self { coasts, turns, contacts, awake, motions, lone } = self;
         *lone = None;
         motions.clear();
         coasts.clear();
         let objects = bodies.objects.iter().zip(&state.velocities);
         coasts.extend(objects.map(|(body, velocity)| coast(body, velocity, step.duration)));
-        find_contacts(Scenery { bodies, state, step, coasts, margin: MARGIN }, contacts);
+        turns.clear();
+        turns.extend(state.poses.iter().map(Pose::turn));
+        find_contacts(Scenery { bodies, state, step, coasts, turns, margin: MARGIN }, contacts);
         awake.find(bodies, contacts, coasts, step);
-        awake.gather(bodies, state, coasts, contacts)
+        awake.gather(bodies, state, (coasts, turns), contacts)
     }
 
     /// What is awake, by itself.
     pub(super) fn scenery<'a>(&'a self, problem: FrameProblem<'a>) -> Scenery<'a> {
-        let View { bodies, state, coasts } =
-            self.awake.view(problem.bodies, problem.state, &self.coasts);
-        Scenery { bodies, state, step: problem.step, coasts, margin: MARGIN }
+        let View { bodies, state, coasts, turns } =
+            self.awake.view(problem.bodies, problem.state, &self.coasts, &self.turns);
+        Scenery { bodies, state, step: problem.step, coasts, turns, margin: MARGIN }
     }
 
     pub(super) fn solution<'a>(&'a self, problem: FrameProblem<'a>) -> FrameSolution<'a> {

@@ -3,16 +3,16 @@
 use nalgebra::{Vector2, Vector3};
 
 use crate::{
-    geometry::{Pose, Vector, perpendicular},
-    scene::{JOINT_ARM, JointKind, State},
+    geometry::{Vector, perpendicular},
+    scene::{JOINT_ARM, JointKind},
 };
 
 use super::{
-    bodies::{Bodies, Jointed},
+    bodies::Jointed,
     constraint::{Constraint, Law, Tie},
     index::GroupIndex,
     twist::along,
-    unknown::Unknown,
+    unknown::{Course, Unknown},
 };
 
 /// A limit this far off, or nearer, is watched: metres, or radians at [`JOINT_ARM`].
@@ -53,8 +53,7 @@ impl Rows {
 /// The rows of a joint between different groups where these have come to: first its own, then
 /// its limits. How many there are depends on the start of the frame alone.
 pub(super) fn rows(
-    bodies: &Bodies,
-    state: &State,
+    Course { bodies, state, turns, .. }: Course,
     joint: &Jointed,
     axis: Vector,
     unknowns: &[Unknown],
@@ -64,16 +63,12 @@ pub(super) fn rows(
     if between[0] == between[1] {
         return;
     }
-    let start = joint.separation(&state.poses);
-    let starts = start.ends;
+    let (start, slides) = joint.separation_turned(&state.poses, turns);
     // What has opened at a guessed joint is no error of the objects but of the guess.
     let (apart, turned) =
         if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
     let groups = between.map(|group| &unknowns[group.0]);
-    let [on_first, on_second] = [0, 1].map(|end| Pose {
-        position: groups[end].moved(starts[end].position),
-        heading: starts[end].heading + groups[end].share * groups[end].twist.z,
-    });
+    let [on_first, on_second] = [0, 1].map(|end| groups[end].moved(start.ends[end].position));
     let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre));
     let turn = Vector3::new(0.0, 0.0, JOINT_ARM);
     let none = Vector3::zeros();
@@ -84,8 +79,8 @@ pub(super) fn rows(
             // Along the tool's motion and across it, so that they turn with the scene.
             let directions = [axis, perpendicular(axis)];
             add(
-                directions.map(|d| along(d, on_second.position - centre_b)),
-                directions.map(|d| along(d, on_first.position - centre_a)),
+                directions.map(|d| along(d, on_second - centre_b)),
+                directions.map(|d| along(d, on_first - centre_a)),
                 directions.map(|d| -apart.dot(&d)),
                 false,
             );
@@ -101,15 +96,14 @@ pub(super) fn rows(
         JointKind::Prismatic { .. } => {
             // Both bodies at the second's frame: it slides along an axis that turns with the
             // first.
-            let slide = on_first.vector(Vector::x());
+            let slide = groups[0].turn.of(slides);
             let across = perpendicular(slide);
-            let at = on_second.position;
-            let start = starts[0].vector(Vector::x());
-            let target = [-apart.dot(&perpendicular(start)), -turned * JOINT_ARM];
+            let at = on_second;
+            let target = [-apart.dot(&perpendicular(slides)), -turned * JOINT_ARM];
             let row = |centre| along(across, at - centre);
             add([row(centre_b), turn], [row(centre_a), turn], target, false);
             if let Some(limits) = joint.limits {
-                let slid = apart.dot(&start);
+                let slid = apart.dot(&slides);
                 for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
                     if left < NEAR_LIMIT {
                         let only = |centre| [along(sign * slide, at - centre), none];
@@ -123,16 +117,15 @@ pub(super) fn rows(
 
 /// Turns the rows of all joints, and of their limits, to where the groups have come to.
 pub(super) fn turn_joints(
-    bodies: &Bodies,
-    state: &State,
+    of: Course,
     axis: Vector,
     unknowns: &[Unknown],
     ties: &mut [Tie],
     limits: &mut [Constraint],
 ) {
     let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
-    for joint in &bodies.joints {
-        rows(bodies, state, joint, axis, unknowns, |rows| {
+    for joint in &of.bodies.joints {
+        rows(of, joint, axis, unknowns, |rows| {
             if rows.limit {
                 limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
             } else {

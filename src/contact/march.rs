@@ -4,7 +4,7 @@
 //! the whole frame everything happens at once.
 
 use crate::{
-    geometry::Vector,
+    geometry::{Pose, Turn, Vector},
     scene::{FrameStep, State},
 };
 
@@ -26,6 +26,9 @@ pub(super) struct March {
     pub prior: Prior,
     state: State,
     coasts: Vec<Motion>,
+    turns: Vec<Turn>,
+    /// How far any point of an object may be from where it was as the frame began, metres.
+    moved: Vec<f64>,
     contacts: Vec<Contact>,
     last: Vec<Contact>,
 }
@@ -43,7 +46,7 @@ impl March {
         pieces: usize,
         motions: &mut Vec<Motion>,
     ) {
-        let Self { prior, state: now, coasts, contacts, last } = self;
+        let Self { prior, state: now, coasts, turns, moved, contacts, last } = self;
         now.clone_from(state);
         let duration = step.duration / pieces as f64;
         let at = |piece: usize| step.from.towards(&step.to, piece as f64 / pieces as f64);
@@ -54,9 +57,18 @@ impl March {
             coasts.extend(
                 bodies.objects.iter().zip(velocities).map(|(body, v)| coast(body, v, duration)),
             );
-            let scenery = Scenery { bodies, state: now, step: &small, coasts, margin: MARGIN };
+            turns.clear();
+            turns.extend(now.poses.iter().map(Pose::turn));
+            moved.clear();
+            moved.extend(bodies.objects.iter().enumerate().map(|(k, body)| {
+                let (now, before) = (&now.poses[k], &state.poses[k]);
+                let turned = (now.heading - before.heading).abs();
+                (now.position - before.position).norm() + turned * body.radius
+            }));
+            let scenery =
+                Scenery { bodies, state: now, step: &small, coasts, turns, margin: MARGIN };
             std::mem::swap(contacts, last);
-            find_again(scenery, known, contacts);
+            find_again(scenery, known, moved, contacts);
             match piece {
                 0 => prior.solve(scenery, axis, contacts),
                 _ => prior.follow(scenery, axis, contacts, last),

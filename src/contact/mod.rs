@@ -9,6 +9,7 @@
 mod active;
 mod approach;
 mod awake;
+mod blocks;
 mod bodies;
 mod coast;
 mod constraint;

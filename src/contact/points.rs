@@ -8,7 +8,7 @@ use crate::{
 };
 
 use super::{
-    bodies::{Bodies, Partner},
+    bodies::{Bodies, Given, Partner},
     motion::Motion,
     pairs::PairId,
 };
@@ -51,6 +51,8 @@ pub(super) struct Scenery<'a> {
     pub state: &'a State,
     pub step: &'a FrameStep,
     pub coasts: &'a [Motion],
+    /// By the objects' headings.
+    pub turns: &'a [Turn],
     /// How much farther off than both could travel what still counts may be, metres.
     pub margin: f64,
 }
@@ -77,8 +79,11 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     contacts.clear();
     let tool = Pusher::new(scenery.step);
     for (object, body) in bodies.objects.iter().enumerate() {
-        let placed = Placed::new(&body.footprint, scenery.state.poses[object]);
-        let mut meet = |with| scenery.meet(&tool, (object, &placed), with, contacts);
+        let placed = scenery.placed(object);
+        let mut meet = |with| {
+            let reach = scenery.reach(object, with);
+            scenery.meet(&tool, (object, &placed), (with, reach), contacts);
+        };
         for (index, part) in bodies.parts.iter().enumerate() {
             if part.span.0 < body.height {
                 meet(Partner::Part(index));
@@ -95,57 +100,81 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
     }
 }
 
-/// The contact points of those pairs alone that have some in `known`.
-pub(super) fn find_again(scenery: Scenery, known: &[Contact], contacts: &mut Vec<Contact>) {
+/// The contact points of those pairs alone that have some in `known`, which are of a moment since when
+/// no point of any object has `moved` by more than that.
+pub(super) fn find_again(
+    scenery: Scenery,
+    known: &[Contact],
+    moved: &[f64],
+    contacts: &mut Vec<Contact>,
+) {
     contacts.clear();
     let tool = Pusher::new(scenery.step);
-    let mut last = None;
-    for contact in known {
-        // The points of a pair stand together.
-        if last.replace(contact.pair) != Some(contact.pair) {
-            let body = &scenery.bodies.objects[contact.object];
-            let placed = Placed::new(&body.footprint, scenery.state.poses[contact.object]);
-            scenery.meet(&tool, (contact.object, &placed), contact.with, contacts);
+    // The points of a pair stand together, the nearest first.
+    for points in known.chunk_by(|one, next| one.pair == next.pair) {
+        let Contact { object, with, gap, .. } = points[0];
+        let placed = scenery.placed(object);
+        let nearer = match with {
+            // What is nearest may be a seam, which does not count.
+            Partner::Part(_) => f64::INFINITY,
+            Partner::Obstacle(_) => moved[object],
+            Partner::Object(other) => moved[object] + moved[other],
+        };
+        let reach = scenery.reach(object, with);
+        if gap - nearer <= reach {
+            scenery.meet(&tool, (object, &placed), (with, reach), contacts);
         }
     }
 }
 
 impl Scenery<'_> {
-    /// Adds the contact points of an object and another body.
-    fn meet(
-        &self,
-        tool: &Pusher,
-        (object, placed): (usize, &Placed),
-        with: Partner,
-        contacts: &mut Vec<Contact>,
-    ) {
-        let Self { bodies, state, step, coasts, .. } = *self;
+    /// An object as the frame begins.
+    fn placed(&self, object: usize) -> Placed<'_> {
+        let footprint = &self.bodies.objects[object].footprint;
+        Placed::turned(footprint, self.state.poses[object], self.turns[object])
+    }
+
+    /// How far apart an object and another body may be for their points to count, metres.
+    fn reach(&self, object: usize, with: Partner) -> f64 {
+        let Self { bodies, step, coasts, .. } = *self;
         let travel = (step.to.position - step.from.position).norm();
         let own = |object: usize| {
             coasts[object].shift.norm() + coasts[object].turn.abs() * bodies.objects[object].radius
         };
         // While the tool turns, its far ends travel more than its frame; margins allow for that.
         let reach = self.margin + travel + own(object);
-        let (footprint, pose, reach) = match with {
+        match with {
+            Partner::Object(other) => reach + own(other),
+            _ => reach,
+        }
+    }
+
+    /// Adds the contact points of an object and another body that are within `reach` metres.
+    fn meet(
+        &self,
+        tool: &Pusher,
+        (object, placed): (usize, &Placed),
+        (with, reach): (Partner, f64),
+        contacts: &mut Vec<Contact>,
+    ) {
+        let Self { bodies, step, .. } = *self;
+        let other = match with {
             Partner::Part(index) => {
-                let part = &bodies.parts[index];
-                let Pose { position, heading } = part.pose;
-                let position = step.from.position + tool.from.of(position);
-                (&part.footprint, Pose { position, heading: step.from.heading + heading }, reach)
+                let Given { footprint, pose: Pose { position, heading }, turn, .. } =
+                    &bodies.parts[index];
+                let position = step.from.position + tool.from.of(*position);
+                let pose = Pose { position, heading: step.from.heading + heading };
+                Placed::turned(footprint, pose, tool.from.after(turn))
             }
             Partner::Obstacle(index) => {
-                let obstacle = &bodies.obstacles[index];
-                (&obstacle.footprint, obstacle.pose, reach)
+                let Given { footprint, pose, turn, .. } = &bodies.obstacles[index];
+                Placed::turned(footprint, *pose, *turn)
             }
-            Partner::Object(other) => {
-                (&bodies.objects[other].footprint, state.poses[other], reach + own(other))
-            }
+            Partner::Object(other) => self.placed(other),
         };
-        let body = &bodies.objects[object].footprint;
-        if far_apart((body, placed.position()), (footprint, pose.position), reach) {
+        if far_apart(placed, &other, reach) {
             return;
         }
-        let other = Placed::new(footprint, pose);
         let shows = |point: &&ContactPoint| match with {
             Partner::Part(index) => bodies.shows(index, &other, point),
             _ => true,
@@ -166,7 +195,7 @@ impl Scenery<'_> {
                 with,
                 arm: point.on_first - placed.position(),
                 other_arm: match with {
-                    Partner::Object(_) => point.on_second - pose.position,
+                    Partner::Object(_) => point.on_second - other.position(),
                     _ => Vector::zeros(),
                 },
                 normal: point.normal,
@@ -177,5 +206,79 @@ impl Scenery<'_> {
                 follows: point.follows,
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        contact::coast::coast,
+        geometry::Pose,
+        scene::{Object, Obstacle, Part, Physics, Scene, Tool},
+    };
+
+    /// Eleven boxes and cans, a wall and a bar, everything a little moved since contacts were found.
+    #[test]
+    fn pairs_that_cannot_have_come_near_are_left_out_for_the_same_contacts() {
+        let objects = (0..11).map(|k| {
+            let (x, y) = (0.075 * f64::from(k % 4), 0.07 * f64::from(k / 4));
+            let name = format!("{k}");
+            let object = match k % 3 {
+                0 => Object::cylinder(name, 0.03, 0.1),
+                _ => Object::cuboid(name, [0.06, 0.05, 0.1]),
+            };
+            object.mass(0.5).friction(0.5).at(x, y, 0.3 * f64::from(k))
+        });
+        let wall = Obstacle {
+            name: "wall".into(),
+            size: [0.02, 0.4, 0.1],
+            pose: Pose::new(0.3, 0.07, 0.1),
+            friction: 0.5,
+        };
+        let scene = Scene { obstacles: vec![wall], ..Scene::new(objects) };
+        let bar = Part::cuboid("bar", [0.02, 0.1, 0.1], Pose::new(-0.05, 0.0, 0.2));
+        let tool = Tool::new("bar", [bar]).expect("one piece");
+        let bodies = Bodies::new(&scene, &tool, 0.002, &Physics::stated(&scene));
+        let step =
+            FrameStep { from: Pose::default(), to: Pose::new(2e-3, 0.0, 0.0), duration: 0.01 };
+        let found = |state: &State, margin: f64, known: Option<(&[Contact], &[f64])>| {
+            let velocities = bodies.objects.iter().zip(&state.velocities);
+            let coasts: Vec<Motion> =
+                velocities.map(|(body, velocity)| coast(body, velocity, step.duration)).collect();
+            let turns: Vec<Turn> = state.poses.iter().map(Pose::turn).collect();
+            let scenery = Scenery {
+                bodies: &bodies,
+                state,
+                step: &step,
+                coasts: &coasts,
+                turns: &turns,
+                margin,
+            };
+            let mut contacts = Vec::new();
+            match known {
+                Some((known, moved)) => find_again(scenery, known, moved, &mut contacts),
+                None => find_contacts(scenery, &mut contacts),
+            }
+            contacts
+        };
+        let mut state = scene.start();
+        let known = found(&state, 0.02, None);
+        let mut moved = Vec::new();
+        for (k, pose) in state.poses.iter_mut().enumerate() {
+            let (shift, turn) = (2e-3 * (k as f64).sin(), 0.03 * (k as f64).cos());
+            *pose = Pose::new(pose.position.x + shift, pose.position.y, pose.heading + turn);
+            moved.push(shift.abs() + turn.abs() * bodies.objects[k].radius);
+        }
+        let far = vec![f64::INFINITY; moved.len()];
+        let [some, all] = [&moved, &far].map(|moved| found(&state, 6e-3, Some((&known, moved))));
+        assert_eq!(format!("{some:?}"), format!("{all:?}"));
+        let pairs = |contacts: &[Contact]| contacts.chunk_by(|p, q| p.pair == q.pair).count();
+        assert!(
+            pairs(&some) >= 3 && pairs(&known) >= 2 * pairs(&some),
+            "{} {}",
+            pairs(&known),
+            pairs(&some)
+        );
     }
 }

@@ -15,17 +15,15 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::{JOINT_ARM, State};
+use crate::scene::JOINT_ARM;
 
 use super::{
     active::ActiveSet,
     approach::Approach,
-    bodies::Bodies,
     constraint::{Constraint, Tie},
     eliminated::Eliminated,
-    motion::Motion,
     tally::Tally,
-    unknown::{Quantity, Unknown},
+    unknown::{Course, Quantity, Unknown},
 };
 
 /// Most updates of the weights A.
@@ -45,7 +43,6 @@ const FEW: usize = 3;
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     pub unknowns: Vec<Unknown>,
-    pub quantity: Quantity,
     /// Contacts and limits.
     pub constraints: Vec<Constraint>,
     /// Joints: whatever the contacts do, these hold.
@@ -68,31 +65,35 @@ impl System {
     /// decides where the iteration begins. One group alone begins at rest, as its load then has time
     /// to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and 0.69 mm
     /// otherwise, and of several objects it is not larger.
-    pub fn begin(
-        &mut self,
-        bodies: &Bodies,
-        state: &State,
-        coasts: &[Motion],
-        duration: f64,
-        reach: f64,
-        follows: bool,
-    ) {
+    pub fn begin(&mut self, of: Course, reach: f64, follows: bool) {
         std::mem::swap(&mut self.constraints, &mut self.last);
         self.follows = follows;
         self.constraints.clear();
         self.ties.clear();
-        self.unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
-        let of = (self.quantity, duration);
         let Self { unknowns, tally, .. } = self;
+        let Course { bodies, .. } = of;
+        unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
         let several = unknowns.len() > 1;
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.place(members, state);
-            unknown.pull((bodies, members), state, of, coasts);
+            unknown.place(members, of);
+            // One alone is touched, or nothing would be asked.
+            unknown.held |= !several;
+        }
+        for joint in &bodies.joints {
+            for object in joint.between {
+                unknowns[bodies.groups.of[object].0].held = true;
+            }
+        }
+        for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
+            if follows && unknown.coasts() {
+                unknown.coast(members[0], of);
+                continue;
+            }
             let goes_on = follows || {
                 unknown.forget();
-                several && unknown.carry_on(members[0], state, duration)
+                several && unknown.carry_on(members[0], of)
             };
-            unknown.weigh((bodies, members), state, of.0, (!goes_on).then_some(reach), tally);
+            unknown.weigh(members, of, (!goes_on).then_some(reach), tally);
             if !goes_on {
                 unknown.twist = unknown.free;
             }
@@ -108,44 +109,33 @@ impl System {
 
     /// The same groups, joints, limits and what presses of the contacts in `other`, which has been
     /// solved, but for another quantity; it begins where that has ended.
-    pub fn continue_from(
-        &mut self,
-        other: &System,
-        bodies: &Bodies,
-        state: &State,
-        coasts: &[Motion],
-        duration: f64,
-    ) {
+    pub fn continue_from(&mut self, other: &System, of: Course) {
         self.follows = true;
         self.unknowns.clone_from(&other.unknowns);
         self.constraints.clear();
         self.constraints.extend(other.constraints.iter().filter(|c| c.presses() || c.is_limit()));
         self.ties.clone_from(&other.ties);
-        let of = (self.quantity, duration);
-        for (unknown, members) in self.unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.pull((bodies, members), state, of, coasts);
-        }
-        self.weigh(bodies, state);
+        self.unknowns.iter_mut().for_each(Unknown::turn_to_another);
+        self.weigh(of);
     }
 
     /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
     /// the weights, as it follows from how everything moves.
     pub fn solve(
         &mut self,
-        bodies: &Bodies,
-        state: &State,
+        of: Course,
         mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
         self.tally.systems += 1;
         self.tally.constraints += self.constraints.len() as u64;
         self.joints.hang(self.unknowns.len(), &self.ties);
-        let settled = match self.quantity {
+        let settled = match of.quantity {
             Quantity::Displacement if self.unknowns.len() > FEW => SETTLED_IN_A_CROWD,
             _ => SETTLED,
         };
         for update in 0..UPDATES {
             if update > 0 {
-                self.weigh(bodies, state);
+                self.weigh(of);
             }
             turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
@@ -161,10 +151,13 @@ impl System {
         }
     }
 
-    fn weigh(&mut self, bodies: &Bodies, state: &State) {
-        let Self { unknowns, quantity, tally, .. } = self;
-        for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.weigh((bodies, members), state, *quantity, None, tally);
+    fn weigh(&mut self, of: Course) {
+        let Self { unknowns, tally, .. } = self;
+        for (unknown, members) in unknowns.iter_mut().zip(&of.bodies.groups.members) {
+            match unknown.coasts() {
+                true => unknown.coast(members[0], of),
+                false => unknown.weigh(members, of, None, tally),
+            }
         }
     }
 
@@ -173,15 +166,11 @@ impl System {
         let Self { unknowns, constraints, ties, active, approach, joints, tally, .. } = self;
         tally.updates += 1;
         joints.prepare(unknowns, ties);
-        for constraint in constraints.iter_mut() {
-            constraint.weigh(unknowns);
-            if !joints.is_empty() {
-                constraint.own = joints.own(constraint);
-            }
-        }
+        constraints.iter_mut().for_each(|constraint| constraint.weighed = false);
         let found = active.solve(unknowns, constraints, ties, joints, tally);
         if !found {
             tally.approached += 1;
+            constraints.iter_mut().for_each(|constraint| joints.weigh(constraint, unknowns));
             approach.run(unknowns, constraints, ties, joints);
         }
     }

@@ -70,6 +70,20 @@ pub(super) const FOLLOWING: usize = 5;
 /// Weights are kept while motion (metres, radians) and pressing have changed by less.
 pub(super) const SAME: f64 = 1e-9;
 
+/// What all groups of a system have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course<'a> {
+    pub bodies: &'a Bodies,
+    pub state: &'a State,
+    /// What the objects would do if nothing touched or held them.
+    pub coasts: &'a [Motion],
+    /// By the objects' headings.
+    pub turns: &'a [Turn],
+    /// Seconds.
+    pub duration: f64,
+    pub quantity: Quantity,
+}
+
 /// What does not change while a member's frame is solved.
 #[derive(Clone, Copy, Debug)]
 struct Member {
@@ -89,14 +103,18 @@ pub(super) struct Unknown {
     pub resistance: Matrix3<f64>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
-    /// What pulls it without contacts and joints, force and torque.
-    pull: Vector3<f64>,
+    /// What pulls it without contacts and joints, force and torque, if that has been taken.
+    pull: Option<Vector3<f64>>,
     /// What it does without contacts and joints.
     pub free: Vector3<f64>,
     /// Shift of the centre, metres, and turn, radians.
     pub twist: Vector3<f64>,
     /// Force and torque of all contacts and joints.
     pub pressed: Vector3<f64>,
+    /// Whether any contact presses.
+    pub touched: bool,
+    /// Whether it may do anything but coast where none does.
+    pub held: bool,
     /// How hard contacts and joints press, as a share of the largest friction, at most one: what
     /// moves the load ahead.
     pressing: Vector,
@@ -124,16 +142,34 @@ impl Clone for Unknown {
 
 impl Unknown {
     /// Puts the group where its `members` are; it has not moved yet.
-    pub fn place(&mut self, members: &[usize], state: &State) {
+    pub fn place(&mut self, members: &[usize], Course { state, turns, .. }: Course) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
         self.members.clear();
-        self.members.extend(members.iter().map(|&k| {
-            let (sin, cos) = state.poses[k].heading.sin_cos();
-            Member { axis: Vector::new(cos, sin), inertia: (0.0, 0.0) }
-        }));
+        let member = |&k: &usize| Member { axis: turns[k].axis(), inertia: (0.0, 0.0) };
+        self.members.extend(members.iter().map(member));
         (self.share, self.turn) = (0.0, Turn::NONE);
         self.updates = 0;
+        self.pull = None;
+        self.held = members.len() > 1;
+    }
+
+    /// Whether it does what it would do alone on the table, so that its equations need not be known.
+    pub fn coasts(&self) -> bool {
+        !self.touched && !self.held
+    }
+
+    /// Moves as its only `member` coasts.
+    pub fn coast(&mut self, member: usize, of: Course) {
+        let coast = &of.coasts[member];
+        self.free = match of.quantity {
+            Quantity::Displacement => Vector3::new(coast.shift.x, coast.shift.y, coast.turn),
+            Quantity::Velocity => {
+                let end = of.duration * coast.velocity;
+                Vector3::new(end.x, end.y, of.duration * coast.spin)
+            }
+        };
+        self.twist = self.free;
     }
 
     /// Looks at the group when `share` of its present motion is done.
@@ -151,10 +187,18 @@ impl Unknown {
     pub fn forget(&mut self) {
         self.pressed = Vector3::zeros();
         self.pressing = Vector::zeros();
+        self.touched = false;
+    }
+
+    /// Another quantity is asked for, which is not known without the equations where anything but the
+    /// table has held the group.
+    pub fn turn_to_another(&mut self) {
+        self.pull = None;
+        self.held |= self.touched;
     }
 
     /// Goes on as its `member` moves; returns whether that does.
-    pub fn carry_on(&mut self, member: usize, state: &State, duration: f64) -> bool {
+    pub fn carry_on(&mut self, member: usize, Course { state, duration, .. }: Course) -> bool {
         let velocity = &state.velocities[member];
         let turn = duration * velocity.angular;
         let arm = state.poses[member].position - self.centre;
@@ -168,17 +212,13 @@ impl Unknown {
         self.twist = self.free + self.inverse * self.pressed;
     }
 
-    /// Takes what pulls the group in a frame of this kind and duration: friction and inertia of
-    /// members that coast.
-    pub fn pull(
+    /// What pulls the group: friction and inertia of members that coast.
+    fn pull(
         &mut self,
-        (bodies, members): (&Bodies, &[usize]),
-        state: &State,
-        (quantity, duration): (Quantity, f64),
-        coasts: &[Motion],
-    ) {
-        self.pull = Vector3::zeros();
-        self.weighed = None;
+        members: &[usize],
+        Course { bodies, state, coasts, duration, quantity, .. }: Course,
+    ) -> Vector3<f64> {
+        let mut pull = Vector3::zeros();
         for (&k, member) in members.iter().zip(&mut self.members) {
             let body = &bodies.objects[k];
             member.inertia = inertias(body, quantity.inertia_of(body, duration));
@@ -187,9 +227,12 @@ impl Unknown {
             let own = match quantity {
                 Quantity::Displacement => {
                     let coast = &coasts[k];
-                    let moved = (coast.shift, coast.turn);
-                    let rub = rub((bodies, k), member.axis, moved, quantity, Vector::zeros());
                     let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
+                    if moved == Vector3::zeros() {
+                        continue;
+                    }
+                    let motion = (coast.shift, coast.turn);
+                    let rub = rub((bodies, k), member.axis, motion, quantity, Vector::zeros());
                     rub.about(Vector::zeros()) * moved
                         + Vector3::new(slide, slide, turn).component_mul(&moved)
                 }
@@ -199,20 +242,20 @@ impl Unknown {
                     Vector3::new(pull.x, pull.y, turn * duration * start.angular)
                 }
             };
-            self.pull += along(own.xy(), arm) + Vector3::new(0.0, 0.0, own.z);
+            pull += along(own.xy(), arm) + Vector3::new(0.0, 0.0, own.z);
         }
+        pull
     }
 
     /// Takes resistance and free motion when its members move as they do now, or by `reach`
     /// metres each.
-    pub fn weigh(
-        &mut self,
-        (bodies, members): (&Bodies, &[usize]),
-        state: &State,
-        quantity: Quantity,
-        reach: Option<f64>,
-        tally: &mut Tally,
-    ) {
+    pub fn weigh(&mut self, members: &[usize], of: Course, reach: Option<f64>, tally: &mut Tally) {
+        let Course { bodies, state, quantity, .. } = of;
+        let pull = self.pull.unwrap_or_else(|| {
+            self.weighed = None;
+            self.pull(members, of)
+        });
+        self.pull = Some(pull);
         let before = self.pressing;
         if self.updates < FOLLOWING {
             let load: f64 = members.iter().map(|&k| bodies.objects[k].load()).sum();
@@ -246,7 +289,7 @@ impl Unknown {
         }
         self.resistance = weight;
         self.inverse = inverse(&weight);
-        self.free = self.inverse * self.pull;
+        self.free = self.inverse * pull;
     }
 }
 

@@ -74,7 +74,12 @@ pub struct Placed<'a> {
 impl<'a> Placed<'a> {
     /// The footprint at that pose.
     pub fn new(footprint: &'a Footprint, pose: Pose) -> Self {
-        Self { footprint, pose, turn: pose.turn() }
+        Self::turned(footprint, pose, pose.turn())
+    }
+
+    /// The same where the turn by the pose's heading is known.
+    pub fn turned(footprint: &'a Footprint, pose: Pose, turn: Turn) -> Self {
+        Self { footprint, pose, turn }
     }
 
     /// Where its centre is, metres.
@@ -93,13 +98,10 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// Whether two footprints around these centres are farther apart than `reach` metres for sure.
-pub fn far_apart(
-    (first, at): (&Footprint, Vector),
-    (second, other): (&Footprint, Vector),
-    reach: f64,
-) -> bool {
-    (at - other).norm() > first.bounding_radius() + second.bounding_radius() + reach
+/// Whether two footprints are farther apart than `reach` metres for sure.
+pub fn far_apart(first: &Placed, second: &Placed, reach: f64) -> bool {
+    let [p, q] = [first, second].map(|placed| placed.footprint.bounding_radius());
+    (first.position() - second.position()).norm() > p + q + reach
 }
 
 /// The one or two contact points of two posed footprints whose gap is at most `reach` metres,
@@ -112,10 +114,11 @@ pub fn contact_points(
     second: (&Footprint, &Pose),
     reach: f64,
 ) -> ([Option<ContactPoint>; 2], usize) {
-    if far_apart((first.0, first.1.position), (second.0, second.1.position), reach) {
-        return ([None, None], 0);
+    let [first, second] = [first, second].map(|(footprint, pose)| Placed::new(footprint, *pose));
+    match far_apart(&first, &second, reach) {
+        true => ([None, None], 0),
+        false => contact_points_of(&first, &second, reach),
     }
-    contact_points_of(&Placed::new(first.0, *first.1), &Placed::new(second.0, *second.1), reach)
 }
 
 /// [`contact_points`] of two that are not [`far_apart`].
@@ -223,12 +226,11 @@ impl Candidate {
 /// `room` for the candidates, one for each corner of both.
 fn flats<A: Flat, B: Flat>(
     (Placed { pose: a, turn, .. }, first): (&Placed, &A),
-    (Placed { pose: b, .. }, second): (&Placed, &B),
+    (Placed { pose: b, turn: other, .. }, second): (&Placed, &B),
     reach: f64,
     room: &mut [Candidate],
 ) -> ([Option<ContactPoint>; 2], usize) {
-    // The relative pose once, so that the corners cost no further sine.
-    let (b_from_a, b_turn) = (turn.back(b.position - a.position), Turn::by(b.heading - a.heading));
+    let (b_from_a, b_turn) = (turn.back(b.position - a.position), other.from(turn));
     let to_a = |p: Vector| b_from_a + b_turn.of(p);
     let to_b = |p: Vector| b_turn.back(p - b_from_a);
 

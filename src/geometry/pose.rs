@@ -93,6 +93,10 @@ pub fn perpendicular(v: Vector) -> Vector {
 
 /// The same angle in (-pi, pi], radians.
 pub fn wrap_angle(angle: f64) -> f64 {
+    // Nearly all are, and a remainder takes as long as a sine.
+    if angle > -std::f64::consts::PI && angle <= std::f64::consts::PI {
+        return angle;
+    }
     let wrapped = angle.rem_euclid(std::f64::consts::TAU);
     if wrapped > std::f64::consts::PI { wrapped - std::f64::consts::TAU } else { wrapped }
 }

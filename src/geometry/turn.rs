@@ -28,6 +28,27 @@ impl Turn {
         Self { sin, cos }
     }
 
+    /// This turn on top of another.
+    pub fn after(&self, first: &Self) -> Self {
+        Self {
+            sin: self.sin * first.cos + self.cos * first.sin,
+            cos: self.cos * first.cos - self.sin * first.sin,
+        }
+    }
+
+    /// The turn that leads from another to this one.
+    pub fn from(&self, other: &Self) -> Self {
+        Self {
+            sin: self.sin * other.cos - self.cos * other.sin,
+            cos: self.cos * other.cos + self.sin * other.sin,
+        }
+    }
+
+    /// Where it turns the axis x to, a unit vector.
+    pub fn axis(&self) -> Vector {
+        Vector::new(self.cos, self.sin)
+    }
+
     /// `v`, turned.
     pub fn of(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)

@@ -43,7 +43,7 @@ impl<'a, const N: usize> Frames<'a, N> {
     /// Puts a lone frame in place `k`.
     #[inline(always)]
     pub fn set(&mut self, k: usize, scenery: Scenery<'a>, contacts: &[Contact]) {
-        let Scenery { bodies, state, step, coasts, .. } = scenery;
+        let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
         let (body, pose, coast) = (&bodies.objects[0], &state.poses[0], &coasts[0]);
         let (object, velocity) = (&mut self.object, &state.velocities[0]);
         self.present.set(k, true);
@@ -51,8 +51,7 @@ impl<'a, const N: usize> Frames<'a, N> {
         object.feet[k] = Some(feet);
         set(&mut object.place, k, pose.position);
         if !feet.round {
-            let (sin, cos) = pose.heading.sin_cos();
-            set(&mut object.axis, k, Vector::new(cos, sin));
+            set(&mut object.axis, k, turns[0].axis());
         }
         for (lanes, value) in [
             (&mut object.mass, body.mass),
