@@ -1,0 +1,146 @@
+use super::*;
+use crate::{
+    contact::{bodies::Bodies, coast::coast, points::find_contacts},
+    geometry::{Pose, Shape, Turn, cross},
+    scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
+};
+
+fn cuboid(x: f64, y: f64) -> Object {
+    Object::cuboid(format!("{x} {y}"), [0.06, 0.06, 0.1]).mass(0.5).friction(0.5).at(x, y, 0.0)
+}
+
+fn can(x: f64, y: f64) -> Object {
+    Object { shape: Shape::Cylinder { radius: 0.03, height: 0.1 }, ..cuboid(x, y) }
+}
+
+/// Pushed at the table's height, so that the load stays where it is.
+fn table(objects: Vec<Object>) -> Scene {
+    Scene { push_height: Some(0.0), ..Scene::new(objects) }
+}
+
+/// The motions of one slow frame in which a round finger of 2 cm, its far side touching the
+/// line x = 0, moves by `travel`.
+fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
+    let finger = Part {
+        name: "finger".into(),
+        shape: Shape::Cylinder { radius: 0.01, height: 0.1 },
+        pose: Pose::new(-0.01, 0.0, 0.0),
+    };
+    let tool = Tool::new("finger", [finger]).expect("one part is one piece").friction(0.5);
+    let bodies = Bodies::new(scene, &tool, 0.002, &Physics::stated(scene));
+    let state = scene.start();
+    let to = Pose { position: travel, heading: 0.0 };
+    let step = FrameStep { from: Pose::default(), to, duration: 0.5 };
+    let coasts: Vec<Motion> = (bodies.objects.iter().zip(&state.velocities))
+        .map(|(body, velocity)| coast(body, velocity, step.duration))
+        .collect();
+    let turns: Vec<Turn> = state.poses.iter().map(Pose::turn).collect();
+    let mut contacts = Vec::new();
+    let scenery = Scenery {
+        bodies: &bodies,
+        state: &state,
+        step: &step,
+        coasts: &coasts,
+        turns: &turns,
+        margin: crate::contact::MARGIN,
+    };
+    find_contacts(scenery, &mut contacts);
+    let mut prior = Prior::default();
+    prior.solve(scenery, Vector::x(), &contacts);
+    prior.motions
+}
+
+#[test]
+fn a_push_through_the_centre_only_shifts() {
+    let [motion] = prior(&table(vec![cuboid(0.03, 0.0)]), Vector::new(0.008, 0.0))[..] else {
+        panic!("one object")
+    };
+    assert!((motion.shift - Vector::new(0.008, 0.0)).norm() < 5e-5, "{motion:?}");
+    assert!(motion.turn.abs() < 1e-9, "{motion:?}");
+}
+
+/// A slow push at one point that sticks: friction over the whole underside and the force at that
+/// point balance, as forces and as torques (Goyal, Ruina and Papadopoulos 1991).
+#[test]
+fn an_off_centre_push_that_sticks_balances_friction_under_even_pressure() {
+    let scene = table(vec![cuboid(0.03, -0.01)]);
+    let [motion] = prior(&scene, Vector::new(0.002, 0.0))[..] else { panic!("one object") };
+    let arm = Vector::new(-0.03, 0.01);
+    assert!((motion.at(arm) - Vector::new(0.002, 0.0)).norm() < 5e-5, "{motion:?}");
+    let (mut force, mut torque, count) = (Vector::zeros(), 0.0, 200);
+    for k in 0..count * count {
+        let place = |k: i32| 0.06 * ((f64::from(k) + 0.5) / f64::from(count) - 0.5);
+        let at = Vector::new(place(k % count), place(k / count));
+        let drag = motion.at(at).normalize() / f64::from(count * count);
+        force += drag;
+        torque += cross(at, drag);
+    }
+    // Off by the arm of a millimetre.
+    assert!((torque - cross(arm, force)).abs() < 1e-3 * force.norm(), "{torque} {force}");
+    assert!(motion.turn < -0.01, "{motion:?}");
+}
+
+#[test]
+fn a_sliding_contact_moves_the_object_along_the_edge_of_the_friction_cone() {
+    let slippery = |object: Object| Object { friction: 0.0, ..object };
+    let scene = Scene { table_friction: 1.0, ..table(vec![slippery(can(0.03, 0.0))]) };
+    // Short, as the contact moves round the disc.
+    let travel = Vector::new(0.0002, 0.0003);
+    let [motion] = prior(&scene, travel)[..] else { panic!("one object") };
+    // Coefficient 0.25 with the finger's 0.5; a disc's rim also turns, which takes no
+    // displacement from its centre.
+    assert!((motion.shift.y / motion.shift.x - 0.25).abs() < 0.01, "{motion:?}");
+    assert!((motion.shift.x - travel.x).abs() < 2.5e-6, "{motion:?}");
+}
+
+#[test]
+fn a_row_is_pushed_through_to_its_end() {
+    let row = (0..4).map(|k| can(0.03 + 0.06 * f64::from(k), 0.0)).collect();
+    for motion in prior(&table(row), Vector::new(0.01, 0.0)) {
+        // Contacts give way by a share of the load, here that of four cans.
+        assert!((motion.shift - Vector::new(0.01, 0.0)).norm() < 8e-4, "{motion:?}");
+    }
+}
+
+#[test]
+fn what_is_pushed_against_a_wall_stays_finite_and_between() {
+    let mut scene = table(vec![can(0.03, 0.0)]);
+    scene.obstacles.push(Obstacle {
+        name: "wall".into(),
+        size: [0.02, 0.3, 0.1],
+        pose: Pose::new(0.07, 0.0, 0.0),
+        friction: 0.5,
+    });
+    let [motion] = prior(&scene, Vector::new(0.01, 0.0))[..] else { panic!("one object") };
+    assert!(motion.shift.x > 0.0 && motion.shift.x < 0.01, "{motion:?}");
+    assert!(motion.shift.y.abs() < 1e-6 && motion.turn.abs() < 1e-6, "{motion:?}");
+}
+
+#[test]
+fn a_revolute_pair_keeps_its_anchor_and_a_prismatic_one_its_line() {
+    for kind in [
+        JointKind::Revolute { at: Vector::new(0.07, 0.0), limits: None },
+        JointKind::Prismatic { axis: Vector::y(), limits: None },
+    ] {
+        let mut scene = table(vec![can(0.03, -0.015), can(0.11, 0.0)]);
+        scene.joints.push(Joint::new([0, 1], kind));
+        let motions = prior(&scene, Vector::new(0.008, 0.0));
+        let joint = &scene.joints[0];
+        let frames = joint.frames(&scene.objects);
+        let shifted = |k: usize| {
+            let at = scene.objects[joint.between[k]].pose * frames[k];
+            motions[k].at(at.position - scene.objects[k].pose.position)
+        };
+        let apart = shifted(1) - shifted(0);
+        match kind {
+            JointKind::Revolute { .. } => {
+                assert!(apart.norm() < 1e-8 + motions[0].turn.powi(2), "{apart}");
+                assert!((motions[0].turn - motions[1].turn).abs() > 1e-3, "{motions:?}");
+            }
+            _ => {
+                assert!((motions[0].turn - motions[1].turn).abs() < 1e-9, "{motions:?}");
+                assert!(motions[1].shift.x > 0.004, "pushed along: {motions:?}");
+            }
+        }
+    }
+}
