@@ -1,3 +1,5 @@
+//! Sets of contacts against the iteration that approaches them, and against the laws of contacts.
+
 use super::*;
 
 use nalgebra::Matrix3;

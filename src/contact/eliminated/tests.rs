@@ -1,3 +1,5 @@
+//! Joints eliminated against all equations solved at once.
+
 use super::*;
 
 use nalgebra::{DMatrix, DVector, Vector2};

@@ -1,3 +1,5 @@
+//! Contacts that are found again in the pieces of a frame.
+
 use super::*;
 use crate::{
     contact::coast::coast,

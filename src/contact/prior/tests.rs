@@ -1,3 +1,5 @@
+//! Frames whose answer is known in closed form, or by symmetry.
+
 use super::*;
 use crate::{
     contact::{bodies::Bodies, coast::coast, points::find_contacts},

@@ -1,3 +1,5 @@
+//! Contact points against closed forms, in both orders and for all pairs of shapes.
+
 use super::*;
 use crate::geometry::ConvexPolygon;
 
