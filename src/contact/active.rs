@@ -93,8 +93,10 @@ impl ActiveSet {
         let mut together = TOGETHER;
         self.seen.clear();
         for round in 0..ROUNDS {
+            // What a set leads to depends on the set alone, so one that comes again goes on in a circle.
+            // Looked for after two rounds, which nearly always are enough, and not for one group, whose
+            // bits are those of its lane.
             if several && round > 1 {
-                // What a set leads to depends on the set alone, so one that comes again goes on in a circle.
                 let set = number(constraints);
                 if self.seen.contains(&set) {
                     if round >= together {

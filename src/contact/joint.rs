@@ -11,8 +11,9 @@ use super::{
     bodies::Jointed,
     constraint::{Constraint, Law, Tie},
     index::GroupIndex,
+    points::Scenery,
     twist::along,
-    unknown::{Course, Unknown},
+    unknown::Unknown,
 };
 
 /// A limit this far off, or nearer, is watched: metres, or radians at [`JOINT_ARM`].
@@ -53,7 +54,7 @@ impl Rows {
 /// The rows of a joint between different groups where these have come to: first its own, then
 /// its limits. How many there are depends on the start of the frame alone.
 pub(super) fn rows(
-    Course { bodies, state, turns, .. }: Course,
+    Scenery { bodies, state, turns, .. }: Scenery,
     joint: &Jointed,
     axis: Vector,
     unknowns: &[Unknown],
@@ -117,15 +118,15 @@ pub(super) fn rows(
 
 /// Turns the rows of all joints, and of their limits, to where the groups have come to.
 pub(super) fn turn_joints(
-    of: Course,
+    scenery: Scenery,
     axis: Vector,
     unknowns: &[Unknown],
     ties: &mut [Tie],
     limits: &mut [Constraint],
 ) {
     let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
-    for joint in &of.bodies.joints {
-        rows(of, joint, axis, unknowns, |rows| {
+    for joint in &scenery.bodies.joints {
+        rows(scenery, joint, axis, unknowns, |rows| {
             if rows.limit {
                 limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
             } else {

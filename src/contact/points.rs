@@ -113,7 +113,6 @@ pub(super) fn find_again(
     // The points of a pair stand together, the nearest first.
     for points in known.chunk_by(|one, next| one.pair == next.pair) {
         let Contact { object, with, gap, .. } = points[0];
-        let placed = scenery.placed(object);
         let nearer = match with {
             // What is nearest may be a seam, which does not count.
             Partner::Part(_) => f64::INFINITY,
@@ -122,6 +121,7 @@ pub(super) fn find_again(
         };
         let reach = scenery.reach(object, with);
         if gap - nearer <= reach {
+            let placed = scenery.placed(object);
             scenery.meet(&tool, (object, &placed), (with, reach), contacts);
         }
     }

@@ -14,7 +14,7 @@ use super::{
     points::{Contact, Scenery},
     system::System,
     twist::{along, shift},
-    unknown::{Course, Quantity, Unknown},
+    unknown::{Quantity, Unknown},
 };
 
 /// A target that no motion of a frame falls short of, metres.
@@ -72,16 +72,14 @@ impl Prior {
         contacts: &[Contact],
         last: Option<&[Contact]>,
     ) {
-        let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
+        let Scenery { bodies, state, step, coasts, .. } = scenery;
         let Self { system, joints, .. } = self;
-        let duration = step.duration;
         let follows = last.is_some();
         let last = last.unwrap_or_default();
-        let quantity = Quantity::Displacement;
-        let of = Course { bodies, state, coasts, turns, duration, quantity };
         let travel = (step.to.position - step.from.position).norm();
         let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
-        system.begin(of, fastest, follows);
+        system.quantity = Quantity::Displacement;
+        system.begin(scenery, fastest, follows);
         for contact in contacts {
             let groups = &bodies.groups.of;
             let other = match contact.with {
@@ -109,13 +107,13 @@ impl Prior {
         let System { unknowns, constraints, ties, .. } = &mut *system;
         for joint in &bodies.joints {
             let before = ties.len();
-            rows(of, joint, axis, unknowns, |rows| match rows.limit {
+            rows(scenery, joint, axis, unknowns, |rows| match rows.limit {
                 true => constraints.push(rows.constraint()),
                 false => ties.push(rows.tie()),
             });
             joints.push((ties.len() > before).then_some(before));
         }
-        system.solve(of, |constraints, ties, unknowns| {
+        system.solve(scenery, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {
                 let at = midway(bodies, state, contact, unknowns, HALF);
@@ -126,19 +124,17 @@ impl Prior {
                 ];
             }
             let limits = &mut constraints[contacts.len()..];
-            turn_joints(of, axis, unknowns, ties, limits);
+            turn_joints(scenery, axis, unknowns, ties, limits);
         });
     }
 
     /// The velocities at the frame's end: the same equations for v T, with everything where it
     /// has come to, in which what has come into contact stays there.
     fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
-        let Scenery { bodies, state, step, coasts, turns, .. } = scenery;
-        let duration = step.duration;
+        let Scenery { bodies, state, .. } = scenery;
         let Self { system, velocities, .. } = self;
-        let quantity = Quantity::Velocity;
-        let of = Course { bodies, state, coasts, turns, duration, quantity };
-        velocities.continue_from(system, of);
+        velocities.quantity = Quantity::Velocity;
+        velocities.continue_from(system, scenery);
         system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
         let ended = &system.unknowns;
         let pressing = contacts.iter().zip(&system.constraints);
@@ -152,12 +148,12 @@ impl Prior {
         }
         let System { constraints, ties, .. } = &mut *velocities;
         let limits = &mut constraints[count..];
-        turn_joints(of, axis, ended, ties, limits);
+        turn_joints(scenery, axis, ended, ties, limits);
         for limit in limits {
             limit.target = [if limit.presses() { 0.0 } else { OUT_OF_REACH }, 0.0];
         }
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
-        velocities.solve(of, |_, _, _| {});
+        velocities.solve(scenery, |_, _, _| {});
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is

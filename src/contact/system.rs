@@ -22,8 +22,9 @@ use super::{
     approach::Approach,
     constraint::{Constraint, Tie},
     eliminated::Eliminated,
+    points::Scenery,
     tally::Tally,
-    unknown::{Course, Quantity, Unknown},
+    unknown::{Quantity, Unknown},
 };
 
 /// Most updates of the weights A.
@@ -43,6 +44,7 @@ const FEW: usize = 3;
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
     pub unknowns: Vec<Unknown>,
+    pub quantity: Quantity,
     /// Contacts and limits.
     pub constraints: Vec<Constraint>,
     /// Joints: whatever the contacts do, these hold.
@@ -65,17 +67,17 @@ impl System {
     /// decides where the iteration begins. One group alone begins at rest, as its load then has time
     /// to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and 0.69 mm
     /// otherwise, and of several objects it is not larger.
-    pub fn begin(&mut self, of: Course, reach: f64, follows: bool) {
+    pub fn begin(&mut self, scenery: Scenery, reach: f64, follows: bool) {
         std::mem::swap(&mut self.constraints, &mut self.last);
         self.follows = follows;
         self.constraints.clear();
         self.ties.clear();
-        let Self { unknowns, tally, .. } = self;
-        let Course { bodies, .. } = of;
+        let Self { unknowns, quantity, tally, .. } = self;
+        let bodies = scenery.bodies;
         unknowns.resize_with(bodies.groups.members.len(), Unknown::default);
         let several = unknowns.len() > 1;
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
-            unknown.place(members, of);
+            unknown.place(members, scenery);
             // One alone is touched, or nothing would be asked.
             unknown.held |= !several;
         }
@@ -86,14 +88,15 @@ impl System {
         }
         for (unknown, members) in unknowns.iter_mut().zip(&bodies.groups.members) {
             if follows && unknown.coasts() {
-                unknown.coast(members[0], of);
+                unknown.coast(members[0], scenery, *quantity);
                 continue;
             }
             let goes_on = follows || {
                 unknown.forget();
-                several && unknown.carry_on(members[0], of)
+                several && unknown.carry_on(members[0], scenery)
             };
-            unknown.weigh(members, of, (!goes_on).then_some(reach), tally);
+            let reach = (!goes_on).then_some(reach);
+            unknown.weigh(members, scenery, *quantity, reach, tally);
             if !goes_on {
                 unknown.twist = unknown.free;
             }
@@ -109,33 +112,33 @@ impl System {
 
     /// The same groups, joints, limits and what presses of the contacts in `other`, which has been
     /// solved, but for another quantity; it begins where that has ended.
-    pub fn continue_from(&mut self, other: &System, of: Course) {
+    pub fn continue_from(&mut self, other: &System, scenery: Scenery) {
         self.follows = true;
         self.unknowns.clone_from(&other.unknowns);
         self.constraints.clear();
         self.constraints.extend(other.constraints.iter().filter(|c| c.presses() || c.is_limit()));
         self.ties.clone_from(&other.ties);
         self.unknowns.iter_mut().for_each(Unknown::turn_to_another);
-        self.weigh(of);
+        self.weigh(scenery);
     }
 
     /// Solves for forces and twists. `turn` may turn rows and move targets after each update of
     /// the weights, as it follows from how everything moves.
     pub fn solve(
         &mut self,
-        of: Course,
+        scenery: Scenery,
         mut turn: impl FnMut(&mut [Constraint], &mut [Tie], &mut [Unknown]),
     ) {
         self.tally.systems += 1;
         self.tally.constraints += self.constraints.len() as u64;
         self.joints.hang(self.unknowns.len(), &self.ties);
-        let settled = match of.quantity {
+        let settled = match self.quantity {
             Quantity::Displacement if self.unknowns.len() > FEW => SETTLED_IN_A_CROWD,
             _ => SETTLED,
         };
         for update in 0..UPDATES {
             if update > 0 {
-                self.weigh(of);
+                self.weigh(scenery);
             }
             turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
@@ -151,12 +154,12 @@ impl System {
         }
     }
 
-    fn weigh(&mut self, of: Course) {
-        let Self { unknowns, tally, .. } = self;
-        for (unknown, members) in unknowns.iter_mut().zip(&of.bodies.groups.members) {
+    fn weigh(&mut self, scenery: Scenery) {
+        let Self { unknowns, quantity, tally, .. } = self;
+        for (unknown, members) in unknowns.iter_mut().zip(&scenery.bodies.groups.members) {
             match unknown.coasts() {
-                true => unknown.coast(members[0], of),
-                false => unknown.weigh(members, of, None, tally),
+                true => unknown.coast(members[0], scenery, *quantity),
+                false => unknown.weigh(members, scenery, *quantity, None, tally),
             }
         }
     }

@@ -20,12 +20,12 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     geometry::{Turn, Vector, perpendicular},
-    scene::{Drag, State},
+    scene::Drag,
 };
 
 use super::{
     bodies::{Bodies, Movable},
-    motion::Motion,
+    points::Scenery,
     tally::Tally,
     twist::{along, shift},
 };
@@ -69,20 +69,6 @@ pub(super) const FOLLOWING: usize = 5;
 
 /// Weights are kept while motion (metres, radians) and pressing have changed by less.
 pub(super) const SAME: f64 = 1e-9;
-
-/// What all groups of a system have in common.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Course<'a> {
-    pub bodies: &'a Bodies,
-    pub state: &'a State,
-    /// What the objects would do if nothing touched or held them.
-    pub coasts: &'a [Motion],
-    /// By the objects' headings.
-    pub turns: &'a [Turn],
-    /// Seconds.
-    pub duration: f64,
-    pub quantity: Quantity,
-}
 
 /// What does not change while a member's frame is solved.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +128,7 @@ impl Clone for Unknown {
 
 impl Unknown {
     /// Puts the group where its `members` are; it has not moved yet.
-    pub fn place(&mut self, members: &[usize], Course { state, turns, .. }: Course) {
+    pub fn place(&mut self, members: &[usize], Scenery { state, turns, .. }: Scenery) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
         self.members.clear();
@@ -160,13 +146,13 @@ impl Unknown {
     }
 
     /// Moves as its only `member` coasts.
-    pub fn coast(&mut self, member: usize, of: Course) {
-        let coast = &of.coasts[member];
-        self.free = match of.quantity {
+    pub fn coast(&mut self, member: usize, scenery: Scenery, quantity: Quantity) {
+        let (coast, duration) = (&scenery.coasts[member], scenery.step.duration);
+        self.free = match quantity {
             Quantity::Displacement => Vector3::new(coast.shift.x, coast.shift.y, coast.turn),
             Quantity::Velocity => {
-                let end = of.duration * coast.velocity;
-                Vector3::new(end.x, end.y, of.duration * coast.spin)
+                let end = duration * coast.velocity;
+                Vector3::new(end.x, end.y, duration * coast.spin)
             }
         };
         self.twist = self.free;
@@ -198,8 +184,8 @@ impl Unknown {
     }
 
     /// Goes on as its `member` moves; returns whether that does.
-    pub fn carry_on(&mut self, member: usize, Course { state, duration, .. }: Course) -> bool {
-        let velocity = &state.velocities[member];
+    pub fn carry_on(&mut self, member: usize, Scenery { state, step, .. }: Scenery) -> bool {
+        let (velocity, duration) = (&state.velocities[member], step.duration);
         let turn = duration * velocity.angular;
         let arm = state.poses[member].position - self.centre;
         let moved = duration * velocity.linear - turn * perpendicular(arm);
@@ -216,8 +202,10 @@ impl Unknown {
     fn pull(
         &mut self,
         members: &[usize],
-        Course { bodies, state, coasts, duration, quantity, .. }: Course,
+        Scenery { bodies, state, step, coasts, .. }: Scenery,
+        quantity: Quantity,
     ) -> Vector3<f64> {
+        let duration = step.duration;
         let mut pull = Vector3::zeros();
         for (&k, member) in members.iter().zip(&mut self.members) {
             let body = &bodies.objects[k];
@@ -249,11 +237,18 @@ impl Unknown {
 
     /// Takes resistance and free motion when its members move as they do now, or by `reach`
     /// metres each.
-    pub fn weigh(&mut self, members: &[usize], of: Course, reach: Option<f64>, tally: &mut Tally) {
-        let Course { bodies, state, quantity, .. } = of;
+    pub fn weigh(
+        &mut self,
+        members: &[usize],
+        scenery: Scenery,
+        quantity: Quantity,
+        reach: Option<f64>,
+        tally: &mut Tally,
+    ) {
+        let Scenery { bodies, state, .. } = scenery;
         let pull = self.pull.unwrap_or_else(|| {
             self.weighed = None;
-            self.pull(members, of)
+            self.pull(members, scenery, quantity)
         });
         self.pull = Some(pull);
         let before = self.pressing;

@@ -113,4 +113,16 @@ mod tests {
         }
         assert_eq!(Turn::by(0.0), Turn::NONE);
     }
+
+    #[test]
+    fn turns_add_up_and_lead_from_one_to_another() {
+        for (a, b) in [(0.3, 2.9), (-2.0, -1.7), (3.1, 0.02)] {
+            let (first, second) = (Turn::by(a), Turn::by(b));
+            for (turn, angle) in [(second.after(&first), a + b), (second.from(&first), b - a)] {
+                let off = turn.axis() - Vector::new(f64::cos(angle), f64::sin(angle));
+                assert!(off.norm() < 1e-15, "{a} {b}: {off}");
+            }
+        }
+        assert_eq!(Turn::by(0.7).from(&Turn::by(0.7)).sin, 0.0);
+    }
 }
