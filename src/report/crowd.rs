@@ -64,13 +64,23 @@ pub fn evaluation_document(suites: &[HeldOutReport], crowds: &[CrowdReport]) -> 
         let name = format!("error-by-horizon-{}", family.title());
         Some(Figure::chart(name, crowd_chart(family, crowds)?))
     });
-    let section =
-        Section { table: summary_table(crowds), figures: figures.collect(), ..Section::default() };
+    let figures = figures.collect();
+    let (recorded, drawn): (Vec<_>, Vec<_>) =
+        crowds.iter().partition(|report| report.family == CrowdFamily::Recordings);
+    let mut sections = Vec::new();
+    for (sets, table) in [(&drawn, drawn_table as fn(&_) -> Table), (&recorded, recordings_table)] {
+        if !sets.is_empty() {
+            sections.push(Section { table: table(sets), ..Section::default() });
+        }
+    }
+    if let Some(first) = sections.first_mut() {
+        first.figures = figures;
+    }
     Document {
         title: model.map_or(String::new(), |first| {
             format!("{}, share of the mean true motion", first.model)
         }),
-        sections: vec![section],
+        sections,
         json,
         ..Document::default()
     }
@@ -186,19 +196,40 @@ fn each_table(names: &[String], each: &[OneError]) -> Table {
     )
 }
 
-/// One row a set: the first model beside the projection and the simulator's own spread.
-fn summary_table(reports: &[CrowdReport]) -> Table {
-    let sets: Vec<(&CrowdReport, &CrowdModel)> =
-        reports.iter().filter_map(|report| Some((report, report.models.first()?))).collect();
-    let beside = |report: &CrowdReport, wanted: &dyn Fn(&str) -> bool| {
-        let found = report.models.iter().find(|model| wanted(&model.model));
-        share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
-    };
-    let end = |model: &CrowdModel, text: &dyn Fn(&RelativeErrors) -> String| {
-        model.all.end.as_ref().map_or(NONE.to_owned(), text)
-    };
+/// One row a set of drawn scenes: the first model, and the mean error of those beside it.
+fn drawn_table(reports: &[&CrowdReport]) -> Table {
+    let ends = |report: &CrowdReport, end: &str| beside(report, |name| name.ends_with(end));
     Table::of(
-        sets,
+        measured(reports),
+        &[
+            ("set", Left, &|(report, _)| report.title.clone()),
+            ("motion", Right, &|(_, model)| end(model, &|errors| millimetres(errors.motion))),
+            ("error", Right, &|(_, model)| end(model, &|errors| fine_millimetres(errors.mean))),
+            ("of motion", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.mean)),
+            ("median", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.median)),
+            ("p90", Right, &|(_, model)| share(model.all.end.as_ref(), |e| e.p90)),
+            ("over frames", Right, &|(_, model)| share(model.all.averaged.as_ref(), |e| e.mean)),
+            ("moved", Right, &|(_, model)| share(model.moved.end.as_ref(), |e| e.mean)),
+            ("joints guessed", Right, &|(report, _)| ends(report, ",joints=guessed")),
+            ("joints none", Right, &|(report, _)| ends(report, ",joints=none")),
+            ("joints fixed", Right, &|(report, _)| ends(report, ",joints=fixed")),
+            ("prior", Right, &|(report, _)| beside(report, |name| name == "prior")),
+            ("projection", Right, &|(report, _)| beside(report, |name| name == "projection")),
+            ("friction 70 %", Right, &|(report, _)| ends(report, ",friction=70%")),
+            ("friction 130 %", Right, &|(report, _)| ends(report, ",friction=130%")),
+            // Drawn sets are the planar engine's own.
+            ("own spread", Right, &|(report, _)| {
+                beside(report, |name| name.starts_with("planar,start="))
+            }),
+        ],
+    )
+}
+
+/// One row a set of recordings: the first model beside the projection and the planar engine's own
+/// spread.
+fn recordings_table(reports: &[&CrowdReport]) -> Table {
+    Table::of(
+        measured(reports),
         &[
             ("set", Left, &|(report, _)| report.title.clone()),
             ("motion", Right, &|(_, model)| end(model, &|errors| millimetres(errors.motion))),
@@ -209,17 +240,29 @@ fn summary_table(reports: &[CrowdReport]) -> Table {
             ("heading", Right, &|(_, model)| angle(model.any_heading_deg)),
             ("moved", Right, &|(_, model)| share(model.moved.end.as_ref(), |e| e.mean)),
             ("over frames", Right, &|(_, model)| share(model.all.averaged.as_ref(), |e| e.mean)),
-            ("projection", Right, &|(report, _)| beside(report, &|name| name == "projection")),
-            ("own spread", Right, &|(report, model)| match report.family {
-                CrowdFamily::Recordings => {
-                    let apart = report.own_spread.zip(model.all.end.as_ref());
-                    apart.map_or(NONE.to_owned(), |(apart, end)| percent(end.share(apart)))
-                }
-                // Drawn sets are the planar engine's own.
-                _ => beside(report, &|name| name.starts_with("planar,start=")),
+            ("projection", Right, &|(report, _)| beside(report, |name| name == "projection")),
+            ("own spread", Right, &|(report, model)| {
+                let apart = report.own_spread.zip(model.all.end.as_ref());
+                apart.map_or(NONE.to_owned(), |(apart, end)| percent(end.share(apart)))
             }),
         ],
     )
+}
+
+/// The reports with their first models.
+fn measured<'a>(reports: &[&'a CrowdReport]) -> Vec<(&'a CrowdReport, &'a CrowdModel)> {
+    reports.iter().filter_map(|report| Some((*report, report.models.first()?))).collect()
+}
+
+/// The mean error of the first model with such a name.
+fn beside(report: &CrowdReport, wanted: impl Fn(&str) -> bool) -> String {
+    let found = report.models.iter().find(|model| wanted(&model.model));
+    share(found.and_then(|model| model.all.end.as_ref()), |errors| errors.mean)
+}
+
+/// What is said of a model's errors at the end, if anything moves.
+fn end(model: &CrowdModel, text: &dyn Fn(&RelativeErrors) -> String) -> String {
+    model.all.end.as_ref().map_or(NONE.to_owned(), text)
 }
 
 /// Error by horizon of all models, averaged over the sets of one family; `None` if there are none.

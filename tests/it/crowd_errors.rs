@@ -154,6 +154,10 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     let one = ["--objects", "6", "--joints", "fixed", "--solids", "cylinders", "--count", "2"];
     let dense = run(&[&["projection", "--on", "dense"], &one[..], &["--json"]].concat());
     assert_eq!(dense.status.code(), Some(0), "{}", stderr(&dense));
+    let brief = run(&[&["projection", "--on", "dense"], &one[..], &["--summary"]].concat());
+    let brief = String::from_utf8(brief.stdout).expect("UTF-8");
+    assert_eq!(brief.lines().filter(|line| line.starts_with("dense, 6 objects")).count(), 1);
+    assert!(brief.contains("joints none") && !brief.contains("still"), "{brief}");
     let json: Json = serde_json::from_slice(&dense.stdout).expect("JSON alone");
     let report = &json["crowds"][0];
     assert_eq!(report["trajectories"], 2);

@@ -109,6 +109,7 @@ pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
     if !sources.recordings.is_empty() {
         crowds.recordings(&suites, &mut reports, session)?;
     }
-    args.form.show_rest(session, &evaluation_document(&suites, &reports), reports.len() > 1)?;
+    let several = reports.len() > 1 || args.crowd.summary && !reports.is_empty();
+    args.form.show_rest(session, &evaluation_document(&suites, &reports), several)?;
     Ok(exit_code::DONE)
 }

@@ -91,7 +91,7 @@ impl Crowds<'_> {
                 }
             }));
             following.finish()?;
-            self.form.show_part(session, &crowd_document(reports))?;
+            self.show_part(reports, session)?;
             self.write(suites, reports)?;
         }
         let told = self.args.told();
@@ -103,6 +103,17 @@ impl Crowds<'_> {
             self.poses.write(&rows)?;
         }
         Ok(())
+    }
+
+    /// Prints the newest report, unless only one table of all is wanted.
+    ///
+    /// # Errors
+    /// Those of [`Form::show`].
+    pub fn show_part(&self, reports: &[CrowdReport], session: &Session) -> Result<(), CliError> {
+        match self.args.summary {
+            true => Ok(()),
+            false => self.form.show_part(session, &crowd_document(reports)),
+        }
     }
 
     /// Predicts the rest of the way of every recording with the joints by each of these methods.

@@ -8,7 +8,7 @@ use crate::bench::{
 use crate::cli::bench::{value_digest, weights_digest};
 use crate::cli::{error::CliError, follow::Following, model, session::Session};
 use crate::effect::EffectModel;
-use crate::report::{crowd_document, heldout_document};
+use crate::report::heldout_document;
 use crate::store::{Measured, RunManifest, Seconds, Shard, Store};
 use crate::watch::Unwatched;
 
@@ -121,11 +121,12 @@ impl Parts<'_> {
     ) -> Result<(), CliError> {
         shown.push(part);
         let (tools, crowds) = by_kind(&*shown);
-        let table = match (shown.last(), tools.last()) {
-            (Some(Evaluated::Tools(_)), Some(newest)) => heldout_document(newest),
-            _ => crowd_document(&crowds),
-        };
-        self.args.form.show_part(session, &table)?;
+        match (shown.last(), tools.last()) {
+            (Some(Evaluated::Tools(_)), Some(newest)) => {
+                self.args.form.show_part(session, &heldout_document(newest))?;
+            }
+            _ => self.crowds.show_part(&crowds, session)?,
+        }
         self.crowds.write(&tools, &crowds)
     }
 }

@@ -37,6 +37,9 @@ pub struct CrowdArgs {
     /// Measure the model alone on sparse and dense scenes and recordings, without baselines
     #[arg(long)]
     pub no_baselines: bool,
+    /// Of sparse and dense scenes and recordings print only one table, a row for each set
+    #[arg(long)]
+    pub summary: bool,
     /// Folder that keeps every finished part, evaluation.json, written again after each, and the
     /// curves of error by horizon as SVG
     #[arg(long, value_name = "DIR")]

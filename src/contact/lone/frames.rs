@@ -26,10 +26,29 @@ use super::{
     lanes::{Lanes, Which, dot, left_of, minus, norm},
     object::{Inverse, Moves, Object},
     touching::{Look, Touching},
+    waiting::WIDE,
 };
 
 /// The widest vectors of this processor.
 static ARCH: OnceLock<Arch> = OnceLock::new();
+
+/// Whether these hold [`WIDE`] numbers.
+pub(super) fn is_wide() -> bool {
+    static IS_WIDE: OnceLock<bool> = OnceLock::new();
+    *IS_WIDE.get_or_init(|| ARCH.get_or_init(Arch::new).dispatch(Width) >= WIDE)
+}
+
+/// How many numbers a vector holds.
+struct Width;
+
+impl WithSimd for Width {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        S::F64_LANES
+    }
+}
 
 /// The frames, with what they begin with in lanes.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,7 @@ use super::{
     LoneSolution, Waiting, is_lone,
     lanes::Lanes,
     solve_each,
-    waiting::{LANES, solve_first},
+    waiting::{LANES, WIDE, solve_first},
 };
 
 use crate::{
@@ -154,7 +154,7 @@ fn a_frame_is_the_same_bits_beside_any_others() {
         for together in [
             solved::<2>(&problems, &mut frames, order),
             solved::<LANES>(&problems, &mut frames, order),
-            solved::<8>(&problems, &mut frames, order),
+            solved::<WIDE>(&problems, &mut frames, order),
         ] {
             for (k, (one, other)) in alone.iter().zip(&together.0).enumerate() {
                 assert_eq!(one, other, "frame {k}");
@@ -163,7 +163,7 @@ fn a_frame_is_the_same_bits_beside_any_others() {
         }
     }
     let mut tally = Tally::default();
-    for few in 1..6 {
+    for few in 1..=2 * WIDE + 3 {
         let mut waiting: Vec<Waiting> =
             (0..few).map(|k| Waiting { contacts: k % 2, effort: [0; 3], place: 5 * k }).collect();
         waiting.sort_unstable();
