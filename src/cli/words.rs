@@ -21,8 +21,8 @@ pub type Words<T> = [(&'static str, T, &'static str)];
 pub static EFFORTS: [(&str, Effort, &str); 4] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    ("thorough", Effort::Thorough, "As standard, robustness told in finer shares"),
-    ("exhaustive", Effort::Exhaustive, "Longer, by simulation, and told in the finest shares"),
+    ("thorough", Effort::Thorough, "Longer, by simulation, and told in finer shares"),
+    ("exhaustive", Effort::Exhaustive, "As thorough, told in the finest shares"),
 ];
 
 /// What to do where a model should not be trusted.

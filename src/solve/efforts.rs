@@ -18,7 +18,7 @@ const CROWD_ENGINE: ModelKind = planar(60);
 /// The most objects that a push can set in motion for which the prior is clearly cheaper than
 /// [`CROWD_ENGINE`]: where their costs cross, by straight lines in logarithms between the numbers
 /// of objects that were measured.
-const FEW_FOR_PRIOR: u16 = 4;
+const FEW_FOR_PRIOR: u16 = 7;
 
 /// The planar engine at so many steps a second, one at least.
 const fn planar(rate: u16) -> ModelKind {
@@ -60,7 +60,7 @@ impl Effort {
         match self {
             Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
             Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
-            Effort::Thorough => (ModelKind::PRIOR, MEDIUM, 16),
+            Effort::Thorough => (planar(30), MEDIUM, 16),
             Effort::Exhaustive => (planar(30), MEDIUM, 64),
         }
     }

@@ -17,10 +17,10 @@ pub enum Effort {
     /// The default: a one-push task in well under half a second on two cores.
     #[default]
     Standard,
-    /// As the default, robustness told in finer shares by twice as many replays.
-    Thorough,
     /// Half as expensive again, by simulation: plans hold a little more often when the world is a
-    /// little different, which four times as many replays tell.
+    /// little different, which twice as many replays tell.
+    Thorough,
+    /// The same, robustness told in finer shares by four times as many replays.
     Exhaustive,
 }
 
