@@ -15,7 +15,7 @@ use super::{
 /// a push takes 5 to 17 % longer.
 pub(super) const LANES: usize = 4;
 
-/// The same where vectors hold as many, as with AVX-512: a push takes 12 % less than with four.
+/// The same where vectors hold as many, as with AVX-512: a push takes a sixth less than with four.
 pub(super) const WIDE: usize = 8;
 
 /// Fewer frames than that take less time one by one.
