@@ -18,6 +18,7 @@ mod elimination;
 mod fall;
 mod forces;
 mod frame;
+mod gain;
 mod hold;
 mod index;
 mod joint;

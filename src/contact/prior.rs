@@ -8,6 +8,7 @@ use crate::geometry::{Vector, perpendicular};
 use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
+    gain::Gain,
     joint::{rows, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
@@ -34,6 +35,8 @@ pub(super) struct Prior {
     /// The tie of every joint that is not within a group.
     pub joints: Vec<Option<usize>>,
     pub velocities: System,
+    /// Of every group, in the last frame.
+    gains: Vec<Gain>,
 }
 
 impl Prior {
@@ -45,7 +48,7 @@ impl Prior {
     }
 
     /// The same for a frame after one just solved that had the contacts `last`: forces begin as
-    /// they were there.
+    /// they were there, and motions as they went on there.
     pub fn follow(
         &mut self,
         scenery: Scenery,
@@ -73,13 +76,13 @@ impl Prior {
         last: Option<&[Contact]>,
     ) {
         let Scenery { bodies, state, step, coasts, .. } = scenery;
-        let Self { system, joints, .. } = self;
-        let follows = last.is_some();
+        let Self { system, joints, gains, .. } = self;
+        let gains = last.is_some().then_some(&gains[..]);
         let last = last.unwrap_or_default();
         let travel = (step.to.position - step.from.position).norm();
         let fastest = coasts.iter().map(|coast| coast.shift.norm()).fold(travel, f64::max);
         system.quantity = Quantity::Displacement;
-        system.begin(scenery, fastest, follows);
+        system.begin(scenery, fastest, gains);
         for contact in contacts {
             let groups = &bodies.groups.of;
             let other = match contact.with {
@@ -132,9 +135,9 @@ impl Prior {
     /// has come to, in which what has come into contact stays there.
     fn release(&mut self, scenery: Scenery, axis: Vector, contacts: &[Contact]) {
         let Scenery { bodies, state, .. } = scenery;
-        let Self { system, velocities, .. } = self;
+        let Self { system, velocities, gains, .. } = self;
         velocities.quantity = Quantity::Velocity;
-        velocities.continue_from(system, scenery);
+        velocities.continue_from(system, gains, scenery);
         system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
         let ended = &system.unknowns;
         let pressing = contacts.iter().zip(&system.constraints);
@@ -154,6 +157,12 @@ impl Prior {
         }
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         velocities.solve(scenery, |_, _, _| {});
+        gains.clear();
+        let ended = self.system.unknowns.iter().zip(&self.velocities.unknowns);
+        gains.extend(ended.zip(&bodies.groups.members).map(|((moved, ended), members)| {
+            let began = moved.as_it_began(members[0], scenery);
+            Gain::new(moved, [began, moved.twist, ended.twist])
+        }));
     }
 
     /// Every object's motion from those of its group; groups turn exactly, so that what is

@@ -183,14 +183,13 @@ impl Unknown {
         self.held |= self.touched;
     }
 
-    /// Goes on as its `member` moves; returns whether that does.
-    pub fn carry_on(&mut self, member: usize, Scenery { state, step, .. }: Scenery) -> bool {
+    /// How far it comes if it goes on as its `member` moves when the frame begins.
+    pub fn as_it_began(&self, member: usize, Scenery { state, step, .. }: Scenery) -> Vector3<f64> {
         let (velocity, duration) = (&state.velocities[member], step.duration);
         let turn = duration * velocity.angular;
         let arm = state.poses[member].position - self.centre;
         let moved = duration * velocity.linear - turn * perpendicular(arm);
-        self.twist = Vector3::new(moved.x, moved.y, turn);
-        self.twist != Vector3::zeros()
+        Vector3::new(moved.x, moved.y, turn)
     }
 
     /// Moves as what presses makes it.
