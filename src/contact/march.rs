@@ -4,7 +4,7 @@
 //! the whole frame everything happens at once.
 
 use crate::{
-    geometry::{Pose, Turn, Vector},
+    geometry::{Turn, Vector},
     scene::{FrameStep, State},
 };
 
@@ -40,7 +40,7 @@ impl March {
     /// that the frame as a whole does not know of, however fast a thing becomes within it.
     pub fn run(
         &mut self,
-        Scenery { bodies, state, step, .. }: Scenery,
+        Scenery { bodies, state, step, turns: turns_before, .. }: Scenery,
         known: &[Contact],
         axis: Vector,
         pieces: usize,
@@ -48,6 +48,8 @@ impl March {
     ) {
         let Self { prior, state: now, coasts, turns, moved, contacts, last } = self;
         now.clone_from(state);
+        turns.clear();
+        turns.extend_from_slice(turns_before);
         let duration = step.duration / pieces as f64;
         let at = |piece: usize| step.from.towards(&step.to, piece as f64 / pieces as f64);
         for piece in 0..pieces {
@@ -57,8 +59,6 @@ impl March {
             coasts.extend(
                 bodies.objects.iter().zip(velocities).map(|(body, v)| coast(body, v, duration)),
             );
-            turns.clear();
-            turns.extend(now.poses.iter().map(Pose::turn));
             moved.clear();
             moved.extend(bodies.objects.iter().enumerate().map(|(k, body)| {
                 let (now, before) = (&now.poses[k], &state.poses[k]);
@@ -75,7 +75,10 @@ impl March {
             }
             for (k, motion) in prior.motions.iter().enumerate() {
                 now.poses[k].position += motion.shift;
-                now.poses[k].heading += motion.turn;
+                if motion.turn != 0.0 {
+                    now.poses[k].heading += motion.turn;
+                    turns[k] = now.poses[k].turn();
+                }
                 now.velocities[k].linear = motion.velocity;
                 now.velocities[k].angular = motion.spin;
             }

@@ -160,7 +160,7 @@ impl Prior {
         gains.clear();
         let ended = self.system.unknowns.iter().zip(&self.velocities.unknowns);
         gains.extend(ended.zip(&bodies.groups.members).map(|((moved, ended), members)| {
-            let began = moved.as_it_began(members[0], scenery);
+            let began = moved.as_it_began(members, scenery);
             Gain::new(moved, [began, moved.twist, ended.twist])
         }));
     }

@@ -41,6 +41,11 @@ pub(super) const SETTLED: f64 = 1e-5;
 const SETTLED_IN_A_CROWD: f64 = 5e-5;
 const FEW: usize = 3;
 
+/// The same for the velocities of more than [`FEW`] groups where joints hold some, of which an eighth
+/// of the time is saved so: of 800 trajectories of nine objects with mixed joints no error is larger
+/// than with 1e-5 by more than chance. Without joints it would be a tenth larger.
+const SETTLED_IN_JOINTS: f64 = 5e-5;
+
 /// Unknowns and rows of one frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct System {
@@ -93,7 +98,7 @@ impl System {
                 unknown.coast(members[0], scenery, *quantity);
                 continue;
             }
-            unknown.twist = unknown.as_it_began(members[0], scenery);
+            unknown.twist = unknown.as_it_began(members, scenery);
             let goes_on = match gains {
                 Some(gains) => {
                     unknown.twist += gains[k].moved;
@@ -148,9 +153,14 @@ impl System {
         self.tally.constraints += self.constraints.len() as u64;
         self.joints.hang(self.unknowns.len(), &self.ties);
         let settled = match self.quantity {
-            Quantity::Displacement if self.unknowns.len() > FEW => SETTLED_IN_A_CROWD,
-            _ => SETTLED,
+            _ if self.unknowns.len() <= FEW => SETTLED,
+            Quantity::Displacement => SETTLED_IN_A_CROWD,
+            Quantity::Velocity if self.ties.is_empty() => SETTLED,
+            Quantity::Velocity => SETTLED_IN_JOINTS,
         };
+        // Where one update finds no set of contacts that is right, the next ones hardly would: among
+        // nine to twelve objects in joints a sixth of all sets were looked at for nothing so.
+        let mut found = true;
         for update in 0..UPDATES {
             if update > 0 {
                 self.weigh(scenery);
@@ -158,7 +168,12 @@ impl System {
             turn(&mut self.constraints, &mut self.ties, &mut self.unknowns);
             self.before.clear();
             self.before.extend(self.unknowns.iter().map(|unknown| unknown.twist));
-            self.settle();
+            self.tally.updates += 1;
+            self.answer();
+            found = found && self.search();
+            if !found {
+                self.approach();
+            }
             let changed = self.unknowns.iter().zip(&self.before).any(|(now, before)| {
                 let change = now.twist - before;
                 change.xy().norm().max(change.z.abs() * JOINT_ARM) > settled
@@ -179,17 +194,24 @@ impl System {
         }
     }
 
-    /// Forces and twists at fixed weights.
-    fn settle(&mut self) {
-        let Self { unknowns, constraints, ties, active, approach, joints, tally, .. } = self;
-        tally.updates += 1;
+    /// Takes how joints and constraints answer at the present weights.
+    fn answer(&mut self) {
+        let Self { unknowns, constraints, ties, joints, .. } = self;
         joints.prepare(unknowns, ties);
         constraints.iter_mut().for_each(|constraint| constraint.weighed = false);
-        let found = active.solve(unknowns, constraints, ties, joints, tally);
-        if !found {
-            tally.approached += 1;
-            constraints.iter_mut().for_each(|constraint| joints.weigh(constraint, unknowns));
-            approach.run(unknowns, constraints, ties, joints);
-        }
+    }
+
+    /// Forces and twists at fixed weights, by a set of contacts that is right; whether one was found.
+    fn search(&mut self) -> bool {
+        let Self { unknowns, constraints, ties, active, joints, tally, .. } = self;
+        active.solve(unknowns, constraints, ties, joints, tally)
+    }
+
+    /// The same by iteration.
+    fn approach(&mut self) {
+        let Self { unknowns, constraints, ties, approach, joints, tally, .. } = self;
+        tally.approached += 1;
+        constraints.iter_mut().for_each(|constraint| joints.weigh(constraint, unknowns));
+        approach.run(unknowns, constraints, ties, joints);
     }
 }

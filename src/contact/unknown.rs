@@ -19,7 +19,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    geometry::{Turn, Vector, perpendicular},
+    geometry::{Turn, Vector},
     scene::Drag,
 };
 
@@ -183,13 +183,16 @@ impl Unknown {
         self.held |= self.touched;
     }
 
-    /// How far it comes if it goes on as its `member` moves when the frame begins.
-    pub fn as_it_began(&self, member: usize, Scenery { state, step, .. }: Scenery) -> Vector3<f64> {
-        let (velocity, duration) = (&state.velocities[member], step.duration);
-        let turn = duration * velocity.angular;
-        let arm = state.poses[member].position - self.centre;
-        let moved = duration * velocity.linear - turn * perpendicular(arm);
-        Vector3::new(moved.x, moved.y, turn)
+    /// How far it comes if it goes on as its `members` move when the frame begins. After a turn these do
+    /// not quite move as one any more, so all of them count.
+    pub fn as_it_began(
+        &self,
+        members: &[usize],
+        Scenery { state, step, .. }: Scenery,
+    ) -> Vector3<f64> {
+        let velocities = members.iter().map(|&k| &state.velocities[k]);
+        let sum: Vector3<f64> = velocities.map(|v| v.linear.push(v.angular)).sum();
+        step.duration * sum / members.len() as f64
     }
 
     /// Moves as what presses makes it.
