@@ -29,6 +29,7 @@ impl Blocks {
     }
 
     /// The lowest group that `group` is together with.
+    #[inline]
     pub fn of(&self, group: GroupIndex) -> usize {
         let mut at = group.0;
         while self.first[at] != at {

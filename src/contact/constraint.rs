@@ -68,6 +68,7 @@ pub(super) struct Constraint {
 }
 
 impl Constraint {
+    #[inline]
     pub fn new(
         (a, to): (GroupIndex, [Vector3<f64>; 2]),
         (b, from): (Option<GroupIndex>, [Vector3<f64>; 2]),
@@ -94,6 +95,7 @@ impl Constraint {
     }
 
     /// Takes how its bodies answer its forces from their present weights.
+    #[inline]
     pub fn weigh(&mut self, unknowns: &[Unknown]) {
         self.moved[0] = self.to.map(|row| unknowns[self.a.0].inverse * row);
         self.own[0] = product(&self.to, &self.moved[0]);
@@ -106,11 +108,13 @@ impl Constraint {
     }
 
     /// J A^-1 J^T of both bodies.
+    #[inline]
     pub fn alone(&self) -> Matrix2<f64> {
         self.own[0] + self.own[1]
     }
 
     /// Adds its trial forces to what presses on its bodies.
+    #[inline]
     pub fn press(&self, unknowns: &mut [Unknown]) {
         let trial = &self.trial;
         if *trial == Vector2::zeros() {
@@ -128,6 +132,7 @@ impl Constraint {
 
     /// By how much more than it should a force along the normal gives way where the contact slides
     /// and wedges.
+    #[inline]
     pub fn wedge(&self, edge: f64) -> f64 {
         let k = self.alone();
         let knn = k.m11 + self.give;
@@ -135,6 +140,7 @@ impl Constraint {
     }
 
     /// Takes its value from how the bodies move.
+    #[inline]
     pub fn read(&mut self, unknowns: &[Unknown]) {
         self.value = apply(&self.to, &unknowns[self.a.0].twist);
         if let Some(b) = self.b {
@@ -143,22 +149,26 @@ impl Constraint {
     }
 
     /// Whether its forces move its bodies by more than rounding does.
+    #[inline]
     pub fn presses(&self) -> bool {
         self.trial.x * (self.own[0].m11 + self.own[1].m11) > OPEN
     }
 
     /// Whether it is one of a joint's limits.
+    #[inline]
     pub fn is_limit(&self) -> bool {
         matches!(self.law, Law::AtLeast)
     }
 
     /// Whether it is violated by more than rounding.
+    #[inline]
     pub fn asks(&self) -> bool {
         self.target[0] > self.value.x + OPEN
     }
 
     /// What this constraint would do, and the forces that would meet it, if nothing else changed,
     /// the compliance being `k` and the trial forces and its value what they are.
+    #[inline]
     pub fn respond(&self, k: &Matrix2<f64>) -> (Status, Vector2<f64>) {
         let pressed = |normal: f64, edge: f64| match normal > 0.0 {
             true => (Status::Slides(edge), Vector2::new(normal, edge * normal)),
@@ -200,6 +210,7 @@ pub(super) struct Tie {
 
 impl Tie {
     /// Adds its forces to what presses on its groups.
+    #[inline]
     pub fn press(&self, unknowns: &mut [Unknown]) {
         unknowns[self.b.0].pressed += self.to[0] * self.force.x + self.to[1] * self.force.y;
         unknowns[self.a.0].pressed -= self.from[0] * self.force.x + self.from[1] * self.force.y;
@@ -207,11 +218,13 @@ impl Tie {
 }
 
 /// J W^T of two pairs of rows.
+#[inline]
 pub(super) fn product(j: &[Vector3<f64>; 2], w: &[Vector3<f64>; 2]) -> Matrix2<f64> {
     Matrix2::new(j[0].dot(&w[0]), j[0].dot(&w[1]), j[1].dot(&w[0]), j[1].dot(&w[1]))
 }
 
 /// J twist.
+#[inline]
 pub(super) fn apply(j: &[Vector3<f64>; 2], twist: &Vector3<f64>) -> Vector2<f64> {
     Vector2::new(j[0].dot(twist), j[1].dot(twist))
 }

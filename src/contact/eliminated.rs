@@ -112,22 +112,26 @@ impl Eliminated {
     }
 
     /// The number of the mechanism that a group belongs to.
+    #[inline]
     pub fn mechanism(&self, group: GroupIndex) -> usize {
         self.mechanism[group.0]
     }
 
     /// Whether the joints make anything of forces on one of two groups that the other feels.
+    #[inline]
     fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
         !self.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]
     }
 
     /// Whether nothing hangs together.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.limbs.is_empty()
     }
 
     /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`;
     /// without joints only its own do.
+    #[inline]
     pub fn feel(&self, group: GroupIndex, value: &Vector3<f64>, felt: &mut [Vector3<f64>]) {
         let own = self.mechanism[group.0];
         let line = &self.blocks[group.0 * self.mechanism.len()..];
@@ -139,11 +143,13 @@ impl Eliminated {
     }
 
     /// The twist that force and torque on `other` give to `one`, which it [couples](Self::couples).
+    #[inline]
     fn block(&self, one: GroupIndex, other: GroupIndex) -> &Matrix3<f64> {
         &self.blocks[one.0 * self.mechanism.len() + other.0]
     }
 
     /// Takes how the bodies of a constraint answer its forces, if that is not known at the present weights.
+    #[inline]
     pub fn weigh(&self, constraint: &mut Constraint, unknowns: &[Unknown]) {
         if !constraint.weighed {
             constraint.weigh(unknowns);
@@ -155,6 +161,7 @@ impl Eliminated {
 
     /// J M J^T of either side of a constraint, M being how the groups answer; all of it on the first
     /// side where both belong to one mechanism.
+    #[inline]
     pub fn own(&self, constraint: &Constraint) -> [Matrix2<f64>; 2] {
         let between = |(g, to): (GroupIndex, &[Vector3<f64>; 2]),
                        (h, from): (GroupIndex, &[Vector3<f64>; 2])| {

@@ -20,6 +20,7 @@ pub(super) struct Gain {
 impl Gain {
     /// Of a group that `began`, moved and `ended` so; nothing where it coasts, as that has nothing to do
     /// with what comes to press.
+    #[inline]
     pub fn new(unknown: &Unknown, [began, moved, ended]: [Vector3<f64>; 3]) -> Self {
         match unknown.coasts() {
             true => Self::default(),

@@ -35,6 +35,7 @@ pub(super) struct Limb {
 
 impl Limb {
     /// Of the tie with this index; it has not been weighed yet.
+    #[inline]
     pub fn new(tie: usize, [parent, child]: [usize; 2], turned: bool) -> Self {
         let (rows, none) = ([Vector3::zeros(); 2], Matrix3::zeros());
         Self {
@@ -55,6 +56,7 @@ impl Limb {
 
     /// Takes how the child answers, whose resistance with all that hangs from it has this inverse;
     /// returns what the parent feels of that as a resistance of its own.
+    #[inline]
     pub fn weigh(&mut self, tie: &Tie, inverse: &Matrix3<f64>) -> Matrix3<f64> {
         (self.on_parent, self.on_child) =
             if self.turned { (tie.to, tie.from) } else { (tie.from, tie.to) };
@@ -69,6 +71,7 @@ impl Limb {
     }
 
     /// Takes what is left to ask of its tie where all groups move freely.
+    #[inline]
     pub fn ask(&mut self, tie: &Tie, unknowns: &[Unknown]) {
         let target = Vector2::from(tie.target) * if self.turned { -1.0 } else { 1.0 };
         self.left = target - apply(&self.on_child, &unknowns[self.child].free)
@@ -77,6 +80,7 @@ impl Limb {
 }
 
 /// The inverse of a resistance to shifts and turns.
+#[inline]
 pub(super) fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
     let det = weight.m11 * weight.m22 - weight.m12 * weight.m12;
     let shifts = Matrix2::new(weight.m22, -weight.m12, -weight.m12, weight.m11) / det;
@@ -92,16 +96,19 @@ pub(super) fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 /// J^T force.
+#[inline]
 pub(super) fn pull(j: &[Vector3<f64>; 2], force: &Vector2<f64>) -> Vector3<f64> {
     j[0] * force.x + j[1] * force.y
 }
 
 /// The columns of J^T S.
+#[inline]
 fn times(j: &[Vector3<f64>; 2], s: &Matrix2<f64>) -> [Vector3<f64>; 2] {
     [pull(j, &s.column(0).into_owned()), pull(j, &s.column(1).into_owned())]
 }
 
 /// The sum of u v^T over two columns of each.
+#[inline]
 fn outer(u: &[Vector3<f64>; 2], v: &[Vector3<f64>; 2]) -> Matrix3<f64> {
     u[0] * v[0].transpose() + u[1] * v[1].transpose()
 }

@@ -32,6 +32,7 @@ pub(super) struct Midway {
 }
 
 /// `contact` where the groups have come to, when `share` of the frame is done.
+#[inline]
 pub(super) fn midway(
     bodies: &Bodies,
     state: &State,
@@ -98,6 +99,7 @@ enum Moves<'a> {
 }
 
 impl Moves<'_> {
+    #[inline]
     fn turn(&self) -> Turn {
         match self {
             Self::With(unknown) => unknown.turn,
@@ -106,6 +108,7 @@ impl Moves<'_> {
     }
 
     /// Where a point of the body has come to.
+    #[inline]
     fn moved(&self, point: Vector) -> Vector {
         match self {
             Self::With(unknown) => unknown.moved(point),
@@ -114,6 +117,7 @@ impl Moves<'_> {
     }
 
     /// Where the point has come to that arms are counted from.
+    #[inline]
     fn centre(&self) -> Vector {
         match self {
             Self::With(unknown) => unknown.moved(unknown.centre),
@@ -133,6 +137,7 @@ struct Side<'a> {
 }
 
 impl<'a> Side<'a> {
+    #[inline]
     fn new(footprint: &Footprint, moves: Moves<'a>, point: Vector, centre: Vector) -> Self {
         let round = match *footprint {
             Footprint::Disc { radius } => Some((centre, radius)),
@@ -143,6 +148,7 @@ impl<'a> Side<'a> {
 
     /// The contact point on the body: a disc rolls beneath its own, `outward` being the
     /// direction from its centre; a corner takes it along.
+    #[inline]
     fn point(&self, outward: Vector) -> Vector {
         match self.round {
             Some((centre, radius)) => self.moves.moved(centre) + radius * outward,

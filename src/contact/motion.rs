@@ -17,6 +17,7 @@ pub struct Motion {
 
 impl Motion {
     /// Displacement of the body's point `arm` metres from its centre, to first order, metres.
+    #[inline]
     pub fn at(&self, arm: Vector) -> Vector {
         self.shift + self.turn * Vector::new(-arm.y, arm.x)
     }

@@ -192,6 +192,7 @@ impl Prior {
 }
 
 /// Turns the rows of a contact's constraint to where the contact is `at`.
+#[inline]
 fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
     let directions = [at.normal, perpendicular(at.normal)];
     constraint.to = directions.map(|direction| along(direction, at.arm));
@@ -202,6 +203,7 @@ fn face(contact: &Contact, at: &Midway, constraint: &mut Constraint) {
 
 /// The tangential displacement at which a contact does not slide. Friction acts only after the
 /// gap has closed: the sliding before is not held back.
+#[inline]
 fn sliding_in_touch(
     coasts: &[Motion],
     contact: &Contact,

@@ -52,6 +52,7 @@ impl Quantity {
     }
 
     /// What inertia adds to the resistance of `body` in a frame of that duration, N/m.
+    #[inline]
     fn inertia_of(self, body: &Movable, duration: f64) -> f64 {
         let inertia = body.mass / (duration * duration);
         match self {
@@ -141,6 +142,7 @@ impl Unknown {
     }
 
     /// Whether it does what it would do alone on the table, so that its equations need not be known.
+    #[inline]
     pub fn coasts(&self) -> bool {
         !self.touched && !self.held
     }
@@ -159,17 +161,20 @@ impl Unknown {
     }
 
     /// Looks at the group when `share` of its present motion is done.
+    #[inline]
     pub fn look(&mut self, share: f64) {
         self.share = share;
         self.turn = Turn::by(share * self.twist.z);
     }
 
     /// Where a point of the group has come to then.
+    #[inline]
     pub fn moved(&self, point: Vector) -> Vector {
         self.centre + self.share * self.twist.xy() + self.turn.of(point - self.centre)
     }
 
     /// Nothing presses on it, as far as is known.
+    #[inline]
     pub fn forget(&mut self) {
         self.pressed = Vector3::zeros();
         self.pressing = Vector::zeros();
@@ -178,6 +183,7 @@ impl Unknown {
 
     /// Another quantity is asked for, which is not known without the equations where anything but the
     /// table has held the group.
+    #[inline]
     pub fn turn_to_another(&mut self) {
         self.pull = None;
         self.held |= self.touched;
@@ -185,6 +191,7 @@ impl Unknown {
 
     /// How far it comes if it goes on as its `members` move when the frame begins. After a turn these do
     /// not quite move as one any more, so all of them count.
+    #[inline]
     pub fn as_it_began(
         &self,
         members: &[usize],
@@ -196,6 +203,7 @@ impl Unknown {
     }
 
     /// Moves as what presses makes it.
+    #[inline]
     pub fn settle(&mut self) {
         self.twist = self.free + self.inverse * self.pressed;
     }
@@ -292,6 +300,7 @@ impl Unknown {
 
 /// How the support of object `k`, whose own x axis points along `axis` and whose load has moved by
 /// `lean`, resists a shift and a turn.
+#[inline]
 fn rub(
     (bodies, k): (&Bodies, usize),
     axis: Vector,
@@ -311,6 +320,7 @@ struct Rub {
 }
 
 impl Rub {
+    #[inline]
     fn new(body: &Movable, drag: Drag) -> Self {
         let rub = body.load();
         Self { sum: rub * drag.sum, first: rub * drag.first, second: rub * drag.second }
@@ -318,6 +328,7 @@ impl Rub {
 
     /// The resistance against shifts of a point and turns about it, `arm` leading from there to the
     /// object's centre.
+    #[inline]
     fn about(&self, arm: Vector) -> Matrix3<f64> {
         let first = self.first + self.sum * arm;
         let second = self.second + 2.0 * self.first.dot(&arm) + self.sum * arm.norm_squared();
@@ -327,6 +338,7 @@ impl Rub {
 }
 
 /// The inverse of a resistance [[s, 0, -y], [0, s, x], [-y, x, t]], in closed form.
+#[inline]
 fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
     let (s, x, y, t) = (weight.m11, weight.m23, -weight.m13, weight.m33);
     let (p, q) = (-x / s, y / s);
@@ -347,6 +359,7 @@ fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
 
 /// The part of the resistance to shifts, N/m, and to turns, N m, that inertia makes; `inertia` in
 /// N/m.
+#[inline]
 fn inertias(body: &Movable, inertia: f64) -> (f64, f64) {
     (inertia, inertia * body.support * body.support / body.spin)
 }

@@ -23,36 +23,43 @@ pub struct Pose {
 
 impl Pose {
     /// The pose at (`x`, `y`) metres with `heading` radians.
+    #[inline]
     pub fn new(x: f64, y: f64, heading: f64) -> Self {
         Self { position: Vector::new(x, y), heading }
     }
 
     /// The turn by its heading.
+    #[inline]
     pub fn turn(&self) -> Turn {
         Turn::by(self.heading)
     }
 
     /// Maps a point of this pose's frame into the parent frame, metres.
+    #[inline]
     pub fn point(&self, local: Vector) -> Vector {
         self.position + self.vector(local)
     }
 
     /// Turns a vector of this pose's frame into the parent frame, without shifting it.
+    #[inline]
     pub fn vector(&self, local: Vector) -> Vector {
         self.turn().of(local)
     }
 
     /// Maps a point of the parent frame into this pose's frame, metres.
+    #[inline]
     pub fn local_point(&self, point: Vector) -> Vector {
         self.local_vector(point - self.position)
     }
 
     /// Turns a vector of the parent frame into this pose's frame, without shifting it.
+    #[inline]
     pub fn local_vector(&self, vector: Vector) -> Vector {
         self.turn().back(vector)
     }
 
     /// The pose that undoes this one.
+    #[inline]
     pub fn inverse(&self) -> Self {
         Self { position: -self.local_vector(self.position), heading: -self.heading }
     }
@@ -76,17 +83,20 @@ impl Mul for Pose {
 
     #[allow(clippy::suspicious_arithmetic_impl)] // composing turns adds their angles
     /// `a * b`: the pose `b`, given in the frame of `a`, in the parent frame of `a`.
+    #[inline]
     fn mul(self, other: Pose) -> Pose {
         Pose { position: self.point(other.position), heading: self.heading + other.heading }
     }
 }
 
 /// The vertical component of the cross product of two planar vectors.
+#[inline]
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }
 
 /// `v` turned left by a quarter turn.
+#[inline]
 pub fn perpendicular(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }

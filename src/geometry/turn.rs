@@ -23,12 +23,14 @@ impl Turn {
     pub const NONE: Self = Self { sin: 0.0, cos: 1.0 };
 
     /// By `angle`, radians, to the left.
+    #[inline]
     pub fn by(angle: f64) -> Self {
         let [[sin], [cos]] = sines([angle]);
         Self { sin, cos }
     }
 
     /// This turn on top of another.
+    #[inline]
     pub fn after(&self, first: &Self) -> Self {
         Self {
             sin: self.sin * first.cos + self.cos * first.sin,
@@ -37,6 +39,7 @@ impl Turn {
     }
 
     /// The turn that leads from another to this one.
+    #[inline]
     pub fn from(&self, other: &Self) -> Self {
         Self {
             sin: self.sin * other.cos - self.cos * other.sin,
@@ -45,16 +48,19 @@ impl Turn {
     }
 
     /// Where it turns the axis x to, a unit vector.
+    #[inline]
     pub fn axis(&self) -> Vector {
         Vector::new(self.cos, self.sin)
     }
 
     /// `v`, turned.
+    #[inline]
     pub fn of(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
     /// `v`, turned the other way.
+    #[inline]
     pub fn back(&self, v: Vector) -> Vector {
         Vector::new(self.cos * v.x + self.sin * v.y, -self.sin * v.x + self.cos * v.y)
     }
