@@ -18,13 +18,13 @@ pub(super) struct Gain {
 }
 
 impl Gain {
-    /// Of a group that `began`, moved and `ended` so; nothing where it coasts, as that has nothing to do
-    /// with what comes to press.
+    /// Of a group that `began` at that speed, `moved` and `ended` so; nothing where it coasts, as that
+    /// has nothing to do with what comes to press.
     #[inline]
-    pub fn new(unknown: &Unknown, [began, moved, ended]: [Vector3<f64>; 3]) -> Self {
-        match unknown.coasts() {
-            true => Self::default(),
-            false => Self { moved: moved - began, ended: ended - moved },
+    pub fn of(began: Vector3<f64>, moved: &Unknown, ended: &Unknown) -> Self {
+        if moved.coasts() {
+            return Self::default();
         }
+        Self { moved: moved.twist - began, ended: ended.twist - moved.twist }
     }
 }

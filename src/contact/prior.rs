@@ -158,10 +158,9 @@ impl Prior {
         ties.iter_mut().for_each(|tie| tie.target = [0.0; 2]);
         velocities.solve(scenery, |_, _, _| {});
         gains.clear();
-        let ended = self.system.unknowns.iter().zip(&self.velocities.unknowns);
-        gains.extend(ended.zip(&bodies.groups.members).map(|((moved, ended), members)| {
-            let began = moved.as_it_began(members, scenery);
-            Gain::new(moved, [began, moved.twist, ended.twist])
+        let groups = system.unknowns.iter().zip(&velocities.unknowns).zip(&bodies.groups.members);
+        gains.extend(groups.map(|((moved, ended), members)| {
+            Gain::of(moved.as_it_began(members, scenery), moved, ended)
         }));
     }
 

@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     contact::{bodies::Bodies, coast::coast, points::find_contacts},
     geometry::{Pose, Shape, Turn, cross},
-    scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, Tool},
+    scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Tool},
 };
 
 fn cuboid(x: f64, y: f64) -> Object {
@@ -23,6 +23,22 @@ fn table(objects: Vec<Object>) -> Scene {
 /// The motions of one slow frame in which a round finger of 2 cm, its far side touching the
 /// line x = 0, moves by `travel`.
 fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
+    let to = Pose { position: travel, heading: 0.0 };
+    let step = FrameStep { from: Pose::default(), to, duration: 0.5 };
+    let mut prior = Prior::default();
+    in_frame(scene, &scene.start(), &step, |scenery, contacts| {
+        prior.solve(scenery, Vector::x(), contacts);
+    });
+    prior.motions
+}
+
+/// Does what is to be done `with` a frame of that finger.
+fn in_frame(
+    scene: &Scene,
+    state: &State,
+    step: &FrameStep,
+    with: impl FnOnce(Scenery, &[Contact]),
+) {
     let finger = Part {
         name: "finger".into(),
         shape: Shape::Cylinder { radius: 0.01, height: 0.1 },
@@ -30,9 +46,6 @@ fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
     };
     let tool = Tool::new("finger", [finger]).expect("one part is one piece").friction(0.5);
     let bodies = Bodies::new(scene, &tool, 0.002, &Physics::stated(scene));
-    let state = scene.start();
-    let to = Pose { position: travel, heading: 0.0 };
-    let step = FrameStep { from: Pose::default(), to, duration: 0.5 };
     let coasts: Vec<Motion> = (bodies.objects.iter().zip(&state.velocities))
         .map(|(body, velocity)| coast(body, velocity, step.duration))
         .collect();
@@ -40,16 +53,14 @@ fn prior(scene: &Scene, travel: Vector) -> Vec<Motion> {
     let mut contacts = Vec::new();
     let scenery = Scenery {
         bodies: &bodies,
-        state: &state,
-        step: &step,
+        state,
+        step,
         coasts: &coasts,
         turns: &turns,
         margin: crate::contact::MARGIN,
     };
     find_contacts(scenery, &mut contacts);
-    let mut prior = Prior::default();
-    prior.solve(scenery, Vector::x(), &contacts);
-    prior.motions
+    with(scenery, &contacts);
 }
 
 #[test]
@@ -145,4 +156,46 @@ fn a_revolute_pair_keeps_its_anchor_and_a_prismatic_one_its_line() {
             }
         }
     }
+}
+
+/// Two boxes that turn while they are pushed: frames begun from the ones before end like frames begun
+/// from nothing.
+#[test]
+fn where_a_frame_begins_from_makes_it_shorter_and_no_other() {
+    let scene = table(vec![cuboid(0.03, -0.01), cuboid(0.091, 0.012)]);
+    let (mut going, mut state) = (Prior::default(), scene.start());
+    let mut last = Vec::new();
+    let [mut followed, mut alone] = [0, 0];
+    for frame in 0..12 {
+        let [from, to] = [0, 1].map(|k| Pose::new(0.002 * f64::from(frame + k), 0.0, 0.0));
+        let step = FrameStep { from, to, duration: 0.02 };
+        in_frame(&scene, &state, &step, |scenery, contacts| {
+            let mut fresh = Prior::default();
+            fresh.solve(scenery, Vector::x(), contacts);
+            let before = [&going.system, &going.velocities].map(|system| system.tally.updates);
+            match frame {
+                0 => going.solve(scenery, Vector::x(), contacts),
+                _ => going.follow(scenery, Vector::x(), contacts, &last),
+            }
+            for (one, other) in going.motions.iter().zip(&fresh.motions) {
+                assert!((one.shift - other.shift).norm() < 1e-5, "{frame}: {one:?} {other:?}");
+                let ended = step.duration * (one.velocity - other.velocity);
+                assert!(ended.norm() < 1e-5, "{frame}: {one:?} {other:?}");
+            }
+            if frame > 4 {
+                followed += going.system.tally.updates + going.velocities.tally.updates;
+                followed -= before.iter().sum::<u64>();
+                alone += fresh.system.tally.updates + fresh.velocities.tally.updates;
+            }
+            last = contacts.to_vec();
+        });
+        for (k, motion) in going.motions.iter().enumerate() {
+            state.poses[k].position += motion.shift;
+            state.poses[k].heading += motion.turn;
+            state.velocities[k].linear = motion.velocity;
+            state.velocities[k].angular = motion.spin;
+        }
+    }
+    assert!(state.poses[0].heading.abs() > 0.1, "{state:?}");
+    assert!(2 * followed < alone, "{followed} {alone}");
 }
