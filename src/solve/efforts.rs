@@ -17,8 +17,8 @@ const CROWD_ENGINE: ModelKind = planar(60);
 
 /// The most objects that a push can set in motion for which the prior is clearly cheaper than
 /// [`CROWD_ENGINE`]: where their costs cross, by straight lines in logarithms between the numbers
-/// of objects that were measured.
-const FEW_FOR_PRIOR: u16 = 7;
+/// of objects that were measured, or the largest of these where they do not.
+const FEW_FOR_PRIOR: u16 = 9;
 
 /// The planar engine at so many steps a second, one at least.
 const fn planar(rate: u16) -> ModelKind {

@@ -172,9 +172,10 @@ fn the_page_says_what_each_effort_costs_and_gives() {
 const WORTH: f64 = 0.9;
 
 /// The most objects for which `model` costs less than [`WORTH`] of what `rival` does, between
-/// measured numbers of them by straight lines in logarithms.
+/// measured numbers of them by straight lines in logarithms; of more than these nothing is known.
 fn cheaper_up_to(rows: &[ObjectCost], model: &str, rival: &str) -> u16 {
     let mut last: Option<(f64, f64)> = None;
+    let mut most = 0;
     for row in rows.iter().filter(|row| row.model == model) {
         let same = |other: &&ObjectCost| other.objects == row.objects && other.model == rival;
         let other = rows.iter().find(same).expect("both were timed");
@@ -187,8 +188,9 @@ fn cheaper_up_to(rows: &[ObjectCost], model: &str, rival: &str) -> u16 {
             return crossing.floor() as u16;
         }
         last = Some((count, excess));
+        most = row.objects;
     }
-    u16::MAX
+    u16::try_from(most).expect("few objects")
 }
 
 #[test]
@@ -205,7 +207,7 @@ fn pushes_are_left_to_the_planar_engine_where_the_measured_costs_cross() {
     };
     // Cost 0.05 n^2 passes the worth at the square root of 18.
     assert_eq!(cheaper_up_to(&rows([0.05, 0.45, 4.05]), "own", "rival"), 4);
-    assert_eq!(cheaper_up_to(&rows([0.01, 0.09, 0.81]), "own", "rival"), u16::MAX);
+    assert_eq!(cheaper_up_to(&rows([0.01, 0.09, 0.81]), "own", "rival"), 9);
     assert_eq!(cheaper_up_to(&rows([2.0, 3.0, 4.0]), "own", "rival"), 0);
 
     let report: TradeOffReport = serde_json::from_str(MEASURED).unwrap();
