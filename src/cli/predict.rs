@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::asset::{AnyTask, load_any_task};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
@@ -54,10 +53,10 @@ pub struct PredictArgs {
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     args.out.as_deref().map(output::prepare).transpose()?;
-    let task = match load_any_task(&args.task, None)? {
-        AnyTask::Pushes(task) => task,
-        AnyTask::Levers(task) => return lever::predict(args, &task, &library, session),
-    };
+    let task = Task::load(&args.task)?;
+    if task.levers.is_some() {
+        return lever::predict(args, &task, &library, session);
+    }
     let asked = args.model.clone().unwrap_or(ModelKind::NETWORK.into());
     let (plan, tool) = args.action.plan(&task, &library, session)?;
     let job = Job::stated(&task.scene, plan.motion(&tool));

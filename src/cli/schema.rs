@@ -2,9 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{
-    blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema, world_schema,
-};
+use crate::asset::{recording_schema, task_schema, tool_schema, world_schema};
 
 use super::{error::CliError, exit_code, session::Session};
 
@@ -25,10 +23,6 @@ enum Kind {
     Task,
     Recording,
     World,
-    /// A task of levering
-    LeverTask,
-    /// A tool with a blade
-    Blade,
 }
 
 pub fn run(args: &SchemaArgs, session: &Session) -> Result<u8, CliError> {
@@ -37,8 +31,6 @@ pub fn run(args: &SchemaArgs, session: &Session) -> Result<u8, CliError> {
         Kind::Task => task_schema(),
         Kind::Recording => recording_schema(),
         Kind::World => world_schema(),
-        Kind::LeverTask => lever_task_schema(),
-        Kind::Blade => blade_schema(),
     };
     session.print(&format!("{schema:#}\n"))?;
     Ok(exit_code::DONE)

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::asset::{AnyPlanFile, AnyTask, TrajectoryFile, load_any_task};
+use crate::asset::{AnyPlanFile, TrajectoryFile};
 use crate::report::simulation_document;
-use crate::scene::{Engine, Job, Record};
+use crate::scene::{Engine, Job, Record, Task};
 use crate::sim::Simulator;
 
 use super::{
@@ -47,13 +47,11 @@ pub struct SimulateArgs {
 pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
     let (task, plan, tool) = if args.action.given() {
         let library = args.library.load()?;
-        let task = match load_any_task(&args.file, None)? {
-            AnyTask::Pushes(task) => task,
-            AnyTask::Levers(task) => {
-                let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
-                return lever::simulate(args, task, planned, session);
-            }
-        };
+        let task = Task::load(&args.file)?;
+        if task.levers.is_some() {
+            let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
+            return lever::simulate(args, task, planned, session);
+        }
         let (plan, tool) = args.action.plan(&task, &library, session)?;
         (task, plan, tool)
     } else if args.file.extension().is_some_and(|end| end == "json") {

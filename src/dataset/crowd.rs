@@ -5,7 +5,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{Footprint, Pose},
-    scene::{Object, Ranges, Scene, Support},
+    scene::{Object, Ranges, Scene},
 };
 
 use super::{
@@ -37,12 +37,10 @@ pub(super) fn crowd(
         let shape = random_shape(rng, ranges, solids);
         let pose = place(rng, &scene.objects, &shape.footprint());
         scene.objects.push(Object {
-            support: Support::Even,
-            name: format!("object-{}", index + 1),
-            shape,
             mass: log_uniform(rng, masses),
             friction: friction(rng),
             pose,
+            ..Object::new(format!("object-{}", index + 1), shape)
         });
     }
     draw_supports(rng, &mut scene);

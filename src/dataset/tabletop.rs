@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geometry::{ConvexPolygon, Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact},
-    scene::{Object, Ranges, Scene, Span, Support, TRAINED_SLANT, slant},
+    scene::{Object, Ranges, Scene, Span, TRAINED_SLANT, slant},
 };
 
 use super::chance::{heading, log_uniform, uniform};
@@ -61,12 +61,10 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
             beside(rng, &scene.objects, shape.footprint(), crowd.touching)
         };
         scene.objects.push(Object {
-            support: Support::Even,
-            name: format!("object-{}", index + 1),
-            shape,
             mass: if index == 0 { middle } else { log_uniform(rng, masses) },
             friction: friction(rng),
             pose,
+            ..Object::new(format!("object-{}", index + 1), shape)
         });
     }
     scene

@@ -10,7 +10,7 @@ use crate::report::{
     PageView, PredictedLever, Recipe, ReplayedLever, lever_figure, lever_page,
     lever_prediction_document,
 };
-use crate::scene::{LeverJob, LeverTask};
+use crate::scene::{LeverJob, LeverScene, Task};
 use crate::sim::LeverSimulator;
 
 use super::argument::lever_plan;
@@ -23,7 +23,7 @@ use super::solve::FRAME;
 /// A lever-up that cannot be made, and results that cannot be written.
 pub fn predict(
     args: &PredictArgs,
-    task: &LeverTask,
+    task: &Task,
     library: &ToolLibrary,
     session: &Session,
 ) -> Result<u8, CliError> {
@@ -35,7 +35,7 @@ pub fn predict(
         ));
     }
     let (plan, tool) = lever_plan(task, library, asked, session)?;
-    let job = LeverJob { scene: Arc::new(task.scene(tool.blade)), lever: plan.lever };
+    let job = LeverJob { scene: Arc::new(LeverScene::with(&task.scene, &tool)), lever: plan.lever };
     let mut models = vec![lever_model(args.model.as_ref())?];
     for simulator in [LeverSimulator::COARSE, LeverSimulator::FINE] {
         let simulated = SimulatedLevers { simulator };
@@ -52,7 +52,7 @@ pub fn predict(
         let rolled = session.compute(|| model.rollout(std::slice::from_ref(&job)));
         let seconds = began.elapsed().as_secs_f64();
         predicted.extend(rolled.into_iter().map(|trajectory| {
-            let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+            let outcome = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
             PredictedLever { by: model.name(), trajectory, outcome, seconds }
         }));
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::asset::LeverTrajectoryFile;
 use crate::cli::{error::CliError, exit_code, output, session::Session, simulate::SimulateArgs};
 use crate::report::lever_simulation_document;
-use crate::scene::{BladeTool, Engine, LeverJob, LeverPlan, LeverTask};
+use crate::scene::{Engine, LeverJob, LeverPlan, LeverScene, Task, Tool};
 use crate::sim::LeverSimulator;
 
 use super::solve::FRAME;
@@ -16,8 +16,8 @@ use super::solve::FRAME;
 /// Another engine than the 3-D one, and results that cannot be written.
 pub fn simulate(
     args: &SimulateArgs,
-    task: LeverTask,
-    (plan, tool): (LeverPlan, Arc<BladeTool>),
+    task: Task,
+    (plan, tool): (LeverPlan, Arc<Tool>),
     session: &Session,
 ) -> Result<u8, CliError> {
     if args.engine.is_some_and(|engine| engine != Engine::Spatial) {
@@ -28,9 +28,9 @@ pub fn simulate(
     }
     output::prepare(&args.out)?;
     let name = format!("{}.3d", task.name);
-    let job = LeverJob { scene: Arc::new(task.scene(tool.blade)), lever: plan.lever };
+    let job = LeverJob { scene: Arc::new(LeverScene::with(&task.scene, &tool)), lever: plan.lever };
     let (trajectory, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
-    let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+    let outcome = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
     for warning in &trajectory.warnings {
         session.warn(&warning.to_string());
     }

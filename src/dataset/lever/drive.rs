@@ -4,7 +4,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use crate::geometry::{Pose, Vector};
-use crate::scene::{Block, LeverScene, LeverUp, Place, Plate, Slab};
+use crate::scene::{LeverScene, LeverUp, Obstacle, Place, Plate, Slab};
 
 use super::super::chance::uniform;
 use super::plates::{anywhere, lever, screwdriver};
@@ -118,14 +118,15 @@ impl Drive {
     }
 
     /// What is fixed, with the notch in the wall along `edge` at `middle` from its first corner.
-    fn blocks(&self, pose: Pose, edge: usize, middle: f64) -> Vec<Block> {
-        let block = |name: String, at: Vector, heading: f64, [x, y]: [f64; 2], z: [f64; 2]| Block {
-            name,
-            size: [x, y, z[1] - z[0]],
-            pose: pose * Pose { position: at, heading },
-            z: z[0],
-            friction: self.friction,
-        };
+    fn blocks(&self, pose: Pose, edge: usize, middle: f64) -> Vec<Obstacle> {
+        let block =
+            |name: String, at: Vector, heading: f64, [x, y]: [f64; 2], z: [f64; 2]| Obstacle {
+                name,
+                size: [x, y, z[1] - z[0]],
+                pose: pose * Pose { position: at, heading },
+                z: z[0],
+                friction: self.friction,
+            };
         let [x, y] = self.board.map(|side| 0.5 * side);
         let mut blocks = vec![block("floor".to_owned(), Vector::zeros(), 0.0, DRIVE, [0.0, FLOOR])];
         for (k, [i, j]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].iter().enumerate() {
