@@ -19,7 +19,7 @@ mod generate;
 mod import;
 mod infer;
 mod interrupt;
-mod lever;
+mod lever_argument;
 mod model;
 mod noise;
 mod output;

@@ -8,14 +8,16 @@ use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
 use crate::report::{PageView, PoseRow, prediction_document, prediction_page};
-use crate::scene::{Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning};
+use crate::scene::{
+    Engine, Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning,
+};
+use crate::sim::LeverSimulator;
 
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
     exit_code,
     form::Form,
-    lever,
     model::{self, OutsideArgs},
     output,
     poses::PosesArgs,
@@ -31,37 +33,46 @@ pub struct PredictArgs {
     /// The task whose scene is pushed
     task: PathBuf,
     #[command(flatten)]
-    pub action: ActionArgs,
+    action: ActionArgs,
     #[command(flatten)]
     library: LibraryArgs,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
-    pub model: Option<ModelSpec>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     #[command(flatten)]
-    pub poses: PosesArgs,
+    poses: PosesArgs,
     /// Folder for a page that plays what every model says, named after the task
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    out: Option<PathBuf>,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
-    pub page: PageView,
+    page: PageView,
     #[command(flatten)]
-    pub form: Form,
+    form: Form,
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     args.out.as_deref().map(output::prepare).transpose()?;
     let task = Task::load(&args.task)?;
-    if task.levers.is_some() {
-        return lever::predict(args, &task, &library, session);
-    }
-    let asked = args.model.clone().unwrap_or(ModelKind::NETWORK.into());
+    let asked = args.model.clone().unwrap_or(match task.levers {
+        // Among other things than a plain table the network of lever-ups knows nothing.
+        Some(_) => ModelKind::PRIOR.into(),
+        None => ModelKind::NETWORK.into(),
+    });
     let (plan, tool) = args.action.plan(&task, &library, session)?;
-    let job = Job::stated(&task.scene, plan.motion(&tool));
+    let tools = [tool];
+    let motion = plan.motions(&tools).and_then(|motions| motions.into_iter().next());
+    let motion = motion.ok_or_else(|| CliError::usage("nothing moves", "add a push"))?;
+    let in_space = motion.is_lever() || task.in_space();
+    let job = Job::stated(&task.scene, motion);
     let mut specs = vec![asked.clone()];
-    let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
+    // What leaves the plane is simulated coarsely, as planning does, and finely.
+    let coarse =
+        ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
+    let beside = if in_space { coarse } else { ModelKind::PLANAR };
+    let simulated = [beside, ModelKind::SPATIAL].map(ModelSpec::of);
     specs.extend(simulated.into_iter().filter(|spec| *spec != asked));
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
@@ -87,7 +98,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
         let recipe = args.library.origin(&args.task, Some(asked.clone())).plan(&plan);
-        let page = prediction_page(&task, &tool, &plan, &trajectories, recipe, args.page);
+        let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
         let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
         document.wrote(&[path]);
     }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::asset::{AnyPlanFile, TrajectoryFile};
+use crate::asset::{PlanFile, TrajectoryFile};
 use crate::report::simulation_document;
-use crate::scene::{Engine, Job, Record, Task};
+use crate::scene::{Engine, Record, Task};
 use crate::sim::Simulator;
 
 use super::{
@@ -14,7 +14,7 @@ use super::{
     error::CliError,
     exit_code,
     form::Form,
-    lever, output,
+    output,
     push_argument::forms,
     session::Session,
     words::{ENGINES, words},
@@ -33,52 +33,51 @@ pub struct SimulateArgs {
     library: LibraryArgs,
     /// Which engine [default: planar; 3d for lever-ups]
     #[arg(long, value_parser = words(&ENGINES))]
-    pub engine: Option<Engine>,
+    engine: Option<Engine>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    pub out: PathBuf,
+    out: PathBuf,
     /// Draw a picture that moves as well
     #[arg(long)]
-    pub animate: bool,
+    animate: bool,
     #[command(flatten)]
-    pub form: Form,
+    form: Form,
 }
 
 pub fn run(args: &SimulateArgs, session: &Session) -> Result<u8, CliError> {
-    let (task, plan, tool) = if args.action.given() {
+    let (task, plan, tools) = if args.action.given() {
         let library = args.library.load()?;
         let task = Task::load(&args.file)?;
-        if task.levers.is_some() {
-            let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
-            return lever::simulate(args, task, planned, session);
-        }
         let (plan, tool) = args.action.plan(&task, &library, session)?;
-        (task, plan, tool)
+        (task, plan, vec![tool])
     } else if args.file.extension().is_some_and(|end| end == "json") {
-        match AnyPlanFile::load(&args.file)? {
-            AnyPlanFile::Pushes(file) => (file.task, file.plan, file.tool),
-            AnyPlanFile::Levers(file) => {
-                return lever::simulate(args, file.task, (file.plan, file.tool), session);
-            }
-        }
+        let file = PlanFile::load(&args.file)?;
+        (file.task, file.plan, file.tools)
     } else {
         return Err(CliError::usage(
             "nothing moves in a task alone",
             "add --tool and --push (or --lever), or give a plan file (*.plan.json)",
         ));
     };
+    let in_space = task.in_space() || plan.levers();
+    if in_space && args.engine.is_some_and(|engine| engine != Engine::Spatial) {
+        return Err(CliError::usage("lever-ups leave the plane", "use --engine 3d, or none"));
+    }
     output::prepare(&args.out)?;
-    let (simulator, name) = match args.engine.unwrap_or(Engine::Planar) {
-        Engine::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
-        Engine::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
-        Engine::Upright => (Simulator::upright(), format!("{}.3d-upright", task.name)),
-    };
-    let job = Job::stated(&task.scene, plan.motion(&tool));
-    let trajectory = session.compute(|| simulator.run(&task.scene, &job, Record::Frames));
+    let (simulator, name) =
+        match args.engine.unwrap_or(if in_space { Engine::Spatial } else { Engine::Planar }) {
+            Engine::Planar => (Simulator::planar(), format!("{}.planar", task.name)),
+            Engine::Spatial => (Simulator::spatial(), format!("{}.3d", task.name)),
+            Engine::Upright => (Simulator::upright(), format!("{}.3d-upright", task.name)),
+        };
+    let missing =
+        || CliError::usage("the plan names tools that the file does not hold", "make it again");
+    let motions = plan.motions(&tools).ok_or_else(missing)?;
+    let trajectory = session.compute(|| simulator.run_plan(&task.scene, &motions, Record::Frames));
     for warning in &trajectory.warnings {
         session.warn(&warning.to_string());
     }
-    let file = TrajectoryFile { tool, plan, trajectory, task };
+    let file = TrajectoryFile { tools, plan, trajectory, task };
     let mut document = simulation_document(&file, simulator.engine(), &name, args.animate);
     let path = args.out.join(format!("{name}.trajectory.json"));
     file.write(&path).map_err(CliError::Output)?;

@@ -17,8 +17,8 @@ mod html;
 mod joints;
 mod keyframes;
 mod labels;
-mod lever;
 mod lever_points;
+mod lever_tasks;
 mod levers;
 mod masses;
 mod number;
@@ -55,17 +55,14 @@ pub use fit::fit_document;
 pub use hdd::hdd_document;
 pub use heldout::heldout_document;
 pub use joints::{joints_document, recorded_joints_document};
-pub use lever::{
-    PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
-    lever_solution_document, lever_tasks_document, lever_verdict_document, lever_verdict_line,
-};
 pub use lever_points::lever_points_document;
+pub use lever_tasks::lever_tasks_document;
 pub use levers::levers_document;
 pub use masses::masses_document;
 pub use number::{degrees, millimetres, seconds};
 pub use page::{
-    Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, recording_page,
-    run_page, solution_page, verdict_page,
+    Origin, PageView, Recipe, Setting, prediction_page, recording_page, run_page, solution_page,
+    verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;

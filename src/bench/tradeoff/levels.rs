@@ -176,6 +176,7 @@ fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> Plan
         ),
         model: model.clone(),
         settings: Settings {
+            levers: crate::solve::LeverSettings::STANDARD,
             offsets,
             beam,
             search_rollouts,

@@ -10,15 +10,14 @@ use crate::cli::{
     action::LibraryArgs,
     error::CliError,
     form::Form,
-    interrupt, lever, model, output,
+    interrupt, model, output,
     session::Session,
     solve::solve_error,
     words::{EFFORTS, words},
 };
 use crate::report::lever_tasks_document;
-use crate::scene::ModelSpec;
-use crate::solve::Effort;
-use crate::solve::lever::LeverPlanner;
+use crate::scene::{ModelKind, ModelSpec};
+use crate::solve::{Effort, Planner};
 use crate::store::RunManifest;
 
 use super::keep::{self, KeepArgs, value_digest};
@@ -61,16 +60,17 @@ pub fn run(args: &LeverTasksArgs, session: &Session) -> Result<(), CliError> {
     let library = args.library.load()?;
     let count = args.count as usize;
     let suite = LeverSuite::new(args.seed, count);
-    let planner = LeverPlanner::new(lever::lever_model(args.model.as_ref())?, args.effort);
+    let spec = args.model.clone().unwrap_or(ModelKind::PRIOR.into());
+    let planner = Planner::builder(model::load(&spec)?).effort(args.effort).build();
     let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
     let settings = json!({
         "effort": args.effort,
-        "budget": planner.settings(),
+        "budget": planner.settings().levers,
         "tasks_version": LeverSuite::VERSION,
         "tools": value_digest(&tools)?,
     });
     let manifest =
-        RunManifest::new(SUITE, count, args.seed, &planner.model().name()).with_settings(settings);
+        RunManifest::new(SUITE, count, args.seed, &spec.to_string()).with_settings(settings);
     if let Some(folder) = &args.save_tasks {
         save_tasks(folder, &suite, args.keep.indices(count))?;
     }

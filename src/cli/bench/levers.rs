@@ -12,7 +12,7 @@ use crate::cli::{
     form::Form,
     generate::data_error,
     interrupt,
-    lever::lever_network,
+    model::lever_network,
     session::Session,
     words::{LEVER_PRESETS, words},
 };

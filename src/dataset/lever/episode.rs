@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{LeverJob, LeverMotion, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
+use crate::scene::{LeverJob, LeverRecord, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
 use crate::sim::LeverSimulator;
 
 use super::super::chance::generator;
@@ -51,7 +51,7 @@ impl LeverEpisode {
     }
 
     /// Everything that moves, after every step of the engine: simulated again.
-    pub fn motion(&self) -> LeverMotion {
+    pub fn motion(&self) -> LeverRecord {
         LeverSimulator::FINE.record(&self.job(), 0.0).1
     }
 
