@@ -46,9 +46,7 @@ mod _native {
     #[pymodule_export]
     use super::run::{PyMotion, PyRun, run};
     #[pymodule_export]
-    use super::schemas::{
-        blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema,
-    };
+    use super::schemas::{recording_schema, task_schema, tool_schema};
     #[pymodule_export]
     use super::solution::PySolution;
     #[pymodule_export]

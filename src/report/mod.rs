@@ -65,7 +65,7 @@ pub use page::{
     verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
-pub use plan_picture::plan_figures;
+pub use plan_picture::{plan_figures, space_figures};
 pub use poses::{PoseRow, RECORDED, poses_document};
 pub use prediction::prediction_document;
 pub use probes::probes_document;

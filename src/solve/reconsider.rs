@@ -293,7 +293,8 @@ mod tests {
         };
         let ended = |x: f64, y: f64, heading: f64| {
             let state = State::at_rest(vec![Pose::new(x, y, heading)]);
-            let outcome = Outcome { error: 0.0, heading_error: None, reached: false, state };
+            let outcome =
+                Outcome { error: 0.0, heading_error: None, reached: false, lying: None, state };
             let evidence = Evidence {
                 engine: Engine::Spatial,
                 disturbance: Disturbance::Nominal,

@@ -125,12 +125,7 @@ const TOOL: Key = Key::required(
 
 const TOOLS: Key = Key::required(
     "tools",
-    Value::List {
-        of: &OF_TOOL_FILE,
-        items: "tools",
-        min: 0,
-        max: 64,
-    },
+    Value::List { of: &OF_TOOL_FILE, items: "tools", min: 0, max: 64 },
     "The tools that the steps name, as in tool files.",
 );
 

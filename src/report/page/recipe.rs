@@ -236,13 +236,7 @@ mod tests {
     fn plan() -> Plan {
         let start = Vector::new(0.5, 0.25);
         let push = Push { start, direction: std::f64::consts::PI, length: 0.1, speed: 0.1 };
-        Plan {
-            tool: "bob's hook".to_owned(),
-            grip_yaw: 0.0,
-            form: PushForm::Chained,
-            lift: 0.002,
-            pushes: vec![push, push],
-        }
+        Plan::pushing("bob's hook", 0.0, PushForm::Chained, 0.002, [push, push])
     }
 
     #[test]
@@ -256,7 +250,7 @@ mod tests {
             origin.plan(&plan()).command,
             @r"pushplan predict 'my tasks/a.yaml' --tools mine --tool 'bob'\''s hook' --grip-yaw-deg 0 --push 'start=0.5,0.25 direction_deg=180 length=0.1 speed=0.1' --push 'direction_deg=180 length=0.1 speed=0.1'"
         );
-        let nothing = Plan { pushes: Vec::new(), ..plan() };
+        let nothing = Plan::default();
         let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
         assert_eq!(origin.plan(&nothing).command, "pushplan solve a.yaml");
     }
