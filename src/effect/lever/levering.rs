@@ -138,7 +138,7 @@ fn trajectory(
     found.warnings.extend(course.warnings.iter().map(|warning| match warning {
         LeverWarning::Slipped => Warning::Slipped { object: plate.name.clone() },
         LeverWarning::Moving => Warning::NotAtRest { waited: 0.0 },
-        LeverWarning::Jammed | LeverWarning::SetDown => Warning::Strained,
+        LeverWarning::Jammed => Warning::Strained,
     }));
     found
 }

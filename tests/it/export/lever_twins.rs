@@ -3,15 +3,19 @@
 //! Needs a Python with the package `mujoco`, as the tests of plans do.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
+use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
-use pushplan::export::{LEVER_SCRIPT, lever_mjcf};
+use pushplan::export::{LEVER_SCRIPT, lever_mjcf, mjcf};
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::sim::LeverSimulator;
+use pushplan::solve::{Effort, Planner};
 use serde_json::Value as Json;
 
 use super::mujoco::python;
+use crate::levers::plan_file;
 
 /// Lever-ups of each family.
 const CASES: u64 = 24;
@@ -56,6 +60,30 @@ fn lever_ups_end_where_they_do_in_mujoco() {
         });
         let within = MARKS.iter().zip(found).all(|(most, found)| found <= *most);
         assert!(within, "{preset}: {found:?} m, degrees, m; at most {MARKS:?}");
+    }
+}
+
+/// A lever-up that turns a plate over, and one with pushes that follow, as the planner found them.
+#[test]
+fn shipped_plans_in_space_work_in_mujoco() {
+    let Some(python) = python() else { return };
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let planner = Planner::for_effort(Effort::Draft).expect("the shipped weights").build();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
+    let folder = tempfile::tempdir().expect("a folder");
+    let script = folder.path().join("lever.py");
+    fs::write(&script, LEVER_SCRIPT).expect("written");
+    for name in ["flip-plate", "turn-and-push"] {
+        let task = load_task(root.join(format!("{name}.yaml")), &library).expect("sound");
+        let solution = planner.solve(&task, &library).expect("sound");
+        let best = solution.best().expect("a plan");
+        let scene = folder.path().join(format!("{name}.xml"));
+        let text = mjcf(&plan_file(&task, best)).expect("no loops");
+        fs::write(&scene, text).expect("written");
+        let output = Command::new(&python).arg(&script).arg(&scene).output().expect("Python runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: Json = serde_json::from_slice(&output.stdout).expect("a line of JSON");
+        assert_eq!(found["reached"], true, "{name}: {}", found["rest"]);
     }
 }
 
