@@ -62,8 +62,7 @@ pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(
 );
 
 /// What of a scene may be unknown.
-pub(in crate::asset) const UNKNOWN_KEY: Key =
-    Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
+pub(in crate::asset) const UNKNOWN_KEY: Key = Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
 
 const UNKNOWN: Value = Value::List {
     of: &Value::Word(&["joints", "masses", "frictions", "support"]),
