@@ -22,9 +22,7 @@ pub struct Levering {
 /// elsewhere than in the scene, or with a tool without a blade.
 fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     let Motion::Lever(LeverMotion { lever, expected: None, .. }) = &job.motion else { return None };
-    job.motion.tool().blade()?;
-    scene.objects.get(lever.plate)?;
-    if job.start.space.is_some() {
+    if job.start.space.is_some() || !job.motion.fits(scene) {
         return None;
     }
     let scene = Arc::new(LeverScene::with(scene, job.motion.tool()));
