@@ -90,7 +90,7 @@ impl ToolLibrary {
             return Err(Fault::of_file(&path.display().to_string(), message, advice).into());
         }
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        self.and(names.iter().map(String::as_str).zip(files.iter().map(|file| Tool::load(file))))
+        self.and(names.iter().map(String::as_str).zip(files.iter().map(Tool::load)))
     }
 
     /// The tool called `name`.

@@ -83,7 +83,7 @@ fn refusals(solution: &Solution) -> Option<Section> {
         }
     };
     // Stable: equal ones keep the order of their kinds.
-    reasons.sort_by(|a, b| b.1.cmp(&a.1));
+    reasons.sort_by_key(|reason| std::cmp::Reverse(reason.1));
     (!reasons.is_empty()).then(|| Section {
         lines: vec![format!("{considered} {what} were considered; of these could not be made:")],
         table: Table::of(

@@ -56,7 +56,7 @@ impl PageArgs {
             let message = format!("no push can be made in `{}`, so there is no plan", task.name);
             CliError::usage(message, "name another task")
         })?;
-        let tool = library.get(&plan.tool()).ok_or_else(|| {
+        let tool = library.get(plan.tool()).ok_or_else(|| {
             let message = format!("the plan uses the tool `{}`, which is not here", plan.tool());
             CliError::usage(message, "give the --tools or --more-tools of the run")
         })?;

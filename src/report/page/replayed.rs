@@ -171,7 +171,7 @@ impl<'a> Making<'a> {
             Some(line).filter(|line| !line.is_empty()).map(str::to_owned).into_iter().collect();
         let named = ("", false);
         let figures = space_figures(self.task, (plan, tools), trajectory, &lines, named);
-        figures.first().map(|figure| figure.to_svg().into())
+        figures.first().map(|figure| figure.to_svg())
     }
 
     /// Adds a plan, whose replays and verdict are to be filled in.
