@@ -71,7 +71,8 @@ pub struct Settings {
     pub verify_batches: usize,
     /// Disturbed replays of the winning plan in each engine.
     pub disturbed: usize,
-    /// Those of lever-ups.
+    /// Those of lever-ups; measured files of pushes may lack them.
+    #[serde(default)]
     pub levers: LeverSettings,
 }
 

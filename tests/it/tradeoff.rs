@@ -136,8 +136,9 @@ fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
             assert_eq!(&row.level, level);
             let spec = effort.spec();
             assert_eq!(ModelSpec::of(spec.first().kind.clone()), level.model, "{effort}");
-            let Settings { disturbed, .. } = level.settings;
-            assert_eq!(Settings { disturbed, ..effort.settings() }, level.settings, "{effort}");
+            let Settings { disturbed, levers, .. } = level.settings;
+            let pushing = Settings { disturbed, levers, ..effort.settings() };
+            assert_eq!(pushing, level.settings, "{effort}");
             assert!(effort.settings().disturbed >= disturbed, "{effort}");
             row
         })

@@ -47,3 +47,10 @@ impl LeverSettings {
     /// A study.
     pub const EXHAUSTIVE: Self = Self { disturbed: 64, ..Self::THOROUGH };
 }
+
+impl Default for LeverSettings {
+    /// [`LeverSettings::STANDARD`].
+    fn default() -> Self {
+        Self::STANDARD
+    }
+}
