@@ -8,17 +8,13 @@ use clap::{Parser, Subcommand};
 
 #[cfg(feature = "formats")]
 use super::import;
-#[cfg(not(feature = "train"))]
-use super::untrained;
 use super::{
     bench, check, completions,
     error::CliError,
-    evaluate, exit_code, export, fit, generate, infer, interrupt, predict, schema,
+    exit_code, export, fit, infer, interrupt, predict, schema,
     session::{GlobalArgs, Session, shown},
-    simulate, solve, tradeoff, verify,
+    simulate, solve, verify,
 };
-#[cfg(feature = "train")]
-use super::{train, train_lever, train_regulator};
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
@@ -42,34 +38,26 @@ enum Command {
     #[cfg(feature = "formats")]
     Import(import::ImportArgs),
     Check(check::CheckArgs),
-    Generate(generate::GenerateArgs),
-    #[cfg(feature = "train")]
-    Train(train::TrainArgs),
-    #[cfg(feature = "train")]
-    TrainRegulator(train_regulator::TrainRegulatorArgs),
-    #[cfg(feature = "train")]
-    TrainLever(train_lever::TrainLeverArgs),
-    /// Train the network, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    Train(untrained::UntrainedArgs),
-    /// Train the belief regulator, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    TrainRegulator(untrained::UntrainedArgs),
-    /// Train a network of lever-ups, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    TrainLever(untrained::UntrainedArgs),
-    Evaluate(evaluate::EvaluateArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
-    Tradeoff(tradeoff::TradeOffArgs),
     Schema(schema::SchemaArgs),
     Completions(completions::CompletionsArgs),
 }
 
 /// Runs the command with the given arguments, the program's name first.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(args) {
+    start(args, |cli: &Cli| &cli.global, execute)
+}
+
+/// Runs a command of this family: parses its arguments, starts a session, has `execute` do what
+/// they ask for, and reports what goes wrong.
+pub fn start<C: Parser>(
+    args: impl IntoIterator<Item = OsString>,
+    global: impl FnOnce(&C) -> &GlobalArgs,
+    execute: impl FnOnce(&C, &Session) -> Result<u8, CliError>,
+) -> ExitCode {
+    let cli = match C::try_parse_from(args) {
         Ok(cli) => cli,
         Err(message) => {
             // Help and version come here too, for stdout and with code 0.
@@ -78,7 +66,10 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
             return if wrong { exit_code::USAGE } else { exit_code::DONE }.into();
         }
     };
-    match execute(&cli) {
+    let done = interrupt::install()
+        .and_then(|()| Session::start(global(&cli)))
+        .and_then(|session| execute(&cli, &session));
+    match done {
         Ok(code) => code.into(),
         Err(error) => {
             report(&error);
@@ -87,37 +78,22 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-fn execute(cli: &Cli) -> Result<u8, CliError> {
-    interrupt::install()?;
-    let session = Session::start(&cli.global)?;
+fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
-        Command::Solve(args) => solve::run(args, &session),
-        Command::Run(args) => super::run::run(args, &session),
-        Command::Verify(args) => verify::run(args, &session),
-        Command::Predict(args) => predict::run(args, &session),
-        Command::Simulate(args) => simulate::run(args, &session),
-        Command::Export(args) => export::run(args, &session),
+        Command::Solve(args) => solve::run(args, session),
+        Command::Run(args) => super::run::run(args, session),
+        Command::Verify(args) => verify::run(args, session),
+        Command::Predict(args) => predict::run(args, session),
+        Command::Simulate(args) => simulate::run(args, session),
+        Command::Export(args) => export::run(args, session),
         #[cfg(feature = "formats")]
-        Command::Import(args) => import::run(args, &session),
-        Command::Check(args) => check::run(args, &session),
-        Command::Generate(args) => generate::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::Train(args) => train::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::TrainRegulator(args) => train_regulator::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::TrainLever(args) => train_lever::run(args, &session),
-        #[cfg(not(feature = "train"))]
-        Command::Train(_) | Command::TrainRegulator(_) | Command::TrainLever(_) => {
-            Err(untrained::run())
-        }
-        Command::Evaluate(args) => evaluate::run(args, &session),
-        Command::Fit(args) => fit::run(args, &session),
-        Command::Infer(args) => infer::run(args, &session),
-        Command::Bench(args) => bench::run(args, &session),
-        Command::Tradeoff(args) => tradeoff::run(args, &session),
-        Command::Schema(args) => schema::run(args, &session),
-        Command::Completions(args) => completions::run(args, &session),
+        Command::Import(args) => import::run(args, session),
+        Command::Check(args) => check::run(args, session),
+        Command::Fit(args) => fit::run(args, session),
+        Command::Infer(args) => infer::run(args, session),
+        Command::Bench(args) => bench::run(args, session),
+        Command::Schema(args) => schema::run(args, session),
+        Command::Completions(args) => completions::run(args, session),
     }
 }
 

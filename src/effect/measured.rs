@@ -21,13 +21,13 @@ struct Errors {
     several: Quantiles,
 }
 
-/// `pushplan evaluate --on single touching`: 2000 pushes of seed 7 each.
+/// `pushplan-lab evaluate --on single touching`: 2000 pushes of seed 7 each.
 const PRIOR: Errors = Errors {
     one: Quantiles { median: 0.75e-3, p95: 6.43e-3 },
     several: Quantiles { median: 1.09e-3, p95: 7.35e-3 },
 };
 
-/// `pushplan tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
+/// `pushplan-lab tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
 const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
         120,
@@ -69,7 +69,7 @@ pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Opt
     Some(if objects() > 1 { errors.several } else { errors.one })
 }
 
-/// What the prior was measured on: the scenes and pushes of `pushplan evaluate`, with the shipped
+/// What the prior was measured on: the scenes and pushes of `pushplan-lab evaluate`, with the shipped
 /// tools and in crowds, and those that the network is trained on.
 ///
 /// Outside (`cargo test --release --test it -- --ignored the_prior_hides_no_defect_either`, 22

@@ -19,7 +19,7 @@ use super::{EffectModel, Quantiles, Trust, trust::outside};
 pub(super) const CHUNK: usize = 32;
 
 /// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
-/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan evaluate
+/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
 /// --on dense sparse` its mean error is 1.11 (dense) and 0.98 (sparse) times the prior's if it
 /// corrects all, 1.00 and 0.95 with five at most, 1.00 and 0.98 with three.
 const CORRECTED: usize = 5;

@@ -11,13 +11,9 @@ mod config;
 mod forward;
 mod lever;
 mod normaliser;
-#[cfg(feature = "train")]
-mod operations;
 mod parameters;
 mod parity;
 mod parts;
-#[cfg(feature = "train")]
-mod predictor;
 mod regulator;
 mod tables;
 mod tensors;
@@ -25,23 +21,18 @@ mod weights;
 
 pub use config::Config;
 pub use forward::{Buffers, Forward, matrix_product};
-#[cfg(feature = "train")]
-pub use lever::{Autoencoder, LeverGraph, LeverTensors, autoencoder_layout, fresh_autoencoder};
 pub use lever::{
-    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights,
-    fresh_lever, lever_layout,
+    Convolution, ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold,
+    LeverWeights, fresh_bound, fresh_lever, image_layout, lever_layout,
 };
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout, layout_of};
+pub use parity::{Sum, rectify_rows};
 pub use parts::{PARTS, PartsCard, PartsWeights};
-#[cfg(feature = "train")]
-pub use predictor::{Inputs, Predictor};
 pub use regulator::{
     LEAST, Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator,
     regulator_layout,
 };
-#[cfg(feature = "train")]
-pub use regulator::{RegulatorGraph, Unrolled};
 pub use tables::{Rows, Tables};
 pub use tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata};
 pub use weights::{Card, ErrorCard, Weights, WeightsError};

@@ -175,11 +175,7 @@ impl Tool {
     }
 
     /// [`Tool::new`] of parts that are known to make one piece by these joints.
-    pub(crate) fn assembled(
-        name: impl Into<String>,
-        parts: Vec<Part>,
-        joints: Vec<[usize; 2]>,
-    ) -> Self {
+    pub fn assembled(name: impl Into<String>, parts: Vec<Part>, joints: Vec<[usize; 2]>) -> Self {
         Self {
             name: name.into(),
             description: String::new(),

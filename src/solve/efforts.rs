@@ -1,7 +1,7 @@
 //! What the efforts stand for: measured levels of planning.
 //!
-//! `pushplan tradeoff` measures robustness and cost of every level and says which of those on its
-//! front each effort is (`models/tradeoff.json`). A test compares the rows below with that file,
+//! `pushplan-lab tradeoff` measures robustness and cost of every level and says which of those on its
+//! front each effort is (`crates/lab/results/tradeoff.json`). A test compares the rows below with that file,
 //! and fails when another measured level is both cheaper and more robust.
 
 use std::num::NonZeroU16;

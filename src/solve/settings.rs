@@ -43,7 +43,7 @@ impl fmt::Display for Effort {
 
 /// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
 /// machine. A push of one object costs about 0.04 ms of one core in the prior, 0.16 in the network,
-/// 1.1 in the planar engine and 9 in the 3-D one (`models/tradeoff.md`).
+/// 1.1 in the planar engine and 9 in the 3-D one (`crates/lab/results/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    dataset::generator,
     effect::{EffectModel, Simulated},
     geometry::Vector,
     scene::{Engine, Task},
+    seeded::generator,
     sim::Simulator,
 };
 

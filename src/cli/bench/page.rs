@@ -16,8 +16,7 @@ use crate::verify::{Verifier, VerifySettings};
 /// Which task, and the tools that it was solved with.
 #[derive(Args, Debug)]
 pub struct PageArgs {
-    /// A task file whose plan a page is to play; `bench random --save-tasks` writes those of random
-    /// tasks
+    /// A task file of the run whose plan a page is to play
     #[arg(long, value_name = "TASK", requires = "out")]
     page: Option<PathBuf>,
     #[command(flatten)]

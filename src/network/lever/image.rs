@@ -42,12 +42,16 @@ pub struct ImageSizes {
 
 /// A convolution: the extents of what it sees.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Convolution {
+pub struct Convolution {
+    /// Of its weights and its bias.
     pub names: [&'static str; 2],
+    /// Of what it sees.
     pub rows: usize,
+    /// Of what it sees.
     pub columns: usize,
+    /// Of what it sees.
     pub channels: usize,
-    /// Of what it makes.
+    /// Channels of what it makes.
     pub made: usize,
 }
 
@@ -56,7 +60,7 @@ impl ImageSizes {
     pub const MOST: usize = SMALL << NAMES.len();
 
     /// Of an image, from the first one on.
-    pub(super) fn convolutions(&self) -> Vec<Convolution> {
+    pub fn convolutions(&self) -> Vec<Convolution> {
         let (mut rows, mut columns) = (self.rows, self.columns);
         let mut sides = Vec::new();
         while rows.max(columns) > SMALL {
@@ -99,7 +103,6 @@ impl Convolution {
     }
 
     /// The gradient of images from that of their patches.
-    #[cfg(feature = "train")]
     pub fn patches_gradient(&self, of_patches: &[f32]) -> Vec<f32> {
         let [rows, columns] = self.halved();
         let count = of_patches.len() / (rows * columns * self.patch());
@@ -143,7 +146,7 @@ impl Convolution {
 }
 
 /// Names and shapes of the parameters of these images.
-pub(super) fn image_layout(sizes: &ImageSizes) -> Vec<(&'static str, Vec<usize>)> {
+pub fn image_layout(sizes: &ImageSizes) -> Vec<(&'static str, Vec<usize>)> {
     let convolutions = sizes.convolutions();
     let mut layout = Vec::new();
     for convolution in &convolutions {
@@ -162,7 +165,7 @@ pub(super) fn image_layout(sizes: &ImageSizes) -> Vec<(&'static str, Vec<usize>)
 
 /// First values of a parameter are drawn from so much around zero: their variance is 1 / fan-in, and
 /// twice that before a rectifier of images.
-pub(super) fn fresh_bound(name: &str, shape: &[usize]) -> f32 {
+pub fn fresh_bound(name: &str, shape: &[usize]) -> f32 {
     let rectified = NAMES.iter().any(|[weights, _]| *weights == name);
     (if rectified { 6.0 } else { 3.0 } / shape[0].max(1) as f32).sqrt()
 }

@@ -18,19 +18,11 @@
 //! rest.
 
 mod cell;
-#[cfg(feature = "train")]
-mod graph;
 mod image;
-#[cfg(feature = "train")]
-mod image_graph;
 mod layout;
 mod weights;
 
 pub use cell::{LeverCell, LeverTold};
-#[cfg(feature = "train")]
-pub use graph::{LeverGraph, LeverTensors};
-pub use image::ImageSizes;
-#[cfg(feature = "train")]
-pub use image_graph::{Autoencoder, autoencoder_layout, fresh_autoencoder};
+pub use image::{Convolution, ImageSizes, fresh_bound, image_layout};
 pub use layout::{LEVER_ENDS, LEVER_POSE, LeverSizes, fresh_lever, lever_layout};
 pub use weights::{LeverCard, LeverWeights};

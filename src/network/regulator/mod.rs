@@ -17,13 +17,9 @@
 //! believed less.
 
 mod cell;
-#[cfg(feature = "train")]
-mod graph;
 mod layout;
 mod weights;
 
 pub use cell::{LEAST, Memory, Regulator};
-#[cfg(feature = "train")]
-pub use graph::{RegulatorGraph, Unrolled};
 pub use layout::{TYPES, fresh_regulator, regulator_layout};
 pub use weights::{RegulatorCard, RegulatorWeights};

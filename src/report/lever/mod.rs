@@ -4,7 +4,6 @@ mod figure;
 mod prediction;
 mod simulation;
 mod solution;
-mod suite;
 mod verdict;
 pub(super) mod words;
 
@@ -12,5 +11,4 @@ pub use figure::lever_figure;
 pub use prediction::{PredictedLever, lever_prediction_document};
 pub use simulation::lever_simulation_document;
 pub use solution::lever_solution_document;
-pub use suite::lever_tasks_document;
 pub use verdict::{lever_verdict_document, lever_verdict_line};

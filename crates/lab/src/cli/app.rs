@@ -1,0 +1,76 @@
+//! From the command line of `pushplan-lab` to an exit code.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use pushplan::cli::bench::saved::{self, MergeArgs, ReportArgs};
+use pushplan::cli::bench::status::{self, StatusArgs};
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::{GlobalArgs, Session};
+use pushplan::cli::{exit_code, start};
+
+use super::{
+    convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers, masses,
+    probes, random, refinement, tradeoff,
+};
+
+/// Measures what pushplan publishes: errors, costs, success, beliefs, and what is traded for what.
+#[derive(Debug, Parser)]
+#[command(name = "pushplan-lab", version, max_term_width = 100, after_help = exit_code::HELP)]
+struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Evaluate(evaluate::EvaluateArgs),
+    Tradeoff(tradeoff::TradeOffArgs),
+    Random(random::RandomArgs),
+    Run(super::run::RunArgs),
+    Refinement(refinement::RefinementArgs),
+    Cost(cost::CostArgs),
+    Joints(joints::JointsArgs),
+    Masses(masses::MassesArgs),
+    Probes(probes::ProbesArgs),
+    Convergence(convergence::ConvergenceArgs),
+    Levers(levers::LeversArgs),
+    Hdd(hdd::HddArgs),
+    LeverTasks(lever_tasks::LeverTasksArgs),
+    LeverPoints(lever_points::LeverPointsArgs),
+    Merge(MergeArgs),
+    Status(StatusArgs),
+    Report(ReportArgs),
+}
+
+/// Runs the command with the given arguments, the program's name first.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    start(args, |cli: &Cli| &cli.global, execute)
+}
+
+fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
+    match &cli.command {
+        Command::Evaluate(args) => evaluate::run(args, session).map(drop)?,
+        Command::Tradeoff(args) => tradeoff::run(args, session).map(drop)?,
+        Command::Random(args) => random::run(args, session)?,
+        Command::Run(args) => super::run::run(args, session)?,
+        Command::Refinement(args) => refinement::run(args, session)?,
+        Command::Cost(args) => cost::run(args, session)?,
+        Command::Joints(args) => joints::run(args, session)?,
+        Command::Masses(args) => masses::run(args, session)?,
+        Command::Probes(args) => probes::run(args, session)?,
+        Command::Convergence(args) => convergence::run(args, session)?,
+        Command::Levers(args) => levers::run(args, session)?,
+        Command::Hdd(args) => hdd::run(args, session)?,
+        Command::LeverTasks(args) => lever_tasks::run(args, session)?,
+        Command::LeverPoints(args) => lever_points::run(args, session)?,
+        Command::Merge(args) => saved::merge(args, &kept::SUITES, session)?,
+        Command::Status(args) => status::run(args, session)?,
+        Command::Report(args) => saved::report(args, &kept::SUITES, session)?,
+    }
+    Ok(exit_code::DONE)
+}

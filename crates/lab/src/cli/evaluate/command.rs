@@ -1,0 +1,112 @@
+//! The command: what is measured on what.
+
+use clap::Args;
+
+use crate::bench::SuiteKind;
+use crate::report::evaluation_document;
+use pushplan::cli::action::LibraryArgs;
+use pushplan::cli::error::CliError;
+use pushplan::cli::form::Form;
+use pushplan::cli::model::OutsideArgs;
+use pushplan::cli::poses::PosesArgs;
+use pushplan::cli::session::Session;
+use pushplan::cli::{exit_code, model, output};
+use pushplan::internals::scene::ModelSpec;
+use pushplan::internals::store::Shard;
+
+use crate::cli::evaluate::crowds::Crowds;
+use crate::cli::evaluate::on::On;
+use crate::cli::evaluate::parts::Parts;
+use crate::cli::evaluate::sources::{CrowdArgs, Sources};
+
+/// Measure prediction errors on held-out pushes, crowds and your own recordings
+#[derive(Args, Debug)]
+#[command(after_help = "What to measure on, any of:
+  tools          all pushes of a shipped tool: single, single-any-speed, touching (default)
+  sparse, dense  scenes of 6 to 12 objects, some joined, pushed by a round hand
+  sparse-line    the same with one long stroke
+  all            sparse and dense
+  FILE, FOLDER   your own recordings (`pushplan schema recording`), or trajectory files; those of
+                 a folder are measured together
+
+With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
+interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
+machine say; `pushplan bench merge OUT SHARD...` makes of all shards what one run would have left.
+Recordings are measured anew each time.
+
+Examples:
+  pushplan-lab evaluate --on single --pushes 2000
+  pushplan-lab evaluate --on dense --objects 9 --count 50 --out plans
+  pushplan-lab evaluate runs/full/best.safetensors --on push.recording.json
+  pushplan-lab evaluate prior --on recordings/ --export poses.csv")]
+pub struct EvaluateArgs {
+    /// The model, the same as --model
+    #[arg(value_name = "MODEL", conflicts_with = "model")]
+    positional: Option<ModelSpec>,
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    model: ModelSpec,
+    #[command(flatten)]
+    pub outside: OutsideArgs,
+    /// What to measure on, see below; several may be given
+    #[arg(long, value_name = "WHAT", num_args = 1..)]
+    on: Vec<On>,
+    /// Pushes of each kind of tool pushes
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub pushes: u32,
+    /// Seed of the pushes and scenes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    pub seed: u64,
+    /// Measure only shard I of N; a kind of pushes or a set of scenes is never split
+    #[arg(long, value_name = "I/N", requires = "out")]
+    pub shard: Option<Shard>,
+    #[command(flatten)]
+    pub crowd: CrowdArgs,
+    #[command(flatten)]
+    poses: PosesArgs,
+    #[command(flatten)]
+    pub library: LibraryArgs,
+    #[command(flatten)]
+    pub form: Form,
+}
+
+pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
+    let model = args.positional.as_ref().unwrap_or(&args.model);
+    let (mut kinds, mut families, mut files) = (Vec::new(), Vec::new(), Vec::new());
+    for on in &args.on {
+        match on {
+            On::Tools(named) => kinds.extend(named),
+            On::Crowds(named) => families.extend(named),
+            On::File(path) => files.push(path.clone()),
+        }
+    }
+    if args.on.is_empty() {
+        kinds = SuiteKind::ALL.to_vec();
+    }
+    if args.shard.is_some() && !files.is_empty() {
+        return Err(CliError::usage(
+            "recordings are measured in one go",
+            "leave out --shard, or name only what is drawn, such as dense",
+        ));
+    }
+    let sources = Sources::load(&families, &files, &args.crowd)?;
+    if let Some(folder) = &args.crowd.out {
+        output::prepare(folder)?;
+    }
+    let crowds = Crowds {
+        sources: &sources,
+        model,
+        outside: args.outside,
+        seed: args.seed,
+        args: &args.crowd,
+        poses: &args.poses,
+        form: args.form,
+    };
+    let (suites, mut reports) = Parts { args, kinds: &kinds, crowds: &crowds }.run(session)?;
+    if !sources.recordings.is_empty() {
+        crowds.recordings(&suites, &mut reports, session)?;
+    }
+    let several = reports.len() > 1 || args.crowd.summary && !reports.is_empty();
+    args.form.show_rest(session, &evaluation_document(&suites, &reports), several)?;
+    Ok(exit_code::DONE)
+}

@@ -1,0 +1,88 @@
+//! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
+
+use clap::Args;
+use serde_json::json;
+
+use crate::bench::{ProbeCase, ProbeRecord, ProbeSuite, summarise_probes};
+use crate::report::probes_document;
+use pushplan::cli::error::CliError;
+use pushplan::cli::form::Form;
+use pushplan::cli::model;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::{PROBES, words};
+use pushplan::internals::act::ProbeRule;
+use pushplan::internals::report::Document;
+use pushplan::internals::scene::ModelSpec;
+use pushplan::internals::store::{Finished, RunManifest};
+
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::KeepArgs;
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "probes";
+
+/// Choose pushes that tell how objects hang together, and see what they told
+#[derive(Args, Debug)]
+#[command(after_help = format!("Three pushes of 10 cm are made into dense scenes of cylinders with all types of joints, each the best
+of sixteen at random by the rule; after each the belief is compared with the truth, and used to
+predict four other pushes of 20 cm.
+
+Examples:
+  pushplan-lab probes --count 100
+  pushplan-lab probes --rule information random --objects 9
+
+{}", keep::HELP))]
+pub struct ProbesArgs {
+    /// How pushes are chosen; several may be given [default: all but task, which needs one]
+    #[arg(long, num_args = 1.., value_parser = words(&PROBES), value_name = "RULE")]
+    rule: Vec<ProbeRule>,
+    /// Number of objects in a scene
+    #[arg(long, value_name = "N", default_value_t = 6,
+          value_parser = clap::value_parser!(u8).range(2..=12))]
+    objects: u8,
+    /// Scenes
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    count: u32,
+    /// Seed of the scenes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// What rolls out hypotheses and pushes
+    #[arg(long, value_name = "MODEL", default_value = "prior")]
+    model: ModelSpec,
+    #[command(flatten)]
+    keep: KeepArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &ProbesArgs, session: &Session) -> Result<(), CliError> {
+    let rules = match &args.rule[..] {
+        [] => {
+            &[ProbeRule::Information, ProbeRule::Random, ProbeRule::Uncertain, ProbeRule::Motion][..]
+        }
+        some => some,
+    };
+    if rules.contains(&ProbeRule::Task) {
+        let help =
+            "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
+        return Err(CliError::usage("there is no task here that a probe could serve", help));
+    }
+    let suite = ProbeSuite::new(args.objects.into(), rules, args.seed);
+    let model = model::load(&args.model)?;
+    let settings = json!({"version": ProbeSuite::VERSION, "cases": suite.cases()});
+    let count = args.count as usize * suite.cases().len();
+    let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
+        .with_weights(keep::weights_digest(&args.model)?)
+        .with_settings(settings);
+    let store =
+        args.keep.measure_side_by_side(session, manifest, |index| suite.measure(&model, index))?;
+    let document = document(suite.cases(), store.finished());
+    keep::show(args.form, session, &document, args.keep.out.as_deref())
+}
+
+/// The report of what was measured of these cases.
+pub fn document(cases: &[ProbeCase], finished: &[Finished<ProbeRecord>]) -> Document {
+    let records: Vec<&ProbeRecord> = finished.iter().map(|one| &one.record).collect();
+    probes_document(&summarise_probes(cases, &records))
+}

@@ -1,0 +1,125 @@
+//! `pushplan-lab random`: random tasks of several kinds.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::json;
+
+use crate::bench::{RandomError, RandomSuite, TaskKind};
+use crate::cli::words::KINDS;
+use crate::report::random_document;
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::Session;
+use pushplan::cli::solve::solve_error;
+use pushplan::cli::words::{EFFORTS, words};
+use pushplan::cli::{interrupt, model, output};
+use pushplan::internals::solve::{Effort, Planner};
+use pushplan::internals::store::RunManifest;
+
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+
+/// Name of the suite in manifests.
+pub const SUITE: &str = "random";
+
+/// Solve random tasks of several kinds, each known to be solvable
+#[derive(Args, Debug)]
+#[command(after_help = format!("Examples:
+  pushplan-lab random --count 200 --out runs/network
+  pushplan-lab random --count 200 --model planar --out runs/planar
+  pushplan bench report runs/network runs/planar --out runs/both
+  pushplan-lab random --kind pull --count 5 --save-tasks my-tasks
+
+{}", keep::HELP))]
+pub struct RandomArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Number of tasks
+    #[arg(long, value_name = "N", default_value_t = 1000,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    count: u32,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Only tasks of this kind; may be given several times [default: all, in turn]
+    #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
+    kinds: Vec<TaskKind>,
+    /// How hard to try
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
+    /// Also write the tasks to this folder, for `pushplan solve`
+    #[arg(long, value_name = "DIR")]
+    save_tasks: Option<PathBuf>,
+    #[command(flatten)]
+    keep: KeepArgs,
+}
+
+pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
+    let library = args.common.library.load()?;
+    let mut kinds: Vec<TaskKind> = args.kinds.clone();
+    kinds.sort_unstable();
+    kinds.dedup();
+    let suite = RandomSuite::new(&library, args.seed, &kinds);
+    let effort = args.effort;
+    let spec = args.common.spec(effort);
+    let planner = Planner::builder(model::load(&spec)?)
+        .effort(effort)
+        .outside(args.common.outside.outside())
+        .build();
+    let count = args.count as usize;
+    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+    let mut settings = json!({
+        "effort": effort,
+        "budget": planner.settings(),
+        "kinds": suite.kinds(),
+        "tasks_version": RandomSuite::VERSION,
+        "tools": value_digest(&tools)?,
+    });
+    args.common.outside.note(&mut settings);
+    let manifest = RunManifest::new(SUITE, count, args.seed, &spec.to_string())
+        .with_weights(weights_digest(&spec)?)
+        .with_settings(settings);
+    if let Some(folder) = &args.save_tasks {
+        save_tasks(folder, &suite, args.keep.indices(count), session)?;
+    }
+    let store = args.keep.measure(session, manifest, |index| {
+        session.compute(|| suite.measure(&planner, &library, index)).map_err(random_error)
+    })?;
+    let document = random_document(&[store.into_parts()]);
+    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
+}
+
+/// Writes the tasks of a run as files.
+fn save_tasks(
+    folder: &Path,
+    suite: &RandomSuite,
+    indices: impl ExactSizeIterator<Item = usize>,
+    session: &Session,
+) -> Result<(), CliError> {
+    output::prepare(folder)?;
+    interrupt::watch();
+    let bar = session.bar("saving tasks");
+    bar.set_length(indices.len() as u64);
+    for index in indices {
+        if interrupt::requested() {
+            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
+        }
+        let task = session.compute(|| suite.task(index));
+        let task = task.map_err(|error| random_error(error.into()))?.task;
+        let text = task.to_yaml().map_err(CliError::Output)?;
+        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+pub fn random_error(error: RandomError) -> CliError {
+    match error {
+        RandomError::NoTask(_) => {
+            CliError::usage(error.to_string(), "choose other kinds with --kind, or other tools")
+        }
+        RandomError::Solve(error) => solve_error(error),
+    }
+}

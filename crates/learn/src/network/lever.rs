@@ -1,0 +1,106 @@
+//! The network as a candle graph: what training differentiates.
+
+use std::collections::BTreeMap;
+
+use candle_core::{DType, Device, Result, Tensor, Var};
+
+use pushplan::internals::network::Parameters;
+
+use crate::network::image::{image_codes, variables};
+use pushplan::internals::network::image_layout;
+use pushplan::internals::network::{LeverSizes, lever_layout};
+
+/// Lever-ups side by side.
+pub struct LeverTensors {
+    /// Normalised features [B, S].
+    pub still: Tensor,
+    /// Images [B, rows, columns, 1], if they are seen.
+    pub image: Option<Tensor>,
+    /// Of every frame normalised features [B, M].
+    pub moving: Vec<Tensor>,
+    /// Of every frame the pose before it [B, 9], if that is told.
+    pub before: Vec<Tensor>,
+}
+
+/// The network with its variables.
+pub struct LeverGraph {
+    sizes: LeverSizes,
+    values: BTreeMap<String, Tensor>,
+    variables: BTreeMap<String, Var>,
+}
+
+impl LeverGraph {
+    /// A network of these sizes with the given parameters.
+    ///
+    /// # Errors
+    /// If a parameter is missing or has another shape than [`lever_layout`] says.
+    pub fn new(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
+        let (values, variables) = variables(&lever_layout(sizes), parameters)?;
+        Ok(Self { sizes: *sizes, values, variables })
+    }
+
+    /// The same, what sees images left as it is.
+    ///
+    /// # Errors
+    /// As those of [`LeverGraph::new`].
+    pub fn with_image_as_it_is(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
+        let mut graph = Self::new(sizes, parameters)?;
+        for (name, _) in sizes.image.iter().flat_map(image_layout) {
+            if let Some(variable) = graph.variables.remove(name) {
+                graph.values.insert(name.to_owned(), variable.as_detached_tensor());
+            }
+        }
+        Ok(graph)
+    }
+
+    /// The variables by name.
+    pub fn variables(&self) -> &BTreeMap<String, Var> {
+        &self.variables
+    }
+
+    /// Poses [B, 9] of every frame, and the ends [B, 13].
+    ///
+    /// # Errors
+    /// Those of candle.
+    pub fn forward(&self, of: &LeverTensors) -> Result<(Vec<Tensor>, Tensor)> {
+        let (batch, h) = (of.still.dims2()?.0, self.sizes.width);
+        let mut told =
+            of.still.matmul(self.get("gates.still"))?.broadcast_add(self.get("gates.bias"))?;
+        if let (Some(sizes), Some(image)) = (&self.sizes.image, &of.image) {
+            let code = image_codes(sizes, &self.values, image)?;
+            told = (told + code.matmul(self.get("gates.image"))?)?;
+        }
+        let mut hidden = Tensor::zeros((batch, h), DType::F32, &Device::Cpu)?;
+        let mut memory = hidden.clone();
+        let mut poses = Vec::with_capacity(of.moving.len());
+        for (frame, moving) in of.moving.iter().enumerate() {
+            let mut gates = (moving.matmul(self.get("gates.moving"))? + &told)?
+                .add(&hidden.matmul(self.get("gates.hidden"))?)?;
+            if let Some(before) = of.before.get(frame) {
+                gates = (gates + before.matmul(self.get("gates.pose"))?)?;
+            }
+            let part = |k: usize| gates.narrow(1, k * h, h);
+            let new = (sigmoid(&part(0)?)? * part(2)?.tanh()?)?;
+            memory = ((sigmoid(&part(1)?)? * memory)? + new)?;
+            hidden = (sigmoid(&part(3)?)? * memory.tanh()?)?;
+            poses.push(
+                hidden.matmul(self.get("pose.hidden"))?.broadcast_add(self.get("pose.bias"))?,
+            );
+        }
+        let last = hidden
+            .matmul(self.get("end.hidden"))?
+            .broadcast_add(self.get("end.hidden_bias"))?
+            .relu()?;
+        let end = last.matmul(self.get("end.told"))?.broadcast_add(self.get("end.told_bias"))?;
+        Ok((poses, end))
+    }
+
+    /// A variable that the constructor put there.
+    fn get(&self, name: &str) -> &Tensor {
+        &self.values[name]
+    }
+}
+
+fn sigmoid(x: &Tensor) -> Result<Tensor> {
+    ((x * 0.5)?.tanh()? * 0.5)? + 0.5
+}

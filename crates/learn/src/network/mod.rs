@@ -1,0 +1,16 @@
+//! The networks as candle graphs: what training differentiates, and the reference that the fused
+//! forward passes of `pushplan` are held to.
+//!
+//! The physics predictor and the belief regulator are those of the Belief Regulated Dual Propagation
+//! Network (Tekden, Erdem, Erdem, Imre, Seker and Ugur, ICRA 2020).
+
+mod image;
+mod lever;
+pub(crate) mod operations;
+mod predictor;
+mod regulator;
+
+pub use image::{Autoencoder, autoencoder_layout, fresh_autoencoder};
+pub use lever::{LeverGraph, LeverTensors};
+pub use predictor::{Inputs, Predictor};
+pub use regulator::{RegulatorGraph, Unrolled};

@@ -1,0 +1,46 @@
+//! Curves of a training run.
+
+use serde_json::json;
+
+use crate::train::MetricLine;
+
+use pushplan::internals::report::{Axis, Chart, Mark, Series};
+use pushplan::internals::report::{Document, Figure, Section};
+
+/// A run of training so far, as curves.
+pub fn training_document(lines: &[MetricLine]) -> Document {
+    let section =
+        Section { figures: vec![Figure::chart("curves", chart(lines))], ..Section::default() };
+    Document {
+        title: TITLE.to_owned(),
+        sections: vec![section],
+        json: json!({"metrics": lines}),
+        ..Document::default()
+    }
+}
+
+/// What the curves show.
+const TITLE: &str = "Held-out final position error during training";
+
+/// Held-out errors over the steps.
+fn chart(lines: &[MetricLine]) -> Chart {
+    let series = |name: &str, value: &dyn Fn(&MetricLine) -> f64| Series {
+        name: name.to_owned(),
+        points: lines.iter().map(|line| [line.step as f64, 1e3 * value(line)]).collect(),
+        mark: Mark::Line,
+        labels: Vec::new(),
+    };
+    Chart {
+        title: TITLE.to_owned(),
+        x: Axis::linear("steps"),
+        y: Axis::log("error, mm"),
+        series: vec![
+            series("95th percentile", &|line| line.held_out.p95),
+            series("mean", &|line| line.held_out.mean),
+            series("median", &|line| line.held_out.median),
+            series("mean, one object", &|line| {
+                line.held_out.single.as_ref().map_or(f64::NAN, |single| single.mean)
+            }),
+        ],
+    }
+}

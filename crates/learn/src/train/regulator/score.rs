@@ -1,0 +1,86 @@
+//! How right a regulator is on lessons that it did not learn from.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::dataset::Lesson;
+use pushplan::internals::network::{Memory, Regulator};
+
+/// Beliefs at the end of lessons, about pairs of which one moved by more than 1 cm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RegulatorScore {
+    /// Pairs counted.
+    pub pairs: usize,
+    /// Share whose likeliest type is the true one, of the filter alone and regulated.
+    pub right: [f64; 2],
+    /// Mean negative logarithm of the probability of the true type, of the same two.
+    pub nll: [f64; 2],
+}
+
+/// One line of `metrics.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RegulatorLine {
+    /// Steps taken.
+    pub step: u64,
+    /// Mean loss since the last line.
+    pub loss: f64,
+    /// Mean gradient norm before clipping since the last line.
+    pub gradient: f64,
+    /// Learning rate.
+    pub learning_rate: f64,
+    /// Wall time of this process so far, seconds.
+    pub seconds: f64,
+    /// Of the averaged weights on held-out lessons.
+    pub held_out: RegulatorScore,
+}
+
+impl fmt::Display for RegulatorLine {
+    /// What a person wants to follow.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RegulatorScore { right, nll, .. } = self.held_out;
+        write!(
+            f,
+            "step {:>6}  loss {:.4}  held out: right {:.1} % (filter {:.1} %), nll {:.3} ({:.3})",
+            self.step,
+            self.loss,
+            1e2 * right[1],
+            1e2 * right[0],
+            nll[1],
+            nll[0]
+        )
+    }
+}
+
+/// How right `regulator` is on `lessons`.
+pub fn score(regulator: &Regulator, lessons: &[Lesson]) -> RegulatorScore {
+    let mut score = RegulatorScore::default();
+    for lesson in lessons {
+        let mut memory = Memory::default();
+        // By the filter alone and regulated.
+        let mut told = vec![None; lesson.pairs.len()];
+        for window in &lesson.windows {
+            let pairs = (&lesson.pairs[..], lesson.objects);
+            let answers = regulator.step(&window.features, &window.told, pairs, &mut memory);
+            for (p, answer) in answers.into_iter().enumerate() {
+                let Some(answer) = answer else { continue };
+                told[p] = Some([window.filtered[p], answer.of_filtered(&window.filtered[p])]);
+            }
+        }
+        for p in (0..lesson.pairs.len()).filter(|p| lesson.moved[*p]) {
+            let Some(both) = told[p] else { continue };
+            score.pairs += 1;
+            for (which, shares) in both.into_iter().enumerate() {
+                let all: f64 = shares.iter().sum();
+                let truth = shares[lesson.types[p] as usize];
+                let right = shares.iter().all(|share| *share <= truth);
+                score.right[which] += f64::from(u8::from(right));
+                score.nll[which] -= (truth / all).max(1e-12).ln();
+            }
+        }
+    }
+    let count = score.pairs.max(1) as f64;
+    score.right = score.right.map(|right| right / count);
+    score.nll = score.nll.map(|nll| nll / count);
+    score
+}
