@@ -45,8 +45,7 @@ impl Parts<'_> {
         session: &Session,
     ) -> Result<(Vec<HeldOutReport>, Vec<CrowdReport>), CliError> {
         let kinds = self.kinds.iter().map(|kind| Part::Tools(*kind));
-        let parts: Vec<Part> =
-            kinds.chain(self.crowds.sources.sets.iter().map(Part::Crowd)).collect();
+        let parts: Vec<Part> = kinds.chain(self.crowds.sets.iter().map(Part::Crowd)).collect();
         if parts.is_empty() {
             return Ok((Vec::new(), Vec::new()));
         }
