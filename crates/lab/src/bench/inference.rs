@@ -3,16 +3,14 @@
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
+use pushplan::internals::bench::processor_time;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::internals::graph::Batch;
 use pushplan::internals::network::{Buffers, Forward, Weights, matrix_product};
 use pushplan::internals::scene::{Job, Record};
 use pushplan::internals::sim::Simulator;
 use pushplan_learn::network::{Inputs, Predictor};
-
-use pushplan::internals::bench::processor_time;
+use serde::{Deserialize, Serialize};
 
 use super::suite::Case;
 

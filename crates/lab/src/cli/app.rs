@@ -4,9 +4,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use pushplan::cli::bench::saved::{self, MergeArgs, ReportArgs};
-use pushplan::cli::bench::status::{self, StatusArgs};
+use pushplan::cli::bench::saved::{MergeArgs, ReportArgs};
+use pushplan::cli::bench::status::StatusArgs;
+use pushplan::cli::bench::{saved, status};
 use pushplan::cli::error::CliError;
 use pushplan::cli::groups::Groups;
 use pushplan::cli::session::{GlobalArgs, Session};

@@ -4,11 +4,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
-use pushplan::cli::model::{self, OutsideArgs};
+use pushplan::cli::model;
+use pushplan::cli::model::OutsideArgs;
 use pushplan::cli::noise::NoiseArgs;
 use pushplan::cli::recordings::load_recordings;
 use pushplan::cli::regulator::RegulatorArgs;
@@ -19,9 +19,10 @@ use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::watch::Count;
 
-use super::words::TOLD;
 use crate::bench::{Asked, BeliefRecord, JointMethod, belief_steps, follow};
 use crate::report::recorded_joints_document;
+
+use super::words::TOLD;
 
 /// Predict the rest of the way of recordings with what is told of their joints
 #[derive(Args, Debug)]

@@ -1,13 +1,12 @@
 //! Errors on crowds as tables and curves.
 
-use serde_json::json;
-
 use pushplan::internals::judge::{Drift, ModelErrors, RelativeErrors, TrialErrors};
+use pushplan::internals::report::Align::{Left, Right};
 use pushplan::internals::report::{
-    Align::{Left, Right},
     Document, Figure, NONE, Section, Table, beside, end, fine_millimetres, horizon_chart,
     millimetres, model_name, share, trials_line,
 };
+use serde_json::json;
 
 use crate::bench::{CrowdFamily, CrowdReport, HeldOutReport};
 

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use pushplan::cli::bench::status::{self, StatusArgs};
+use pushplan::cli::bench::status;
+use pushplan::cli::bench::status::StatusArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::groups::Groups;
 use pushplan::cli::session::{GlobalArgs, Session};

@@ -1,11 +1,10 @@
 //! The test sets: families of crowds by number of objects, joints and solids.
 
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::judge::Trial;
 use pushplan::internals::watch::{Count, Watch};
 use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Keeps the seeds of test sets apart from those of training and of its held-out data, which
 /// are small numbers.

@@ -1,10 +1,9 @@
 //! What was measured, as plain data.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::judge::{Trial, TrialErrors};
 use pushplan::internals::watch::Watch;
+use serde::{Deserialize, Serialize};
 
 use super::family::{CrowdFamily, CrowdSet};
 

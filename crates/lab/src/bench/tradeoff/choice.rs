@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use pushplan::internals::scene::ModelKind;
 use pushplan::internals::solve::Effort;
 
-use super::{PlanLevel, measured::PlanRow};
+use super::PlanLevel;
+use super::measured::PlanRow;
 
 /// How much more often than the best level each effort may fail, as a share of disturbed replays:
 /// three times less from one to the next.

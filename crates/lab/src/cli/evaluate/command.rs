@@ -1,9 +1,6 @@
 //! The command: what is measured on what.
 
 use clap::Args;
-
-use crate::bench::SuiteKind;
-use crate::report::evaluation_document;
 use pushplan::cli::action::LibraryArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
@@ -13,10 +10,12 @@ use pushplan::cli::{exit_code, model, output};
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::Shard;
 
+use crate::bench::SuiteKind;
 use crate::cli::evaluate::crowds::Crowds;
 use crate::cli::evaluate::on::On;
 use crate::cli::evaluate::parts::Parts;
 use crate::cli::evaluate::sources::CrowdArgs;
+use crate::report::evaluation_document;
 
 /// Measure prediction errors on held-out pushes and crowds
 #[derive(Args, Debug)]

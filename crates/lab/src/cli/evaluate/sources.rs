@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
 use pushplan::cli::error::CliError;
 use pushplan::cli::words::words;
 use pushplan_learn::cli::words::{JOINTS, SOLIDS};
