@@ -7,6 +7,8 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use crate::program::{self, run, stderr};
+
 const TASKS: [&str; 4] = [
     "tasks/pull-back.yaml",
     "tasks/sideways-sweep.yaml",
@@ -22,11 +24,11 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
         (path("whole"), path("first"), path("second"), path("merged"));
     let printed = tasks(&["--out", &whole, "--json", "--threads", "1"]);
     tasks(&["--out", &second, "--shard", "2/2"]);
-    let output = pushplan(&["bench", "merge", &merged, &second]);
+    let output = run(&["bench", "merge", &merged, &second]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("missing: 1"), "{}", stderr(&output));
     tasks(&["--out", &first, "--shard", "1/2"]);
-    let output = pushplan(&["bench", "merge", &merged, &second, &first, "--json"]);
+    let output = run(&["bench", "merge", &merged, &second, &first, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(compared(Path::new(&merged)), compared(Path::new(&whole)));
 
@@ -50,7 +52,7 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
     let rows = fs::read_to_string(Path::new(&merged).join("tasks.csv")).expect("rows");
     assert_eq!(rows.lines().count(), TASKS.len() + 1, "{rows}");
 
-    let output = pushplan(&["bench", "report", &merged]);
+    let output = run(&["bench", "report", &merged]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("3 of 4 tasks solved with planar"), "{text}{}", stderr(&output));
 }
@@ -69,7 +71,7 @@ fn a_folder_with_another_run_is_refused() {
     let output = bench_tasks(&["--shard", "1/2"]);
     assert_eq!(output.status.code(), Some(2), "a shard that is kept nowhere");
     let empty = TempDir::new().expect("a folder");
-    let output = pushplan(&["bench", "report", empty.path().to_str().expect("UTF-8")]);
+    let output = run(&["bench", "report", empty.path().to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
 }
 
@@ -108,49 +110,6 @@ fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
     assert_eq!(compared(&broken), compared(&whole));
 }
 
-#[test]
-fn random_tasks_are_measured_saved_and_compared() {
-    let folder = TempDir::new().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let random = |options: &[&str]| {
-        let fixed = ["bench", "random", "--effort", "draft", "--count", "4"];
-        let kinds = ["--kind", "heading", "--kind", "reach"];
-        let output = pushplan(&[&fixed[..], &kinds, options].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    };
-    let (planar, still, other) = (path("planar"), path("still"), path("other"));
-    random(&["--model", "planar", "--out", &planar, "--save-tasks", &path("tasks")]);
-    random(&["--model", "still", "--out", &still]);
-    random(&["--model", "still", "--out", &other, "--seed", "8"]);
-
-    let output = pushplan(&["bench", "report", &planar, &still, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let json: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
-    let kind = |k: usize| json["runs"][0]["tasks"][k]["kind"].as_str().expect("a kind");
-    assert_eq!([0, 1, 2, 3].map(kind), ["reach", "heading", "heading", "reach"]);
-    let solved = |run: usize| {
-        let tasks = json["runs"][run]["tasks"].as_array().expect("tasks");
-        tasks.iter().filter(|task| task["solved"]["status"] == "solved").count()
-    };
-    assert!(solved(0) >= 3 && solved(1) == 0, "{} and {}", solved(0), solved(1));
-
-    let output = pushplan(&["bench", "report", &planar, &still, "--markdown"]);
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    for method in ["planar, draft", "still, draft", "random push", "do nothing"] {
-        assert!(text.contains(&format!("| {method} ")), "{text}");
-    }
-    let output = pushplan(&["bench", "report", &planar, &other]);
-    assert_eq!(output.status.code(), Some(2), "other tasks side by side");
-    assert!(stderr(&output).contains("seed 7, 4 tasks beside seed 8"), "{}", stderr(&output));
-
-    let saved = [0, 1].map(|k| ["reach", "heading"].map(|kind| format!("{kind}-000{k}.yaml")));
-    let files = saved.as_flattened().iter().map(|name| format!("{}/{name}", path("tasks")));
-    let mut arguments = vec!["check".to_owned()];
-    arguments.extend(files);
-    let output = pushplan(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-}
-
 /// The files that are the same for every way to the same run.
 fn compared(dir: &Path) -> [String; 2] {
     ["manifest.json", "records.jsonl"]
@@ -170,15 +129,5 @@ fn bench_tasks(options: &[&str]) -> Output {
 
 fn command(options: &[&str]) -> Command {
     let fixed = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pushplan"));
-    command.args(fixed).args(TASKS).args(options).current_dir(env!("CARGO_MANIFEST_DIR"));
-    command
-}
-
-fn pushplan(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pushplan")).args(arguments).output().expect("it runs")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    program::command(&[&fixed[..], &TASKS, options].concat())
 }

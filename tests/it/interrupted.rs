@@ -15,7 +15,7 @@ pub fn goes_on_after_an_interruption(command: &str, options: &str) {
     };
     let run = |dir: &str| {
         let arguments = arguments(dir);
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).args(arguments).output();
+        let output = Command::new(crate::PROGRAM).args(arguments).output();
         let output = output.expect("the command runs");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     };
@@ -23,7 +23,7 @@ pub fn goes_on_after_an_interruption(command: &str, options: &str) {
 
     // As long jobs are run; a hangup that is ignored must not cost the other signals.
     let mut child = Command::new("nohup")
-        .arg(env!("CARGO_BIN_EXE_pushplan"))
+        .arg(crate::PROGRAM)
         .args(arguments(&broken))
         .stdin(std::process::Stdio::null())
         .stdout(std::process::Stdio::null())

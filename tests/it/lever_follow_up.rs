@@ -148,7 +148,7 @@ fn what_pushes_must_not_do_is_found() {
 
 #[test]
 fn the_shipped_task_needs_both_and_its_plan_reads_back() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers/turn-and-push.yaml");
+    let path = Path::new(crate::ROOT).join("tasks/levers/turn-and-push.yaml");
     let Ok(AnyTask::Levers(task)) = load_any_task(&path, Some(&library())) else {
         panic!("a task of levering")
     };

@@ -64,8 +64,7 @@ pub fn run(args: &ProbesArgs, session: &Session) -> Result<(), CliError> {
         some => some,
     };
     if rules.contains(&ProbeRule::Task) {
-        let help =
-            "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
+        let help = "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
         return Err(CliError::usage("there is no task here that a probe could serve", help));
     }
     let suite = ProbeSuite::new(args.objects.into(), rules, args.seed);

@@ -2,20 +2,23 @@
 //! command writes what it measures.
 
 use std::path::Path;
-use std::process::{Command, Output};
 
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
-    bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd},
-    dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, EffectModel, Projection, Simulated, Still},
     judge::Trial,
-    report::{crowd_document, evaluation_document},
     scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
+use pushplan_lab::bench::{
+    CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd,
+};
+use pushplan_lab::report::{crowd_document, evaluation_document};
+use pushplan_learn::dataset::{DatasetConfig, Episode, JointRule, Preset, Solids};
 use serde_json::Value as Json;
+
+use crate::program::{self, stderr};
 
 fn set(family: CrowdFamily, objects: usize) -> CrowdSet {
     CrowdSet { family, objects, joints: JointRule::Mixed, solids: Solids::Any }
@@ -142,14 +145,9 @@ fn the_network_is_timed_on_scenes_of_the_asked_size() {
 fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
-    let run = |arguments: &[&str]| -> Output {
-        Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .arg("evaluate")
-            .args(arguments)
-            .args(["--out", out.to_str().expect("UTF-8")])
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .output()
-            .expect("the command runs")
+    let run = |arguments: &[&str]| {
+        let out = ["--out", out.to_str().expect("UTF-8")];
+        program::run(&[&["evaluate"], arguments, &out].concat())
     };
     let one = ["--objects", "6", "--joints", "fixed", "--solids", "cylinders", "--count", "2"];
     let dense = run(&[&["projection", "--on", "dense"], &one[..], &["--json"]].concat());
@@ -187,7 +185,7 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     assert_eq!(written["crowds"], json["crowds"]);
     assert!(out.join("error-by-horizon-dense.svg").exists());
 
-    let push = "tests/it/assets/push.recording.json";
+    let push = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/it/assets/push.recording.json");
     let recorded = run(&["--model", "prior", "--on", push, push]);
     assert_eq!(recorded.status.code(), Some(0), "{}", stderr(&recorded));
     let text = String::from_utf8(recorded.stdout).expect("UTF-8");
@@ -231,8 +229,4 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
 
 fn read(path: &Path) -> Vec<u8> {
     std::fs::read(path).expect("a file")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
