@@ -1,16 +1,21 @@
 //! What happens where the network should not be trusted: simulated instead, said, or refused.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
     effect::{EffectModel, EffectModels, Network, Outside, Routed, Simulated},
-    scene::{Job, Joint, JointKind, ModelKind, Obstacle, Record, Scene, Task, Trajectory, Warning},
+    scene::{
+        Job, Joint, JointKind, ModelKind, Obstacle, Quantity, Record, Scene, Task, Trajectory,
+        Warning,
+    },
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
 };
 
 use super::random_network::{object, stroke, tool};
+use crate::ROOT;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::scene::ToolMotion;
 
