@@ -4,16 +4,18 @@ use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 #[cfg(feature = "formats")]
 use super::import;
 use super::{
     bench, check, completions,
     error::CliError,
-    exit_code, export, fit, infer, interrupt, predict, schema,
+    exit_code, export, fit,
+    groups::{Groups, grouped},
+    infer, interrupt, moved, predict,
     session::{GlobalArgs, Session, shown},
-    simulate, solve, verify,
+    solve, verify,
 };
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
@@ -33,33 +35,51 @@ enum Command {
     Run(super::run::RunArgs),
     Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
-    Simulate(simulate::SimulateArgs),
-    Export(export::ExportArgs),
+    Check(check::CheckArgs),
     #[cfg(feature = "formats")]
     Import(import::ImportArgs),
-    Check(check::CheckArgs),
+    Export(export::ExportArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
-    Schema(schema::SchemaArgs),
+    #[command(hide = true)]
     Completions(completions::CompletionsArgs),
 }
 
+/// What the commands are for, in the order of `--help`.
+const GROUPS: Groups = &[
+    ("Plan and carry out", &["solve", "run", "verify", "predict"]),
+    ("Files", &["check", "import", "export"]),
+    ("Learn from what was recorded", &["fit", "infer"]),
+    ("Measure", &["bench"]),
+];
+
 /// Runs the command with the given arguments, the program's name first.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    start(args, |cli: &Cli| &cli.global, execute)
+    start(args, GROUPS, |cli: &Cli| &cli.global, execute)
+}
+
+/// The command with its help.
+pub fn command() -> clap::Command {
+    grouped(Cli::command(), GROUPS)
 }
 
 /// Runs a command of this family: parses its arguments, starts a session, has `execute` do what
 /// they ask for, and reports what goes wrong.
 pub fn start<C: Parser>(
     args: impl IntoIterator<Item = OsString>,
+    groups: Groups,
     global: impl FnOnce(&C) -> &GlobalArgs,
     execute: impl FnOnce(&C, &Session) -> Result<u8, CliError>,
 ) -> ExitCode {
-    let cli = match C::try_parse_from(args) {
+    let parsed = grouped(C::command(), groups).try_get_matches_from(args);
+    let cli = match parsed.and_then(|mut matches| C::from_arg_matches_mut(&mut matches)) {
         Ok(cli) => cli,
         Err(message) => {
+            if let Some(said) = moved::now(&message) {
+                let _ = writeln!(std::io::stderr(), "{said}");
+                return exit_code::USAGE.into();
+            }
             // Help and version come here too, for stdout and with code 0.
             let _ = message.print();
             let wrong = message.use_stderr();
@@ -84,7 +104,6 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Run(args) => super::run::run(args, session),
         Command::Verify(args) => verify::run(args, session),
         Command::Predict(args) => predict::run(args, session),
-        Command::Simulate(args) => simulate::run(args, session),
         Command::Export(args) => export::run(args, session),
         #[cfg(feature = "formats")]
         Command::Import(args) => import::run(args, session),
@@ -92,7 +111,6 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Fit(args) => fit::run(args, session),
         Command::Infer(args) => infer::run(args, session),
         Command::Bench(args) => bench::run(args, session),
-        Command::Schema(args) => schema::run(args, session),
         Command::Completions(args) => completions::run(args, session),
     }
 }

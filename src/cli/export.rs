@@ -24,7 +24,7 @@ mjcf writes <out>/<plan>.xml, a scene of MuJoCo with the plan's pushes and goal 
 mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
 foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
 (/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
---model; a trajectory file (`pushplan simulate`) is written as it is.")]
+--model; a trajectory file (`pushplan predict --trajectories`) is written as it is.")]
 pub struct ExportArgs {
     /// Plan or trajectory files; each holds the task and the tool as well
     #[arg(required = true, value_name = "PLAN")]
@@ -127,7 +127,7 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
         }
         kind => {
             let message = format!("this is a {kind} file, and plans are exported");
-            let advice = "`pushplan solve` writes plans, `pushplan simulate` trajectories";
+            let advice = "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
             Err(Fault::of_file(&path.display().to_string(), message, advice).into())
         }
     }

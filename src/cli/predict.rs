@@ -1,15 +1,18 @@
-//! `pushplan predict`: one action's effect, predicted beside simulated.
+//! `pushplan predict`: what one motion does by several models, or how well models predict recordings.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
-use crate::asset::{AnyTask, load_any_task};
+use crate::asset::{self, AnyPlanFile, AnyTask, Kind, PlanFile, TrajectoryFile, load_any_task};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::report::{PageView, PoseRow, prediction_document, prediction_page};
-use crate::scene::{Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning};
+use crate::report::{PageView, PoseRow, prediction_document, prediction_page, trajectory_figures};
+use crate::scene::{
+    Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, Task, Tool, Trajectory, Warning,
+};
 
 use super::{
     action::{ActionArgs, LibraryArgs},
@@ -21,16 +24,19 @@ use super::{
     output,
     poses::PosesArgs,
     push_argument::forms,
+    recorded,
     session::Session,
     words::{VIEWS, words},
 };
 
-/// Predict what pushes do: the network beside both simulations
+/// Predict what a motion does, or how well your recordings are predicted
 #[derive(Args, Debug)]
 #[command(after_help = forms(), after_long_help = forms())]
 pub struct PredictArgs {
-    /// The task whose scene is pushed
-    task: PathBuf,
+    /// A task, with --tool and --push or with --lever; a plan; or recordings, trajectories and
+    /// folders of them, which every model is compared with
+    #[arg(required = true, value_name = "TASK|PLAN|RECORDING")]
+    pub files: Vec<PathBuf>,
     #[command(flatten)]
     pub action: ActionArgs,
     #[command(flatten)]
@@ -38,32 +44,86 @@ pub struct PredictArgs {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
     pub model: Option<ModelSpec>,
     #[command(flatten)]
-    outside: OutsideArgs,
+    pub outside: OutsideArgs,
+    /// The model alone, without those that it is compared with
+    #[arg(long)]
+    pub alone: bool,
     #[command(flatten)]
     pub poses: PosesArgs,
-    /// Folder for a page that plays what every model says, named after the task
+    /// Folder for a page that plays what every model says, named after the task; for recordings,
+    /// errors.json and their curves by horizon
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Also write every frame that each model predicts as a trajectory file, with a picture
+    #[arg(long, requires = "out")]
+    pub trajectories: bool,
+    /// Pictures of trajectories that move as well
+    #[arg(long, requires = "trajectories")]
+    pub animate: bool,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     pub page: PageView,
+    /// Of recordings only one table, a row for each folder
+    #[arg(long)]
+    pub summary: bool,
     #[command(flatten)]
     pub form: Form,
 }
 
+impl PredictArgs {
+    /// The model that is asked for, or else the network.
+    pub fn spec(&self) -> ModelSpec {
+        self.model.clone().unwrap_or(ModelKind::NETWORK.into())
+    }
+
+    /// The task or plan; none where recordings are named.
+    fn motion(&self) -> Result<Option<(&Path, Kind)>, CliError> {
+        let [file] = &self.files[..] else { return Ok(None) };
+        if file.is_dir() {
+            return Ok(None);
+        }
+        let kind = asset::check(file, None)?;
+        Ok((!matches!(kind, Kind::Recording | Kind::Trajectory)).then_some((&**file, kind)))
+    }
+}
+
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
+    let asked = args.motion()?;
     args.out.as_deref().map(output::prepare).transpose()?;
-    let task = match load_any_task(&args.task, None)? {
-        AnyTask::Pushes(task) => task,
-        AnyTask::Levers(task) => return lever::predict(args, &task, &library, session),
+    let Some((file, kind)) = asked else {
+        if args.action.given() {
+            let advice = "leave --tool and --push out, or name one task";
+            return Err(CliError::usage("recordings say themselves what was done", advice));
+        }
+        return recorded::run(args, session);
     };
-    let asked = args.model.clone().unwrap_or(ModelKind::NETWORK.into());
-    let (plan, tool) = args.action.plan(&task, &library, session)?;
+    let (task, tool, plan) = match kind {
+        Kind::Plan | Kind::LeverPlan => match AnyPlanFile::load(file)? {
+            AnyPlanFile::Pushes(opened) => {
+                let PlanFile { task, tool, plan, .. } = *opened;
+                (task, tool, plan)
+            }
+            AnyPlanFile::Levers(opened) => {
+                return lever::predict(args, &opened.task, (opened.plan, opened.tool), session);
+            }
+        },
+        _ => match load_any_task(file, None)? {
+            AnyTask::Pushes(task) => {
+                let (plan, tool) = args.action.plan(&task, &library, session)?;
+                (task, tool, plan)
+            }
+            AnyTask::Levers(task) => {
+                let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
+                return lever::predict(args, &task, planned, session);
+            }
+        },
+    };
+    let asked = args.spec();
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let mut specs = vec![asked.clone()];
     let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
-    specs.extend(simulated.into_iter().filter(|spec| *spec != asked));
+    specs.extend(simulated.into_iter().filter(|spec| *spec != asked && !args.alone));
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
@@ -87,13 +147,42 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(&args.task, Some(asked.clone())).plan(&plan);
+        let recipe = args.library.origin(file, Some(asked.clone())).plan(&plan);
         let page = prediction_page(&task, &tool, &plan, &trajectories, recipe, args.page);
         let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
-        document.wrote(&[path]);
+        let mut written = vec![path];
+        if args.trajectories {
+            let planned = (&task, &tool, &plan);
+            written.extend(write_trajectories(planned, trajectories, args.animate, out)?);
+        }
+        document.wrote(&written);
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)
+}
+
+/// Writes every trajectory with its pictures, and gives their paths.
+fn write_trajectories(
+    (task, tool, plan): (&Task, &Arc<Tool>, &Plan),
+    trajectories: Vec<Trajectory>,
+    animate: bool,
+    out: &Path,
+) -> Result<Vec<PathBuf>, CliError> {
+    let mut written = Vec::new();
+    for trajectory in trajectories {
+        // `3d,step=1/60` is no name of a file everywhere.
+        let by: String = trajectory.by.to_string();
+        let by: String =
+            by.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+        let name = format!("{}.{by}", task.name);
+        let (task, tool, plan) = (task.clone(), Arc::clone(tool), plan.clone());
+        let file = TrajectoryFile { task, tool, plan, trajectory };
+        let path = out.join(format!("{name}.trajectory.json"));
+        file.write(&path).map_err(CliError::Output)?;
+        written.push(path);
+        written.extend(output::write_figures(out, &trajectory_figures(&file, &name, animate))?);
+    }
+    Ok(written)
 }
 
 /// Every object in every frame.

@@ -31,7 +31,7 @@ use super::{
 #[derive(Args, Debug)]
 #[command(
     after_help = "The task's `unknown` says what nobody knows of its scene: joints, masses, frictions, support. What
-they really are is hidden in the world, a file (`pushplan schema world`) or a number, from which it is
+they really are is hidden in the world, a file (`pushplan check --schema world`) or a number, from which it is
 drawn. Every plan is judged under samples of what is believed; after every push its rest is judged
 again, and something else is planned where too few samples reach the goal.
 

@@ -50,6 +50,10 @@ pub struct SolveArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
+    /// Disturbed replays of the winning plan in each simulation [default: 4, 8 or 16 by effort]; more
+    /// tell its robustness in finer shares
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    pub disturbed: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
@@ -82,8 +86,12 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
     output::prepare(&args.out)?;
-    let planner =
-        Planner::builder(effects).effort(effort).seed(args.seed).outside(args.outside.outside());
+    let mut settings = effort.settings();
+    settings.disturbed = args.disturbed.map_or(settings.disturbed, usize::from);
+    let planner = Planner::builder(effects)
+        .settings(settings)
+        .seed(args.seed)
+        .outside(args.outside.outside());
     let planner = match args.time_limit {
         Some(limit) => planner.time_limit(limit).build(),
         None => planner.build(),

@@ -13,11 +13,10 @@ use crate::solve::Effort;
 pub type Words<T> = [(&'static str, T, &'static str)];
 
 /// How hard to try.
-pub static EFFORTS: [(&str, Effort, &str); 4] = [
+pub static EFFORTS: [(&str, Effort, &str); 3] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    ("thorough", Effort::Thorough, "Longer, by simulation, and told in finer shares"),
-    ("exhaustive", Effort::Exhaustive, "As thorough, told in the finest shares"),
+    ("thorough", Effort::Thorough, "Longer, by simulation, robustness told by more replays"),
 ];
 
 /// What to do where a model should not be trusted.

@@ -18,13 +18,14 @@ mod plan_picture;
 mod plan_text;
 mod poses;
 mod prediction;
+mod recorded;
 mod run;
-mod simulation;
 mod solution;
 mod solved;
 mod svg;
 mod table;
 mod tools;
+mod trajectory;
 mod verdict;
 
 pub use bars::{BarChart, Bars};
@@ -33,8 +34,8 @@ pub use chart::{Axis, Chart, Mark, Series};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
 pub use lever::{
-    PredictedLever, lever_figure, lever_prediction_document, lever_simulation_document,
-    lever_solution_document, lever_verdict_document, lever_verdict_line,
+    PredictedLever, lever_figure, lever_prediction_document, lever_solution_document,
+    lever_verdict_document, lever_verdict_line,
 };
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
@@ -45,10 +46,14 @@ pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::plan_figures;
 pub use poses::{PoseRow, RECORDED, poses_document};
 pub use prediction::prediction_document;
+pub use recorded::{
+    beside, end, horizon_chart, model_name, percent, recorded_document, recordings_document, share,
+    trials_line,
+};
 pub use run::run_document;
-pub use simulation::simulation_document;
 pub use solution::solution_document;
 pub use solved::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells, solved_document};
 pub use table::{Align, Column, NONE, Table};
 pub use tools::{single_document, tools_document};
+pub use trajectory::trajectory_figures;
 pub use verdict::{replay_warnings, verdict_document};

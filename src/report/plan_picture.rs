@@ -23,7 +23,13 @@ pub fn plan_figures(
     let mut figures = vec![Figure::svg(name, still)];
     let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
     if let Some(replay) = replay.filter(|_| animate) {
-        figures.push(moving_figure(task, &plan.plan, &motion, (Engine::Spatial, replay), name));
+        figures.push(moving_figure(
+            task,
+            &plan.plan,
+            &motion,
+            (Source::Simulated(Engine::Spatial), replay),
+            name,
+        ));
     }
     figures
 }
@@ -33,7 +39,7 @@ pub fn moving_figure(
     task: &Task,
     plan: &Plan,
     motion: &ToolMotion,
-    (engine, trajectory): (Engine, &Trajectory),
+    (source, trajectory): (Source, &Trajectory),
     name: &str,
 ) -> Figure {
     let title = match task.description.as_str() {
@@ -43,7 +49,7 @@ pub fn moving_figure(
     let picture = MovingPicture {
         title: title.to_owned(),
         plan: plan_line(plan),
-        source: Source::Simulated(engine),
+        source,
         scene: &task.scene,
         goal: &task.goal,
         robot: &task.robot,

@@ -61,7 +61,6 @@ impl Effort {
             Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
             Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
             Effort::Thorough => (planar(30), MEDIUM, 16),
-            Effort::Exhaustive => (planar(30), MEDIUM, 64),
         }
     }
 

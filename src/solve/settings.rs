@@ -1,4 +1,4 @@
-//! How hard to try: four efforts, and the budgets that a planner has.
+//! How hard to try: three efforts, and the budgets that a planner has.
 
 use std::fmt;
 
@@ -20,14 +20,11 @@ pub enum Effort {
     /// Half as expensive again, by simulation: plans hold a little more often when the world is a
     /// little different, which twice as many replays tell.
     Thorough,
-    /// The same, robustness told in finer shares by four times as many replays.
-    Exhaustive,
 }
 
 impl Effort {
     /// All of them, cheapest first.
-    pub const ALL: [Effort; 4] =
-        [Effort::Draft, Effort::Standard, Effort::Thorough, Effort::Exhaustive];
+    pub const ALL: [Effort; 3] = [Effort::Draft, Effort::Standard, Effort::Thorough];
 }
 
 impl fmt::Display for Effort {
@@ -36,7 +33,6 @@ impl fmt::Display for Effort {
             Effort::Draft => "draft",
             Effort::Standard => "standard",
             Effort::Thorough => "thorough",
-            Effort::Exhaustive => "exhaustive",
         })
     }
 }

@@ -1,11 +1,9 @@
 //! Curves of a training run.
 
+use pushplan::internals::report::{Axis, Chart, Document, Figure, Mark, Section, Series};
 use serde_json::json;
 
 use crate::train::MetricLine;
-
-use pushplan::internals::report::{Axis, Chart, Mark, Series};
-use pushplan::internals::report::{Document, Figure, Section};
 
 /// A run of training so far, as curves.
 pub fn training_document(lines: &[MetricLine]) -> Document {

@@ -83,7 +83,7 @@ pub(in crate::asset) fn parse_with(
     let mut ledger = Ledger::new(source);
     if is_lever_task(&root) {
         let node = root.get("levers").or_else(|| root.get("goal")).unwrap_or(&root);
-        let advice = "`solve`, `predict`, `simulate` and `verify` take such tasks";
+        let advice = "`solve`, `predict` and `verify` take such tasks";
         ledger.fault(node, "this is a task of levering, and pushes are asked for", advice);
         return ledger.finish(None);
     }

@@ -21,8 +21,8 @@ pub const HELP: &str = "With --out every finished task is kept as soon as those 
 after an interruption (Ctrl-C) the same command goes on.
 manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
 the wall times, which never are. --shard 2/3 measures every third task, on another machine say;
-`pushplan bench merge OUT SHARD...` makes of the parts what one run would have left, and
-`pushplan bench status SHARD...` says which are missing.";
+`merge OUT SHARD...` makes of the parts what one run would have left, `status SHARD...` says which
+are missing, and `report DIR...` shows them again.";
 
 /// Where results are kept.
 #[derive(Args, Debug)]
@@ -150,7 +150,7 @@ impl From<StoreError> for CliError {
             | StoreError::Occupied { .. }
             | StoreError::NothingToMerge => Self::usage(
                 message,
-                "name a new folder, then those of all shards: pushplan bench merge OUT SHARD...",
+                "name a new folder, then those of all shards: merge OUT SHARD...",
             ),
             StoreError::Manifest { .. }
             | StoreError::Damaged { .. }

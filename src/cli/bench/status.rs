@@ -14,8 +14,8 @@ use crate::store::RunStatus;
 A folder that is not there yet is that of a missing shard, as long as another one holds a run.
 
 Examples:
-  pushplan bench status runs/random-shards/*
-  sbatch --array=\"$(pushplan bench status runs/random-shards/*)\" job.sh"
+  pushplan bench status runs/tools-shards/*
+  sbatch --array=\"$(pushplan bench status runs/tools-shards/*)\" job.sh"
 )]
 pub struct StatusArgs {
     /// Folders of the shards of one benchmark, or of one set of training data

@@ -3,13 +3,11 @@
 mod argument;
 mod model;
 mod predict;
-mod simulate;
 mod solve;
 mod verify;
 
 pub use argument::{LEVER_FORM, lever_argument, lever_plan};
 pub use model::{lever_model, lever_network};
 pub use predict::predict;
-pub use simulate::simulate;
 pub use solve::solve;
 pub use verify::verify;

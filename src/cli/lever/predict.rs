@@ -3,41 +3,39 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::asset::ToolLibrary;
+use crate::asset::LeverTrajectoryFile;
 use crate::cli::{error::CliError, exit_code, output, predict::PredictArgs, session::Session};
 use crate::effect::{LeverModel, LeverTrust, SimulatedLevers};
 use crate::report::{
     PageView, PredictedLever, Recipe, ReplayedLever, lever_figure, lever_page,
     lever_prediction_document,
 };
-use crate::scene::{LeverJob, LeverTask};
+use crate::scene::{BladeTool, LeverJob, LeverPlan, LeverTask};
 use crate::sim::LeverSimulator;
 
-use super::argument::lever_plan;
 use super::model::lever_model;
 use super::solve::FRAME;
 
 /// Predicts one lever-up by a model, beside coarse and fine simulation.
 ///
 /// # Errors
-/// A lever-up that cannot be made, and results that cannot be written.
+/// Results that cannot be written.
 pub fn predict(
     args: &PredictArgs,
     task: &LeverTask,
-    library: &ToolLibrary,
+    (plan, tool): (LeverPlan, Arc<BladeTool>),
     session: &Session,
 ) -> Result<u8, CliError> {
-    let asked = args.action.lever()?;
     if args.poses.wanted() {
         return Err(CliError::usage(
             "poses of lever-ups are in space and have no such file",
-            "`pushplan simulate` writes them into a trajectory file",
+            "`--out DIR --trajectories` writes them into a trajectory file",
         ));
     }
-    let (plan, tool) = lever_plan(task, library, asked, session)?;
     let job = LeverJob { scene: Arc::new(task.scene(tool.blade)), lever: plan.lever };
     let mut models = vec![lever_model(args.model.as_ref())?];
-    for simulator in [LeverSimulator::COARSE, LeverSimulator::FINE] {
+    let beside = if args.alone { &[][..] } else { &[LeverSimulator::COARSE, LeverSimulator::FINE] };
+    for &simulator in beside {
         let simulated = SimulatedLevers { simulator };
         if models.iter().all(|known| known.name() != simulated.name()) {
             models.push(Arc::new(simulated));
@@ -57,12 +55,12 @@ pub fn predict(
         }));
     }
     let replayed = args.out.as_ref().map(|_| {
-        let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
-        (lever_figure(task, (&tool, &plan), &motion, &[], &task.name), motion)
+        let (trajectory, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
+        (lever_figure(task, (&tool, &plan), &motion, &[], &task.name), trajectory, motion)
     });
-    let figures = replayed.iter().map(|(figure, _)| figure.clone()).collect();
+    let figures = replayed.iter().map(|(figure, ..)| figure.clone()).collect();
     let mut document = lever_prediction_document(task, &plan, &predicted, figures);
-    if let Some((out, (figure, motion))) = args.out.as_ref().zip(replayed) {
+    if let Some((out, (figure, trajectory, motion))) = args.out.as_ref().zip(replayed) {
         let page = match args.page {
             PageView::Above => document.to_html(),
             PageView::Solid => {
@@ -78,8 +76,17 @@ pub fn predict(
                 lever_page(&replayed, Recipe::default())
             }
         };
-        let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
-        document.wrote(&[path]);
+        let mut written =
+            vec![output::write(out, &format!("{}.html", task.name), page.as_bytes())?];
+        if args.trajectories {
+            let name = format!("{}.3d", task.name);
+            let path = out.join(format!("{name}.trajectory.json"));
+            written.push(output::write(out, &format!("{name}.svg"), figure.to_svg().as_bytes())?);
+            let file = LeverTrajectoryFile { task: task.clone(), tool, plan, trajectory, motion };
+            file.write(&path).map_err(CliError::Output)?;
+            written.push(path);
+        }
+        document.wrote(&written);
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)

@@ -19,7 +19,7 @@ use crate::report::{
 use crate::scene::{LeverJob, LeverMotion, LeverTask};
 use crate::sim::LeverSimulator;
 use crate::solve::PlanStatus;
-use crate::solve::lever::{LeverPlanner, LeverSolution, PushedAfter, RankedLever};
+use crate::solve::lever::{LeverPlanner, LeverSettings, LeverSolution, PushedAfter, RankedLever};
 
 use super::model::lever_model;
 
@@ -39,7 +39,10 @@ pub fn solve(
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let model = lever_model(args.model.as_ref())?;
     output::prepare(&args.out)?;
-    let planner = LeverPlanner::new(model, args.effort).seeded(args.seed).within(args.time_limit);
+    let mut settings = LeverSettings::for_effort(args.effort);
+    settings.disturbed = args.disturbed.map_or(settings.disturbed, usize::from);
+    let planner = LeverPlanner::new(model, args.effort).with_settings(settings);
+    let planner = planner.seeded(args.seed).within(args.time_limit);
     let following = Following::spinner(session, "solving");
     let solved = session.compute(|| planner.solve_with(&task, library, &following));
     following.finish()?;

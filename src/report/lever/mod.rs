@@ -2,13 +2,11 @@
 
 mod figure;
 mod prediction;
-mod simulation;
 mod solution;
 mod verdict;
 pub(super) mod words;
 
 pub use figure::lever_figure;
 pub use prediction::{PredictedLever, lever_prediction_document};
-pub use simulation::lever_simulation_document;
 pub use solution::lever_solution_document;
 pub use verdict::{lever_verdict_document, lever_verdict_line};

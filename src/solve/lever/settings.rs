@@ -47,14 +47,6 @@ impl LeverSettings {
             Effort::Thorough => {
                 Self { simulated: 128, doubts: 8, verify_batches: 4, followed: 8, ..usual }
             }
-            Effort::Exhaustive => Self {
-                simulated: 128,
-                doubts: 8,
-                verify_batches: 4,
-                disturbed: 64,
-                followed: 8,
-                ..usual
-            },
         }
     }
 }

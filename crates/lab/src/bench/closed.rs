@@ -2,8 +2,6 @@
 
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::act::{
     ActError, End, RunSettings, Runner, SimulatedWorld, Trace, Why, World,
 };
@@ -13,6 +11,7 @@ use pushplan::internals::scene::{Goal, Scene, Situation, State, Task, Truth};
 use pushplan::internals::solve::{Planner, SolveError};
 use pushplan::internals::store::Measured;
 use pushplan::internals::watch::Unwatched;
+use serde::{Deserialize, Serialize};
 
 use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
 

@@ -3,8 +3,6 @@
 
 use std::num::NonZeroU16;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::contact::Tally;
 use pushplan::internals::effect::{EffectModel, Prior, Simulated};
@@ -12,12 +10,11 @@ use pushplan::internals::rollout::{RollSettings, Roller};
 use pushplan::internals::scene::{Engine, Job, Rate, Record};
 use pushplan::internals::sim::Simulator;
 use pushplan_learn::dataset::JointRule;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    inference::peak,
-    suite::{Case, Suite, SuiteKind, jointed_crowd_cases},
-    timing::push_seconds,
-};
+use super::inference::peak;
+use super::suite::{Case, Suite, SuiteKind, jointed_crowd_cases};
+use super::timing::push_seconds;
 
 /// Numbers of objects on the table.
 const COUNTS: [usize; 6] = [1, 2, 3, 6, 9, 12];

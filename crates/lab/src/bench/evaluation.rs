@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{crowd::CrowdReport, heldout::HeldOutReport};
+use super::crowd::CrowdReport;
+use super::heldout::HeldOutReport;
 
 /// Errors of several models on one part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

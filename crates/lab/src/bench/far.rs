@@ -1,15 +1,12 @@
 //! What objects cost that no push can touch: nothing, if a model computes only what the scene
 //! needs.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::scene::{Object, Record, Scene};
+use serde::{Deserialize, Serialize};
 
-use super::{
-    suite::Suite,
-    timing::{batches, push_seconds},
-};
+use super::suite::Suite;
+use super::timing::{batches, push_seconds};
 
 /// Numbers of far objects.
 pub const FAR_COUNTS: [usize; 7] = [0, 1, 3, 10, 30, 60, 100];

@@ -7,15 +7,14 @@
 //! The planar engine presses at a stated height, which models are then told; in 3-D faces meet flat,
 //! and how high they press is open.
 
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::{EffectModel, shifted_start};
 use pushplan::internals::judge::{Comparison, MOVED, ObjectError, Summary, Trial};
 use pushplan::internals::scene::{Job, Physics, Record, Scene, Warning};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::suite::{Suite, SuiteKind};
 

@@ -3,17 +3,14 @@
 
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
+use pushplan::internals::bench::processor_time;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::internals::graph::Batch;
 use pushplan::internals::network::{Buffers, Forward, Weights, matrix_product};
 use pushplan::internals::scene::{Job, Record};
 use pushplan::internals::sim::Simulator;
-#[cfg(feature = "train")]
 use pushplan_learn::network::{Inputs, Predictor};
-
-use pushplan::internals::bench::processor_time;
+use serde::{Deserialize, Serialize};
 
 use super::suite::Case;
 
@@ -79,7 +76,6 @@ pub fn inference_costs(weights: &Weights, cases: &[Case], sizes: &[usize]) -> Ve
 }
 
 /// Seconds of one forward pass of the candle graph over `batch`.
-#[cfg(feature = "train")]
 fn candle(weights: &Weights, batch: &Batch) -> Option<f64> {
     // candle refuses no graph with parameters that were read from a weights file.
     let network = Predictor::new(weights.card.config, &weights.parameters).ok()?;
@@ -88,12 +84,6 @@ fn candle(weights: &Weights, batch: &Batch) -> Option<f64> {
     Some(best(|| {
         let _ = std::hint::black_box(network.forward(&inputs));
     }))
-}
-
-/// Training is left out of this build, and candle with it.
-#[cfg(not(feature = "train"))]
-fn candle(_: &Weights, _: &Batch) -> Option<f64> {
-    None
 }
 
 /// Fills `batch` with `size` graphs and returns the processor time that building them took.

@@ -21,16 +21,14 @@ mod suite;
 mod timing;
 mod tradeoff;
 
-pub use baselines::{assumed, crowd_baselines, push_baselines};
+pub use baselines::{crowd_baselines, push_baselines};
 pub use belief::{
     Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,
     Circumstances, JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When,
     belief_steps, follow, summarise_beliefs, update_times,
 };
 pub use closed::{ClosedRecord, Left};
-pub use crowd::{
-    CrowdFamily, CrowdModel, CrowdReport, CrowdSet, CurvePoint, OneError, Phases, evaluate_crowd,
-};
+pub use crowd::{CrowdFamily, CrowdReport, CrowdSet};
 pub use equations::{EquationCost, equation_costs};
 pub use evaluation::{Evaluated, by_kind};
 pub use far::{FAR_COUNTS, FarCost, far_costs};

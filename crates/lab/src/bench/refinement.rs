@@ -1,15 +1,13 @@
 //! What refinement brings: random tasks that are known to be solvable, solved without and with
 //! it, everything else alike.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::judge::Summary;
 use pushplan::internals::scene::{Situation, Task};
 use pushplan::internals::solve::{PlanStatus, Planner, Solution, SolveError};
 use pushplan::internals::store::Measured;
-
-use pushplan::internals::bench::{End, SolvedTask};
+use serde::{Deserialize, Serialize};
 
 use super::random::random_task;
 

@@ -3,8 +3,6 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::scene::{Scene, Span, ToolMotion};
 use pushplan::internals::seeded::generator;
@@ -12,6 +10,7 @@ use pushplan_learn::dataset::{
     Aim, Constraints, Crowd, DatasetConfig, JointRule, Preset, Solids, aimed_stroke, anywhere,
     log_uniform, random_direction, random_heading, random_scene, sample,
 };
+use serde::{Deserialize, Serialize};
 
 /// Travel of every push, metres.
 const TRAVEL: f64 = 0.20;

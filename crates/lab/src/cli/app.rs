@@ -4,16 +4,17 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use pushplan::cli::bench::saved::{self, MergeArgs, ReportArgs};
-use pushplan::cli::bench::status::{self, StatusArgs};
+use pushplan::cli::bench::saved::{MergeArgs, ReportArgs};
+use pushplan::cli::bench::status::StatusArgs;
+use pushplan::cli::bench::{saved, status};
 use pushplan::cli::error::CliError;
+use pushplan::cli::groups::Groups;
 use pushplan::cli::session::{GlobalArgs, Session};
 use pushplan::cli::{exit_code, start};
 
 use super::{
     convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers, masses,
-    probes, random, refinement, tradeoff,
+    probes, random, refinement, rest_of_way, tradeoff,
 };
 
 /// Measures what pushplan publishes: errors, costs, success, beliefs, and what is traded for what.
@@ -35,6 +36,7 @@ enum Command {
     Refinement(refinement::RefinementArgs),
     Cost(cost::CostArgs),
     Joints(joints::JointsArgs),
+    RestOfWay(rest_of_way::RestOfWayArgs),
     Masses(masses::MassesArgs),
     Probes(probes::ProbesArgs),
     Convergence(convergence::ConvergenceArgs),
@@ -47,9 +49,18 @@ enum Command {
     Report(ReportArgs),
 }
 
+/// What the commands are for, in the order of `--help`.
+const GROUPS: Groups = &[
+    ("Prediction", &["evaluate", "cost"]),
+    ("Planning", &["random", "run", "refinement", "tradeoff"]),
+    ("Belief", &["joints", "rest-of-way", "masses", "probes"]),
+    ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence"]),
+    ("Runs that are kept", &["merge", "status", "report"]),
+];
+
 /// Runs the command with the given arguments, the program's name first.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    start(args, |cli: &Cli| &cli.global, execute)
+    start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 
 fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
@@ -61,6 +72,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Refinement(args) => refinement::run(args, session)?,
         Command::Cost(args) => cost::run(args, session)?,
         Command::Joints(args) => joints::run(args, session)?,
+        Command::RestOfWay(args) => rest_of_way::run(args, session)?,
         Command::Masses(args) => masses::run(args, session)?,
         Command::Probes(args) => probes::run(args, session)?,
         Command::Convergence(args) => convergence::run(args, session)?,

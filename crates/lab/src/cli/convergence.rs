@@ -1,15 +1,15 @@
 //! `pushplan-lab convergence`: how exact simulated lever-ups are.
 
 use clap::Args;
-
-use crate::bench::convergence;
-use crate::report::convergence_document;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::LeverPreset;
+
+use crate::bench::convergence;
+use crate::report::convergence_document;
 
 /// Simulated lever-ups in coarser and finer steps, and with the start a little aside
 #[derive(Args, Debug)]

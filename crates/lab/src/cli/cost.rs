@@ -4,12 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-
-use crate::bench::{
-    FAR_COUNTS, Suite, SuiteKind, crowd_cases, equation_costs, far_costs, inference_costs,
-    push_costs, search_costs,
-};
-use crate::report::{cost_document, crowd_cost_document, equation_document, far_document};
+use pushplan::cli::bench::common::Common;
 use pushplan::cli::error::CliError;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
@@ -19,7 +14,11 @@ use pushplan::internals::effect::{EffectModel, Network, Simulated};
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::solve::Effort;
 
-use pushplan::cli::bench::common::Common;
+use crate::bench::{
+    FAR_COUNTS, Suite, SuiteKind, crowd_cases, equation_costs, far_costs, inference_costs,
+    push_costs, search_costs,
+};
+use crate::report::{cost_document, crowd_cost_document, equation_document, far_document};
 
 /// Time of one push by every model, and of a search of one-push candidates
 #[derive(Args, Debug)]

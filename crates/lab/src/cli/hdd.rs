@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::bench::{LeverBaseline, Neighbour, drive_report};
-use crate::report::hdd_document;
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
@@ -17,7 +14,9 @@ use pushplan::internals::sim::LeverSimulator;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
 
+use crate::bench::{LeverBaseline, Neighbour, drive_report};
 use crate::cli::levers::Named;
+use crate::report::hdd_document;
 
 /// Models of boards levered out of drives against the 3-D engine, on drives that none has seen
 #[derive(Args, Debug)]

@@ -1,14 +1,8 @@
 //! `pushplan-lab joints`: how well joints are inferred from what is seen.
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{
-    BeliefCase, BeliefRecord, BeliefSuite, Circumstances, CrowdFamily, Sighting, summarise_beliefs,
-    update_times,
-};
-use crate::cli::words::{FAMILIES, SIGHTINGS};
-use crate::report::joints_document;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::KeepArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::model;
@@ -20,9 +14,14 @@ use pushplan::internals::scene::{Engine, ModelSpec};
 use pushplan::internals::store::{Finished, RunManifest};
 use pushplan_learn::cli::words::JOINTS;
 use pushplan_learn::dataset::JointRule;
+use serde_json::json;
 
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
+use crate::bench::{
+    BeliefCase, BeliefRecord, BeliefSuite, Circumstances, CrowdFamily, Sighting, summarise_beliefs,
+    update_times,
+};
+use crate::cli::words::{FAMILIES, SIGHTINGS};
+use crate::report::joints_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "joints";

@@ -2,16 +2,17 @@
 
 use std::path::PathBuf;
 
-use serde::{Serialize, de::DeserializeOwned};
-
 use pushplan::cli::bench::saved::{Kept, one};
 use pushplan::cli::error::CliError;
 use pushplan::internals::report::Document;
 use pushplan::internals::store::{Finished, RunManifest, Store, StoreError};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
-use super::{evaluate, joints, lever_tasks, masses, probes, random, refinement, run};
 use crate::bench::{ClosedRecord, Evaluated, LeverRecord, RandomRecord, TradeOff, by_kind};
 use crate::report::{closed_document, evaluation_document, lever_tasks_document, random_document};
+
+use super::{evaluate, joints, lever_tasks, masses, probes, random, refinement, run};
 
 /// The suites of this command.
 pub const SUITES: [Kept; 9] = [

@@ -1,9 +1,6 @@
 //! `pushplan-lab lever-points`: where plates are levered, from how they begin to move.
 
 use clap::Args;
-
-use crate::bench::point_report;
-use crate::report::lever_points_document;
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
@@ -14,6 +11,9 @@ use pushplan::internals::effect::LeverPrior;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
+
+use crate::bench::point_report;
+use crate::report::lever_points_document;
 
 /// Lever points inferred from the first frames, and what they say of the rest
 #[derive(Args, Debug)]

@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::LeverSuite;
-use crate::report::lever_tasks_document;
 use pushplan::cli::action::LibraryArgs;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::session::Session;
@@ -18,9 +16,10 @@ use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::solve::Effort;
 use pushplan::internals::solve::lever::LeverPlanner;
 use pushplan::internals::store::RunManifest;
+use serde_json::json;
 
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest};
+use crate::bench::LeverSuite;
+use crate::report::lever_tasks_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "lever-tasks";

@@ -4,9 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-
-use crate::bench::{LeverBaseline, Neighbour, lever_report};
-use crate::report::levers_document;
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
@@ -22,6 +19,9 @@ use pushplan::internals::sim::LeverSimulator;
 use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
+
+use crate::bench::{LeverBaseline, Neighbour, lever_report};
+use crate::report::levers_document;
 
 /// Models of lever-ups against the 3-D engine, on plates that none has seen
 #[derive(Args, Debug)]

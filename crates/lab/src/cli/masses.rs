@@ -1,11 +1,8 @@
 //! `pushplan-lab masses`: how well masses are told from pushes.
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{MassCase, MassRecord, MassSuite, Sighting, summarise_masses};
-use crate::cli::words::{CONTROLLED, SIGHTINGS};
-use crate::report::masses_document;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::KeepArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::model;
@@ -15,9 +12,11 @@ use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::{Finished, RunManifest};
 use pushplan_learn::dataset::{Controlled, MassSetup};
+use serde_json::json;
 
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
+use crate::bench::{MassCase, MassRecord, MassSuite, Sighting, summarise_masses};
+use crate::cli::words::{CONTROLLED, SIGHTINGS};
+use crate::report::masses_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "masses";

@@ -14,6 +14,7 @@ mod masses;
 mod probes;
 mod random;
 mod refinement;
+mod rest_of_way;
 mod run;
 mod tradeoff;
 mod words;

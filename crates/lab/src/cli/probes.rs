@@ -1,10 +1,8 @@
 //! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{ProbeCase, ProbeRecord, ProbeSuite, summarise_probes};
-use crate::report::probes_document;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::KeepArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::model;
@@ -14,9 +12,10 @@ use pushplan::internals::act::ProbeRule;
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::{Finished, RunManifest};
+use serde_json::json;
 
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::KeepArgs;
+use crate::bench::{ProbeCase, ProbeRecord, ProbeSuite, summarise_probes};
+use crate::report::probes_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "probes";

@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{RandomError, RandomSuite, TaskKind};
-use crate::cli::words::KINDS;
-use crate::report::random_document;
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
@@ -15,10 +13,11 @@ use pushplan::cli::words::{EFFORTS, words};
 use pushplan::cli::{interrupt, model, output};
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
+use serde_json::json;
 
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use crate::bench::{RandomError, RandomSuite, TaskKind};
+use crate::cli::words::KINDS;
+use crate::report::random_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "random";
@@ -28,7 +27,7 @@ pub const SUITE: &str = "random";
 #[command(after_help = format!("Examples:
   pushplan-lab random --count 200 --out runs/network
   pushplan-lab random --count 200 --model planar --out runs/planar
-  pushplan bench report runs/network runs/planar --out runs/both
+  pushplan-lab report runs/network runs/planar --out runs/both
   pushplan-lab random --kind pull --count 5 --save-tasks my-tasks
 
 {}", keep::HELP))]

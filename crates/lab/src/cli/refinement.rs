@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{RefinedTask, RefinementReport, refine_task};
-use crate::report::refinement_document;
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::model;
 use pushplan::cli::session::Session;
@@ -15,10 +14,10 @@ use pushplan::cli::words::{EFFORTS, words};
 use pushplan::internals::report::Document;
 use pushplan::internals::solve::{Effort, Planner, Settings};
 use pushplan::internals::store::{Finished, RunManifest};
+use serde_json::json;
 
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use crate::bench::{RefinedTask, RefinementReport, refine_task};
+use crate::report::refinement_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "refinement";

@@ -1,11 +1,9 @@
 //! `pushplan-lab run`: the closed loop on random tasks that do not know their scene.
 
 use clap::Args;
-use serde_json::json;
-
-use crate::bench::{HiddenWorld, RandomSuite, TaskKind};
-use crate::cli::words::KINDS;
-use crate::report::closed_document;
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::model;
 use pushplan::cli::session::Session;
@@ -14,11 +12,12 @@ use pushplan::internals::act::{ProbeRule, RunSettings};
 use pushplan::internals::scene::Engine;
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
+use serde_json::json;
 
+use crate::bench::{HiddenWorld, RandomSuite, TaskKind};
 use crate::cli::random::random_error;
-use pushplan::cli::bench::common::Common;
-use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use crate::cli::words::KINDS;
+use crate::report::closed_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "run";

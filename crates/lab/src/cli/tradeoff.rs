@@ -3,12 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::bench::{TradeOff, TradeOffSettings, Unit, levels, plan_levels};
-use crate::report::tradeoff_document;
-use pushplan::internals::store::{RunManifest, Seconds, Shard, Store};
-use pushplan::internals::watch::Watch;
-
 use pushplan::cli::action::LibraryArgs;
 use pushplan::cli::bench::weights_digest;
 use pushplan::cli::error::CliError;
@@ -16,6 +10,11 @@ use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
 use pushplan::cli::session::Session;
 use pushplan::cli::{exit_code, interrupt, output};
+use pushplan::internals::store::{RunManifest, Seconds, Shard, Store};
+use pushplan::internals::watch::Watch;
+
+use crate::bench::{TradeOff, TradeOffSettings, Unit, levels, plan_levels};
+use crate::report::tradeoff_document;
 
 /// Measure speed against accuracy: every predictor and every budget of planning
 #[derive(Args, Debug)]
@@ -25,7 +24,7 @@ processor time of one thread, all levels in turn. With --out every finished unit
 command goes on after an interruption. The folder then holds tradeoff.json, tradeoff.md,
 tradeoff-push.svg and tradeoff-task.svg.
 
---shard 2/3 measures every third unit, on another machine say; when `pushplan bench merge OUT
+--shard 2/3 measures every third unit, on another machine say; when `pushplan-lab merge OUT
 SHARD...` has put the parts together, the same command with --out OUT and without --shard finds
 nothing left to measure and writes the results. Errors and successes are the same as of one run.
 Costs are times: shards on processors that differ give costs that are of no machine.

@@ -1,67 +1,18 @@
 //! Words for what is measured, each with its line in `--help`.
 
-use pushplan_learn::dataset::{Controlled, JointRule};
+use pushplan_learn::dataset::Controlled;
 
 use crate::bench::{CrowdFamily, JointMethod, Sighting, TaskKind};
 
-/// What may be asked of joints where errors are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AskedJoints {
-    /// Sets with these.
-    Rule(JointRule),
-    /// What a prediction on recordings is told of them.
-    Told(JointMethod),
-}
-
-impl AskedJoints {
-    /// For sets.
-    pub fn rule(self) -> Option<JointRule> {
-        match self {
-            Self::Rule(rule) => Some(rule),
-            Self::Told(_) => None,
-        }
-    }
-
-    /// For recordings.
-    pub fn told(self) -> Option<JointMethod> {
-        match self {
-            Self::Rule(_) => None,
-            Self::Told(method) => Some(method),
-        }
-    }
-}
-
-/// Joints of sets, and what is told of them.
-pub static ASKED_JOINTS: [(&str, AskedJoints, &str); 9] = [
-    ("fixed", AskedJoints::Rule(JointRule::Fixed), "Sets whose neighbours are joined rigidly"),
-    ("mixed", AskedJoints::Rule(JointRule::Mixed), "Sets with all types of joints"),
-    ("given", AskedJoints::Told(JointMethod::True), "Recordings: as they are stated"),
-    ("none", AskedJoints::Told(JointMethod::None), "Recordings: nothing is joined"),
-    (
-        "contacts",
-        AskedJoints::Told(JointMethod::ContactsFixed),
-        "Recordings: what touches is fixed",
-    ),
-    (
-        "residuals",
-        AskedJoints::Told(JointMethod::Residuals),
-        "Recordings: by geometric residual tests",
-    ),
-    (
-        "one-step",
-        AskedJoints::Told(JointMethod::LastWindow),
-        "Recordings: what the last window says alone",
-    ),
-    (
-        "filter",
-        AskedJoints::Told(JointMethod::Filter),
-        "Recordings: as the hypothesis filter believes",
-    ),
-    (
-        "believed",
-        AskedJoints::Told(JointMethod::Regulator),
-        "Recordings: as the regulated belief has it",
-    ),
+/// What the rest of the way is told of joints.
+pub static TOLD: [(&str, JointMethod, &str); 7] = [
+    ("given", JointMethod::True, "As they are stated"),
+    ("none", JointMethod::None, "Nothing is joined"),
+    ("contacts", JointMethod::ContactsFixed, "What touches is fixed"),
+    ("residuals", JointMethod::Residuals, "By geometric residual tests"),
+    ("one-step", JointMethod::LastWindow, "What the last window says alone"),
+    ("filter", JointMethod::Filter, "As the hypothesis filter believes"),
+    ("believed", JointMethod::Regulator, "As the regulated belief has it"),
 ];
 
 /// Families of crowds.

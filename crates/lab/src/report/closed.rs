@@ -1,16 +1,14 @@
 //! Runs of tasks that do not know their scene: what the closed loop brings.
 
+use pushplan::internals::act::End;
+use pushplan::internals::judge::{mean, percentile};
+use pushplan::internals::report::{
+    Align, Document, NONE, Section, Table, millimetres, progress_note, seconds,
+};
+use pushplan::internals::store::{Finished, RunManifest};
 use serde_json::json;
 
 use crate::bench::{ClosedRecord, Left, TaskKind};
-use pushplan::internals::act::End;
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::store::{Finished, RunManifest};
-
-use pushplan::internals::report::progress_note;
-use pushplan::internals::report::{Align, NONE, Table};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{millimetres, seconds};
 
 /// A run of the suite: what was measured and what came of it.
 pub type ClosedRun = (RunManifest, Vec<Finished<ClosedRecord>>);

@@ -1,14 +1,11 @@
 //! How far simulated lever-ups are from finer ones.
 
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, NONE, Section, Table, millimetres, seconds};
 use serde_json::json;
 
 use crate::bench::{ConvergenceReport, ConvergenceRow, Setting};
-
 use crate::report::length;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
-use pushplan::internals::report::{millimetres, seconds};
 
 /// A table for each family.
 pub fn convergence_document(reports: &[ConvergenceReport]) -> Document {

@@ -1,14 +1,12 @@
 //! What pushes, networks and searches cost.
 
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{
+    Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, seconds,
+};
 use serde_json::json;
 
 use crate::bench::{EquationCost, FarCost, InferenceCost, PushCost, SearchCost};
-
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::seconds;
-use pushplan::internals::report::{Axis, Chart, Mark, Series};
-use pushplan::internals::report::{Document, Figure, Section};
-use pushplan::internals::report::{NONE, Table};
 
 /// Costs of a network (of none where there is none), of one push by every model, and of a search.
 pub fn cost_document(

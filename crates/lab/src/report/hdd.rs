@@ -1,15 +1,12 @@
 //! Errors of models of boards in drives.
 
+use pushplan::internals::judge::Summary;
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, NONE, Section, Table, degrees, seconds};
 use serde_json::json;
 
 use crate::bench::{DriveReport, DriveRow};
-use pushplan::internals::judge::Summary;
-
 use crate::report::length;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
-use pushplan::internals::report::{degrees, seconds};
 
 /// A row for each model.
 pub fn hdd_document(report: &DriveReport) -> Document {

@@ -1,14 +1,11 @@
 //! Errors on held-out pushes.
 
+use pushplan::internals::judge::Summary;
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, NONE, Section, Table, fine_millimetres, millimetres};
 use serde_json::json;
 
 use crate::bench::{ErrorRow, HeldOutReport};
-use pushplan::internals::judge::Summary;
-
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
-use pushplan::internals::report::{fine_millimetres, millimetres};
 
 /// Errors of all models on one kind of pushes, and of the first model by shape and by number of
 /// objects.

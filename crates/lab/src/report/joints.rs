@@ -1,16 +1,14 @@
 //! How well joints are inferred, as tables and curves.
 
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{
+    Align, Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, millimetres,
+};
 use serde_json::json;
 
 use crate::bench::{
     BeliefStep, BeliefSummary, CrowdFamily, JointMethod, Sighting, UpdateTimes, When,
 };
-
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::millimetres;
-use pushplan::internals::report::{Align, NONE, Table};
-use pushplan::internals::report::{Axis, Chart, Mark, Series};
-use pushplan::internals::report::{Document, Figure, Section};
 
 /// What the columns mean.
 const LEGEND: &str = "Counted are pairs of objects with a gap below 3 cm at the start, as only these \

@@ -1,15 +1,12 @@
 //! How well lever points are inferred.
 
+use pushplan::internals::judge::Summary;
+use pushplan::internals::report::Align::Right;
+use pushplan::internals::report::{Document, NONE, Section, Table, degrees};
 use serde_json::json;
 
 use crate::bench::{PointReport, PointRow};
-use pushplan::internals::judge::Summary;
-
 use crate::report::length;
-use pushplan::internals::report::Align::Right;
-use pushplan::internals::report::degrees;
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
 
 /// A table for each family.
 pub fn lever_points_document(reports: &[PointReport]) -> Document {

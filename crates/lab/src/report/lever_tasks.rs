@@ -1,15 +1,12 @@
 //! Generated tasks of levering: how many are solved, how robustly, and what that cost.
 
+use pushplan::internals::judge::{mean, percentile};
+use pushplan::internals::report::{Align, Document, Section, Table, flat, progress_note, seconds};
+use pushplan::internals::solve::PlanStatus;
+use pushplan::internals::store::{Finished, RunManifest};
 use serde_json::json;
 
 use crate::bench::LeverRecord;
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::report::seconds;
-use pushplan::internals::report::{Align, Table};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{flat, progress_note};
-use pushplan::internals::solve::PlanStatus;
-use pushplan::internals::store::{Finished, RunManifest};
 
 /// The results of a run.
 pub fn lever_tasks_document(run: &RunManifest, tasks: &[Finished<LeverRecord>]) -> Document {

@@ -1,15 +1,12 @@
 //! Errors of models of lever-ups.
 
+use pushplan::internals::judge::Summary;
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, NONE, Section, Table, degrees, millimetres, seconds};
 use serde_json::json;
 
 use crate::bench::{LeverReport, LeverRow, SupportRow};
-use pushplan::internals::judge::Summary;
-
 use crate::report::length;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
-use pushplan::internals::report::{degrees, millimetres, seconds};
 
 /// Two tables for each family: models, and the support edge.
 pub fn levers_document(reports: &[LeverReport]) -> Document {

@@ -1,12 +1,10 @@
 //! How well masses are told, as a table.
 
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, NONE, Section, Table};
 use serde_json::json;
 
 use crate::bench::MassSummary;
-
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Document, Section};
-use pushplan::internals::report::{NONE, Table};
 
 /// What the columns mean.
 const LEGEND: &str = "Masses are 0.2 to 0.5, 1 to 2 or 8 to 10 kg, so that chance is right in a third. \

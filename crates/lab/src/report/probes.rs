@@ -1,13 +1,11 @@
 //! How much probes tell, as a table.
 
+use pushplan::internals::act::ProbeRule;
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, Section, Table};
 use serde_json::json;
 
 use crate::bench::ProbeSummary;
-use pushplan::internals::act::ProbeRule;
-
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::Table;
-use pushplan::internals::report::{Document, Section};
 
 /// What the columns mean.
 const LEGEND: &str = "Each probe is the best of sixteen pushes of 10 cm at random by the rule: what tells \

@@ -1,18 +1,16 @@
 //! The suite of random tasks: one table by kind and method, charts, rows for CSV.
 
+use pushplan::internals::bench::{End, SolvedTask};
+use pushplan::internals::judge::{mean, percentile};
+use pushplan::internals::report::{
+    Align, BarChart, Bars, Document, Figure, NONE, SOLVED_COLUMNS, Section, Table, error_chart,
+    flat, millimetres, progress_note, seconds, solved_cells,
+};
+use pushplan::internals::solve::PlanStatus;
+use pushplan::internals::store::{Finished, RunManifest, Seconds};
 use serde_json::json;
 
 use crate::bench::{RandomRecord, TaskKind};
-use pushplan::internals::bench::{End, SolvedTask};
-use pushplan::internals::judge::{mean, percentile};
-use pushplan::internals::solve::PlanStatus;
-use pushplan::internals::store::{Finished, RunManifest, Seconds};
-
-use pushplan::internals::report::{Align, NONE, Table};
-use pushplan::internals::report::{BarChart, Bars};
-use pushplan::internals::report::{Document, Figure, Section};
-use pushplan::internals::report::{SOLVED_COLUMNS, error_chart, flat, progress_note, solved_cells};
-use pushplan::internals::report::{millimetres, seconds};
 
 /// A run of the suite: what was measured and what came of it.
 pub type RandomRun = (RunManifest, Vec<Finished<RandomRecord>>);

@@ -1,13 +1,11 @@
 //! What refinement brings.
 
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, Section, Table};
 use serde_json::json;
 
 use crate::bench::RefinementReport;
-
 use crate::report::length;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::Table;
-use pushplan::internals::report::{Document, Section};
 
 /// Final errors of plans without and with refinement, by planners of the named effort.
 pub fn refinement_document(report: &RefinementReport, effort: &str) -> Document {

@@ -1,16 +1,14 @@
 //! The trade of speed for accuracy as tables and charts.
 
+use pushplan::internals::judge::Summary;
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{
+    Axis, Chart, Document, Figure, Mark, NONE, Section, Series, Table, fine_millimetres, seconds,
+};
 use serde_json::json;
 
 use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport};
-use pushplan::internals::judge::Summary;
-
 use crate::report::length;
-use pushplan::internals::report::Align::{Left, Right};
-use pushplan::internals::report::{Axis, Chart, Mark, Series};
-use pushplan::internals::report::{Document, Figure, Section};
-use pushplan::internals::report::{NONE, Table};
-use pushplan::internals::report::{fine_millimetres, seconds};
 
 /// Families of levels: name, and how the names of their models begin.
 const FAMILIES: [(&str, &[&str]); 5] = [

@@ -4,9 +4,10 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-
-use pushplan::cli::bench::status::{self, StatusArgs};
+use pushplan::cli::bench::status;
+use pushplan::cli::bench::status::StatusArgs;
 use pushplan::cli::error::CliError;
+use pushplan::cli::groups::Groups;
 use pushplan::cli::session::{GlobalArgs, Session};
 use pushplan::cli::{exit_code, start};
 
@@ -32,9 +33,15 @@ enum Command {
     TrainLever(train_lever::TrainLeverArgs),
 }
 
+/// What the commands are for, in the order of `--help`.
+const GROUPS: Groups = &[
+    ("Data", &["generate", "merge", "status"]),
+    ("Weights", &["train", "train-regulator", "train-lever"]),
+];
+
 /// Runs the command with the given arguments, the program's name first.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    start(args, |cli: &Cli| &cli.global, execute)
+    start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 
 fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {

@@ -4,33 +4,31 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use serde_json::json;
-
-use crate::dataset::generate_npz;
-use crate::dataset::{
-    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
-    generate, generate_levers,
-};
-use pushplan::internals::asset::write_atomic;
-use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
-use pushplan::internals::geometry::Pose3;
-use pushplan::internals::scene::LeverTrajectory;
-use pushplan::internals::store::{Shard, StoreError};
-
-use crate::cli::words::{DATA, Data, JOINTS, SOLIDS};
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::cli::{exit_code, interrupt};
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
+use pushplan::internals::geometry::Pose3;
+use pushplan::internals::scene::LeverTrajectory;
+use pushplan::internals::store::{Shard, StoreError};
+use serde_json::json;
+
+use crate::cli::words::{DATA, Data, JOINTS, SOLIDS};
+use crate::dataset::{
+    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
+    generate, generate_levers, generate_npz,
+};
 
 /// Make training data: random scenes with pushes or lever-ups, simulated
 #[derive(Args, Debug)]
 #[command(
     after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
 episodes; the same command goes on from there. --shard 2/3 makes every third episode, on another
-machine say; `pushplan bench merge DIR SHARD...` makes of the parts the same files as one run, and
-`pushplan bench status SHARD...` says which are missing.
+machine say; `pushplan-learn merge DIR SHARD...` makes of the parts the same files as one run, and
+`pushplan-learn status SHARD...` says which are missing.
 
 A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
 for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one seed have no random

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
 use pushplan::cli::error::CliError;
 use pushplan::cli::exit_code;
 use pushplan::cli::session::Session;
 
-use super::generate::data_error;
 use crate::dataset::merge_data;
+
+use super::generate::data_error;
 
 /// Put the shards of training data together: the same bytes as one run
 #[derive(Args, Debug)]

@@ -3,21 +3,20 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-
-use crate::dataset::{Dataset, DatasetConfig, Preset};
-use crate::report::training_document;
-use crate::train::{CheckpointError, Exposure, MetricLine, Settings, TrainError, train};
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::cli::{exit_code, interrupt, output};
 use pushplan::internals::network::Config;
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
 
 use crate::cli::generate::data_error;
 use crate::cli::words::{EXPOSURES, PRESETS};
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
-use pushplan::cli::{exit_code, interrupt, output};
+use crate::dataset::{Dataset, DatasetConfig, Preset};
+use crate::report::training_document;
+use crate::train::{CheckpointError, Exposure, MetricLine, Settings, TrainError, train};
 
 /// Train the network; the same command goes on with an interrupted run
 #[derive(Args, Debug)]

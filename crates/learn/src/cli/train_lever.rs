@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::dataset::{LeverDataset, LeverEpisode, LeverPart};
-use crate::train::{Descent, LeverSettings, PartsSettings, train_lever, train_parts};
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::cli::{exit_code, interrupt};
 use pushplan::internals::network::Config;
 use pushplan::internals::scene::LeverFeatures;
 use pushplan::internals::store::FolderLock;
@@ -13,11 +15,8 @@ use pushplan::internals::store::FolderLock;
 use crate::cli::generate::data_error;
 use crate::cli::train::train_error;
 use crate::cli::words::{LEVER_FEATURES, LEVER_FORMS, LeverForm};
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::session::Session;
-use pushplan::cli::words::words;
-use pushplan::cli::{exit_code, interrupt};
+use crate::dataset::{LeverDataset, LeverEpisode, LeverPart};
+use crate::train::{Descent, LeverSettings, PartsSettings, train_lever, train_parts};
 
 /// Train a network of lever-ups; the same command goes on with an interrupted run
 #[derive(Args, Debug)]

@@ -4,20 +4,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-
-use crate::dataset::lessons;
-use crate::train::{Descent, RegulatorSettings, train_regulator};
+use pushplan::cli::bench::weights_digest;
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::session::Session;
+use pushplan::cli::{exit_code, interrupt};
 use pushplan::internals::effect::{EffectModels, Network};
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::FolderLock;
 
 use crate::cli::generate::data_error;
 use crate::cli::train::train_error;
-use pushplan::cli::bench::weights_digest;
-use pushplan::cli::error::CliError;
-use pushplan::cli::follow::Following;
-use pushplan::cli::session::Session;
-use pushplan::cli::{exit_code, interrupt};
+use crate::dataset::lessons;
+use crate::train::{Descent, RegulatorSettings, train_regulator};
 
 /// Train the belief regulator; the same command goes on with an interrupted run
 #[derive(Args, Debug)]

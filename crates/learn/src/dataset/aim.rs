@@ -2,13 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact,
 };
 use pushplan::internals::scene::{Object, Scene, State, Stroke, Tool};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::chance::{heading, uniform, weighted};
 

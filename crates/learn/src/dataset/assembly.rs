@@ -2,11 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Footprint, Pose, Shape, Vector, clearance};
 use pushplan::internals::scene::{Part, Ranges, Tool};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::chance::{log_uniform, sign, uniform, weighted};
 

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use pushplan::internals::scene::Span;
 use rand::Rng;
 use rand_pcg::Pcg64;
-
-use pushplan::internals::scene::Span;
 
 /// Uniform in the interval.
 pub(super) fn uniform(rng: &mut Pcg64, low: f64, high: f64) -> f64 {

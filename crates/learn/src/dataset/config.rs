@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use pushplan::internals::scene::Ranges;
+use pushplan::internals::store::RunManifest;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use pushplan::internals::scene::Ranges;
-use pushplan::internals::store::RunManifest;
-
-use super::{constraints::Constraints, error::DatasetError, preset::Preset};
+use super::constraints::Constraints;
+use super::error::DatasetError;
+use super::preset::Preset;
 
 /// The suite of a folder of episodes.
 pub const SUITE: &str = "episodes";

@@ -1,10 +1,11 @@
 //! What a test set fixes that training leaves to chance.
 
+use pushplan::internals::scene::{Ranges, Span};
 use serde::{Deserialize, Serialize};
 
-use pushplan::internals::scene::{Ranges, Span};
-
-use super::{error::DatasetError, preset::Preset, tabletop::Solids};
+use super::error::DatasetError;
+use super::preset::Preset;
+use super::tabletop::Solids;
 
 /// Speed of the hand in the published test sets: 10.5 mm in a frame of 50 ms, m/s.
 pub const TEST_SPEED: f64 = 0.21;

@@ -3,10 +3,9 @@
 //! picture without sizes; these follow its words: a cylinder that is pushed against another one goes on
 //! pushing it if it is the heavier of the two, and else slips off to either side.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::scene::{Object, Scene, Span};
+use serde::{Deserialize, Serialize};
 
 use super::constraints::TEST_SPEED;
 

@@ -1,17 +1,14 @@
 //! The objects of a crowd: up to twelve, put down one after another.
 
+use pushplan::internals::geometry::{Footprint, Pose};
+use pushplan::internals::scene::{Object, Ranges, Scene, Support};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use pushplan::internals::geometry::{Footprint, Pose};
-use pushplan::internals::scene::{Object, Ranges, Scene, Support};
-
-use super::{
-    chance::{log_uniform, uniform},
-    curriculum::Block,
-    tabletop::{Solids, mass_span, random_shape},
-    unseen::{draw_supports, push_height},
-};
+use super::chance::{log_uniform, uniform};
+use super::curriculum::Block;
+use super::tabletop::{Solids, mass_span, random_shape};
+use super::unseen::{draw_supports, push_height};
 
 /// How many objects there are.
 pub(super) fn object_count(rng: &mut Pcg64, ranges: &Ranges) -> usize {

@@ -5,12 +5,10 @@
 use pushplan::internals::seeded::generator;
 use rand::Rng;
 
-use super::{
-    chance::{uniform, weighted},
-    config::DatasetConfig,
-    constraints::JointRule,
-    tabletop::Solids,
-};
+use super::chance::{uniform, weighted};
+use super::config::DatasetConfig;
+use super::constraints::JointRule;
+use super::tabletop::Solids;
 
 /// Episodes in a block.
 const BLOCK: u64 = 25;

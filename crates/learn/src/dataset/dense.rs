@@ -2,21 +2,19 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rand::{Rng, seq::SliceRandom};
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Vector, perpendicular, travel_to_contact};
 use pushplan::internals::scene::{Frame, Ranges, Scene, ToolMotion};
+use rand::Rng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
 
-use super::{
-    chance::{log_uniform, uniform},
-    crowd::{crowd, object_count},
-    curriculum::Block,
-    hand::{HAND_RADIUS, HandPlay},
-    joints::join_neighbours,
-    sparse::span,
-    tabletop::anywhere,
-};
+use super::chance::{log_uniform, uniform};
+use super::crowd::{crowd, object_count};
+use super::curriculum::Block;
+use super::hand::{HAND_RADIUS, HandPlay};
+use super::joints::join_neighbours;
+use super::sparse::span;
+use super::tabletop::anywhere;
 
 /// Gap between neighbours, metres; mostly small, because the share of the way from the smaller
 /// to the larger is a product of two draws.

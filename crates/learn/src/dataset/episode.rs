@@ -3,14 +3,12 @@
 use pushplan::internals::scene::{Frame, Scene, ToolMotion};
 use pushplan::internals::seeded::generator;
 
-use super::{
-    config::DatasetConfig,
-    curriculum::Block,
-    dense::dense,
-    preset::Preset,
-    sparse::{sparse, sparse_line},
-    tools::pushed_by_tool,
-};
+use super::config::DatasetConfig;
+use super::curriculum::Block;
+use super::dense::dense;
+use super::preset::Preset;
+use super::sparse::{sparse, sparse_line};
+use super::tools::pushed_by_tool;
 
 /// A scene, a tool motion, and the truth of what it does: where the scene states how high the tool
 /// presses, that of the planar engine, else that of the 3-D engine.

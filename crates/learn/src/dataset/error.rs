@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use thiserror::Error;
-
 use pushplan::internals::store::{Shard, StoreError};
+use thiserror::Error;
 
 /// Why a data set could not be made or read.
 #[derive(Debug, Error)]
@@ -29,7 +28,7 @@ pub enum DatasetError {
     },
     /// The folder holds a part of a data set.
     #[error(
-        "{} is shard {shard} of a data set; `pushplan bench merge OUT SHARD...` puts shards together",
+        "{} is shard {shard} of a data set; `pushplan-learn merge OUT SHARD...` puts shards together",
         path.display()
     )]
     Shard {

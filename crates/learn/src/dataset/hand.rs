@@ -2,18 +2,15 @@
 
 use std::sync::Arc;
 
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::scene::{
     Body, COAST_FRAME, Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion,
 };
 use pushplan::internals::sim::Simulator;
+use rand_pcg::Pcg64;
 
-use super::{
-    aim::{SET_DOWN, tool_clearance},
-    chance::uniform,
-};
+use super::aim::{SET_DOWN, tool_clearance};
+use super::chance::uniform;
 
 /// Radius of the hand, metres.
 pub const HAND_RADIUS: f64 = 0.05;

@@ -1,25 +1,23 @@
 //! Cylinders that are light, middling or heavy, pushed by the hand: what is there to tell masses from
 //! (thesis, section 8.3).
 
+use pushplan::internals::scene::{Body, Frame, Job, Ranges, Record, Scene, Span, ToolMotion};
 use pushplan::internals::seeded::generator;
+use pushplan::internals::sim::Simulator;
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use pushplan::internals::scene::{Body, Frame, Job, Ranges, Record, Scene, Span, ToolMotion};
-use pushplan::internals::sim::Simulator;
-
-use super::{
-    chance::log_uniform,
-    constraints::TEST_SPEED,
-    controlled::{self, Controlled},
-    curriculum::Block,
-    dense::grid,
-    hand::HandPlay,
-    preset::Preset,
-    sparse::aimed,
-    tabletop::{Crowd, Solids, anywhere, random_scene},
-};
+use super::chance::log_uniform;
+use super::constraints::TEST_SPEED;
+use super::controlled;
+use super::controlled::Controlled;
+use super::curriculum::Block;
+use super::dense::grid;
+use super::hand::HandPlay;
+use super::preset::Preset;
+use super::sparse::aimed;
+use super::tabletop::{Crowd, Solids, anywhere, random_scene};
 
 /// The ranges of masses, kg.
 pub const MASS_RANGES: [Span; 3] = [Span::new(0.2, 0.5), Span::new(1.0, 2.0), Span::new(8.0, 10.0)];

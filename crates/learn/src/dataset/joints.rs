@@ -1,15 +1,13 @@
 //! Random joints between near neighbours.
 
-use rand::{Rng, seq::SliceRandom};
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::scene::{Joint, JointKind, Scene, Span, near_pairs};
+use rand::Rng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
 
-use super::{
-    chance::{heading, uniform, weighted},
-    curriculum::Block,
-};
+use super::chance::{heading, uniform, weighted};
+use super::curriculum::Block;
 
 /// Share of revolute anchors midway between the closest points of the two objects, and of
 /// prismatic axes along their line of centres.

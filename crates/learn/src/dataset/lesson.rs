@@ -1,12 +1,7 @@
 //! What the belief regulator learns from: what windows of observed trajectories told of pairs of
 //! objects, and how these really hang together.
 
-use pushplan::internals::seeded::generator;
 use std::sync::Arc;
-
-use rand::Rng;
-use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
 
 use pushplan::internals::belief::{
     Belief, BeliefRegulator, BeliefSettings, Draft, JointType, Testimony,
@@ -14,16 +9,18 @@ use pushplan::internals::belief::{
 use pushplan::internals::effect::{EffectModel, Network};
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::{Joint, Noise, Scene, Span};
+use pushplan::internals::seeded::generator;
+use rand::Rng;
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    chance::log_uniform,
-    config::DatasetConfig,
-    constraints::{Constraints, JointRule},
-    episode::Episode,
-    observed::Seeing,
-    preset::Preset,
-    tabletop::Solids,
-};
+use super::chance::log_uniform;
+use super::config::DatasetConfig;
+use super::constraints::{Constraints, JointRule};
+use super::episode::Episode;
+use super::observed::Seeing;
+use super::preset::Preset;
+use super::tabletop::Solids;
 
 /// Keeps the random numbers of noise apart from those of episodes.
 const SALT: u64 = 0x6E6F_6973_7900_0000;

@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use pushplan::internals::effect::{Network, Prior};
 use pushplan::internals::store::{Form, Journal, RunManifest, StoreError, read_records};
 use pushplan::internals::watch::{Count, Watch};
+use rayon::prelude::*;
 
-use super::{error::DatasetError, lesson::Lesson};
+use super::error::DatasetError;
+use super::lesson::Lesson;
 
 /// The suite of a folder of lessons.
 const SUITE: &str = "lessons";

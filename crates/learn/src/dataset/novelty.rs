@@ -1,6 +1,7 @@
 //! Telling a sampled tool from the shipped ones, which are the unseen test.
 
-use std::{f64::consts::FRAC_PI_2, sync::LazyLock};
+use std::f64::consts::FRAC_PI_2;
+use std::sync::LazyLock;
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::{Pose, Shape, Vector};

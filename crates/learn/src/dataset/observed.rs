@@ -1,12 +1,11 @@
 //! A trajectory as a camera sees it: with noise, and perhaps without the headings of what is round.
 
-use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::belief::normal;
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::recording::Recording;
 use pushplan::internals::scene::{Noise, Observation, Scene, Sight};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 
 /// How well a trajectory is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,12 +1,11 @@
 //! Obstacles in the way of a pushed object, but not of the tool.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance,
 };
 use pushplan::internals::scene::{Frame, Obstacle, Scene, Span, ToolMotion};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::chance::{heading, log_uniform, sign, uniform};
 

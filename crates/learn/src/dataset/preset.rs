@@ -1,11 +1,12 @@
 //! Families of scenes and what each of them covers.
 
+use pushplan::internals::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use pushplan::internals::scene::{Ranges, Span, TRAINED_SLIDE, TRAINED_TURN};
-
-use super::{chance::weighted, hand::HAND_RADIUS, tabletop::USUAL_HEIGHT};
+use super::chance::weighted;
+use super::hand::HAND_RADIUS;
+use super::tabletop::USUAL_HEIGHT;
 
 /// The family of scenes to sample.
 ///

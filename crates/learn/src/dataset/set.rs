@@ -1,10 +1,11 @@
 //! A data set in memory.
 
+use pushplan::internals::watch::{Count, Watch};
 use rayon::prelude::*;
 
-use pushplan::internals::watch::{Count, Watch};
-
-use super::{config::DatasetConfig, episode::Episode, error::DatasetError};
+use super::config::DatasetConfig;
+use super::episode::Episode;
+use super::error::DatasetError;
 
 /// All episodes of a data set, in order of their index.
 #[derive(Clone, Debug, PartialEq)]

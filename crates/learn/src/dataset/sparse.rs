@@ -1,23 +1,20 @@
 //! Scattered objects, and the strokes of the hand through them.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, travel_to_contact,
 };
 use pushplan::internals::scene::{
     Frame, JOINABLE, Object, Ranges, Scene, Span, State, Stroke, ToolMotion,
 };
+use rand::Rng;
+use rand_pcg::Pcg64;
 
-use super::{
-    chance::{heading, log_uniform, uniform},
-    crowd::{crowd, object_count},
-    curriculum::Block,
-    hand::{HAND_RADIUS, HandPlay},
-    joints::join_neighbours,
-    tabletop::anywhere,
-};
+use super::chance::{heading, log_uniform, uniform};
+use super::crowd::{crowd, object_count};
+use super::curriculum::Block;
+use super::hand::{HAND_RADIUS, HandPlay};
+use super::joints::join_neighbours;
+use super::tabletop::anywhere;
 
 /// Share of objects put near another one rather than by themselves: without neighbours there
 /// is nothing to join.

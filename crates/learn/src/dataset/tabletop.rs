@@ -2,14 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::geometry::{
     ConvexPolygon, Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact,
 };
 use pushplan::internals::scene::{Object, Ranges, Scene, Span, Support, TRAINED_SLANT, slant};
+use rand::Rng;
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
 
 use super::chance::{heading, log_uniform, uniform};
 

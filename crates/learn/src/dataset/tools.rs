@@ -1,26 +1,24 @@
 //! Episodes with tools: one to three objects, sometimes obstacles, one to three pushes.
 
-use std::{f64::consts::FRAC_PI_2, sync::Arc};
-
-use rand::Rng;
-use rand_pcg::Pcg64;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::scene::{
     Frame, Job, Part, Ranges, Record, Scene, Span, State, Stroke, Tool, ToolMotion, Trajectory,
 };
 use pushplan::internals::sim::Simulator;
+use rand::Rng;
+use rand_pcg::Pcg64;
 
-use super::{
-    aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel},
-    assembly::random_tool,
-    chance::{heading, log_uniform, uniform, weighted},
-    jam::{crosses_obstacle, shortened_before_jam},
-    novelty::is_shipped,
-    obstacle::place_obstacle,
-    tabletop::{Crowd, Solids, anywhere, random_scene},
-    unseen::{draw_heights, draw_supports, push_height},
-};
+use super::aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel};
+use super::assembly::random_tool;
+use super::chance::{heading, log_uniform, uniform, weighted};
+use super::jam::{crosses_obstacle, shortened_before_jam};
+use super::novelty::is_shipped;
+use super::obstacle::place_obstacle;
+use super::tabletop::{Crowd, Solids, anywhere, random_scene};
+use super::unseen::{draw_heights, draw_supports, push_height};
 
 /// How often there are one, two or three objects.
 const OBJECT_COUNTS: [f64; 3] = [0.55, 0.30, 0.15];

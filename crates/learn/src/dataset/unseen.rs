@@ -2,11 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Footprint, Shape, Vector};
 use pushplan::internals::scene::{Ranges, Scene, Span, Support, carries};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::chance::{log_uniform, uniform, weighted};
 

@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 
 use candle_core::{CpuStorage, CustomOp1, DType, Device, Layout, Result, Shape, Tensor, Var, bail};
-
+use pushplan::internals::network::{
+    Convolution, ImageSizes, Parameters, fresh_bound, image_layout,
+};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::network::operations::{floats, with_floats};
-use pushplan::internals::network::Parameters;
-
-use pushplan::internals::network::{Convolution, ImageSizes, fresh_bound, image_layout};
 
 /// Values and variables of a graph by name.
 type Named = (BTreeMap<String, Tensor>, BTreeMap<String, Var>);

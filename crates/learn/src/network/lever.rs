@@ -3,12 +3,9 @@
 use std::collections::BTreeMap;
 
 use candle_core::{DType, Device, Result, Tensor, Var};
-
-use pushplan::internals::network::Parameters;
+use pushplan::internals::network::{LeverSizes, Parameters, image_layout, lever_layout};
 
 use crate::network::image::{image_codes, variables};
-use pushplan::internals::network::image_layout;
-use pushplan::internals::network::{LeverSizes, lever_layout};
 
 /// Lever-ups side by side.
 pub struct LeverTensors {

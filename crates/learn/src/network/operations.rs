@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use candle_core::{CpuStorage, CustomOp2, CustomOp3, DType, Layout, Result, Shape, Tensor, bail};
-
 use pushplan::internals::network::{Sum, rectify_rows};
 
 /// `rectify(x + bias)`, the bias added to the even half: x [2, M, h], bias [h].

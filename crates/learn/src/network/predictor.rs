@@ -12,14 +12,15 @@
 //! behind its rectifier is merged with f_O's, since a sum commutes with it. B graphs are laid
 //! side by side as N nodes and R relations.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use candle_core::{Device, Result, Tensor, Var, bail};
-
-use crate::network::operations::{BiasRectify, Messages};
 use pushplan::internals::network::{
     Config, Normaliser, Parameters, Rows, Statistics, Tables, layout_of,
 };
+
+use crate::network::operations::{BiasRectify, Messages};
 
 /// A batch as normalised tensors.
 pub struct Inputs {

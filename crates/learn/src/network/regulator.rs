@@ -4,10 +4,7 @@
 use std::collections::BTreeMap;
 
 use candle_core::{DType, Device, Result, Tensor, Var, bail};
-
-use pushplan::internals::network::Parameters;
-
-use pushplan::internals::network::{TYPES, regulator_layout};
+use pushplan::internals::network::{Parameters, TYPES, regulator_layout};
 
 /// Pairs of several episodes side by side, window by window.
 pub struct Unrolled {

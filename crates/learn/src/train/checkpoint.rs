@@ -1,13 +1,13 @@
 //! Everything that a run needs to resume bit-exactly, in one safetensors file.
 
+use pushplan::internals::network::{
+    Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata, layout,
+};
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::dataset::DatasetConfig;
-use pushplan::internals::network::{
-    Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata, layout,
-};
 
 use super::{AdamW, HeldOutError, Settings};
 

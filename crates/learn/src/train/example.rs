@@ -1,16 +1,16 @@
 //! Single frames of episodes as training examples, with disturbed inputs.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
-
-use crate::dataset::Episode;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold};
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::graph::{Batch, Node};
 use pushplan::internals::network::{Buffers, Forward};
 use pushplan::internals::rollout::{Stepper, Walk, integrate};
 use pushplan::internals::scene::{COAST_FRAME, FrameStep, Physics, State};
+use rand::Rng;
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+
+use crate::dataset::Episode;
 
 /// How input states are disturbed (Sanchez-Gonzalez et al. 2020, "random-walk noise").
 ///

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use candle_core::{Result, Tensor, Var};
-
 use pushplan::internals::network::Parameters;
 
 /// The value of a scalar `loss` and its gradient by `variables`, zero for those that it does not depend

@@ -1,10 +1,10 @@
 //! The held-out criterion: whole rollouts against the truth.
 
+use pushplan::internals::effect::EffectModel;
+use pushplan::internals::judge::{Comparison, ObjectError, Trial, mean, percentile};
 use rayon::prelude::*;
 
 use crate::dataset::Episode;
-use pushplan::internals::effect::EffectModel;
-use pushplan::internals::judge::{Comparison, ObjectError, Trial, mean, percentile};
 
 use super::HeldOutError;
 

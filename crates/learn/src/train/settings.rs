@@ -1,8 +1,7 @@
 //! Everything that decides a training run besides its data.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::network::Config;
+use serde::{Deserialize, Serialize};
 
 use super::{Descent, Noise};
 

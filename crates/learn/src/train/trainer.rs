@@ -1,16 +1,9 @@
 //! The training loop: draw, differentiate on two replicas, step, evaluate, save.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use rayon::prelude::*;
-use thiserror::Error;
-
-use crate::dataset::{Dataset, DatasetError};
-use crate::network::{Inputs, Predictor};
 use pushplan::internals::asset::{Faults, write_atomic};
 use pushplan::internals::effect::Network;
 use pushplan::internals::network::{
@@ -18,11 +11,19 @@ use pushplan::internals::network::{
 };
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
+use rayon::prelude::*;
+use thiserror::Error;
 
+use crate::dataset::{Dataset, DatasetError};
+use crate::network::{Inputs, Predictor};
+
+use super::example::Supervised;
+use super::gradients::gradients_of;
+use super::log::Log;
+use super::loss::loss;
 use super::{
     AdamW, Checkpoint, CheckpointError, Examples, HeldOutError, MetricLine, Settings,
-    example::Supervised, gradients::gradients_of, learning_rate, log::Log, loss::loss,
-    rollout_error,
+    learning_rate, rollout_error,
 };
 
 /// A step's graphs are split into this many parts, differentiated in parallel and added in

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::scene::{Engine, Frame, Job, Physics, Rate, Record, Scene, Warning};
 use pushplan::internals::sim::Simulator;
 use pushplan_learn::dataset::Episode;
+use serde::{Deserialize, Serialize};
 
 /// Factors by which an observer is misled about friction values: of objects, of pairs and of the table.
 const FRICTIONS: [f64; 2] = [0.6, 1.3];

@@ -1,10 +1,12 @@
 //! One trajectory followed by all methods.
 
-use std::{sync::Arc, time::Duration};
+use std::sync::Arc;
+use std::time::Duration;
 
 use pushplan::internals::belief::{
     Belief, BeliefRegulator, BeliefSettings, JointType, residual_types,
 };
+use pushplan::internals::bench::processor_time;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::judge::mean;
@@ -16,7 +18,6 @@ use pushplan::internals::scene::{
 use pushplan_learn::dataset::true_type;
 
 use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
-use pushplan::internals::bench::processor_time;
 
 /// When beliefs are asked, but at the end, where they always are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

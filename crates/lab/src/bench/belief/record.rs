@@ -1,8 +1,7 @@
 //! What is measured on one trajectory.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::belief::JointType;
+use serde::{Deserialize, Serialize};
 
 /// Ways to tell how objects are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]

@@ -1,8 +1,5 @@
 //! The cases and their trajectories.
 
-use serde::{Deserialize, Serialize};
-
-use crate::bench::{CrowdFamily, CrowdSet};
 use pushplan::internals::belief::BeliefRegulator;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
@@ -10,12 +7,13 @@ use pushplan::internals::scene::Noise;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::store::Measured;
 use pushplan_learn::dataset::{Episode, JointRule, Seeing, Solids};
+use serde::{Deserialize, Serialize};
 
-use super::{
-    circumstances::Circumstances,
-    follow::{Asked, follow},
-    record::BeliefRecord,
-};
+use crate::bench::{CrowdFamily, CrowdSet};
+
+use super::circumstances::Circumstances;
+use super::follow::{Asked, follow};
+use super::record::BeliefRecord;
 
 /// Keeps the random numbers of noise apart from those of scenes.
 const SALT: u64 = 0x5345_4549_4E47_0000;

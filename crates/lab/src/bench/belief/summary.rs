@@ -1,16 +1,12 @@
 //! Trajectories of a case, taken together.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::belief::JointType;
 use pushplan::internals::judge::{Calibration, Summary, mean, percentile};
-
 use pushplan::internals::store::Finished;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    record::{BeliefRecord, Checkpoint, JointMethod, When},
-    suite::BeliefCase,
-};
+use super::record::{BeliefRecord, Checkpoint, JointMethod, When};
+use super::suite::BeliefCase;
 
 /// What was measured on one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

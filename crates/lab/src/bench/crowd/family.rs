@@ -1,11 +1,10 @@
 //! The test sets: families of crowds by number of objects, joints and solids.
 
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::judge::Trial;
 use pushplan::internals::watch::{Count, Watch};
 use pushplan_learn::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// Keeps the seeds of test sets apart from those of training and of its held-out data, which
 /// are small numbers.
@@ -21,8 +20,6 @@ pub enum CrowdFamily {
     SparseLine,
     /// A grid of objects almost touching, one stroke.
     Dense,
-    /// What the user has recorded.
-    Recordings,
 }
 
 impl CrowdFamily {
@@ -32,18 +29,16 @@ impl CrowdFamily {
             CrowdFamily::Sparse => "sparse",
             CrowdFamily::SparseLine => "sparse-line",
             CrowdFamily::Dense => "dense",
-            CrowdFamily::Recordings => "recordings",
         }
     }
 
     /// How its scenes are drawn, and with which numbers of objects it is tested: those of the
     /// thesis, training's nine among them.
-    fn drawn(self) -> Option<(Preset, [usize; 3])> {
+    fn drawn(self) -> (Preset, [usize; 3]) {
         match self {
-            CrowdFamily::Sparse => Some((Preset::Sparse, [6, 9, 12])),
-            CrowdFamily::SparseLine => Some((Preset::SparseLine, [6, 9, 12])),
-            CrowdFamily::Dense => Some((Preset::Dense, [6, 8, 9])),
-            CrowdFamily::Recordings => None,
+            CrowdFamily::Sparse => (Preset::Sparse, [6, 9, 12]),
+            CrowdFamily::SparseLine => (Preset::SparseLine, [6, 9, 12]),
+            CrowdFamily::Dense => (Preset::Dense, [6, 8, 9]),
         }
     }
 }
@@ -51,7 +46,7 @@ impl CrowdFamily {
 /// One test set: what its scenes hold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CrowdSet {
-    /// Its family; not [`CrowdFamily::Recordings`], which is not drawn.
+    /// Its family.
     pub family: CrowdFamily,
     /// Number of objects.
     pub objects: usize,
@@ -65,7 +60,7 @@ impl CrowdSet {
     /// All sets of a family: three numbers of objects, fixed and mixed joints, cylinders alone
     /// and any solids.
     pub fn all(family: CrowdFamily) -> Vec<Self> {
-        let counts = family.drawn().map(|(_, counts)| counts.to_vec()).unwrap_or_default();
+        let (_, counts) = family.drawn();
         let mut sets = Vec::new();
         for objects in counts {
             for joints in [JointRule::Fixed, JointRule::Mixed] {
@@ -93,12 +88,9 @@ impl CrowdSet {
     }
 
     /// The first `count` trajectories of the set under `seed`, simulated in the plane on all
-    /// threads of the current rayon pool; none for a family that is not drawn. `watch` is told
-    /// the trajectories done.
+    /// threads of the current rayon pool. `watch` is told the
+    /// trajectories done.
     pub fn draw(&self, seed: u64, count: usize, watch: &dyn Watch) -> Vec<Trial> {
-        if self.family.drawn().is_none() {
-            return Vec::new();
-        }
         watch.stage("simulating");
         let done = Count::new(watch, 0, count);
         (0..count as u64)
@@ -114,7 +106,7 @@ impl CrowdSet {
 
     /// Trajectory `index` of the set under `seed`, simulated in the plane.
     pub fn episode(&self, seed: u64, index: u64) -> Episode {
-        let preset = self.family.drawn().map_or(Preset::Sparse, |(preset, _)| preset);
+        let (preset, _) = self.family.drawn();
         let config = DatasetConfig {
             // Sets must not share scenes either.
             seed: (seed ^ SALT).wrapping_mul(64).wrapping_add(self.number()),

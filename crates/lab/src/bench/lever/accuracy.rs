@@ -1,15 +1,14 @@
 //! Errors of models of lever-ups on those that none was made from.
 
-use serde::{Deserialize, Serialize};
-
+use pushplan::internals::bench::timed;
 use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::judge::{LeverError, Summary, lever_error};
 use pushplan::internals::scene::{Ending, LeverJob, LeverTrajectory};
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
+use serde::{Deserialize, Serialize};
 
 use super::baselines::LeverBaseline;
 use super::supports::{SupportRow, support_rows};
-use pushplan::internals::bench::timed;
 
 /// Errors of one model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,12 @@
 //! Models of lever-ups without physics: what any other must beat.
 
-use rand::Rng;
-use rayon::prelude::*;
-
 use pushplan::internals::effect::{LeverModel, LeverTrust, LeverView, lever_features};
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
 use pushplan::internals::seeded::generator;
 use pushplan_learn::dataset::LeverEpisode;
+use rand::Rng;
+use rayon::prelude::*;
 
 /// What decides which lever-up is alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,17 +3,15 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
+use pushplan::internals::bench::timed;
 use pushplan::internals::judge::Summary;
 use pushplan::internals::scene::{Ending, LeverJob, LeverScene, LeverTrajectory, LeverWarning};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
-
-use pushplan::internals::bench::timed;
+use rand::Rng;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 /// How far aside plates start to see how exact a truth can be, metres.
 const ASIDE: f64 = 1e-4;

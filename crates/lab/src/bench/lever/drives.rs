@@ -1,11 +1,10 @@
 //! Errors of models of boards that are levered out of drives (Tekden 2020, section 8.5).
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::effect::{LeverModel, LeverTrust};
 use pushplan::internals::judge::{Summary, lever_error};
 use pushplan::internals::scene::{LeverJob, LeverScene, LeverTrajectory};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverEpisode};
+use serde::{Deserialize, Serialize};
 
 use super::accuracy::on_one_core;
 use super::suite::pocket;

@@ -1,9 +1,8 @@
 //! How often the support edge in closed form is the one that a plate stands on.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::geometry::Vector3;
 use pushplan_learn::dataset::LeverEpisode;
+use serde::{Deserialize, Serialize};
 
 /// The frame whose lowest corners count: by then the plate is up, and rarely past an edge.
 const FRAME: usize = 1;

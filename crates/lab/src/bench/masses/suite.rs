@@ -1,8 +1,5 @@
 //! The cases and their trajectories.
 
-use serde::{Deserialize, Serialize};
-
-use crate::bench::Sighting;
 use pushplan::internals::belief::{Belief, BeliefSettings};
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::recording::Recording;
@@ -10,6 +7,9 @@ use pushplan::internals::scene::Unknowns;
 use pushplan::internals::seeded::generator;
 use pushplan::internals::store::Measured;
 use pushplan_learn::dataset::{Controlled, MASS_RANGES, MassEpisode, MassSetup, Touched};
+use serde::{Deserialize, Serialize};
+
+use crate::bench::Sighting;
 
 /// Keeps the random numbers of noise apart from those of scenes.
 const SALT: u64 = 0x4845_4156_5900_0000;

@@ -1,9 +1,8 @@
 //! Many trajectories in a few numbers.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::judge::{Calibration, mean, percentile};
 use pushplan_learn::dataset::{MASS_RANGES, Touched};
+use serde::{Deserialize, Serialize};
 
 use super::suite::{MassCase, MassRecord, SeenMass, SeenRatio};
 

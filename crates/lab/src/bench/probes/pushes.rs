@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::act::Probe;
 use pushplan::internals::geometry::{Pose, Vector, perpendicular, travel_to_contact};
 use pushplan::internals::scene::{Scene, State, Stroke, ToolMotion};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 /// Gap between the hand and what it touches first, metres.
 const STAND_OFF: f64 = 0.01;

@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
-use crate::bench::{CrowdFamily, CrowdSet, Sighting};
 use pushplan::internals::act::{ProbeRule, choose_probe};
 use pushplan::internals::belief::{Belief, BeliefSettings, JointType, carried};
 use pushplan::internals::effect::EffectModel;
@@ -15,6 +12,9 @@ use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::store::Measured;
 use pushplan_learn::dataset::{Episode, JointRule, Solids, true_type};
+use serde::{Deserialize, Serialize};
+
+use crate::bench::{CrowdFamily, CrowdSet, Sighting};
 
 use super::pushes::random_push;
 

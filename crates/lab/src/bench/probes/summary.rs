@@ -1,8 +1,7 @@
 //! Many scenes in a few numbers.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::judge::{mean, percentile};
+use serde::{Deserialize, Serialize};
 
 use super::suite::{Learnt, ProbeCase, ProbeRecord};
 

@@ -2,13 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-use rand::seq::SliceRandom;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::Vector;
 use pushplan::internals::scene::{DisjointSets, JointKind, Ranges, Scene, near_pairs};
 use pushplan_learn::dataset::{Crowd, Solids, random_scene};
+use rand::Rng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
 
 /// Objects of a cluster.
 const COUNT: usize = 4;

@@ -1,11 +1,10 @@
 //! Random tasks that do not know their scene.
 
-use rand::Rng;
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::belief::normal;
 use pushplan::internals::scene::{Engine, Scene, Support, Task, Truth, Unknowns};
 use pushplan::internals::seeded::generator;
+use rand::Rng;
+use serde::{Deserialize, Serialize};
 
 use super::kind::TaskKind;
 use super::layout::round;

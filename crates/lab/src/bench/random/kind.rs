@@ -3,10 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::geometry::{Pose, Vector, wrap_angle};
 use pushplan::internals::scene::Span;
+use serde::{Deserialize, Serialize};
 
 use super::one_push::TRAVEL;
 

@@ -3,12 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Footprint, Pose, Shape, Vector, clearance, swept_clearance};
 use pushplan::internals::scene::{Goal, Joint, JointKind, Obstacle, Ranges, Robot, Scene, Task};
 use pushplan_learn::dataset::{Crowd, Solids, random_scene};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::cluster::cluster;
 use super::kind::TaskKind;

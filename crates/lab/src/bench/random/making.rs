@@ -3,13 +3,12 @@
 use std::f64::consts::FRAC_PI_8;
 use std::sync::Arc;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::plan::{
     Candidate, CandidatePush, Evaluation, Rollouts, Start, Workspace, evaluate,
 };
 use pushplan::internals::scene::{Plan, Push, Span, Task, Tool};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::kind::{Rules, TaskKind};
 use super::one_push::{TRAVEL, WAYS};

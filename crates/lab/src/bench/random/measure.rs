@@ -1,8 +1,5 @@
 //! What is measured on a random task: our plan, beside doing nothing and a random choice.
 
-use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::geometry::Pose;
@@ -11,6 +8,8 @@ use pushplan::internals::seeded::generator;
 use pushplan::internals::solve::{Planner, SolveError};
 use pushplan::internals::store::Measured;
 use pushplan::internals::verify::{Verifier, VerifySettings};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::kind::TaskKind;
 use super::making::random_plan;

@@ -4,9 +4,6 @@
 use std::f64::consts::{FRAC_PI_8, TAU};
 use std::sync::Arc;
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::Simulated;
 use pushplan::internals::geometry::{Pose, Vector};
@@ -17,6 +14,8 @@ use pushplan::internals::scene::{
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan_learn::dataset::{Crowd, Preset, Solids, random_scene};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 /// Distance of the object from the robot's base, metres.
 const PLACES: Span = Span::new(0.35, 0.80);

@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use rand_pcg::Pcg64;
-use thiserror::Error;
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::effect::Simulated;
 use pushplan::internals::geometry::{Pose, Vector, cross};
@@ -13,6 +10,8 @@ use pushplan::internals::scene::{Plan, Scene, Situation, Task, Tool};
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::Simulator;
 use pushplan::internals::verify::{Verifier, VerifySettings};
+use rand_pcg::Pcg64;
+use thiserror::Error;
 
 use super::gap::gap_task;
 use super::kind::TaskKind;

@@ -5,16 +5,13 @@ use std::collections::BTreeMap;
 use pushplan::internals::scene::ModelKind;
 use pushplan::internals::solve::Effort;
 
-use super::{PlanLevel, measured::PlanRow};
+use super::PlanLevel;
+use super::measured::PlanRow;
 
 /// How much more often than the best level each effort may fail, as a share of disturbed replays:
 /// three times less from one to the next.
-const LOSSES: [(Effort, f64); 4] = [
-    (Effort::Draft, 0.10),
-    (Effort::Standard, 0.032),
-    (Effort::Thorough, 0.01),
-    (Effort::Exhaustive, 0.0),
-];
+const LOSSES: [(Effort, f64); 3] =
+    [(Effort::Draft, 0.10), (Effort::Standard, 0.032), (Effort::Thorough, 0.01)];
 
 /// The efforts among the levels on the front whose models are part of the library: each is the
 /// cheapest that fails no more often than it may. Where a cheap level is as robust as any, efforts

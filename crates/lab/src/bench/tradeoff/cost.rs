@@ -1,12 +1,13 @@
 //! What a push costs at every level, all levels in turn.
 
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::store::Seconds;
+use pushplan_learn::dataset::JointRule;
+
 use crate::bench::inference::peak;
 use crate::bench::suite::{Case, jointed_crowd_cases};
 use crate::bench::timing::push_seconds;
 use crate::bench::{Suite, SuiteKind};
-use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::store::Seconds;
-use pushplan_learn::dataset::JointRule;
 
 use super::levels::Level;
 

@@ -3,11 +3,10 @@
 use std::num::{NonZeroU8, NonZeroU16};
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::effect::{EffectModel, EffectModels, ModelError};
 use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Rate, Stride};
 use pushplan::internals::solve::Settings;
+use serde::{Deserialize, Serialize};
 
 /// Frames predicted as one, besides single frames, that the shipped network and its prior are
 /// measured with.

@@ -2,22 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
-use crate::bench::SuiteKind;
 use pushplan::internals::asset::SCHEMA_VERSION;
 use pushplan::internals::bench::{End, SolvedTask};
 use pushplan::internals::judge::{Summary, mean, percentile};
 use pushplan::internals::solve::{Effort, PlanStatus};
 use pushplan::internals::store::Seconds;
+use serde::{Deserialize, Serialize};
 
-use super::{
-    choice::choose_efforts,
-    cost::{OBJECTS, YARDSTICK, alone_key, key},
-    front::{Noise, Point, on_front},
-    levels::{Level, PlanLevel},
-    run::{CONTROL, TradeOffSettings, Unit, verification_key},
-};
+use crate::bench::SuiteKind;
+
+use super::choice::choose_efforts;
+use super::cost::{OBJECTS, YARDSTICK, alone_key, key};
+use super::front::{Noise, Point, on_front};
+use super::levels::{Level, PlanLevel};
+use super::run::{CONTROL, TradeOffSettings, Unit, verification_key};
 
 /// Costs of tasks that differ by less are never told apart, relative.
 const LEAST_COST_NOISE: f64 = 0.02;

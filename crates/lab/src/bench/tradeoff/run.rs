@@ -2,24 +2,21 @@
 
 use std::sync::OnceLock;
 
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::bench::{SolvedTask, timed};
+use pushplan::internals::scene::{ModelSpec, Situation, Task};
+use pushplan::internals::solve::{Planner, Solution, SolveError};
+use pushplan::internals::store::{Measured, RunManifest, Seconds};
+use pushplan::internals::verify::{Verifier, VerifySettings};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use crate::bench::{HeldOut, HeldOutErrors, RandomError, RandomSuite, SuiteKind, TaskKind};
-use pushplan::internals::asset::ToolLibrary;
-use pushplan::internals::bench::SolvedTask;
-use pushplan::internals::bench::timed;
-use pushplan::internals::scene::{ModelSpec, Situation, Task};
-use pushplan::internals::solve::{Planner, Solution, SolveError};
-use pushplan::internals::store::{Measured, RunManifest, Seconds};
-use pushplan::internals::verify::{Verifier, VerifySettings};
 
-use super::{
-    cost::Timed,
-    levels::{Level, PlanLevel},
-    measured::{SuiteErrors, TradeOffReport},
-};
+use super::cost::Timed;
+use super::levels::{Level, PlanLevel};
+use super::measured::{SuiteErrors, TradeOffReport};
 
 /// Held-out pushes on which errors are measured.
 const SUITES: [SuiteKind; 2] = [SuiteKind::Single, SuiteKind::Touching];

@@ -1,44 +1,38 @@
 //! The command: what is measured on what.
 
 use clap::Args;
-
-use crate::bench::SuiteKind;
-use crate::report::evaluation_document;
 use pushplan::cli::action::LibraryArgs;
 use pushplan::cli::error::CliError;
 use pushplan::cli::form::Form;
 use pushplan::cli::model::OutsideArgs;
-use pushplan::cli::poses::PosesArgs;
 use pushplan::cli::session::Session;
 use pushplan::cli::{exit_code, model, output};
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::store::Shard;
 
+use crate::bench::SuiteKind;
 use crate::cli::evaluate::crowds::Crowds;
 use crate::cli::evaluate::on::On;
 use crate::cli::evaluate::parts::Parts;
-use crate::cli::evaluate::sources::{CrowdArgs, Sources};
+use crate::cli::evaluate::sources::CrowdArgs;
+use crate::report::evaluation_document;
 
-/// Measure prediction errors on held-out pushes, crowds and your own recordings
+/// Measure prediction errors on held-out pushes and crowds
 #[derive(Args, Debug)]
 #[command(after_help = "What to measure on, any of:
   tools          all pushes of a shipped tool: single, single-any-speed, touching (default)
   sparse, dense  scenes of 6 to 12 objects, some joined, pushed by a round hand
   sparse-line    the same with one long stroke
   all            sparse and dense
-  FILE, FOLDER   your own recordings (`pushplan schema recording`), or trajectory files; those of
-                 a folder are measured together
 
 With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
 interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
-machine say; `pushplan bench merge OUT SHARD...` makes of all shards what one run would have left.
-Recordings are measured anew each time.
+machine say; `pushplan-lab merge OUT SHARD...` makes of all shards what one run would have left.
 
 Examples:
   pushplan-lab evaluate --on single --pushes 2000
   pushplan-lab evaluate --on dense --objects 9 --count 50 --out plans
-  pushplan-lab evaluate runs/full/best.safetensors --on push.recording.json
-  pushplan-lab evaluate prior --on recordings/ --export poses.csv")]
+  pushplan-lab evaluate runs/full/best.safetensors --on tools")]
 pub struct EvaluateArgs {
     /// The model, the same as --model
     #[arg(value_name = "MODEL", conflicts_with = "model")]
@@ -63,8 +57,6 @@ pub struct EvaluateArgs {
     #[command(flatten)]
     pub crowd: CrowdArgs,
     #[command(flatten)]
-    poses: PosesArgs,
-    #[command(flatten)]
     pub library: LibraryArgs,
     #[command(flatten)]
     pub form: Form,
@@ -72,40 +64,29 @@ pub struct EvaluateArgs {
 
 pub fn run(args: &EvaluateArgs, session: &Session) -> Result<u8, CliError> {
     let model = args.positional.as_ref().unwrap_or(&args.model);
-    let (mut kinds, mut families, mut files) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut kinds, mut families) = (Vec::new(), Vec::new());
     for on in &args.on {
         match on {
             On::Tools(named) => kinds.extend(named),
             On::Crowds(named) => families.extend(named),
-            On::File(path) => files.push(path.clone()),
         }
     }
     if args.on.is_empty() {
         kinds = SuiteKind::ALL.to_vec();
     }
-    if args.shard.is_some() && !files.is_empty() {
-        return Err(CliError::usage(
-            "recordings are measured in one go",
-            "leave out --shard, or name only what is drawn, such as dense",
-        ));
-    }
-    let sources = Sources::load(&families, &files, &args.crowd)?;
+    let sets = args.crowd.sets(&families)?;
     if let Some(folder) = &args.crowd.out {
         output::prepare(folder)?;
     }
     let crowds = Crowds {
-        sources: &sources,
+        sets: &sets,
         model,
         outside: args.outside,
         seed: args.seed,
         args: &args.crowd,
-        poses: &args.poses,
         form: args.form,
     };
-    let (suites, mut reports) = Parts { args, kinds: &kinds, crowds: &crowds }.run(session)?;
-    if !sources.recordings.is_empty() {
-        crowds.recordings(&suites, &mut reports, session)?;
-    }
+    let (suites, reports) = Parts { args, kinds: &kinds, crowds: &crowds }.run(session)?;
     let several = reports.len() > 1 || args.crowd.summary && !reports.is_empty();
     args.form.show_rest(session, &evaluation_document(&suites, &reports), several)?;
     Ok(exit_code::DONE)

@@ -1,6 +1,5 @@
-//! What to measure on, by a word or a file's name.
+//! What to measure on, by a word.
 
-use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::bench::{CrowdFamily, SuiteKind};
@@ -12,8 +11,6 @@ pub enum On {
     Tools(Vec<SuiteKind>),
     /// Scenes of many objects.
     Crowds(Vec<CrowdFamily>),
-    /// A recording, or a folder of them.
-    File(PathBuf),
 }
 
 impl FromStr for On {
@@ -33,12 +30,12 @@ impl FromStr for On {
             file if file.ends_with(".safetensors") => {
                 return Err("these are weights; name them before --on, or behind --model".into());
             }
-            file if file.contains(['.', '/']) || Path::new(file).is_dir() => {
-                On::File(PathBuf::from(file))
+            file if file.contains(['.', '/']) => {
+                return Err("recordings are judged by `pushplan predict FILE...`".into());
             }
             _ => {
                 return Err("use tools, single, single-any-speed, touching, sparse, sparse-line, \
-                            dense, all, or a file or folder of recordings"
+                            dense or all"
                     .into());
             }
         })

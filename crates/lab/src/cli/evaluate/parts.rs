@@ -1,11 +1,5 @@
 //! What is drawn to be measured on, part by part: kept, resumed and split into shards.
 
-use serde_json::json;
-
-use crate::bench::{
-    CrowdReport, CrowdSet, Evaluated, HeldOut, HeldOutReport, SuiteKind, by_kind, push_baselines,
-};
-use crate::report::heldout_document;
 use pushplan::cli::bench::{value_digest, weights_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
@@ -14,9 +8,14 @@ use pushplan::cli::session::Session;
 use pushplan::internals::effect::EffectModel;
 use pushplan::internals::store::{Measured, RunManifest, Seconds, Shard, Store};
 use pushplan::internals::watch::Unwatched;
+use serde_json::json;
 
+use crate::bench::{
+    CrowdReport, CrowdSet, Evaluated, HeldOut, HeldOutReport, SuiteKind, by_kind, push_baselines,
+};
 use crate::cli::evaluate::command::EvaluateArgs;
 use crate::cli::evaluate::crowds::Crowds;
+use crate::report::heldout_document;
 
 /// Name of the suite in manifests.
 pub const SUITE: &str = "evaluation";
@@ -45,8 +44,7 @@ impl Parts<'_> {
         session: &Session,
     ) -> Result<(Vec<HeldOutReport>, Vec<CrowdReport>), CliError> {
         let kinds = self.kinds.iter().map(|kind| Part::Tools(*kind));
-        let parts: Vec<Part> =
-            kinds.chain(self.crowds.sources.sets.iter().map(Part::Crowd)).collect();
+        let parts: Vec<Part> = kinds.chain(self.crowds.sets.iter().map(Part::Crowd)).collect();
         if parts.is_empty() {
             return Ok((Vec::new(), Vec::new()));
         }

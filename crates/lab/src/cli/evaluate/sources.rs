@@ -1,19 +1,14 @@
-//! Crowds and recordings to measure on, picked by options or read from files.
+//! Crowds to measure on, picked by options.
 
 use std::path::PathBuf;
 
 use clap::Args;
-
-use crate::bench::{CrowdFamily, CrowdSet, JointMethod};
-use crate::cli::words::{ASKED_JOINTS, AskedJoints};
 use pushplan::cli::error::CliError;
-use pushplan::cli::noise::NoiseArgs;
-use pushplan::cli::recordings::{RecordingSet, load_recordings};
-use pushplan::cli::regulator::RegulatorArgs;
 use pushplan::cli::words::words;
-use pushplan::internals::scene::Noise;
-use pushplan_learn::cli::words::SOLIDS;
+use pushplan_learn::cli::words::{JOINTS, SOLIDS};
 use pushplan_learn::dataset::{JointRule, Solids};
+
+use crate::bench::{CrowdFamily, CrowdSet};
 
 /// Options of scenes of many objects.
 #[derive(Args, Debug)]
@@ -25,21 +20,16 @@ pub struct CrowdArgs {
     /// Only sets with this many objects
     #[arg(long, value_name = "N")]
     objects: Vec<usize>,
-    /// Only sets with these joints; of recordings, what is told of the joints while the rest of the way
-    /// is predicted from first contact on
-    #[arg(long, num_args = 1.., value_parser = words(&ASKED_JOINTS), value_name = "JOINTS")]
-    joints: Vec<AskedJoints>,
-    #[command(flatten)]
-    noise: NoiseArgs,
-    #[command(flatten)]
-    pub regulator: RegulatorArgs,
+    /// Only sets with these joints
+    #[arg(long, num_args = 1.., value_parser = words(&JOINTS[1..]), value_name = "JOINTS")]
+    joints: Vec<JointRule>,
     /// Only sets of these solids
     #[arg(long, value_parser = words(&SOLIDS), value_name = "SOLIDS")]
     solids: Option<Solids>,
-    /// Measure the model alone on sparse and dense scenes and recordings, without baselines
+    /// Measure the model alone on sparse and dense scenes, without baselines
     #[arg(long)]
     pub no_baselines: bool,
-    /// Of sparse and dense scenes and recordings print only one table, a row for each set
+    /// Of sparse and dense scenes print only one table, a row for each set
     #[arg(long)]
     pub summary: bool,
     /// Folder that keeps every finished part, evaluation.json, written again after each, and the
@@ -48,52 +38,25 @@ pub struct CrowdArgs {
     pub out: Option<PathBuf>,
 }
 
-/// What to measure on, read or ready to be drawn.
-pub struct Sources {
-    pub sets: Vec<CrowdSet>,
-    pub recordings: Vec<RecordingSet>,
-}
-
-impl Sources {
-    /// Reads the files and picks the sets.
+impl CrowdArgs {
+    /// The sets that are asked for.
     ///
     /// # Errors
-    /// All faults of all files; sets of which the options leave none.
-    pub fn load(
-        families: &[CrowdFamily],
-        files: &[PathBuf],
-        args: &CrowdArgs,
-    ) -> Result<Self, CliError> {
-        let sets: Vec<CrowdSet> = families
-            .iter()
-            .flat_map(|family| CrowdSet::all(*family))
-            .filter(|set| args.picks(set))
-            .collect();
-        if sets.is_empty() && !families.is_empty() {
-            return Err(CliError::usage(
+    /// Options that leave none of them.
+    pub fn sets(&self, families: &[CrowdFamily]) -> Result<Vec<CrowdSet>, CliError> {
+        let all = families.iter().flat_map(|family| CrowdSet::all(*family));
+        let sets: Vec<CrowdSet> = all.filter(|set| self.picks(set)).collect();
+        match sets.is_empty() && !families.is_empty() {
+            true => Err(CliError::usage(
                 "no set has that many objects",
                 "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
-            ));
+            )),
+            false => Ok(sets),
         }
-        Ok(Self { sets, recordings: load_recordings(files)? })
-    }
-}
-
-impl CrowdArgs {
-    /// Errors of recorded poses, for beliefs.
-    pub fn noise(&self) -> Noise {
-        self.noise.noise()
-    }
-
-    /// What is told of the joints of recordings.
-    pub fn told(&self) -> Vec<JointMethod> {
-        let asked: Vec<JointMethod> = self.joints.iter().filter_map(|asked| asked.told()).collect();
-        JointMethod::ALL.into_iter().filter(|method| asked.contains(method)).collect()
     }
 
     fn picks(&self, set: &CrowdSet) -> bool {
-        let rules: Vec<JointRule> = self.joints.iter().filter_map(|asked| asked.rule()).collect();
-        let joints = rules.is_empty() || rules.contains(&set.joints);
+        let joints = self.joints.is_empty() || self.joints.contains(&set.joints);
         let solids = self.solids.is_none_or(|solids| set.solids == solids);
         let objects = self.objects.is_empty() || self.objects.contains(&set.objects);
         joints && solids && objects

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
+use pushplan::internals::store::RunManifest;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-
-use pushplan::internals::store::RunManifest;
 
 use super::super::error::DatasetError;
 use super::preset::LeverPreset;

@@ -1,10 +1,9 @@
 //! Drives built of cuboids: a floor, walls around a pocket, standoffs, and the board with its chips.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::scene::{Block, LeverScene, LeverUp, Place, Plate, Slab};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::super::chance::uniform;
 use super::plates::{anywhere, lever, screwdriver};

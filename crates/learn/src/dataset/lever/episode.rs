@@ -1,14 +1,13 @@
 //! One episode: a random scene, a random lever-up and what it does.
 
-use pushplan::internals::seeded::generator;
 use std::sync::Arc;
-
-use serde::{Deserialize, Serialize};
 
 use pushplan::internals::scene::{
     LeverJob, LeverMotion, LeverScene, LeverTrajectory, LeverUp, LeverWarning,
 };
+use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
+use serde::{Deserialize, Serialize};
 
 use super::config::LeverConfig;
 use super::preset::{DISC_PLACES, LeverPreset};

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use rayon::prelude::*;
-
 use pushplan::internals::store::{Form, Journal, RunManifest, Shard, StoreError, read_records};
 use pushplan::internals::watch::{Count, Watch};
+use rayon::prelude::*;
 
 use super::super::error::DatasetError;
 use super::config::LeverConfig;

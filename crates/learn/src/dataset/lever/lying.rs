@@ -1,10 +1,9 @@
 //! Boxes and lying cylinders: rectangles from above, which only their depth tells apart.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::scene::{LeverScene, LeverUp, Place, Plate, Slab};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::super::chance::uniform;
 use super::plates::{CLEARANCE, DENSITY, FRICTION, alone, lever, plate};

@@ -2,11 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Vector};
 use pushplan::internals::scene::{Blade, LeverScene, LeverUp, Place, Plate, Slab};
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::super::chance::{heading, uniform};
 use super::preset::DISC_PLACES;

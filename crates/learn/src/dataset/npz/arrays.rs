@@ -1,8 +1,9 @@
 //! Episodes as arrays.
 
-use crate::dataset::Episode;
 use pushplan::internals::geometry::{MAX_CORNERS, Pose, Shape, Vector};
 use pushplan::internals::scene::{Frame, Object, Stroke};
+
+use crate::dataset::Episode;
 
 use super::archive::{Array, Numbers};
 

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::store::{Form, Journal, StoreError, digest};
+use pushplan::internals::watch::{Count, Watch};
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::config::DatasetConfig;
 use crate::dataset::error::DatasetError;
 use crate::dataset::set::draw;
-use pushplan::internals::asset::write_atomic;
-use pushplan::internals::store::{Form, Journal, StoreError, digest};
-use pushplan::internals::watch::{Count, Watch};
 
 use super::FORMAT;
 use super::archive::npz;

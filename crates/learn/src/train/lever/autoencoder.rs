@@ -1,13 +1,15 @@
 //! What codes images without knowing of levers: an autoencoder, trained before the network itself.
 
-use std::{fs, path::Path};
+use std::fs;
+use std::path::Path;
+
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::network::{ImageSizes, Parameters};
+use pushplan::internals::watch::Watch;
 
 use crate::network::{Autoencoder, fresh_autoencoder};
 use crate::train::gradients::gradients_of;
 use crate::train::{AdamW, TrainError};
-use pushplan::internals::asset::write_atomic;
-use pushplan::internals::network::{ImageSizes, Parameters};
-use pushplan::internals::watch::Watch;
 
 use super::batch::{Example, images};
 use super::checkpoint::CodeCheckpoint;

@@ -1,14 +1,14 @@
 //! Lever-ups as examples, and side by side as tensors.
 
 use candle_core::{Device, Result, Tensor};
+use pushplan::internals::effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs};
+use pushplan::internals::network::{ImageSizes, LEVER_POSE, LeverSizes, Statistics};
+use pushplan::internals::scene::{Ending, LEVER_FRAMES};
 use rayon::prelude::*;
 
 use crate::dataset::LeverEpisode;
 use crate::network::{LeverGraph, LeverTensors};
 use crate::train::lever::settings::LeverSettings;
-use pushplan::internals::effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs};
-use pushplan::internals::network::{ImageSizes, LEVER_POSE, LeverSizes, Statistics};
-use pushplan::internals::scene::{Ending, LEVER_FRAMES};
 
 /// Normalised features beyond this are cut off, as the cell does.
 const BOUND: f32 = 10.0;

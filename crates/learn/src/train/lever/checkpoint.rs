@@ -1,13 +1,13 @@
 //! Everything that the training of a network of lever-ups needs to resume bit-exactly, in one safetensors file.
 
+use pushplan::internals::network::{
+    LeverSizes, Statistics, decode_parameters, encode_parameters, file_metadata, lever_layout,
+};
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 
 use crate::network::autoencoder_layout;
 use crate::train::{AdamW, CheckpointError};
-use pushplan::internals::network::{
-    LeverSizes, Statistics, decode_parameters, encode_parameters, file_metadata, lever_layout,
-};
 
 use super::settings::{LeverScore, LeverSettings};
 

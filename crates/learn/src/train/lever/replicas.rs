@@ -1,11 +1,11 @@
 //! The gradient of a batch, differentiated in parts.
 
+use pushplan::internals::network::Parameters;
+use pushplan::internals::seeded::generator;
 use rand::Rng;
 use rayon::prelude::*;
 
 use crate::train::TrainError;
-use pushplan::internals::network::Parameters;
-use pushplan::internals::seeded::generator;
 
 use super::batch::Example;
 

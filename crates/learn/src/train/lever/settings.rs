@@ -2,13 +2,13 @@
 
 use std::fmt;
 
+use pushplan::internals::effect::LeverInputs;
+use pushplan::internals::network::LeverSizes;
+use pushplan::internals::scene::LeverFeatures;
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::LeverConfig;
 use crate::train::Descent;
-use pushplan::internals::effect::LeverInputs;
-use pushplan::internals::network::LeverSizes;
-use pushplan::internals::scene::LeverFeatures;
 
 /// Settings of a run; a checkpoint resumes only under the same ones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

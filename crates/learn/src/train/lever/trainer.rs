@@ -1,16 +1,9 @@
 //! The loop: draw lever-ups, differentiate on two replicas, step, score, save.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use crate::dataset::LeverEpisode;
-use crate::network::LeverGraph;
-use crate::train::gradients::gradients_of;
-use crate::train::log::Log;
-use crate::train::{AdamW, TrainError, learning_rate};
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::effect::{LeverModel, LeverNetwork};
 use pushplan::internals::judge::lever_error;
@@ -19,13 +12,17 @@ use pushplan::internals::scene::{LeverFeatures, LeverJob};
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
 
-use super::{
-    LeverCheckpoint, LeverLine, LeverSettings,
-    autoencoder::code,
-    batch::{Batch, Example, examples},
-    replicas::gradients,
-    settings::LeverScore,
-};
+use crate::dataset::LeverEpisode;
+use crate::network::LeverGraph;
+use crate::train::gradients::gradients_of;
+use crate::train::log::Log;
+use crate::train::{AdamW, TrainError, learning_rate};
+
+use super::autoencoder::code;
+use super::batch::{Batch, Example, examples};
+use super::replicas::gradients;
+use super::settings::LeverScore;
+use super::{LeverCheckpoint, LeverLine, LeverSettings};
 
 /// The file in a run's folder from which it goes on.
 pub(super) const CHECKPOINT: &str = "checkpoint.safetensors";

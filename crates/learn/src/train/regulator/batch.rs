@@ -1,11 +1,11 @@
 //! Lessons side by side, as tensors.
 
 use candle_core::{Device, Result, Tensor};
+use pushplan::internals::belief::{JointType, Testimony};
+use pushplan::internals::network::{LEAST, Statistics, TYPES};
 
 use crate::dataset::Lesson;
 use crate::network::{RegulatorGraph, Unrolled};
-use pushplan::internals::belief::{JointType, Testimony};
-use pushplan::internals::network::{LEAST, Statistics, TYPES};
 
 /// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
 /// beliefs must be right, early ones may still be open.

@@ -1,12 +1,12 @@
 //! Everything that a regulator's training needs to resume bit-exactly, in one safetensors file.
 
+use pushplan::internals::network::{
+    Statistics, decode_parameters, encode_parameters, file_metadata, regulator_layout,
+};
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 
 use crate::train::{AdamW, CheckpointError};
-use pushplan::internals::network::{
-    Statistics, decode_parameters, encode_parameters, file_metadata, regulator_layout,
-};
 
 use super::{RegulatorScore, RegulatorSettings};
 

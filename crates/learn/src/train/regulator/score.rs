@@ -2,10 +2,10 @@
 
 use std::fmt;
 
+use pushplan::internals::network::{Memory, Regulator};
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::Lesson;
-use pushplan::internals::network::{Memory, Regulator};
 
 /// Beliefs at the end of lessons, about pairs of which one moved by more than 1 cm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,16 @@
 //! The loop: draw lessons, differentiate on two replicas, step, score, save.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    time::Instant,
-};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::network::{
+    Parameters, Regulator, RegulatorCard, RegulatorWeights, Statistics, fresh_regulator,
+};
+use pushplan::internals::seeded::generator;
+use pushplan::internals::store::FolderLock;
+use pushplan::internals::watch::Watch;
 use rand::Rng;
 use rayon::prelude::*;
 
@@ -14,19 +19,9 @@ use crate::network::RegulatorGraph;
 use crate::train::gradients::gradients_of;
 use crate::train::log::Log;
 use crate::train::{AdamW, TrainError, learning_rate};
-use pushplan::internals::asset::write_atomic;
-use pushplan::internals::network::{
-    Parameters, Regulator, RegulatorCard, RegulatorWeights, Statistics, fresh_regulator,
-};
-use pushplan::internals::seeded::generator;
-use pushplan::internals::store::FolderLock;
-use pushplan::internals::watch::Watch;
 
-use super::{
-    RegulatorCheckpoint, RegulatorLine, RegulatorSettings,
-    batch::{Examples, Heard},
-    score,
-};
+use super::batch::{Examples, Heard};
+use super::{RegulatorCheckpoint, RegulatorLine, RegulatorSettings, score};
 
 /// A step's lessons are split into this many parts, differentiated in parallel and added in order, so
 /// that the bits do not depend on the number of threads.

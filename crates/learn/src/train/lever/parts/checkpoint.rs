@@ -1,11 +1,11 @@
 //! Everything that the training of a network of parts needs to resume bit-exactly.
 
-use serde::{Deserialize, Serialize};
-
-use crate::train::{AdamW, CheckpointError};
 use pushplan::internals::network::{
     Normaliser, PARTS, Parameters, decode_parameters, encode_parameters, file_metadata, layout_of,
 };
+use serde::{Deserialize, Serialize};
+
+use crate::train::{AdamW, CheckpointError};
 
 use super::super::settings::LeverScore;
 use super::settings::PartsSettings;

@@ -1,15 +1,15 @@
 //! Recorded lever-ups, and the steps of them that are learned from.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-use rayon::prelude::*;
-
-use crate::dataset::LeverEpisode;
 use pushplan::internals::effect::{LeverCourse, LeverParts, PartGraphs, PartState, Walk, Walker};
 use pushplan::internals::geometry::{Pose3, Turn3, Vector3};
 use pushplan::internals::network::Forward;
 use pushplan::internals::scene::LeverFrame;
 use pushplan::internals::seeded::generator;
+use rand::Rng;
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+use crate::dataset::LeverEpisode;
 
 /// Steps after everything rests that are learned from, too.
 const AT_REST: usize = 3;

@@ -1,10 +1,10 @@
 //! Everything that decides a training run besides its episodes.
 
+use pushplan::internals::network::Config;
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::LeverConfig;
 use crate::train::Descent;
-use pushplan::internals::network::Config;
 
 /// Settings of a run; a checkpoint resumes only under the same ones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

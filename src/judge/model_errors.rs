@@ -1,21 +1,132 @@
-//! Judging models on a test set.
+//! Errors of models on trials that are judged together: a test set, or the user's recordings.
+//!
+//! The tool's motion is given; everything else is rolled out from the first frame alone and
+//! compared with the truth at every frame of it.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use pushplan::internals::effect::{Assuming, EffectModel, Simulated};
-use pushplan::internals::judge::{Comparison, DriftSums, ObjectError, RelativeErrors, Trial, mean};
-use pushplan::internals::sim::Simulator;
-use pushplan::internals::watch::{Count, Watch};
+use crate::effect::{Assuming, EffectModel, Simulated};
+use crate::sim::Simulator;
+use crate::watch::{Count, Watch};
 
-use super::super::baselines::SHIFTED_START;
-use super::report::{CrowdModel, CurvePoint, OneError, Phases};
+use super::baselines::SHIFTED_START;
+use super::comparison::Comparison;
+use super::error::ObjectError;
+use super::physical::{Drift, DriftSums};
+use super::statistics::{RelativeErrors, mean};
+use super::trial::Trial;
 
 /// Steps of the curve of error by horizon: about every ten frames of a sparse trajectory.
 const CURVE_STEPS: usize = 20;
 
+/// Errors of several models on trials that are judged together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialErrors {
+    /// A line for tables.
+    pub title: String,
+    /// Number of trajectories.
+    pub trajectories: usize,
+    /// Mean number of compared frames in one of them.
+    pub frames: f64,
+    /// One entry a model, in the order in which they were given.
+    pub models: Vec<ModelErrors>,
+}
+
+impl TrialErrors {
+    /// Errors of `models` on `trials`; `watch` is told the rollouts of each that are done.
+    pub fn of(
+        title: String,
+        trials: &[Trial],
+        models: &[Box<dyn EffectModel>],
+        watch: &dyn Watch,
+    ) -> Self {
+        let frames: usize = trials.iter().map(|trial| trial.truth.len()).sum();
+        Self {
+            title,
+            trajectories: trials.len(),
+            frames: frames as f64 / trials.len().max(1) as f64,
+            models: models.iter().map(|model| model_errors(&**model, trials, watch)).collect(),
+        }
+    }
+}
+
+/// Errors of several models on recordings that are judged together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecordedErrors {
+    /// Names of the recordings.
+    pub names: Vec<String>,
+    /// How far the planar engine ends from itself when it starts 0.1 mm beside, mean over all
+    /// objects, metres; `None` if it was not asked for.
+    pub own_spread: Option<f64>,
+    /// What was measured.
+    #[serde(flatten)]
+    pub errors: TrialErrors,
+}
+
+/// Errors of one model on trials that are judged together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelErrors {
+    /// Name of the model.
+    pub model: String,
+    /// Over all objects.
+    pub all: Phases,
+    /// Over the objects whose true motion exceeds 1 cm in the end.
+    pub moved: Phases,
+    /// Mean heading error at the final frame, moved cuboids of known heading, degrees.
+    pub heading_deg: Option<f64>,
+    /// The same of all cuboids of known heading, degrees.
+    #[serde(default)]
+    pub any_heading_deg: Option<f64>,
+    /// Trajectory by trajectory.
+    #[serde(default)]
+    pub each: Vec<OneError>,
+    /// Mean error of all objects by horizon.
+    pub curve: Vec<CurvePoint>,
+    /// Deepest overlap of two objects, or of one with an obstacle, at any compared frame, metres.
+    pub overlap: f64,
+    /// The same, averaged over trajectories, metres.
+    pub overlap_mean: f64,
+    /// Drift of fixed, revolute and prismatic joints.
+    pub drift: [Drift; 3],
+    /// Trajectories in which the prediction left the finite numbers; judged by where it stopped.
+    pub failed: usize,
+}
+
+/// Errors at the final frame of one trajectory, means over its objects.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OneError {
+    /// Distance of the predicted from the true positions, metres.
+    pub error: f64,
+    /// Distance of the true positions from the start, metres.
+    pub motion: f64,
+    /// Heading error, degrees; `None` without a known heading.
+    pub heading_deg: Option<f64>,
+}
+
+/// Errors at the final frame and over all frames; `None` where there are no objects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Phases {
+    /// At the final frame, when everything rests.
+    pub end: Option<RelativeErrors>,
+    /// Averaged over the frames of each object.
+    pub averaged: Option<RelativeErrors>,
+}
+
+/// A point of the curve of error by horizon.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CurvePoint {
+    /// Share of the trajectory's frames that have passed, 0 to 1.
+    pub horizon: f64,
+    /// Mean error, metres.
+    pub error: f64,
+    /// Mean true distance from the start, metres.
+    pub motion: f64,
+}
+
 /// Errors of `model` on `trials`, rolled out on all threads of the current rayon pool;
 /// `watch` is told the trajectories done.
-pub fn evaluate_crowd(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) -> CrowdModel {
+fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) -> ModelErrors {
     watch.stage(&model.spec().to_string());
     let count = Count::new(watch, 0, trials.len());
     let judged: Vec<Judged> = trials
@@ -34,7 +145,7 @@ pub fn evaluate_crowd(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Wat
         let headings: Vec<f64> = objects.filter_map(ObjectError::heading_deg).collect();
         (!headings.is_empty()).then(|| mean(&headings))
     };
-    CrowdModel {
+    ModelErrors {
         model: model.spec().to_string(),
         all: phases(&judged, |_| true),
         moved: phases(&judged, ObjectError::moved),
@@ -51,7 +162,7 @@ pub fn evaluate_crowd(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Wat
 
 /// How far the planar engine ends from itself when every object starts a little beside, metres:
 /// errors that no model can be expected to undercut. `None` without objects.
-pub(super) fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
+pub fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
     let planar = Simulated::new(Simulator::planar());
     let shifted = Assuming::new(planar.clone(), SHIFTED_START);
     watch.stage("own spread");
