@@ -127,7 +127,8 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
         }
         kind => {
             let message = format!("this is a {kind} file, and plans are exported");
-            let advice = "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
+            let advice =
+                "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
             Err(Fault::of_file(&path.display().to_string(), message, advice).into())
         }
     }

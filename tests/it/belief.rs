@@ -191,16 +191,10 @@ fn a_mirrored_group_without_headings_is_believed_the_same_of() {
 fn the_command_infers_from_a_simulated_trajectory() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let dir = folder.path().to_str().expect("UTF-8");
-    let simulated = run(&[
-        "simulate",
-        "tasks/jointed-pair.yaml",
-        "--tool",
-        "finger",
-        "--push",
-        "start=0.44,0.06 direction_deg=0 length=0.15",
-        "--out",
-        dir,
-    ]);
+    let push = "start=0.44,0.06 direction_deg=0 length=0.15";
+    let action = ["tasks/jointed-pair.yaml", "--tool", "finger", "--push", push];
+    let alone = ["--model", "planar", "--alone", "--trajectories", "--out", dir];
+    let simulated = run(&[&["predict"], &action[..], &alone].concat());
     assert_eq!(simulated.status.code(), Some(0), "{}", stderr(&simulated));
     let file = std::fs::read_dir(dir)
         .expect("the folder")

@@ -124,7 +124,7 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
         ("world", "closed-loop.md"),
         ("recording", "recordings.md"),
     ] {
-        let output = run(&["schema", kind]);
+        let output = run(&["check", "--schema", kind]);
         let schema: Json = serde_json::from_slice(&output.stdout).expect("JSON");
         let mut table = "| key | meaning |\n| --- | --- |\n".to_owned();
         rows(&schema, "", &mut table);

@@ -49,22 +49,18 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let push = "start=0.62,-0.02 direction_deg=180 length=0.17";
-    let output = run(&[
-        "simulate",
-        "tasks/pull-back.yaml",
-        "--tool",
-        "l-hook",
-        "--push",
-        push,
-        "--out",
-        out,
-    ]);
+    let action = ["tasks/pull-back.yaml", "--tool", "l-hook", "--push", push];
+    let alone = ["--model", "planar", "--alone", "--trajectories", "--out", out];
+    let output = run(&[&["predict"], &action[..], &alone].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let trajectory = folder.path().join("pull-back.planar.trajectory.json");
     let output = run(&["check", trajectory.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let names = files(folder.path());
-    assert_eq!(names, ["pull-back.planar.svg", "pull-back.planar.trajectory.json"]);
+    assert_eq!(
+        names,
+        ["pull-back.html", "pull-back.planar.svg", "pull-back.planar.trajectory.json"]
+    );
 }
 
 #[test]
@@ -74,16 +70,9 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
     let taken = folder.path().join("taken");
     std::fs::write(&taken, "").expect("a file");
     for out in [taken.join("plans"), taken] {
-        let output = run(&[
-            "simulate",
-            "tasks/pull-back.yaml",
-            "--tool",
-            "stick",
-            "--push",
-            "can:0",
-            "--out",
-            out.to_str().expect("UTF-8"),
-        ]);
+        let out = ["--out", out.to_str().expect("UTF-8")];
+        let action = ["predict", "tasks/pull-back.yaml", "--tool", "stick", "--push", "can:0"];
+        let output = run(&[&action[..], &out].concat());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         assert!(
             stderr(&output).contains("error: cannot write to the folder"),
@@ -98,7 +87,8 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
 #[test]
 fn a_full_disk_is_an_error_and_not_a_panic() {
     let full = std::fs::File::create("/dev/full").expect("the device of full disks");
-    let output = command(&["schema", "task"]).stdout(full).output().expect("the command runs");
+    let output =
+        command(&["check", "--schema", "task"]).stdout(full).output().expect("the command runs");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).starts_with("error: cannot write the results"), "{}", stderr(&output));
 }
@@ -156,6 +146,24 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
 }
 
 #[test]
+fn words_that_went_or_moved_say_what_to_write_now() {
+    for (words, now) in [
+        ("evaluate prior", "pushplan predict RECORDINGS"),
+        ("simulate tasks/pull-back.yaml", "--alone"),
+        ("schema task", "pushplan check --schema"),
+        ("solve tasks/pull-back.yaml --effort exhaustive", "--effort thorough --disturbed 64"),
+        ("generate data", "pushplan-learn"),
+        ("train runs/any --steps 9", "pushplan-learn"),
+        ("tradeoff", "pushplan-lab"),
+        ("bench random --count 3", "pushplan-lab"),
+    ] {
+        let output = run(&words.split(' ').collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert!(stderr(&output).contains("any more") && stderr(&output).contains(now), "{words}");
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_error() {
     let mut child = command(&["completions", "zsh"])
         .stdout(Stdio::piped())
@@ -170,7 +178,7 @@ fn a_reader_that_goes_away_is_no_error() {
 #[test]
 fn schemas_fit_the_shipped_files() {
     for kind in ["tool", "task"] {
-        let output = run(&["schema", kind]);
+        let output = run(&["check", "--schema", kind]);
         let schema: Json = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(schema["title"], format!("pushplan {kind}"));
         assert_eq!(schema["additionalProperties"], false);

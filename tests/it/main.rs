@@ -36,9 +36,11 @@ mod random_network;
 mod random_regulator;
 mod readme;
 mod real_pushes;
+mod recorded;
 mod recorded_pushes;
 mod regulator;
 mod seams;
+#[allow(dead_code)]
 mod sharding;
 mod shards;
 mod simulation;

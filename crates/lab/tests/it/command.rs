@@ -19,27 +19,6 @@ fn the_commands_of_all_pages_are_taken() {
 }
 
 #[test]
-fn many_files_with_one_doubt_get_one_warning() {
-    let folder = TempDir::new().expect("a folder");
-    let text = include_str!("../../../../tests/it/assets/push.recording.json");
-    let heavy = text.replace("\"name\": \"can\",", "\"name\": \"can\", \"mass\": 80.0,");
-    assert_ne!(heavy, text);
-    let mut arguments = vec!["evaluate".to_owned(), "--no-baselines".into(), "--on".into()];
-    for (k, text) in [text, &heavy, &heavy, &heavy].into_iter().enumerate() {
-        let path = folder.path().join(format!("push-{k}.recording.json"));
-        std::fs::write(&path, text).expect("a recording");
-        arguments.push(path.to_str().expect("UTF-8").to_owned());
-    }
-    let output = run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let warnings = stderr(&output);
-    let of_mass: Vec<&str> = warnings.lines().filter(|line| line.contains("mass")).collect();
-    assert_eq!(of_mass.len(), 1, "{warnings}");
-    assert!(of_mass[0].starts_with("warning: push-1: "), "{warnings}");
-    assert!(of_mass[0].ends_with("(and the like in 2 more of 4 recordings)"), "{warnings}");
-}
-
-#[test]
 fn random_tasks_are_measured_saved_and_compared() {
     let folder = TempDir::new().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();

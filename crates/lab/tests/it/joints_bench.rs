@@ -60,16 +60,16 @@ fn recordings_are_predicted_on_with_what_is_told_of_their_joints() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("pair.recording.json");
     Recording::of_frames("pair", &scene, &motion, &frames).write(&file).expect("a file");
-    let evaluate = |joints: &[&str]| {
-        let fixed = ["evaluate", "prior", "--no-baselines", "--on", file.to_str().expect("UTF-8")];
-        let exact = ["--noise", "0", "--heading-noise", "0", "--joints"];
-        run(&[&fixed[..], &exact, joints].concat())
+    let predict = |joints: &str| {
+        let exact = "--noise 0 --heading-noise 0 --joints";
+        let line = format!("rest-of-way {} --model prior {exact} {joints}", file.display());
+        run(&line.split(' ').collect::<Vec<_>>())
     };
-    let output = evaluate(&["given", "none", "believed", "one-step"]);
+    let output = predict("given none believed one-step");
     assert!(output.status.success(), "{}", stderr(&output));
     let text = String::from_utf8_lossy(&output.stdout);
     for word in ["true joints", "none", "regulator", "last window", "contact + 0", "contact + 3"] {
         assert!(text.contains(word), "{word}: {text}");
     }
-    assert_eq!(evaluate(&["guessed"]).status.code(), Some(2));
+    assert_eq!(predict("guessed").status.code(), Some(2));
 }
