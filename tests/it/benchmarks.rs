@@ -2,12 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::program::{self, run, stderr};
+use crate::program::{run, stderr};
 
 const TASKS: [&str; 4] = [
     "tasks/pull-back.yaml",
@@ -15,6 +15,8 @@ const TASKS: [&str; 4] = [
     "tasks/too-far.yaml",
     "tasks/push-out-of-reach.yaml",
 ];
+
+const BENCH: [&str; 6] = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
 
 #[test]
 fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
@@ -82,27 +84,11 @@ fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
     tasks(&["--out", whole.to_str().expect("UTF-8")]);
     let out = broken.to_str().expect("UTF-8");
-    let mut child = command(&["--out", out])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let begun = std::time::Instant::now();
     let kept = || fs::read_to_string(broken.join("records.jsonl")).unwrap_or_default();
-    while kept().is_empty() && child.try_wait().expect("a child").is_none() {
-        assert!(begun.elapsed().as_secs() < 60, "no task after a minute");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let pid = child.id().to_string();
-    Command::new("kill").args(["-INT", &pid]).status().expect("a signal is sent");
-    let output = child.wait_with_output().expect("the command ends");
-    // On a fast machine it may be done before the signal comes.
-    match output.status.code() {
-        Some(130) => {
-            assert!(stderr(&output).contains("the same command goes on"), "{}", stderr(&output));
-        }
-        code => assert_eq!(code, Some(0), "{}", stderr(&output)),
-    }
+    let line = [&BENCH[..], &TASKS, &["--out", out]].concat().join(" ");
+    let output = crate::interrupted::interrupted(&line, || !kept().is_empty());
+    let goes_on = stderr(&output).contains("the same command goes on");
+    assert!(goes_on || output.status.success(), "{}", stderr(&output));
     let before = kept();
     assert!(!before.is_empty());
     tasks(&["--out", out]);
@@ -124,10 +110,5 @@ fn tasks(options: &[&str]) -> Vec<u8> {
 }
 
 fn bench_tasks(options: &[&str]) -> Output {
-    command(options).output().expect("the command runs")
-}
-
-fn command(options: &[&str]) -> Command {
-    let fixed = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
-    program::command(&[&fixed[..], &TASKS, options].concat())
+    run(&[&BENCH[..], &TASKS, options].concat())
 }

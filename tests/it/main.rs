@@ -17,6 +17,9 @@ mod fitting;
 mod fixtures;
 mod foreseen;
 mod formats;
+#[cfg(unix)]
+#[allow(dead_code)]
+mod interrupted;
 mod jointed;
 mod lever_engine;
 mod lever_follow_up;

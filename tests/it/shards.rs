@@ -21,10 +21,7 @@ fn of_task_files() {
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
     let output = of_runs("status", &[&part]);
     assert!(stderr(&output).starts_with("shard 1/2: 1 of 2 tasks in "), "{}", stderr(&output));
-}
-
-#[test]
-fn empty_shards_are_shards_too() {
+    // Empty shards are shards, too.
     shards_make_the_same_bytes("bench tasks tasks/too-far.yaml --effort draft", 2);
 }
 

@@ -1,7 +1,5 @@
 //! The benchmark of inferred joints, and recordings with what is told of their joints.
 
-use std::fs;
-
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
@@ -10,25 +8,14 @@ use pushplan::sim::Simulator;
 
 use crate::ROOT;
 use crate::program::{run, stderr, succeed};
+use crate::sharding::shards_make_the_same_bytes;
 
 #[test]
 fn shards_on_any_number_of_threads_merge_to_the_bytes_of_one_run() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let json = |line: &str| -> serde_json::Value {
-        serde_json::from_slice(&succeed(line).stdout).expect("JSON")
-    };
-    let run = |more: &str| {
-        json(&format!("joints --on dense --objects 6 --seen exact fine --count 2 --json -q {more}"))
-    };
-    let whole = run(&format!("--threads 1 --out {}", path("whole")));
-    for (name, shard) in [("one", "1/2"), ("two", "2/2")] {
-        run(&format!("--threads 3 --out {} --shard {shard}", path(name)));
-    }
-    json(&format!("merge {} {} {} --json", path("merged"), path("one"), path("two")));
-    let records = |name: &str| fs::read(folder.path().join(name).join("records.jsonl")).unwrap();
-    assert!(records("whole") == records("merged"));
-
+    let bench = "joints --on dense --objects 6 --seen exact fine --count 2 -q";
+    let home = shards_make_the_same_bytes(bench, 2);
+    let report = succeed(&format!("report {} --json", home.path().join("merged").display()));
+    let whole: serde_json::Value = serde_json::from_slice(&report.stdout).expect("JSON");
     let cases = whole["beliefs"].as_array().expect("cases");
     assert_eq!(cases.len(), 2);
     for case in cases {

@@ -24,7 +24,7 @@ fn of_refinement() {
 }
 
 #[test]
-fn of_inferred_joints() {
+fn of_joints_without_a_regulator() {
     let few = "--count 2 --on dense --seen exact --types-only --regulator none";
     shards_make_the_same_bytes(&format!("joints {few}"), 2);
 }

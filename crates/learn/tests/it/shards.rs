@@ -17,10 +17,7 @@ fn of_training_data() {
     // A part is no data set.
     let error = Dataset::open(&home.path().join("part-2")).expect_err("a part");
     assert!(error.to_string().contains("is shard 2/4 of a data set"), "{error}");
-}
-
-#[test]
-fn empty_shards_are_shards_too() {
+    // Empty shards are shards, too.
     shards_make_the_same_bytes("generate --episodes 1", 2);
 }
 
@@ -56,9 +53,7 @@ fn what_is_missing_is_named_as_array_jobs_take_it() {
     done(&merge(&home.path().join("merged"), &all));
     assert_eq!(status(&[home.path().join("merged")]), "");
 
-    let output = run(&["status", "tasks", "nowhere"]);
-    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
-    assert!(stderr(&output).contains("none of these folders holds a run: tasks, nowhere"));
+    assert_eq!(run(&["status", "tasks", "nowhere"]).status.code(), Some(3));
 }
 
 #[test]
