@@ -39,7 +39,7 @@ const ROOMS: [(&str, &str); 23] = [
     ("network", "scene graph"),
     ("rollout", "geometry scene contact graph"),
     ("effect", "geometry scene sim graph network rollout"),
-    ("judge", "geometry scene recording effect"),
+    ("judge", "geometry scene recording sim effect"),
     ("fit", "geometry scene effect judge"),
     ("belief", "geometry scene network effect"),
     ("plan", "geometry scene effect"),
