@@ -77,7 +77,7 @@ fn its_table_is_the_measured_one() {
 
 #[test]
 fn the_commands_of_all_pages_are_taken() {
-    are_taken(40);
+    are_taken(15);
 }
 
 #[test]
