@@ -148,7 +148,7 @@ fn what_pushes_must_not_do_is_found() {
 
 #[test]
 fn the_shipped_task_needs_both_and_its_plan_reads_back() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers/turn-and-push.yaml");
+    let path = Path::new(crate::ROOT).join("tasks/levers/turn-and-push.yaml");
     let task = load_task(&path, &library()).expect("a task of levering");
     let planner =
         |effort| LeverPlanner::new(SimulatedLevers { simulator: LeverSimulator::COARSE }, effort);
