@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 import pushplan
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 COMMAND = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
 # Of one push and of two, with and without obstacles, alone and in a crowd.
 TASKS = ["pull-back", "pull-back-behind-wall", "pull-back-twice", "diagonal", "hinged-train", "crowd"]
