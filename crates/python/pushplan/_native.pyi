@@ -47,7 +47,7 @@ __version__: str
 
 _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
-_Effort = Literal["draft", "standard", "thorough", "exhaustive"]
+_Effort = Literal["draft", "standard", "thorough"]
 _Outside = Literal["warn", "simulate", "refuse"]
 
 @final
