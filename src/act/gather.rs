@@ -59,12 +59,12 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Note::OutOfOrder => write!(f, "looks came late and were put in order"),
-            Note::Untimely => write!(f, "looks of another time were left out"),
+            Note::Untimely => write!(f, "looks from another time were left out"),
             Note::Unreadable { object } => {
-                write!(f, "object {object} was seen at no place; left out")
+                write!(f, "object {object} was seen without a finite place; left out")
             }
             Note::Swapped { between: [a, b] } => {
-                write!(f, "objects {a} and {b} were taken for each other; changed back")
+                write!(f, "objects {a} and {b} were mistaken for each other; swapped back")
             }
             Note::Jumped { object } => {
                 write!(f, "object {object} was seen where it cannot be; left out")

@@ -194,16 +194,17 @@ impl<'a> Runner<'a> {
     fn again(&self, trace: &Trace, belief: &mut Belief, step: &Step) -> Result<(), ActError> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
         let pushes = step.plan.pushes.get(..step.pushes).filter(|pushes| !pushes.is_empty());
-        let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan has not"))?;
+        let pushes =
+            pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
         let count = trace.task.scene.objects.len();
         let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
         let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
         if [step.state.poses.len(), world, before] != [count; 3] {
-            return Err(unfit("a step is of another number of objects"));
+            return Err(unfit("a step has another number of objects"));
         }
         let can_be = |push: &Push| push.speed > 0.0 && (0.0..=10.0).contains(&push.length);
         if !pushes.iter().all(can_be) {
-            return Err(unfit("a step makes a push that none can make"));
+            return Err(unfit("a step makes a push that cannot be made"));
         }
         let done = Plan { pushes: pushes.to_vec(), ..step.plan.clone() };
         let tool = Arc::new(step.tool.clone());

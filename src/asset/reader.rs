@@ -77,7 +77,7 @@ impl Failure {
         } else if message.contains("number out of range") {
             "write a number that is smaller than 1e308"
         } else if text.trim().is_empty() {
-            "the file is empty; `pushplan check --schema KIND` shows what belongs into it"
+            "the file is empty; `pushplan check --schema KIND` shows what belongs in it"
         } else if language == Language::Yaml && text.contains('\t') {
             "YAML indents with spaces; tabs are not allowed"
         } else if language == Language::Json && names_no_number(text) {

@@ -200,7 +200,7 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
         (_, Value::Name) => "use letters, digits, `-` and `_`, at most 64".into(),
         (Content::Number(_), Value::Count(_)) => "write a whole number".into(),
         (Content::Text(text), Value::Either(values)) => either_advice(text, values),
-        (Content::Nothing, _) => "remove the key, or write its value behind it".into(),
+        (Content::Nothing, _) => "remove the key, or write its value after it".into(),
         _ => String::new(),
     };
     ledger.fault(node, message, advice);

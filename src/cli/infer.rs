@@ -27,7 +27,7 @@ use super::{
 /// What usually rolls hypotheses out.
 const MODEL: &str = "prior";
 
-/// Infer from a recording which objects hang together by which joints
+/// Infer from a recording which objects are joined, and by which joints
 #[derive(Args, Debug)]
 #[command(
     after_help = "Tells for every two objects that stand within 3 cm of each other at the start \

@@ -42,7 +42,7 @@ pub const DEFAULT: &str = "network";
 /// The model that `spec` describes.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
+/// A weights file that is missing, damaged or not of pushplan.
 pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
     Ok(EffectModels::build(spec)?)
 }
@@ -50,7 +50,7 @@ pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
 /// The weights of a network; none for other models.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
+/// A weights file that is missing, damaged or not of pushplan.
 pub fn weights(spec: &ModelSpec) -> Result<Option<Weights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }

@@ -45,7 +45,7 @@ pub struct PredictArgs {
     pub model: Option<ModelSpec>,
     #[command(flatten)]
     pub outside: OutsideArgs,
-    /// The model alone, without those that it is compared with
+    /// Only this model, without those that it is compared with
     #[arg(long)]
     pub alone: bool,
     #[command(flatten)]
@@ -57,13 +57,13 @@ pub struct PredictArgs {
     /// Also write every frame that each model predicts as a trajectory file, with a picture
     #[arg(long, requires = "out")]
     pub trajectories: bool,
-    /// Pictures of trajectories that move as well
+    /// Also draw moving pictures of the trajectories
     #[arg(long, requires = "trajectories")]
     pub animate: bool,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     pub page: PageView,
-    /// Of recordings only one table, a row for each folder
+    /// For recordings, one table only, with a row for each folder
     #[arg(long)]
     pub summary: bool,
     #[command(flatten)]
@@ -94,7 +94,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     let Some((file, kind)) = asked else {
         if args.action.given() {
             let advice = "leave --tool and --push out, or name one task";
-            return Err(CliError::usage("recordings say themselves what was done", advice));
+            return Err(CliError::usage("recordings already say what was done", advice));
         }
         return recorded::run(args, session);
     };

@@ -91,7 +91,7 @@ impl Session {
         self.say(&format!("warning: {text}"));
     }
 
-    /// Writes a line beside the results to stderr.
+    /// Writes a line to stderr, apart from the results.
     pub fn say(&self, text: &str) {
         if !self.quiet {
             // Were stderr gone, there would be nobody left to tell.

@@ -69,7 +69,7 @@ pub struct SolveArgs {
     pub page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Draw a picture of the 3-D replay that moves as well
+    /// Also draw a moving picture of the 3-D replay
     #[arg(long)]
     pub animate: bool,
     #[command(flatten)]
@@ -134,7 +134,7 @@ pub fn time_limit(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
     let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
     match limit.is_zero() {
-        true => Err("in no time nothing can be done; half a second is 0.5".to_owned()),
+        true => Err("a time limit must be above zero; half a second is 0.5".to_owned()),
         false => Ok(limit),
     }
 }

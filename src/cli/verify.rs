@@ -46,7 +46,7 @@ pub struct VerifyArgs {
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub robustness: Option<f64>,
-    /// Stop after this time, whatever is done by then
+    /// Stop after this time, with whatever is done by then
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
     pub time_limit: Option<Duration>,
     /// Seed of the disturbances

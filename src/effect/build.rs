@@ -22,7 +22,7 @@ pub enum ModelError {
     /// The library was built around a damaged weights file.
     #[error("the shipped weights are broken: {0}")]
     Shipped(#[source] WeightsError),
-    /// A weights file that is missing, damaged or of someone else.
+    /// A weights file that is missing, damaged or not of pushplan.
     #[error("{path}: {error}")]
     File {
         /// The file.

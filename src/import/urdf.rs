@@ -111,7 +111,7 @@ fn hang<'a>(
     match found {
         Some((_, link)) if link.joint.is_none() && child != WORLD => link.joint = Some(joint),
         _ => {
-            let message = format!("the link `{child}` hangs on two joints");
+            let message = format!("the link `{child}` is attached by two joints");
             source.fault(joint, message, "a link has one parent, and `world` has none");
             return None;
         }
@@ -194,7 +194,7 @@ fn motion<'a>(
         "prismatic" => Motion::Slide { axis, limits: Some(limits) },
         "planar" => Motion::Other("a planar joint".to_owned()),
         other => {
-            let message = format!("`{other}` is no type of a joint");
+            let message = format!("`{other}` is not a type of joint");
             let advice = "write fixed, floating, revolute, continuous or prismatic";
             source.fault(joint, message, advice);
             return None;
@@ -306,7 +306,7 @@ fn inertial<'a>(
     Some((mass, frame.translation.vector.into(), about))
 }
 
-/// The friction of a link as Bullet has it; the inner none, with a fault, if it is no number.
+/// The friction of a link as Bullet has it; the inner none, with a fault, if it is not a number.
 fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
     let value = element(element(link, "contact")?, "lateral_friction")?.attribute_node("value")?;
     Some(source.number(value))
@@ -322,7 +322,7 @@ fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap<String, f6
             Ok(friction) if friction.is_finite() => {
                 found.insert(link.to_owned(), friction);
             }
-            _ => source.fault(stated, "this friction is no number", "write one such as 0.4"),
+            _ => source.fault(stated, "this friction is not a number", "write one such as 0.4"),
         }
     }
     found

@@ -103,7 +103,7 @@ impl Reach {
             let (pose, velocity) = (&state.poses[k], &state.velocities[k]);
             let moves = *velocity != Velocity::default();
             let room = body.radius + *near;
-            // A position that is no number is near everything.
+            // A position that is not a number is near everything.
             let apart = hull.is_some_and(|hull| hull.square_gap(pose.position) > room * room);
             if !moves && apart {
                 continue;

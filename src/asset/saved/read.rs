@@ -57,7 +57,7 @@ impl<'a> Opened<'a> {
         let Some(node) = self.root.get("plan").and_then(|plan| plan.get("tool")) else { return };
         if let Some(tool) = self.tool.as_ref().filter(|tool| tool.name != plan.tool) {
             let message = format!("the plan uses `{}`, the file holds `{}`", plan.tool, tool.name);
-            self.ledger.fault(node, message, "the file is mixed from two; make it again");
+            self.ledger.fault(node, message, "the file mixes two; make it again");
         }
     }
 

@@ -12,7 +12,7 @@ use crate::report::Document;
 use crate::scene::ModelSpec;
 use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 
-/// Names of the files that a report leaves beside the records.
+/// Names of the files that a report leaves next to the records.
 const PAGE: &str = "report.html";
 const ROWS: &str = "tasks.csv";
 

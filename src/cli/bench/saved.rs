@@ -32,7 +32,7 @@ pub struct MergeArgs {
     form: Form,
 }
 
-/// Show runs that are kept in folders, several of one suite side by side
+/// Show runs that are kept in folders; several of one suite side by side
 #[derive(Args, Debug)]
 pub struct ReportArgs {
     /// Folders of runs
@@ -134,7 +134,7 @@ fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
                 names[other],
                 runs[0].display()
             ),
-            "show suites one by one",
+            "show each suite by itself",
         ));
     }
     match known(suites, &runs[0])?.document {

@@ -72,7 +72,7 @@ impl<const N: usize> Lanes<N> {
         Self([value; N])
     }
 
-    /// The larger one; the other one where this is no number.
+    /// The larger one; the other one where this is not a number.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         other.below(self).pick(self, other)

@@ -48,8 +48,12 @@ pub(super) fn frictions(
         }
     }
     if found.len() > MOST {
-        let message = format!("{} pairs rub otherwise than the mean of their values", found.len());
-        ledger.fault_of_file(message, format!("a task names {MOST} of them; make frictions alike"));
+        let message =
+            format!("{} pairs have another friction than the mean of their values", found.len());
+        ledger.fault_of_file(
+            message,
+            format!("a task states at most {MOST} of them; make frictions alike"),
+        );
     }
     found
 }

@@ -67,7 +67,7 @@ pub(super) fn held_by(motion: &Motion) -> String {
 pub(super) fn beyond(model: &Model, wanted: &Wanted, ledger: &mut Ledger) {
     for (place, what) in &model.beyond {
         if wanted.bodies.is_empty() {
-            let message = format!("{what} is nothing that pushplan knows");
+            let message = format!("{what} is unknown to pushplan");
             let advice = "take it out, or name the bodies that are meant with --body";
             ledger.fault(*place, message, advice);
         } else {

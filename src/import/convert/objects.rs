@@ -264,7 +264,7 @@ fn draft<'a>(
     let polygon = |corners: &[Vector], ledger: &mut Ledger| {
         let made = ConvexPolygon::balanced(corners, at);
         if let Err(error) = &made {
-            let message = format!("`{name}` is no prism of ours: {error}");
+            let message = format!("`{name}` is not a prism that pushplan knows: {error}");
             ledger.fault(solid.place, message, "leave out corners that matter least");
         }
         made.ok().map(|base| Shape::Prism { base, height })
@@ -360,7 +360,8 @@ pub(super) fn joints(
                 JointKind::Prismatic { axis: axis.xy().normalize(), limits }
             }
             _ => {
-                let message = format!("`{name}` hangs on another body by {}", held_by(motion));
+                let message =
+                    format!("`{name}` is attached to another body by {}", held_by(motion));
                 let advice = "joints between objects are fixed, turn about the vertical, or slide \
                               along the table";
                 ledger.fault(*place, message, advice);

@@ -164,7 +164,7 @@ fn obstacle<'a>(
     }
     let Base::Rectangle([x, y]) = upright.base else {
         let advice = "put a box around it, or several into it";
-        ledger.fault(solid.place, format!("the obstacle `{what}` is no box"), advice);
+        ledger.fault(solid.place, format!("the obstacle `{what}` is not a box"), advice);
         return None;
     };
     let pose = Pose { position: upright.pose.position, ..upright.pose };

@@ -117,7 +117,7 @@ fn assemble(
                     Shape::Prism { base, height }
                 }
                 Err(error) => {
-                    let message = format!("`{name}` is no prism of ours: {error}");
+                    let message = format!("`{name}` is not a prism that pushplan knows: {error}");
                     ledger.fault(solid.place, message, "leave out corners that matter least");
                     continue;
                 }

@@ -60,7 +60,7 @@ impl Upright {
             Outline::Hull(points) => {
                 let found = prism(&solid.pose, points);
                 if let Err(why) = &found {
-                    let message = format!("the mesh of {what} is no upright prism: {why}");
+                    let message = format!("the mesh of {what} is not an upright prism: {why}");
                     ledger.fault(solid.place, message, PRIMITIVES);
                 }
                 found.ok()

@@ -53,7 +53,7 @@ fn inside<'a>(
     model: &mut Model,
 ) {
     if within.depth > DEEPEST {
-        let message = format!("more than {DEEPEST} bodies and frames are in each other");
+        let message = format!("more than {DEEPEST} levels of bodies and frames");
         source.fault(node, message, "is this the right file?");
         return;
     }

@@ -52,7 +52,7 @@ impl<'a> Defaults<'a> {
         }
         self.classes.entry(name).or_default().parent = parent;
         if node.ancestors().count() > DEEPEST {
-            source.fault(node, "classes are in each other too often", "is this the right file?");
+            source.fault(node, "classes are nested too deeply", "is this the right file?");
             return;
         }
         for child in elements(node) {

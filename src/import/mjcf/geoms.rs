@@ -194,7 +194,7 @@ impl<'a> Context<'a> {
                 Outline::Other(format!("{article} {kind}"))
             }
             _ => {
-                let message = format!("`{kind}` is no type of a geom");
+                let message = format!("`{kind}` is not a type of geom");
                 source.fault(node, message, "write box, cylinder or mesh");
                 return None;
             }

@@ -288,7 +288,7 @@ pub struct Run {
     pub kind: &'static str,
     /// When beliefs change, in a sentence.
     pub words: &'static str,
-    /// What is known at last.
+    /// What is known in the end.
     pub found: Vec<Found>,
     /// Names of the columns of [`Made::cells`].
     pub columns: Vec<String>,

@@ -87,7 +87,7 @@ fn found(document: &Document) -> Vec<Found> {
         let columns = section.table.columns();
         Found {
             title: match section.title.as_str() {
-                "" => "What is known at last".to_owned(),
+                "" => "What is known in the end".to_owned(),
                 title => title.to_owned(),
             },
             columns: columns.iter().map(|(name, _)| name.clone()).collect(),

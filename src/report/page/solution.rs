@@ -151,7 +151,9 @@ fn lost(
             Some(reason) => format!("no push can be made, mostly as {reason}"),
             None => "no push was tried".to_owned(),
         },
-        (None, Some(best)) if is_behind(best) => "leads through what does not give way".to_owned(),
+        (None, Some(best)) if is_behind(best) => {
+            "leads through something that does not give way".to_owned()
+        }
         (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
         (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
     }
