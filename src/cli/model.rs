@@ -17,7 +17,7 @@ macro_rules! help {
             "What predicts the effect of pushes: network; prior (the network's prior alone); \
              planar or 3d (simulations); projection, follow or still (without physics); or a file \
              of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
-             bar says who takes over: prior,up-to=2|planar",
+             bar says which model takes over: prior,up-to=2|planar",
             $end
         )
     };

@@ -36,7 +36,7 @@ it is drawn. Every plan is judged under samples of what is believed; after every
 plan is judged again, and another one is made where too few samples reach the goal.
 
 Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
-goes on from there, and the file is then the same bytes as without. <task>.html plays the run: what
+goes on from there, and the file ends up the same to the byte. <task>.html plays the run: what
 was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
 <task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
 5: all pushes are used up.

@@ -34,8 +34,8 @@ use super::{
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
 shows why the others lost; with --animate <out>/<task>.animated.svg, too. Pushes that follow a lever-up are
-written as <out>/<task>-push.*, with the task that is left then.
-Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
+written as <out>/<task>-push.*, with the task that is then left.
+If no plan works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
     /// The task file
@@ -50,8 +50,8 @@ pub struct SolveArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Disturbed replays of the winning plan in each simulation [default: 4, 8 or 16 by effort]; more
-    /// tell its robustness in finer shares
+    /// Disturbed replays of the winning plan in each simulation; more of them measure its robustness
+    /// more finely [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
     pub disturbed: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task

@@ -24,7 +24,7 @@ const _: () = assert!(Wanted::FRICTION == 0.5);
 /// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
 /// with all that is fixed to it.
 ///
-/// `friction` is the value of what states none. `pushplan import --help` says what becomes of what.
+/// `friction` is the value of what states none. `pushplan import --help` says what is imported as what.
 /// Raises `FileError` for what pushplan has no word for; what is said a little otherwise is a warning.
 #[pyfunction]
 #[pyo3(signature = (path, *, body = None, name = None, friction = 0.5))]

@@ -140,8 +140,8 @@ fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
     match known(suites, &runs[0])?.document {
         Some(document) => document(runs),
         None => Err(CliError::usage(
-            format!("the report of the suite `{suite}` needs more than what is kept"),
-            "give the command of the run again, with its --out: it measures only what is missing",
+            format!("the report of the suite `{suite}` needs more than is kept"),
+            "repeat the command of the run, with its --out: it measures only what is missing",
         )),
     }
 }

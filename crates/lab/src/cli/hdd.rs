@@ -18,7 +18,7 @@ use crate::bench::{LeverBaseline, Neighbour, drive_report};
 use crate::cli::levers::Named;
 use crate::report::hdd_document;
 
-/// Models of boards levered out of drives against the 3-D engine, on drives that none has seen
+/// Compare models of boards levered out of drives with the 3-D engine, on drives that none has seen
 #[derive(Args, Debug)]
 #[command(after_help = "Networks learn of drives by
   pushplan-learn generate data/hdd --preset hdd --episodes 500 --seed 1
