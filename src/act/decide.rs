@@ -144,7 +144,7 @@ fn probes(steps: &[Step]) -> usize {
     steps.iter().filter(|step| step.why == Why::Probe).count()
 }
 
-/// What is left of a plan after a step, moved by as much as the object stands beside where it was
+/// What is left of a plan after a step, moved by as much as the object is off from where it was
 /// expected; `None` if that breaks a rule of the task or no push is left.
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let left = last.plan.pushes.get(last.pushes..).filter(|left| !left.is_empty())?;

@@ -65,7 +65,7 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
-        // What it says of a task's objects can be checked beside the task alone.
+        // What it says of a task's objects can be checked only together with the task.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
         Kind::LeverPlan => LeverPlanFile::parse(&text, &file).map(|_| kind),
         Kind::LeverTrajectory => LeverTrajectoryFile::parse(&text, &file).map(|_| kind),

@@ -1,4 +1,4 @@
-//! A prediction beside the truth of a trial.
+//! A prediction compared with the truth of a trial.
 
 use crate::{
     effect::EffectModel,
@@ -12,7 +12,7 @@ use super::{
     trial::Trial,
 };
 
-/// A model's rollout beside the truth of a trial.
+/// A model's rollout and the truth of a trial.
 #[derive(Clone, Debug)]
 pub struct Comparison<'a> {
     trial: &'a Trial,
@@ -21,7 +21,7 @@ pub struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// What was `predicted` for the trial, beside its truth. No frames are no answer.
+    /// What was `predicted` for the trial, with its truth. Without frames there is no answer.
     pub fn new(trial: &'a Trial, predicted: Trajectory) -> Self {
         Self { trial, start: trial.scene.start(), predicted }
     }

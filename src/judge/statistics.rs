@@ -62,7 +62,7 @@ impl Summary {
     }
 }
 
-/// Position errors of objects beside how far they truly moved.
+/// Position errors of objects, and how far they truly moved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RelativeErrors {
     /// Number of objects.

@@ -16,7 +16,7 @@ use crate::scene::{Physics, Scene, Situation, State, Tool, ToolMotion};
 /// Rollouts with errors for every state. The largest of six is about the 85th percentile.
 const DRAWS: usize = 6;
 
-/// Errors, beside those of supports and of the push's height, of where objects are seen, metres
+/// Errors, apart from those of supports and of the push's height, of where objects are seen, metres
 /// and radians, and of every friction value, relative.
 const SHIFT: f64 = 1e-3;
 const TURN: f64 = std::f64::consts::PI / 180.0;

@@ -33,7 +33,7 @@ pub(super) struct Ends {
     pub worst: f64,
 }
 
-/// What objects may rest on beside what is believed.
+/// What objects may rest on besides what is believed.
 pub(super) struct Supports(Vec<Arc<Physics>>);
 
 impl Supports {

@@ -54,7 +54,7 @@ const SLACK: f64 = 1e-6;
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Infeasible {
-    /// The face passes beside or above the object.
+    /// The face passes next to or above the object.
     #[error("the face does not meet the object")]
     NoContact,
     /// Another part of the tool meets the object before the face does, or overlaps it.

@@ -70,7 +70,7 @@ impl Document {
         self.words(Table::to_markdown, "## ", false)
     }
 
-    /// The same as a page of its own beside the files of its figures.
+    /// The same as a page of its own, next to the files of its figures.
     pub fn to_page(&self) -> String {
         self.words(Table::to_markdown, "# ", true)
     }

@@ -1,4 +1,4 @@
-//! Words beside points that neither cover one another nor leave the chart.
+//! Words next to points that neither cover one another nor leave the chart.
 
 use crate::geometry::Vector;
 
@@ -31,7 +31,7 @@ impl Labels {
         Self { plot: Rect { low: corner, high: corner + size }, dots, words: Vec::new() }
     }
 
-    /// Where the baseline of `words` begins beside the dot at `point`: the place that covers
+    /// Where the baseline of `words` begins next to the dot at `point`: the place that covers
     /// least, of equal ones the first of right above, right below, left above, left below,
     /// above and below.
     pub fn place(&mut self, point: Vector, words: &str, font: Font) -> Vector {

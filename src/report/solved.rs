@@ -148,7 +148,7 @@ pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
     Figure::chart("errors", chart)
 }
 
-/// A finished task as one JSON object, its index and times beside the record's own keys.
+/// A finished task as one JSON object, its index and times next to the record's own keys.
 pub fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
     let mut value = json!(task.record);
     value["index"] = json!(task.index);

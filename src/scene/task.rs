@@ -16,7 +16,7 @@ pub struct Robot {
     pub reach_min: f64,
     /// Largest distance of the end effector from the base, metres.
     pub reach_max: f64,
-    /// Largest force that the arm can press with for longer than a blow, newtons; any if nothing
+    /// Largest force that the arm can press with for longer than an impact, newtons; any if nothing
     /// is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,

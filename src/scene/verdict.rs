@@ -58,7 +58,7 @@ pub enum Reason {
         /// What.
         fault: Warning,
     },
-    /// The object ends beside the goal when it is replayed as written.
+    /// The object misses the goal when the plan is replayed as written.
     Misses {
         /// In which engine.
         engine: Engine,

@@ -86,7 +86,7 @@ pub enum Warning {
         /// The yaw, radians.
         yaw: f64,
     },
-    /// The tool came down on an object instead of beside it.
+    /// The tool came down on an object instead of next to it.
     SetDownOn {
         /// Name of the object.
         object: String,
@@ -239,7 +239,7 @@ impl Warning {
                 let millimetres = distance * 1e3;
                 format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
             }
-            Warning::NotFinite => "the prediction left the finite numbers".to_owned(),
+            Warning::NotFinite => "the prediction became NaN or infinite".to_owned(),
             other => other.to_string(),
         }
     }
@@ -260,7 +260,7 @@ impl fmt::Display for Warning {
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
                 f,
-                "{}, which no table shows; `--outside simulate` simulates instead",
+                "{}, which cannot happen on a table; `--outside simulate` simulates instead",
                 self.fact()
             ),
             Warning::Differs { object, distance } => write!(
@@ -279,17 +279,17 @@ impl fmt::Display for Warning {
             ),
             Warning::Guessed { unknown } => write!(
                 f,
-                "the task does not know its {unknown}, so this rests on the middle of what they may \
+                "the task does not know its {unknown}, so this assumes the middle of what they may \
                  be; `pushplan run` finds out by pushing"
             ),
             Warning::NotAtRest { waited } => write!(
                 f,
-                "something still moved {waited:.1} s after the push ended; the outcome is not a \
-                 rest, raise the friction"
+                "something still moved {waited:.1} s after the push ended; the outcome is not at \
+                 rest; raise the friction"
             ),
             Warning::SetDownOn { object, stroke } => write!(
                 f,
-                "the tool came down on {object} for push {} instead of beside it, so the plan does \
+                "the tool came down on {object} for push {} instead of next to it, so the plan does \
                  not work as written",
                 stroke + 1
             ),
@@ -305,7 +305,7 @@ impl fmt::Display for Warning {
             }
             Warning::TooMuchForce { needed, limit } => write!(
                 f,
-                "pushing takes about {needed:.0} N for longer than a blow, and the robot has {limit:.0}"
+                "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
             ),
             Warning::OutOfReach { push } => {
                 write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
@@ -321,7 +321,7 @@ impl fmt::Display for Warning {
             }
             Warning::Toppled { object } => write!(
                 f,
-                "{object} toppled; its pose on the table means little, push lower or slower"
+                "{object} toppled; its pose on the table means little; push lower or slower"
             ),
             Warning::NotFinite => {
                 write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())

@@ -181,7 +181,7 @@ impl Solving<'_> {
     }
 
     /// Refines the nearest of the failed plans towards goals that lie as far on the other side
-    /// of ours as their replays ended beside it.
+    /// of ours as their replays ended next to it.
     fn aim_again(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
         let goal = self.task.goal;
         let mut near: Vec<(f64, usize)> = failed
@@ -223,7 +223,7 @@ fn missed(goal: &Goal, tried: &Tried) -> f64 {
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
-/// Where to aim next, when a plan aimed at `aim` ended beside the goal: as far on the other side.
+/// Where to aim next, when a plan aimed at `aim` missed the goal: as far on the other side.
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
 /// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
 /// not. `None` if that is on the goal already.

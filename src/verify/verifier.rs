@@ -80,7 +80,7 @@ impl<'a> Verifier<'a> {
         Verdict::judge(broken_rules(task, &situation.scene, tool, plan), evidence, task.robustness)
     }
 
-    /// The verdict of [`Verifier::nominal`] with the disturbed replays beside it.
+    /// The verdict of [`Verifier::nominal`] together with the disturbed replays.
     pub fn disturb(
         &self,
         task: &Task,

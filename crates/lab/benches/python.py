@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Python costs: solving through it beside the command, and rollouts beside MuJoCo's.
+"""What Python costs: solving through it compared with the command, and rollouts with MuJoCo's.
 
     crates/lab/benches/python.py solve       # asked: at most 1.05 times the command's time
     crates/lab/benches/python.py rollout     # asked: at least 20 times less processor time than MuJoCo

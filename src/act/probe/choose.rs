@@ -26,7 +26,7 @@ use super::super::judge::{Reach, Samples};
 const RACED: (usize, usize) = (32, 4);
 const FINAL: usize = 8;
 
-/// Error of a predicted end beside the noise, metres.
+/// Error of a predicted end on top of the noise, metres.
 const MODEL: f64 = 2e-3;
 
 /// How a probe is chosen.

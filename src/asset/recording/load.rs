@@ -139,7 +139,7 @@ fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
     if let Some(tool) = node.get("tool") {
         if let Some(friction) = node.get("friction") {
             let advice = "remove it; the tool has its own friction value";
-            ledger.fault(friction, "`friction` beside a tool", advice);
+            ledger.fault(friction, "`friction` as well as a tool", advice);
         }
         return Some((Arc::new(tool::tool_of(tool, ledger)?), lift?));
     }

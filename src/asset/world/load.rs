@@ -1,4 +1,4 @@
-//! Reading a world file beside its task.
+//! Reading a world file together with its task.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What the closed loop brings on tasks that do not know their scene, beside planning once.
+//! What the closed loop brings on tasks that do not know their scene, compared with planning once.
 
 use std::time::Instant;
 

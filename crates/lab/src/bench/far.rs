@@ -43,7 +43,7 @@ pub struct FarCost {
 }
 
 /// Times the pushes of `suite` with more and more far objects beside them by every model, on one
-/// thread; beside each model stands how many jobs it is given at a time.
+/// thread; each model comes with how many jobs it is given at a time.
 ///
 /// # Errors
 /// If the thread cannot be started.

@@ -293,7 +293,7 @@ fn time(step: &BeliefStep) -> Option<f64> {
     }
 }
 
-/// Accuracy over all ordered pairs in sparse scenes, beside the published one.
+/// Accuracy over all ordered pairs in sparse scenes, and the published one.
 fn chart(summaries: &[BeliefSummary]) -> Chart {
     let believers = believers(summaries);
     let mut series = Vec::new();

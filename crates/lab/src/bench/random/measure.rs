@@ -1,4 +1,4 @@
-//! What is measured on a random task: our plan, beside doing nothing and a random choice.
+//! What is measured on a random task: our plan, doing nothing and a random choice.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{End, SolvedTask};
