@@ -15,8 +15,8 @@ use super::world::Look;
 const APART: f64 = 0.04;
 const THERE: f64 = 0.02;
 
-/// What a tool pushes goes at most so many times as far as the tool, and as much farther, metres: it
-/// may swing about a joint and slide on.
+/// What a tool pushes goes at most this many times as far as the tool, and this much farther,
+/// metres: it may swing about a joint and slide on.
 const SWING: f64 = 2.0;
 const SLIDE: f64 = 0.10;
 

@@ -28,8 +28,8 @@ const MAX_YAML_NODES: usize = 100_000;
 /// Lists and maps within each other: a trajectory file, the deepest there is, has nine.
 const MAX_DEPTH: usize = 32;
 
-/// So many brackets, dashes and colons of a YAML text are read before their depth is checked. The
-/// parser's time grows with the square of the depth: so many levels take it some 30 ms.
+/// Brackets, dashes and colons of a YAML text that are read before their depth is checked. The
+/// parser's time grows with the square of the depth: this many levels take it some 30 ms.
 const OPENERS_AT_ONCE: usize = 2000;
 
 const TAGS: &str = "tags such as `!name` have no meaning here";

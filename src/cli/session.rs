@@ -116,7 +116,7 @@ impl Session {
         self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}")
     }
 
-    /// The same for work in stages, each of so many units.
+    /// The same for work in stages, each of a number of units.
     pub fn staged(&self, what: &str) -> ProgressBar {
         self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}")
     }

@@ -13,7 +13,7 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// Of so many groups, of which these `pairs` press on each other.
+    /// Of a number of groups, of which these `pairs` press on each other.
     pub fn find(
         &mut self,
         count: usize,

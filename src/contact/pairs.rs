@@ -20,7 +20,8 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Of a scene with so many objects and obstacles, and a tool with so many parts.
+    /// Of a scene with these numbers of objects and obstacles, and a tool with this number of
+    /// parts.
     pub fn new(objects: usize, obstacles: usize, parts: usize) -> Self {
         Self { objects, obstacles, parts }
     }

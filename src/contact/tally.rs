@@ -37,7 +37,7 @@ impl Tally {
         self.operations += other.operations;
     }
 
-    /// Counts an object with so many points under it: two products and a sum for the speed along
+    /// Counts an object with this many points under it: two products and a sum for the speed along
     /// either axis, their length, a quotient, and five sums of products.
     #[inline(always)]
     pub(super) fn weigh(&mut self, points: usize) {

@@ -171,7 +171,7 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
         let values = [from.x, from.y, to.x, to.y, stroke.duration, settle];
         numeric(xml, &format!("push {}", index + 1), &values);
     }
-    xml.comment("Rest is slower than this; it is looked for this often, and so many times.");
+    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
     numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");

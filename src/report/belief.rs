@@ -13,7 +13,7 @@ use super::table::{
     NONE, Table,
 };
 
-/// Nine in ten normal numbers lie within so many standard deviations.
+/// Nine in ten normal numbers lie within this many standard deviations.
 const NINE_IN_TEN: f64 = 1.645;
 
 /// The belief about the objects called `names` of a recording of this title; `ranges` are those that masses

@@ -15,10 +15,10 @@ use crate::watch::Watch;
 use super::Simulator;
 use super::strain::{Overlap, Strain};
 
-/// Steps of what is played faster than it happens are so many times finer.
+/// How many times finer the steps are of what is played faster than it happens.
 const FINER: f64 = 4.0;
 
-/// Nothing is played more than so many times faster than it happens.
+/// The most times faster than it happens that anything is played.
 const MOST_HURRIED: f64 = 100.0;
 
 /// An object this many times faster than the tool is not carried by it.

@@ -20,7 +20,7 @@ const CROWD_ENGINE: ModelKind = planar(60);
 /// of objects that were measured, or the largest of these where they do not.
 const FEW_FOR_PRIOR: u16 = 9;
 
-/// The planar engine at so many steps a second, one at least.
+/// The planar engine at this many steps a second, at least one.
 const fn planar(rate: u16) -> ModelKind {
     let rate = Rate(NonZeroU16::MIN.saturating_add(rate.saturating_sub(1)));
     ModelKind::Simulated { engine: Engine::Planar, rate }

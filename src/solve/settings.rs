@@ -67,13 +67,13 @@ pub struct Settings {
     pub disturbed: usize,
 }
 
-/// A replay costs more the more objects there are, so at most so many, of all plans, are replayed together:
-/// with four on the table, eight plans.
+/// A replay costs more the more objects there are, so at most this many, of all plans, are replayed
+/// together: with four on the table, eight plans.
 const REPLAYED_AT_ONCE: usize = 32;
 
 impl Settings {
-    /// Plans verified together where so many objects are on the table: fewer in a crowd, where the first
-    /// ones are often good and their replays are most of the cost.
+    /// Plans verified together where this many objects are on the table: fewer in a crowd, where
+    /// the first ones are often good and their replays are most of the cost.
     pub(super) fn at_once(&self, objects: usize) -> usize {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }

@@ -28,7 +28,7 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 /// gain much; with up to four objects the rounds end first.
 const REFINE_WORK: usize = 20_000;
 
-/// Of the plans that were replayed together and work, so many are replayed with disturbances, best
+/// How many of the plans that were replayed together and work are replayed with disturbances, best
 /// first: the others miss by more.
 const DISTURBED_AT_ONCE: usize = 3;
 
@@ -171,7 +171,7 @@ impl<'a> Solving<'a> {
         self.planner.settings().at_once(self.situation.scene.objects.len())
     }
 
-    /// Says what is done to plans of so many pushes.
+    /// Says what is done to plans of a number of pushes.
     fn tell(&self, stage: &str, pushes: usize) {
         let s = if pushes == 1 { "" } else { "es" };
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));

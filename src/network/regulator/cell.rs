@@ -69,7 +69,8 @@ impl Regulator {
     }
 
     /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
-    /// `pairs` of so many `objects`. Returns what to correct of these pairs, `None` for the others.
+    /// `pairs` of this many `objects`. Returns what to correct of these pairs, `None` for the
+    /// others.
     pub fn step(
         &self,
         features: &[f32],

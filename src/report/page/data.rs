@@ -247,12 +247,12 @@ pub struct Candidates {
     /// Why pushes could not be made; cells name them by index.
     pub reasons: Vec<String>,
     pub grids: Vec<Grid>,
-    /// How many there were, of which so many are on the page.
+    /// How many there were, and how many of them are on the page.
     pub considered: usize,
     pub shown: usize,
 }
 
-/// The ways to push with one tool, held one way, as the last of so many pushes.
+/// The ways to push with one tool, held one way, as the last of a number of pushes.
 #[derive(Serialize)]
 pub struct Grid {
     /// Name of the tool.
@@ -260,8 +260,8 @@ pub struct Grid {
     pub pushes: usize,
     /// Grip yaw in degrees.
     pub yaw: String,
-    /// Name of the part that makes contact, over so many cells of a row; empty where a push goes on
-    /// from where the last one ended.
+    /// Name of the part that makes contact, over a number of cells of a row; empty where a push
+    /// goes on from where the last one ended.
     pub faces: Vec<(String, usize)>,
     /// Headings of the rows, degrees.
     pub directions: Vec<f64>,

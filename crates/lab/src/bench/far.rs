@@ -26,7 +26,7 @@ const ROUNDS: usize = 5;
 /// Processor time of a round, at least, seconds; the kernel may count in ticks of 4 ms.
 const ROUND: f64 = 0.06;
 
-/// Cost of a push with so many far objects on the table.
+/// Cost of a push with a number of far objects on the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FarCost {
     /// Name of the model.

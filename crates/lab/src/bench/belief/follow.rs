@@ -24,7 +24,7 @@ use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 pub enum Asked {
     /// After some observations of a single stroke, and after every one of several strokes.
     OnTheWay,
-    /// So many observations after anything first moved.
+    /// A number of observations after anything first moved.
     AfterContact,
 }
 

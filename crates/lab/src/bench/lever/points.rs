@@ -9,7 +9,7 @@ use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// What so many frames say.
+/// What a number of frames say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRow {
     /// Frames that are seen, from the first on.
