@@ -34,7 +34,7 @@
 //! | an instant is missing | the next one tells of the motion since the last |
 //! | late, out of order | put in order by its time, within one motion |
 //! | of before the motion, at no time | left out |
-//! | a number that is none | that object was not seen |
+//! | NaN or infinity | that object was not seen |
 //! | two objects in each other's places | changed back |
 //! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
 //! | another number of objects | [`ActError::Objects`]: this is another table |

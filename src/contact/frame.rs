@@ -38,7 +38,7 @@ pub struct Frame {
     awake: Awake,
     /// Of the objects that are awake.
     pub(super) motions: Vec<Motion>,
-    /// What became of it as one of a lone object.
+    /// Its solution, if it is a frame of a lone object.
     pub(super) lone: Option<LoneSolution>,
 }
 

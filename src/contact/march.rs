@@ -16,8 +16,8 @@ use super::{
 };
 
 /// Contacts count in a piece when their gap is at most this beyond what both could travel in it,
-/// metres; see [`super::MARGIN`]. The least that is enough for pushed bodies that turn: with 8 mm no
-/// end of 60 pushes of 1 to 10 objects is another by 0.01 mm.
+/// metres; see [`super::MARGIN`]. The least that is enough for pushed bodies that turn: with 8 mm
+/// none of 60 pushes of 1 to 10 objects ends elsewhere by 0.01 mm.
 const MARGIN: f64 = 1e-3;
 
 /// Memory that marching reuses.

@@ -1,4 +1,4 @@
-//! From what a model is called to the model; the shipped weights, available from any directory.
+//! From the name of a model to the model; the shipped weights, available from any directory.
 
 use std::fmt;
 use std::path::Path;

@@ -10,7 +10,7 @@ use super::{Goal, Push, PushForm, State, Tool, ToolMotion, Trajectory};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
-    /// Top-down, with a support-friction law of our own: the default truth for data and search.
+    /// Top-down, with its own law of support friction: the default truth for data and search.
     Planar,
     /// Full 3-D: the independent check.
     Spatial,
@@ -19,8 +19,8 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Those that a verdict rests on, in the order in which they are shown: predictions are
-    /// compared with the planar one.
+    /// The engines of a verdict, in the order in which they are shown: predictions are compared
+    /// with the planar one.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }
 
@@ -61,8 +61,8 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Judges where a trajectory ended. One that did not come to rest, left the finite numbers,
-    /// or lost an object's footing does not count as reaching the goal.
+    /// Judges where a trajectory ended. One that did not come to rest, became NaN or infinite, or
+    /// in which an object fell does not count as reaching the goal.
     pub fn judge(goal: &Goal, trajectory: &Trajectory) -> Self {
         let state = trajectory.outcome().clone();
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());

@@ -23,7 +23,7 @@ pub enum Warning {
         /// Largest value of the range.
         high: f64,
     },
-    /// No model that was asked takes this job; the last of them predicted all the same.
+    /// No model that was asked takes this job; the last of them predicted it all the same.
     Declined {
         /// The last.
         model: ModelSpec,
@@ -42,8 +42,8 @@ pub enum Warning {
         /// Its name.
         object: String,
     },
-    /// An object was pressed into what does not give way: rigid bodies get stuck there, and an arm
-    /// stops or something breaks. The replay ended.
+    /// An object was pressed into something that does not give way: rigid bodies get stuck there,
+    /// and an arm stops or something breaks. The replay ended.
     Jammed {
         /// Its name.
         object: String,
@@ -100,8 +100,8 @@ pub enum Warning {
         /// The names of the part and the obstacle.
         between: [String; 2],
     },
-    /// Two bodies came inside each other: pressed together by what does not give way, or left
-    /// so by the model.
+    /// Two bodies overlap: pressed together by something that does not give way, or left so by the
+    /// model.
     Overlap {
         /// Their names.
         between: [String; 2],
@@ -115,8 +115,8 @@ pub enum Warning {
         /// How far, metres (a turn at 5 cm).
         distance: f64,
     },
-    /// What is predicted and what the planar engine makes of the same motion differ: the measured
-    /// consequence of another warning.
+    /// The prediction and the planar engine differ on the same motion: the measured consequence of
+    /// another warning.
     Differs {
         /// The object on which they differ most.
         object: String,
@@ -195,7 +195,7 @@ impl Warning {
         )
     }
 
-    /// What is the matter, in a word or two for a table.
+    /// The trouble in a word or two, for a table.
     pub fn word(&self) -> &'static str {
         match self {
             Warning::OutsideRange { .. } => "outside its range",
@@ -221,7 +221,7 @@ impl Warning {
         }
     }
 
-    /// What is the matter, without what it means or helps.
+    /// The fact, without what it means or what helps.
     fn fact(&self) -> String {
         match self {
             Warning::OutsideRange { of, quantity, value, low, high } => {

@@ -1,4 +1,4 @@
-//! Refuses tasks made in code that no file could hold.
+//! Refuses tasks made in code that could not be read from a file.
 
 use std::sync::Arc;
 

@@ -12,7 +12,7 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 use super::{Effort, Settings};
 
 /// The planar engine that pushes into crowds are left to: among touching objects it is off by less
-/// in the plane than the prior, and costs a quarter of what the engine does at its default step.
+/// in the plane than the prior, and costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
 /// The most objects that a push can set in motion for which the prior is clearly cheaper than
@@ -54,8 +54,8 @@ const MEDIUM: Settings = Settings {
 
 impl Effort {
     /// The model, the budgets, and the disturbed replays of the winning plan in each engine: what a
-    /// look, a usual answer, a careful one and a thorough study are worth. More replays than a
-    /// level was measured with make its plans no better, but tell their robustness in finer shares.
+    /// first look, a usual answer and a thorough one take. More replays than a level was measured
+    /// with do not make its plans better, but measure their robustness more finely.
     const fn level(self) -> (ModelKind, Settings, usize) {
         match self {
             Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
@@ -64,8 +64,7 @@ impl Effort {
         }
     }
 
-    /// What it means in numbers: the budgets of its level, and the replays that tell how robust
-    /// the plan is.
+    /// Its numbers: the budgets of its level, and the replays that tell how robust the plan is.
     pub fn settings(self) -> Settings {
         let (_, settings, disturbed) = self.level();
         Settings { disturbed, ..settings }

@@ -18,7 +18,7 @@ pub enum Effort {
     #[default]
     Standard,
     /// Half as expensive again, by simulation: plans hold a little more often when the world is a
-    /// little different, which twice as many replays tell.
+    /// little different, and twice as many replays check it.
     Thorough,
 }
 
@@ -91,7 +91,7 @@ impl Settings {
         disturbed: 0,
     };
 
-    /// The part that the search takes, with a model that is off by `model_error` metres at times.
+    /// The settings of the search, with a model that is off by `model_error` metres at times.
     pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,

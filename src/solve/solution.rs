@@ -36,8 +36,8 @@ pub struct Refinement {
     pub before: f64,
     /// The same now.
     pub after: f64,
-    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D had ended
-    /// beside it.
+    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D missed the
+    /// goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aimed_at: Option<Vector>,
     /// Score of that middle (error in units of the tolerance) after each round.
@@ -108,7 +108,7 @@ pub struct Statistics {
     pub search: SearchStatistics,
     /// Of the refinement.
     pub refinement: RefineStatistics,
-    /// Rollouts of the effect model altogether.
+    /// All rollouts of the effect model.
     pub rollouts: usize,
     /// Plans replayed in the simulator.
     pub verified: usize,
@@ -145,7 +145,7 @@ impl Solution {
     }
 }
 
-/// A shared tool is written as the tool itself.
+/// A shared tool is serialised as the tool itself.
 mod shared {
     use std::sync::Arc;
 

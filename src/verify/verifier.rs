@@ -52,7 +52,7 @@ impl<'a> Verifier<'a> {
     }
 
     /// About how long verifying a plan takes on one core, seconds: right to within a factor of
-    /// three where not everything is pushed into everything.
+    /// three unless everything is pushed into everything.
     pub fn seconds(&self, scene: &Scene, plan: &Plan) -> f64 {
         let moving: f64 = plan.pushes.iter().map(|push| push.length / push.speed).sum();
         let each = [(&self.planar, PLANAR_STEP), (&self.spatial, SPATIAL_STEP)];
