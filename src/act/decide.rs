@@ -28,7 +28,7 @@ pub(super) enum Decision {
     Nothing,
 }
 
-/// Plans with what comes of each.
+/// Plans with their expected outcomes.
 struct Judged {
     plans: Vec<(Plan, Arc<Tool>)>,
     reach: Vec<Vec<Reach>>,
@@ -72,7 +72,7 @@ impl Runner<'_> {
         let sure = |judged: &Judged| {
             judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
         };
-        // Where no plan does in enough samples, one is made for those in which none does at all.
+        // Where no plan works in enough samples, one is made for those in which none works at all.
         let mut tried = Vec::new();
         while tried.len() < settings.others && !sure(&judged) && !watch.cancelled() {
             let missed = |s: &usize| judged.reach.iter().all(|plan| !plan[*s].reached);
@@ -130,7 +130,7 @@ impl Runner<'_> {
     }
 }
 
-/// Stops as another does, but tells it nothing: what a plan takes is no progress of a run.
+/// Stops as another does, but tells it nothing: progress of planning is not progress of the run.
 struct Quiet<'a>(&'a dyn Watch);
 
 impl Watch for Quiet<'_> {

@@ -20,7 +20,7 @@ use super::judge::{Chance, Samples};
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
-/// The table is looked at so often where something is not seen at rest.
+/// How often the table is looked at where something is not seen at rest.
 const LOOKS: usize = 3;
 
 /// Two looks at rest agree within this distance beyond the noise, metres.
@@ -82,7 +82,7 @@ impl<'a> Runner<'a> {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
             let decision = self.next(trace, &belief, watch)?;
-            // What was decided under pressure of time would not be decided again.
+            // A decision under a time limit would not be made again.
             if watch.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
@@ -233,7 +233,7 @@ impl<'a> Runner<'a> {
         belief.settle(&self.model);
     }
 
-    /// What a plan does to everything, as far as is believed; nothing if no model says.
+    /// What a plan is believed to do to all objects; `None` if no model says.
     fn predicted(
         &self,
         now: &Situation,
@@ -254,7 +254,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Looks again at what was not seen at rest, and gives the observations with what is then seen.
+/// Looks again at what was not seen at rest, and returns the observations with what is then seen.
 fn rests(
     trace: &Trace,
     gatherer: &mut Gatherer,
@@ -294,7 +294,7 @@ fn rests(
     Ok(observations)
 }
 
-/// Whether the goal is reached whatever the doubt about where the object is: metres and radians.
+/// Whether the goal is reached despite the doubt about where the object is: metres and radians.
 fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
     let less = |tolerance: f64, doubt: f64| (tolerance - SURE * doubt).max(0.5 * tolerance);
     let heading = goal.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));

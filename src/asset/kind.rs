@@ -51,8 +51,8 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Recognises the file at `path` by what it holds and checks all of it; the tools that a task
-/// names must be in `library`, if one is given.
+/// Recognises the file at `path` by its content and checks all of it; the tools that a task names
+/// must be in `library`, if one is given.
 ///
 /// # Errors
 /// All faults of the file, each with its place.
@@ -65,7 +65,7 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
-        // What it says of a task's objects can be checked only together with the task.
+        // What it says about a task's objects can be checked only together with the task.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
         Kind::LeverPlan => LeverPlanFile::parse(&text, &file).map(|_| kind),
         Kind::LeverTrajectory => LeverTrajectoryFile::parse(&text, &file).map(|_| kind),

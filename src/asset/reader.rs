@@ -107,7 +107,7 @@ fn check_depth(source: Source) -> Result<(), Failure> {
         let part = Source { text: &source.text[..cut], ..source };
         let Err(failure) = read(part, usize::MAX) else { continue };
         // A text that is cut off fails in the parser itself. What is refused for what it says
-        // (nesting, tags, a second document) no longer text could mend.
+        // (nesting, tags, a second document) more text could not mend.
         let parsed = serde_yaml::from_str::<IgnoredAny>(part.text);
         let cut_off = parsed.is_err_and(|error| error.to_string() == failure.message);
         if !cut_off || failure.place.is_none() {

@@ -1,5 +1,5 @@
 //! What a model is compared with where its errors are measured: what it must beat, and what the
-//! planar engine makes of a scene that it is told something wrong of.
+//! planar engine predicts when it is told something wrong about a scene.
 
 use crate::scene::{Assumptions, JointBelief, ModelKind, ModelSpec};
 

@@ -89,7 +89,7 @@ pub struct ModelErrors {
     pub overlap_mean: f64,
     /// Drift of fixed, revolute and prismatic joints.
     pub drift: [Drift; 3],
-    /// Trajectories in which the prediction left the finite numbers; judged by where it stopped.
+    /// Trajectories in which the prediction became NaN or infinite; judged by where it stopped.
     pub failed: usize,
 }
 

@@ -13,7 +13,7 @@ use crate::scene::{ModelSpec, Outcome, Plan, Task, Tool, Verdict};
 use super::read::{self, Opened};
 use super::{PLAN_FILE, SCHEMA_VERSION, emit};
 
-/// A plan with everything that is needed to carry it out, and what is known of its effect.
+/// A plan with everything that is needed to carry it out, and what is known about its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanFile {
     /// The task that it solves.

@@ -61,7 +61,7 @@ pub struct SinglePushes {
     pub missed: usize,
 }
 
-/// What came of one task, in the order of [`SinglePushes`].
+/// The result of one task, in the order of [`SinglePushes`].
 struct One {
     nothing: bool,
     solvable: bool,

@@ -168,7 +168,7 @@ fn obstacle<'a>(
         return None;
     };
     let pose = Pose { position: upright.pose.position, ..upright.pose };
-    // What of it is below the table, or a little above, nobody meets.
+    // No object meets the part of it that is below the table, or a little above.
     let size = [x, y, upright.top() - floor];
     let friction = solid.material.friction.unwrap_or(wanted.friction);
     Some((Obstacle { name: names.take(what), size, pose, z: 0.0, friction }, solid))

@@ -1,4 +1,4 @@
-//! What is asked for, and what comes of it.
+//! What is asked for, and the result.
 
 use crate::geometry::Vector;
 
@@ -36,6 +36,6 @@ impl Default for Wanted {
 pub struct Imported<T> {
     /// The thing itself.
     pub value: T,
-    /// What it says a little otherwise than the file, each with its place.
+    /// Where it differs slightly from the file, each with its place.
     pub notes: Vec<String>,
 }

@@ -6,10 +6,10 @@ use roxmltree::{Attribute, Node};
 
 use crate::import::xml::{Source, elements};
 
-/// The class of what names none.
+/// The class of elements that name none.
 const MAIN: &str = "main";
 
-/// Classes in each other, less than a stack holds.
+/// Deepest nesting of classes, less than a stack holds.
 const DEEPEST: usize = 200;
 
 /// An element whose attributes are looked for, with the class that its body gives to what names

@@ -201,7 +201,7 @@ impl<'a> Context<'a> {
         })
     }
 
-    /// The points of a mesh that stands in the file itself.
+    /// The points of a mesh that is in the file itself.
     fn hull(&self, source: &mut Source<'a>, mesh: Node<'a, 'a>) -> Option<Outline> {
         let element = Lookup { node: mesh, class: None };
         let find = |name: &str| self.defaults.find(element, name);
