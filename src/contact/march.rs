@@ -37,7 +37,7 @@ impl March {
     /// The `motions` of all objects in the frame, by `pieces` smaller steps.
     ///
     /// Only pairs that have one of the frame's `known` contacts can touch. So nothing can enter
-    /// that the frame as a whole does not know of, however fast a thing becomes within it.
+    /// that the frame as a whole does not know of, however fast a body becomes within it.
     pub fn run(
         &mut self,
         Scenery { bodies, state, step, turns: turns_before, .. }: Scenery,

@@ -1,7 +1,7 @@
 //! Lasting names of pairs of bodies.
 //!
 //! What is on a list, awake or in touch changes from frame to frame, and so do all numbers that
-//! follow from it. Whoever keeps something about a pair over time keeps it under its id.
+//! follow from it. Anything kept about a pair over time is kept under its id.
 
 use crate::scene::Body;
 

@@ -19,8 +19,8 @@ pub struct Tally {
     pub rows: u64,
     /// Updates in which no set was right, so that the answer was approached by iteration.
     pub approached: u64,
-    /// Floating-point operations of points that drag and of linear equations: what the method
-    /// cannot do without.
+    /// Floating-point operations of points that drag and of linear equations: the unavoidable work
+    /// of the method.
     pub operations: u64,
 }
 

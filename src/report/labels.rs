@@ -11,8 +11,8 @@ const GAP: Vector = Vector::new(6.0, 6.0);
 /// Height of letters above their baseline and below it, in units of the font size.
 const ABOVE: f64 = 0.78;
 const BELOW: f64 = 0.22;
-/// How much worse it is to cover other words than to cover a dot, which the light rim of the
-/// words leaves half visible.
+/// How much worse it is to cover other words than a dot, which the light rim of the words leaves
+/// half visible.
 const OVER_WORDS: f64 = 10.0;
 
 /// Where words may still go in a chart.

@@ -12,7 +12,8 @@ use super::{
     },
 };
 
-/// One line: tool, grip yaw, number of pushes; of a plan to leave things as they are, just that.
+/// One line: tool, grip yaw, number of pushes; for a plan that leaves everything as it is, just
+/// that.
 pub(super) fn plan_line(plan: &Plan) -> String {
     let pushes = match plan.pushes.len() {
         0 => return "no push".to_owned(),

@@ -11,7 +11,7 @@ use super::plan_text::{goal_line, plan_line, point, push_section};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
 
-/// A solved task, or the nearest that there is.
+/// A solved task, or the nearest plan.
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {

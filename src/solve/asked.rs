@@ -1,4 +1,4 @@
-//! A plan as a person asks for it: pushes given by where they start, or by the object they meet.
+//! A plan that a person asks for: pushes given by where they start, or by the object they meet.
 //!
 //! Nothing is searched. A push before an object is placed where the pushes before it leave the
 //! objects, by the planar simulation.

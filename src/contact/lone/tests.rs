@@ -97,7 +97,7 @@ impl Drawn {
     }
 }
 
-/// All that is said of a frame, bit by bit.
+/// Everything in a frame's solution, bit by bit.
 fn bits(solution: &LoneSolution) -> Vec<u64> {
     let LoneSolution { motion, normal, pressed, inverse, effort } = solution;
     let motion = motion.iter().flat_map(|motion| {

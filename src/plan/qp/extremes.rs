@@ -1,4 +1,4 @@
-//! Quadratic programmes with numbers that refinement should never produce, and may.
+//! Quadratic programmes with numbers that refinement should never produce, but might.
 //!
 //! All are of the shape that refinement solves: 1/2 x'Px + q'x within low <= x <= high. The
 //! reference is coordinate descent, which for a convex quadratic over a box converges to the
@@ -15,7 +15,7 @@ const EXCESS: f64 = 1e-4;
 /// Sweeps of the reference.
 const SWEEPS: usize = 20_000;
 
-/// What should come of a programme.
+/// The expected result of a programme.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
     /// The minimum.

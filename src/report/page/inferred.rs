@@ -1,4 +1,4 @@
-//! The page of a recording: what was seen, and what is believed of it under the same clock.
+//! The page of a recording: what was seen, and what is believed after it, on the same clock.
 
 use serde_json::Value as Json;
 

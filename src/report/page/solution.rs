@@ -74,7 +74,8 @@ fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
     made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))
 }
 
-/// What came of the plan of rank `k`: of the first its verdict, of the others why it is not first.
+/// The result of the plan of rank `k`: for the first its verdict, for the others why they are not
+/// first.
 fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
