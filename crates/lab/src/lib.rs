@@ -1,7 +1,7 @@
 //! What pushplan's published numbers are measured with.
 //!
-//! `bench` measures, `report` says what came of it, and `cli` is the command `pushplan-lab`, whose
-//! answers stand below it in `results.md`. Nothing in `pushplan` knows this crate.
+//! `bench` measures, `report` presents the results, and `cli` is the command `pushplan-lab`, whose
+//! answers are in `results.md`. Nothing in `pushplan` knows this crate.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

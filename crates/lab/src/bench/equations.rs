@@ -36,7 +36,7 @@ const RIVAL: Rate = Rate(NonZeroU16::MIN.saturating_add(119));
 pub struct EquationCost {
     /// Objects on the table.
     pub objects: usize,
-    /// Whether some hang together by joints.
+    /// Whether some are joined.
     pub jointed: bool,
     /// Pushes that were counted.
     pub pushes: usize,

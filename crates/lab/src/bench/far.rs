@@ -1,4 +1,4 @@
-//! What objects cost that no push can touch: nothing, if a model computes only what the scene
+//! The cost of objects that no push can touch: nothing, if a model computes only what the scene
 //! needs.
 
 use pushplan::internals::effect::EffectModel;

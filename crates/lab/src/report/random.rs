@@ -12,7 +12,7 @@ use serde_json::json;
 
 use crate::bench::{RandomRecord, TaskKind};
 
-/// A run of the suite: what was measured and what came of it.
+/// A run of the suite: what was measured, and the results.
 pub type RandomRun = (RunManifest, Vec<Finished<RandomRecord>>);
 
 /// Where the tasks of a method end.

@@ -1,4 +1,5 @@
-//! Tasks that nobody can solve: an object before a gap that is narrower than it, the goal behind.
+//! Tasks that cannot be solved: an object in front of a gap that is narrower than it, the goal
+//! behind.
 //!
 //! What a planner says about them shows whether rigid things stay rigid in its verdict.
 
@@ -6,7 +7,9 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
-use pushplan::internals::scene::{Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns};
+use pushplan::internals::scene::{
+    Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
+};
 
 use super::kind::TaskKind;
 use super::layout::round;
