@@ -24,13 +24,11 @@ __all__ = [
     "ToolLibrary",
     "Trajectory",
     "Verdict",
-    "blade_schema",
     "export_mcap",
     "export_mjcf",
     "import_task",
     "import_tool",
     "infer",
-    "lever_task_schema",
     "predict",
     "recording_schema",
     "rollout",
@@ -416,7 +414,7 @@ def solve_all(
     threads: int = 0,
 ) -> list[Solution]: ...
 def predict(
-    plan: Plan, model: str = "prior", *, outside: _Outside = "warn", threads: int = 0
+    plan: Plan, model: str = "network", *, outside: _Outside = "warn", threads: int = 0
 ) -> Trajectory: ...
 def verify(
     plan: Plan,
@@ -434,7 +432,7 @@ def rollout(
     *,
     grip_yaw: npt.ArrayLike | None = None,
     start: npt.ArrayLike | None = None,
-    model: str = "prior",
+    model: str = "network",
     outside: _Outside = "warn",
     record: Literal["frames", "outcome"] = "frames",
     tools: ToolLibrary | None = None,
@@ -471,6 +469,4 @@ def export_mcap(
 ) -> None: ...
 def tool_schema() -> dict[str, Any]: ...
 def task_schema() -> dict[str, Any]: ...
-def lever_task_schema() -> dict[str, Any]: ...
-def blade_schema() -> dict[str, Any]: ...
 def recording_schema() -> dict[str, Any]: ...

@@ -47,7 +47,7 @@ mod _native {
     use super::run::{PyMotion, PyRun, run};
     #[pymodule_export]
     use super::schemas::{
-        blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema,
+        recording_schema, task_schema, tool_schema,
     };
     #[pymodule_export]
     use super::solution::PySolution;
