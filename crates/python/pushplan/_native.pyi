@@ -29,6 +29,7 @@ __all__ = [
     "import_task",
     "import_tool",
     "infer",
+    "main",
     "predict",
     "recording_schema",
     "rollout",
@@ -45,7 +46,7 @@ __version__: str
 
 _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
-_Effort = Literal["draft", "standard", "thorough", "exhaustive"]
+_Effort = Literal["draft", "standard", "thorough"]
 _Outside = Literal["warn", "simulate", "refuse"]
 
 @final
@@ -447,6 +448,7 @@ def infer(
     mass_ranges: Sequence[tuple[float, float]] | None = None,
     threads: int = 0,
 ) -> Belief: ...
+def main(arguments: Sequence[str]) -> int: ...
 def import_tool(
     path: _Path, *, body: str | None = None, name: str | None = None, friction: float = 0.5
 ) -> Tool: ...

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 mod arrays;
 mod belief;
+mod command;
 mod errors;
 mod formats;
 mod json;
@@ -35,6 +36,8 @@ mod _native {
 
     #[pymodule_export]
     use super::belief::{PyBelief, PyRecording, infer};
+    #[pymodule_export]
+    use super::command::main;
     #[pymodule_export]
     use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
     #[pymodule_export]
