@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use crate::recording::Recording;
-use crate::scene::{BladeTool, Tool};
+use crate::scene::Tool;
 
 use super::fault::{Fault, Faults};
 use super::lever::{BLADE_TOOL_KEYS, LEVER_TASK_KEYS};
@@ -13,7 +13,7 @@ use super::node::Node;
 use super::recording::RECORDING_KEYS;
 use super::saved::{LeverPlanFile, LeverTrajectoryFile, PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
-use super::{lever, spec::Key, task, tool, world};
+use super::{spec::Key, task, tool, world};
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,10 +30,6 @@ pub enum Kind {
     Recording,
     /// A world file.
     World,
-    /// A file of a tool with a blade.
-    Blade,
-    /// A task of levering.
-    LeverTask,
     /// A plan file of levering.
     LeverPlan,
     /// A trajectory file of levering.
@@ -49,8 +45,6 @@ impl fmt::Display for Kind {
             Kind::Trajectory => "trajectory",
             Kind::Recording => "recording",
             Kind::World => "world",
-            Kind::Blade => "tool with a blade",
-            Kind::LeverTask => "task of levering",
             Kind::LeverPlan => "plan of levering",
             Kind::LeverTrajectory => "trajectory of levering",
         })
@@ -73,8 +67,6 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
         // What it says of a task's objects can be checked beside the task alone.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
-        Kind::Blade => BladeTool::parse(&text, &file).map(|_| kind),
-        Kind::LeverTask => lever::parse_lever_task(&text, &file, library).map(|_| kind),
         Kind::LeverPlan => LeverPlanFile::parse(&text, &file).map(|_| kind),
         Kind::LeverTrajectory => LeverTrajectoryFile::parse(&text, &file).map(|_| kind),
     }
@@ -101,8 +93,6 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
     let most = kinds.iter().map(|(keys, _)| *keys).max().unwrap_or(0);
     let mut best = kinds.into_iter().filter(|(keys, _)| *keys == most).map(|(_, kind)| kind);
     match (best.next(), best.next()) {
-        (Some(Kind::Tool), None) if lever::is_blade_tool(&root) => Ok(Kind::Blade),
-        (Some(Kind::Task), None) if lever::is_lever_task(&root) => Ok(Kind::LeverTask),
         (Some(kind), None) => Ok(kind),
         _ => {
             let message = "this is not a tool, task, plan, trajectory, recording or world file";

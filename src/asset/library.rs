@@ -4,13 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::scene::{BladeTool, Tool};
+use crate::scene::Tool;
 
 use super::fault::{Fault, Faults};
 use super::folder::files_in;
-use super::lever::is_blade_tool;
-use super::node::Node;
-use super::text::Source;
 
 /// The tools shipped with the program, as file name and text.
 const SHIPPED: &[(&str, &str)] = &[
@@ -29,7 +26,7 @@ const SHIPPED: &[(&str, &str)] = &[
     ("tools/wedge.yaml", include_str!("../../tools/wedge.yaml")),
 ];
 
-/// Tools with unique names, sorted by name; those with blades apart from those that push.
+/// Tools with unique names, sorted by name: those that push, and apart from them those with blades.
 ///
 /// ```
 /// use pushplan::{Part, Pose, Tool, ToolLibrary};
@@ -42,37 +39,10 @@ const SHIPPED: &[(&str, &str)] = &[
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct ToolLibrary {
+    /// Those that push.
     tools: Vec<Arc<Tool>>,
-    /// They push nothing, so that no task of pushes is offered them.
-    blades: Vec<Arc<BladeTool>>,
-}
-
-/// What a tool file may be.
-enum AnyTool {
-    Pushes(Tool),
-    Levers(BladeTool),
-}
-
-impl AnyTool {
-    fn parse(text: &str, file: &str) -> Result<Self, Faults> {
-        if is_blade_tool(&Node::parse(Source::yaml(file, text))?) {
-            BladeTool::parse(text, file).map(Self::Levers)
-        } else {
-            Tool::parse(text, file).map(Self::Pushes)
-        }
-    }
-
-    fn load(path: &Path) -> Result<Self, Faults> {
-        let (file, text) = super::read_text(path)?;
-        Self::parse(&text, &file)
-    }
-
-    fn name(&self) -> &str {
-        match self {
-            Self::Pushes(tool) => &tool.name,
-            Self::Levers(tool) => &tool.name,
-        }
-    }
+    /// Those that lever: no task of pushes is offered them.
+    blades: Vec<Arc<Tool>>,
 }
 
 impl ToolLibrary {
@@ -81,7 +51,7 @@ impl ToolLibrary {
     /// # Errors
     /// None in a released program: its tests read every shipped tool.
     pub fn embedded() -> Result<Self, Faults> {
-        Self::default().and(SHIPPED.iter().map(|(file, text)| (*file, AnyTool::parse(text, file))))
+        Self::default().and(SHIPPED.iter().map(|(file, text)| (*file, Tool::parse(text, file))))
     }
 
     /// Every `.yaml` or `.yml` file of the folder `path`.
@@ -99,28 +69,12 @@ impl ToolLibrary {
     /// If the library has a tool of this name already.
     pub fn with(mut self, tool: impl Into<Arc<Tool>>) -> Result<Self, Faults> {
         let tool = tool.into();
-        match self.place(&tool.name) {
-            Err(place) if self.blade(&tool.name).is_none() => {
-                self.tools.insert(place, tool);
-                Ok(self)
-            }
-            _ => Err(taken(&tool.name)),
+        let name = tool.name.clone();
+        if self.insert(tool) {
+            return Ok(self);
         }
-    }
-
-    /// These tools and one more with a blade.
-    ///
-    /// # Errors
-    /// If the library has a tool of this name already.
-    pub fn with_blade(mut self, tool: impl Into<Arc<BladeTool>>) -> Result<Self, Faults> {
-        let tool = tool.into();
-        match self.blade_place(&tool.name) {
-            Err(place) if self.get(&tool.name).is_none() => {
-                self.blades.insert(place, tool);
-                Ok(self)
-            }
-            _ => Err(taken(&tool.name)),
-        }
+        let message = "the library already has a tool of this name";
+        Err(Fault::of_file(&format!("tool `{name}`"), message, "rename one of the two").into())
     }
 
     /// These tools and those of every `.yaml` or `.yml` file of the folder `path`.
@@ -136,21 +90,18 @@ impl ToolLibrary {
             return Err(Fault::of_file(&path.display().to_string(), message, advice).into());
         }
         let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        self.and(names.iter().map(String::as_str).zip(files.iter().map(|file| AnyTool::load(file))))
+        self.and(names.iter().map(String::as_str).zip(files.iter().map(|file| Tool::load(file))))
     }
 
-    /// The tool that pushes called `name`.
+    /// The tool called `name`.
     pub fn get(&self, name: &str) -> Option<&Arc<Tool>> {
-        Some(&self.tools[self.place(name).ok()?])
-    }
-
-    /// The tool with a blade called `name`.
-    pub fn blade(&self, name: &str) -> Option<&Arc<BladeTool>> {
-        Some(&self.blades[self.blade_place(name).ok()?])
+        [&self.tools, &self.blades]
+            .into_iter()
+            .find_map(|tools| Some(&tools[place(tools, name).ok()?]))
     }
 
     /// All tools with blades, sorted by name.
-    pub fn blades(&self) -> &[Arc<BladeTool>] {
+    pub fn blades(&self) -> &[Arc<Tool>] {
         &self.blades
     }
 
@@ -169,19 +120,20 @@ impl ToolLibrary {
         self.tools.is_empty()
     }
 
-    /// Where the tool called `name` is, or would have to be.
-    fn place(&self, name: &str) -> Result<usize, usize> {
-        self.tools.binary_search_by(|tool| tool.name.as_str().cmp(name))
-    }
-
-    fn blade_place(&self, name: &str) -> Result<usize, usize> {
-        self.blades.binary_search_by(|tool| tool.name.as_str().cmp(name))
+    /// Adds a tool; whether its name was free.
+    fn insert(&mut self, tool: Arc<Tool>) -> bool {
+        let free = self.get(&tool.name).is_none();
+        let tools = if tool.pushes() { &mut self.tools } else { &mut self.blades };
+        if let (true, Err(place)) = (free, place(tools, &tool.name)) {
+            tools.insert(place, tool);
+        }
+        free
     }
 
     /// These tools and those read from files, with all faults of all files.
     fn and<'a>(
         mut self,
-        read: impl IntoIterator<Item = (&'a str, Result<AnyTool, Faults>)>,
+        read: impl IntoIterator<Item = (&'a str, Result<Tool, Faults>)>,
     ) -> Result<Self, Faults> {
         let mut faults = Vec::new();
         let mut files: BTreeMap<String, &str> = BTreeMap::new();
@@ -193,33 +145,22 @@ impl ToolLibrary {
                     continue;
                 }
             };
-            let name = tool.name().to_owned();
-            match (self.place(&name), self.blade_place(&name), tool) {
-                (Err(place), Err(_), AnyTool::Pushes(tool)) => {
-                    files.insert(name, file);
-                    self.tools.insert(place, Arc::new(tool));
-                }
-                (Err(_), Err(place), AnyTool::Levers(tool)) => {
-                    files.insert(name, file);
-                    self.blades.insert(place, Arc::new(tool));
-                }
-                _ => {
-                    let first = files.get(&name).copied().unwrap_or("the library");
-                    faults.push(Fault::of_file(
-                        file,
-                        format!("its tool `{name}` is already in {first}"),
-                        "rename one of the two",
-                    ));
-                }
+            let name = tool.name.clone();
+            if self.insert(Arc::new(tool)) {
+                files.insert(name, file);
+            } else {
+                let first = files.get(&name).copied().unwrap_or("the library");
+                let message = format!("its tool `{name}` is already in {first}");
+                faults.push(Fault::of_file(file, message, "rename one of the two"));
             }
         }
         if faults.is_empty() { Ok(self) } else { Err(Faults(faults)) }
     }
 }
 
-fn taken(name: &str) -> Faults {
-    let message = "the library already has a tool of this name";
-    Fault::of_file(&format!("tool `{name}`"), message, "rename one of the two").into()
+/// Where the tool called `name` is among `tools`, or would have to be.
+fn place(tools: &[Arc<Tool>], name: &str) -> Result<usize, usize> {
+    tools.binary_search_by(|tool| tool.name.as_str().cmp(name))
 }
 
 impl<'a> IntoIterator for &'a ToolLibrary {

@@ -30,7 +30,6 @@ mod write;
 pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
 pub use kind::{Kind, check};
-pub use lever::{AnyTask, load_any_task};
 pub use library::ToolLibrary;
 pub use printable::printable;
 pub use recording::RECORDING_FORMAT;
@@ -38,8 +37,8 @@ pub use saved::{
     AnyPlanFile, LeverPlanFile, LeverTrajectoryFile, PlanFile, SCHEMA_VERSION, TrajectoryFile,
 };
 pub use schema::{
-    blade_schema, lever_plan_schema, lever_task_schema, lever_trajectory_schema, plan_schema,
-    recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
+    lever_plan_schema, lever_trajectory_schema, plan_schema, recording_schema, task_schema,
+    tool_schema, trajectory_schema, world_schema,
 };
 pub use task::load_task;
 pub use text::{named_after, read_text};

@@ -7,8 +7,9 @@ use super::strict::describe;
 use super::text::LONGEST_NAME;
 
 /// What holds for a whole tool file.
-const TOOL_RULES: &str = "One rigid piece of upright solids, held at its grip. Lengths are in \
-metres, angles in degrees. Unknown keys are faults.";
+const TOOL_RULES: &str = "One rigid piece of upright solids, held at its grip, that pushes; or a flat \
+`blade`, held at the end of its shaft, that levers. Lengths are in metres, angles in degrees. Unknown \
+keys are faults.";
 
 /// What holds for a whole task file.
 const TASK_RULES: &str = "A scene, a robot, the tools and pushes that it allows, and a goal. \
@@ -19,19 +20,11 @@ connected by joints, without loops. The goal is reached when everything rests an
 centre is within the tolerance, and its heading too where one is asked for; headings at which the \
 object looks the same count alike unless the goal says otherwise. The position of a body is that of \
 its centre; of a prism, whose corners are written from any origin, that of its centre of mass. A \
-prism turns as heavily as an even plate on its base, about its centre of mass. Unknown keys are faults.";
-
-/// What holds for a whole task of levering.
-const LEVER_TASK_RULES: &str = "Flat objects, what is fixed around them, a robot, tools with blades, \
-and a goal that speaks of lifting. Lengths are in metres, masses in kilograms, angles in degrees. The \
-table is the plane z = 0; x points forward from the robot, whose base is the origin. A blade goes \
-level under an edge at its height, pointing inward, and turns about a level axis; the edge goes up. It \
-is held at the other end of its shaft, which stays within the reach. Friction coefficients are the \
-mean of two friction values. Unknown keys are faults.";
-
-/// What holds for a whole file of a tool with a blade.
-const BLADE_RULES: &str = "A tool that levers: a flat blade, held at the end of its shaft. Lengths are \
-in metres. Unknown keys are faults.";
+prism turns as heavily as an even plate on its base, about its centre of mass. A task with `levers`, or \
+a goal that speaks of `outside`, `raised` or `flipped`, is one of levering: its objects are flat, on \
+feet or on obstacles, and a blade goes level under an edge, pointing inward, and turns about a level \
+axis; the edge goes up. The blade is held at the other end of its shaft, which stays within the reach. \
+Unknown keys are faults.";
 
 /// What holds for a whole world file.
 const WORLD_RULES: &str = "What is really there where a task does not know it, for `pushplan run`: \
@@ -40,29 +33,15 @@ kilograms, angles in degrees. Unknown keys are faults.";
 
 /// The schema of tool files.
 pub fn tool_schema() -> Json {
-    let mut schema = document("pushplan tool", &super::tool::TOOL);
+    let mut schema = document("pushplan tool", &super::tool::TOOL_FILE);
     schema["description"] = json!(TOOL_RULES);
     schema
 }
 
 /// The schema of task files.
 pub fn task_schema() -> Json {
-    let mut schema = document("pushplan task", &super::task::TASK);
+    let mut schema = document("pushplan task", &super::task::TASK_FILE);
     schema["description"] = json!(TASK_RULES);
-    schema
-}
-
-/// The schema of tasks of levering.
-pub fn lever_task_schema() -> Json {
-    let mut schema = document("pushplan task of levering", &super::lever::LEVER_TASK);
-    schema["description"] = json!(LEVER_TASK_RULES);
-    schema
-}
-
-/// The schema of tools with blades.
-pub fn blade_schema() -> Json {
-    let mut schema = document("pushplan tool with a blade", &super::lever::BLADE_TOOL);
-    schema["description"] = json!(BLADE_RULES);
     schema
 }
 
@@ -98,6 +77,45 @@ pub fn world_schema() -> Json {
     let mut schema = document("pushplan world", &super::world::WORLD);
     schema["description"] = json!(WORLD_RULES);
     schema
+}
+
+/// Lets a schema allow what the other one does as well.
+fn merge(one: &mut Json, other: Json) {
+    if *one == other {
+        return;
+    }
+    let is_map = |schema: &Json| schema["properties"].is_object();
+    let is_list = |schema: &Json| schema["items"].is_object();
+    if is_map(one) && is_map(&other) {
+        if let (Json::Array(own), Json::Array(required)) =
+            (&mut one["required"], &other["required"])
+        {
+            own.retain(|key| required.contains(key));
+        }
+        let Json::Object(mut properties) = other else { return };
+        let Some(Json::Object(more)) = properties.remove("properties") else { return };
+        for (key, value) in more {
+            match one["properties"].get_mut(&key) {
+                Some(known) => merge(known, value),
+                None => one["properties"][key] = value,
+            }
+        }
+    } else if is_list(one) && is_list(&other) {
+        let limit = |key: &str| [&one[key], &other[key]].map(|limit| limit.as_u64().unwrap_or(0));
+        let ([a, b], [c, d]) = (limit("minItems"), limit("maxItems"));
+        one["minItems"] = json!(a.min(b));
+        one["maxItems"] = json!(c.max(d));
+        merge(&mut one["items"], other["items"].clone());
+    } else {
+        // Only the words differ, or one is as good as the other for an editor.
+        let words = one["description"].take();
+        let mut other = other;
+        let more = other["description"].take();
+        if *one != other {
+            *one = json!({"anyOf": [one.clone(), other]});
+        }
+        one["description"] = if words.is_null() { more } else { words };
+    }
 }
 
 fn document(title: &str, value: &Value) -> Json {
@@ -140,6 +158,14 @@ fn schema(value: &Value) -> Json {
             "type": "object", "properties": properties(keys),
             "minProperties": 1, "maxProperties": 1, "additionalProperties": false,
         }),
+        Value::Told { of, .. } => {
+            let mut all = of.iter().map(|value| schema(value));
+            let first = all.next().unwrap_or_default();
+            all.fold(first, |mut merged, other| {
+                merge(&mut merged, other);
+                merged
+            })
+        }
         Value::Either(values) => {
             json!({"anyOf": values.iter().map(schema).collect::<Vec<_>>()})
         }

@@ -3,6 +3,7 @@
 //! One description serves three readers: the strict check (`strict.rs`), the JSON schema for
 //! editors (`schema.rs`) and people, who meet its words in both.
 
+use super::node::Node;
 use super::prism::PRISM;
 
 /// A key of a map.
@@ -50,6 +51,8 @@ pub(super) enum Value {
     Variant(&'static [Key]),
     /// The first that fits the kind of the value.
     Either(&'static [Value]),
+    /// One of these: which one is told by what the value begins to say.
+    Told { by: fn(&Node) -> &'static Value, of: &'static [&'static Value] },
 }
 
 /// Numbers from `low` to `high`, both included.
@@ -142,7 +145,7 @@ mod tests {
     use crate::asset::lever::{BLADE_TOOL, LEVER_TASK};
     use crate::asset::recording::RECORDING;
     use crate::asset::saved::{LEVER_PLAN_FILE, LEVER_TRAJECTORY_FILE, PLAN_FILE, TRAJECTORY_FILE};
-    use crate::asset::{task::TASK, tool::TOOL, world::WORLD};
+    use crate::asset::{task::TASK_FILE, tool::TOOL, world::WORLD};
 
     fn walk(value: &Value, visit: &mut impl FnMut(&Value)) {
         visit(value);
@@ -151,6 +154,7 @@ mod tests {
             Value::Map(keys) | Value::Variant(keys) => {
                 keys.iter().for_each(|key| walk(&key.value, visit));
             }
+            Value::Told { of, .. } => of.iter().for_each(|value| walk(value, visit)),
             Value::Either(values) => values.iter().for_each(|value| walk(value, visit)),
             _ => {}
         }
@@ -158,7 +162,7 @@ mod tests {
 
     #[test]
     fn every_key_is_explained_and_every_range_holds_something() {
-        let pushes = [&TOOL, &TASK, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING, &WORLD];
+        let pushes = [&TOOL, &TASK_FILE, &PLAN_FILE, &TRAJECTORY_FILE, &RECORDING, &WORLD];
         let levers = [&BLADE_TOOL, &LEVER_TASK, &LEVER_PLAN_FILE, &LEVER_TRAJECTORY_FILE];
         for root in pushes.into_iter().chain(levers) {
             walk(root, &mut |value| match value {

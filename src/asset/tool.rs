@@ -6,6 +6,7 @@ use crate::geometry::{Pose, Shape};
 use crate::scene::{Part, Tool, ToolError};
 
 use super::fault::{Fault, Faults, did_you_mean};
+use super::lever::{BLADE_TOOL, blade_tool_of, is_blade_tool};
 use super::node::Node;
 use super::prism;
 use super::spec::{ANGLE, COORDINATE, EXTENTS, FRICTION, Key, POSITION, SHAPE, Value};
@@ -15,6 +16,9 @@ use super::text::Source;
 
 /// What a tool file may hold.
 pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
+
+/// What a file of a tool of either kind may hold.
+pub(super) static TOOL_FILE: Value = Value::Told { by: of, of: &[&TOOL, &BLADE_TOOL] };
 
 /// The keys of a tool.
 pub(super) const TOOL_KEYS: &[Key] = &[
@@ -115,14 +119,22 @@ impl Tool {
         let source = Source::yaml(file, text);
         let mut root = Node::parse(source)?;
         let mut ledger = Ledger::new(source);
-        check(&mut root, &TOOL, &mut ledger);
+        check(&mut root, &TOOL_FILE, &mut ledger);
         let tool = tool_of(&root, &mut ledger);
         ledger.finish(tool)
     }
 }
 
+/// What a file may hold that begins like this one.
+fn of(root: &Node) -> &'static Value {
+    if is_blade_tool(root) { &BLADE_TOOL } else { &TOOL }
+}
+
 /// Applies the rules that span several keys; `None` if anything needed is missing.
 pub(super) fn tool_of(root: &Node, ledger: &mut Ledger) -> Option<Tool> {
+    if is_blade_tool(root) {
+        return blade_tool_of(root, ledger);
+    }
     let list = root.get("parts")?;
     unique_names(list.items(), "parts", ledger);
     for part in list.items() {

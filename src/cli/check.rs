@@ -5,10 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{
-    self, Faults, blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema,
-    world_schema,
-};
+use crate::asset::{self, Faults, recording_schema, task_schema, tool_schema, world_schema};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 
@@ -37,10 +34,6 @@ enum Schema {
     Task,
     Recording,
     World,
-    /// A task of levering
-    LeverTask,
-    /// A tool with a blade
-    Blade,
 }
 
 pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
@@ -50,8 +43,6 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
             Schema::Task => task_schema(),
             Schema::Recording => recording_schema(),
             Schema::World => world_schema(),
-            Schema::LeverTask => lever_task_schema(),
-            Schema::Blade => blade_schema(),
         };
         session.print(&format!("{schema:#}\n"))?;
         return Ok(exit_code::DONE);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use crate::asset::{self, AnyPlanFile, AnyTask, Kind, PlanFile, TrajectoryFile, load_any_task};
+use crate::asset::{self, AnyPlanFile, Kind, PlanFile, TrajectoryFile};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
@@ -108,16 +108,15 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
                 return lever::predict(args, &opened.task, (opened.plan, opened.tool), session);
             }
         },
-        _ => match load_any_task(file, None)? {
-            AnyTask::Pushes(task) => {
-                let (plan, tool) = args.action.plan(&task, &library, session)?;
-                (task, tool, plan)
-            }
-            AnyTask::Levers(task) => {
+        _ => {
+            let task = Task::load(file)?;
+            if task.levers.is_some() {
                 let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
                 return lever::predict(args, &task, planned, session);
             }
-        },
+            let (plan, tool) = args.action.plan(&task, &library, session)?;
+            (task, tool, plan)
+        }
     };
     let asked = args.spec();
     let job = Job::stated(&task.scene, plan.motion(&tool));

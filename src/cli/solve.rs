@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::asset::{AnyTask, PlanFile, load_any_task};
+use crate::asset::{PlanFile, load_task};
 use crate::report::{PageView, plan_figures, solution_document, solution_page};
 use crate::scene::{ModelSpec, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
@@ -78,10 +78,10 @@ pub struct SolveArgs {
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let mut task = match load_any_task(&args.task, Some(&library))? {
-        AnyTask::Pushes(task) => task,
-        AnyTask::Levers(task) => return lever::solve(args, task, &library, session),
-    };
+    let mut task = load_task(&args.task, &library)?;
+    if task.levers.is_some() {
+        return lever::solve(args, task, &library, session);
+    }
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;

@@ -188,7 +188,7 @@ fn simulated(reason: Warning) -> Warning {
 #[cfg(test)]
 mod tests {
     use crate::effect::{Prior, UpTo};
-    use crate::geometry::{Pose, Shape, Vector};
+    use crate::geometry::{Pose, Vector};
     use crate::scene::{Object, Part, Push, Quantity, Tool, ToolMotion};
 
     use super::*;
@@ -196,12 +196,10 @@ mod tests {
     /// A row of three cans, and one far from them; a push into the row, and one of the can alone.
     fn row() -> (Scene, [Job; 2]) {
         let can = |x: f64, y: f64| Object {
-            support: crate::scene::Support::Even,
-            name: format!("{x} {y}"),
-            shape: Shape::Cylinder { radius: 0.03, height: 0.1 },
             mass: 0.5,
             friction: 0.4,
             pose: Pose::new(x, y, 0.0),
+            ..Object::cylinder(format!("{x} {y}"), 0.03, 0.1)
         };
         let objects = vec![can(0.1, 0.0), can(0.165, 0.0), can(0.23, 0.0), can(0.1, 0.5)];
         let scene = Scene { table_friction: 0.4, objects, ..Scene::default() };

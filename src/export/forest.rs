@@ -57,17 +57,15 @@ fn grow<'a>(object: usize, parent: Option<(usize, &'a Joint)>, joints: &[&'a Joi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Pose, Shape, Vector};
+    use crate::geometry::{Pose, Vector};
     use crate::scene::Object;
 
     fn scene(joints: &[(usize, usize, JointKind)]) -> Scene {
         let object = |k: usize| Object {
-            support: crate::scene::Support::Even,
-            name: format!("o{k}"),
-            shape: Shape::Cylinder { radius: 0.05, height: 0.1 },
             mass: 1.0,
             friction: 0.4,
             pose: Pose::new(0.1 * k as f64, 0.0, 0.0),
+            ..Object::cylinder(format!("o{k}"), 0.05, 0.1)
         };
         let joint = |&(a, b, kind): &(usize, usize, JointKind)| Joint {
             between: [a, b],

@@ -1,4 +1,4 @@
-//! Fused inference: the predictor on preallocated buffers, `gemm` called directly.
+//! Fused inference: the predictor on preallocated buffers, its kernels of `gemm` called directly.
 //!
 //! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
@@ -320,26 +320,28 @@ fn multiply_rows(
     // matrices, so every access lies inside its slice; `out` is borrowed mutably and so does
     // not overlap the others.
     unsafe {
-        gemm::gemm(
-            m,
+        // The kernels want columns that lie together, so what is asked for is the transposed product,
+        // out' = matrix' x'. Strides are those between columns, then between rows.
+        gemm_f32::gemm::f32::get_gemm_fn()(
             n,
+            m,
             k,
             out.as_mut_ptr(),
-            1,
             n as isize,
+            1,
             add,
-            x.as_ptr(),
-            1,
-            k as isize,
             matrix.as_ptr(),
-            1,
             n as isize,
+            1,
+            x.as_ptr(),
+            k as isize,
+            1,
             1.0,
             1.0,
             false,
             false,
             false,
-            gemm::Parallelism::None,
+            gemm_common::Parallelism::None,
         );
     }
 }

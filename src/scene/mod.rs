@@ -24,6 +24,7 @@ mod observation;
 mod outline;
 mod physics;
 mod plan;
+mod planar;
 mod quantity;
 mod ranges;
 mod separation;
@@ -50,10 +51,10 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, BladeTool, Block, Ending, FollowUp, LEVER_FRAMES, LeverEvidence, LeverFault,
-    LeverFeatures, LeverFrame, LeverGoal, LeverJob, LeverMotion, LeverOutcome, LeverPlan,
-    LeverReason, LeverRules, LeverScene, LeverTask, LeverTrajectory, LeverUp, LeverVerdict,
-    LeverWarning, Pivot, Place, Plate, Slab, Weight, has_slipped, lever_frame,
+    Blade, Ending, FollowUp, LEVER_FRAMES, LeverEvidence, LeverFault, LeverFeatures, LeverFrame,
+    LeverJob, LeverMotion, LeverOutcome, LeverPlan, LeverReason, LeverRules, LeverScene,
+    LeverTrajectory, LeverUp, LeverVerdict, LeverWarning, Pivot, Place, Plate, Slab, Weight,
+    has_slipped, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Shape, Vector, wrap_angle};
 
-use super::{Scene, State, Unknowns};
+use super::{LeverRules, Plate, Scene, State, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,7 +104,7 @@ pub struct PushRules {
     pub length: f64,
     /// Speed, m/s.
     pub speed: f64,
-    /// Largest number of pushes in a plan.
+    /// Largest number of pushes in a row; none are allowed where it is 0.
     pub max_count: usize,
     /// Height of the tool's underside above the table, metres.
     pub lift: f64,
@@ -117,6 +117,11 @@ impl PushRules {
     pub const SPEED: f64 = 0.10;
     /// Default height of the tool above the table, metres: clear of it, yet below every object.
     pub const LIFT: f64 = 0.002;
+
+    /// No push at all.
+    pub fn none() -> Self {
+        Self { max_count: 0, ..Self::default() }
+    }
 }
 
 /// One placed push in a principal direction, with the grip yaws of the reference benchmark.
@@ -135,14 +140,15 @@ impl Default for PushRules {
     }
 }
 
-/// Where an object must come to rest.
+/// Where an object must come to rest, and how; every stated demand counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goal {
     /// Index into [`Scene::objects`].
     pub object: usize,
     /// Wanted position of its centre, metres.
     pub position: Vector,
-    /// Largest distance that still counts as success, metres.
+    /// Largest distance that still counts as success, metres; infinite where it may lie anywhere.
+    #[serde(with = "anywhere")]
     pub tolerance: f64,
     /// Wanted heading and its tolerance, radians, where one is asked for.
     pub heading: Option<(f64, f64)>,
@@ -150,17 +156,76 @@ pub struct Goal {
     /// where such headings count as the wanted one; else 1.
     #[serde(default = "one")]
     pub alike: usize,
+    /// Index into [`Scene::obstacles`]: the object's centre lies outside of it, seen from above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<usize>,
+    /// At the end of a lever-up's turn the edge lies on the blade, this much higher than at its
+    /// start, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raised: Option<f64>,
+    /// It lies upside down, or on its underside.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flipped: Option<bool>,
 }
 
 fn one() -> usize {
     1
 }
 
+/// JSON has no infinity.
+mod anywhere {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(tolerance: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        tolerance.is_finite().then_some(*tolerance).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+}
+
 impl Goal {
     /// The centre of object `object` (an index into [`Scene::objects`]) at (`x`, `y`), off by at
     /// most `tolerance`; all metres.
     pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
-        Self { object, position: Vector::new(x, y), tolerance, heading: None, alike: 1 }
+        Self { position: Vector::new(x, y), tolerance, ..Self::of(object) }
+    }
+
+    /// A goal of object `object` without any demand yet.
+    ///
+    /// ```
+    /// use pushplan::Goal;
+    ///
+    /// let turned = Goal { flipped: Some(true), ..Goal::of(0) };
+    /// assert!(turned.in_space() && !turned.has_place());
+    /// ```
+    pub fn of(object: usize) -> Self {
+        Self {
+            object,
+            position: Vector::zeros(),
+            tolerance: f64::INFINITY,
+            heading: None,
+            alike: 1,
+            outside: None,
+            raised: None,
+            flipped: None,
+        }
+    }
+
+    /// Whether the object must come to a place.
+    pub fn has_place(&self) -> bool {
+        self.tolerance != f64::INFINITY
+    }
+
+    /// Whether it speaks of more than where the object lies in the plane.
+    pub fn in_space(&self) -> bool {
+        self.outside.is_some() || self.raised.is_some() || self.flipped.is_some()
+    }
+
+    /// Whether it speaks of how the object comes to lie.
+    pub fn turns(&self) -> bool {
+        self.flipped.is_some() || self.has_place()
     }
 
     /// The goal with a heading that may be off by at most `tolerance`, radians.
@@ -189,8 +254,11 @@ impl Goal {
         wrap_angle(turn * alike) / alike
     }
 
-    /// Distance of the object's centre from the goal, metres.
+    /// Distance of the object's centre from the goal, metres; 0 where it may lie anywhere.
     pub fn error(&self, state: &State) -> f64 {
+        if !self.has_place() {
+            return 0.0;
+        }
         (state.poses[self.object].position - self.position).norm()
     }
 
@@ -244,6 +312,9 @@ pub struct Task {
     pub tools: ToolChoice,
     /// Allowed pushes.
     pub pushes: PushRules,
+    /// Allowed lever-ups, if any are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levers: Option<LeverRules>,
     /// What to reach.
     pub goal: Goal,
     /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
@@ -277,9 +348,15 @@ impl Task {
             robot,
             tools: ToolChoice::All,
             pushes: PushRules::default(),
+            levers: None,
             goal,
             robustness: Self::ROBUSTNESS,
         }
+    }
+
+    /// The task with one line about it for people.
+    pub fn described(self, description: impl Into<String>) -> Self {
+        Self { description: description.into(), ..self }
     }
 
     /// The task with a choice of these tools only, by name.
@@ -295,6 +372,37 @@ impl Task {
     /// The task with so much of its scene unknown.
     pub fn guessing(self, unknown: Unknowns) -> Self {
         Self { unknown, ..self }
+    }
+
+    /// The task with lever-ups. Whether pushes may follow them is for [`Task::pushes`] to say.
+    ///
+    /// ```
+    /// use pushplan::{Goal, LeverRules, Object, PushRules, Robot, Scene, Task};
+    ///
+    /// let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).on_feet(0.006).at(0.5, 0.0, 0.0);
+    /// let goal = Goal { flipped: Some(true), ..Goal::of(0) };
+    /// let task = Task::new("turn", Scene::new([plate]), Robot::reaching(0.1, 0.9), goal)
+    ///     .levering(LeverRules::default())
+    ///     .pushing(PushRules::none());
+    /// assert!(task.in_space());
+    /// ```
+    pub fn levering(self, levers: LeverRules) -> Self {
+        Self { levers: Some(levers), ..self }
+    }
+
+    /// The goal's object with all its solids.
+    pub fn plate(&self) -> Plate {
+        Plate::of(&self.scene.objects[self.goal.object])
+    }
+
+    /// The lever-ups that are allowed, or would be.
+    pub fn lever_rules(&self) -> LeverRules {
+        self.levers.clone().unwrap_or_default()
+    }
+
+    /// Whether something of it leaves the plane, or may.
+    pub fn in_space(&self) -> bool {
+        self.levers.is_some() || self.goal.in_space() || self.scene.in_space()
     }
 
     /// The task with other rules for pushes.

@@ -7,8 +7,9 @@ use thiserror::Error;
 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 
-use super::DisjointSets;
 use super::outline::{Piece, pieces};
+use super::planar::planar_only;
+use super::{Blade, DisjointSets};
 
 /// Parts whose gap is at most this are joined rigidly, metres.
 ///
@@ -60,6 +61,9 @@ pub struct Tool {
     #[serde(skip_serializing)]
     outline: Vec<Piece>,
     joints: Vec<[usize; 2]>,
+    /// A tool with a blade has no parts.
+    #[serde(with = "planar_only", skip_serializing_if = "Option::is_none")]
+    blade: Option<Blade>,
 }
 
 /// A tool as it is written down: its outline follows from its parts.
@@ -71,12 +75,14 @@ struct Stated {
     friction: f64,
     parts: Vec<Part>,
     joints: Vec<[usize; 2]>,
+    #[serde(with = "planar_only", default)]
+    blade: Option<Blade>,
 }
 
 impl From<Stated> for Tool {
     fn from(stated: Stated) -> Self {
-        let Stated { name, description, grip, friction, parts, joints } = stated;
-        Self { description, grip, friction, ..Self::assembled(name, parts, joints) }
+        let Stated { name, description, grip, friction, parts, joints, blade } = stated;
+        Self { description, grip, friction, blade, ..Self::assembled(name, parts, joints) }
     }
 }
 
@@ -184,10 +190,35 @@ impl Tool {
             outline: pieces(&parts),
             parts,
             joints,
+            blade: None,
         }
     }
 
-    /// The parts as written, at least one.
+    /// A tool that levers and does not push: a blade, held at the end of its shaft.
+    ///
+    /// ```
+    /// use pushplan::{Blade, Tool};
+    ///
+    /// let blade = Blade { length: 0.12, width: 0.006, thickness: 0.002, friction: Tool::FRICTION };
+    /// let screwdriver = Tool::with_blade("my-screwdriver", blade);
+    /// assert!(screwdriver.blade().is_some() && screwdriver.parts().is_empty());
+    /// ```
+    pub fn with_blade(name: impl Into<String>, blade: Blade) -> Self {
+        let (friction, blade) = (blade.friction, Some(blade));
+        Self { friction, blade, ..Self::assembled(name, Vec::new(), Vec::new()) }
+    }
+
+    /// What goes under an edge, of a tool that levers.
+    pub fn blade(&self) -> Option<Blade> {
+        self.blade.map(|blade| Blade { friction: self.friction, ..blade })
+    }
+
+    /// Whether it has parts to push with.
+    pub fn pushes(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// The parts as written; of a tool with a blade none.
     pub fn parts(&self) -> &[Part] {
         &self.parts
     }

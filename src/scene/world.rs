@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
+use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, PairFriction, REST_SPEED, State, Support, Surface, pair_friction,
+    Feet, Joint, JointKind, PairFriction, REST_SPEED, Slab, State, Support, Surface, pair_friction,
 };
 
 /// A movable body.
@@ -24,17 +25,35 @@ pub struct Object {
     pub friction: f64,
     /// Where it stands at the start.
     pub pose: Pose,
+    /// Solids that are fixed on it, of the same density.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Slab>,
+    /// Free height below its edge, metres: what a blade that goes under it has. An object whose
+    /// underside is no higher above the table stands on feet of this height at its corners; a
+    /// higher one lies on obstacles.
+    #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
+    pub clearance: f64,
+    /// Height of its underside above the table at the start, metres.
+    #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
+    pub z: f64,
 }
 
-/// A cuboid fixed to the table.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// A cuboid fixed to the table: a wall, a standoff, the floor of a tray.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
     /// Unique among objects and obstacles.
     pub name: String,
     /// Full extents, metres.
     pub size: [f64; 3],
-    /// Where it stands.
+    /// Where it stands: its middle seen from above.
     pub pose: Pose,
+    /// Height of its underside above the table, metres.
+    #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
+    pub z: f64,
     /// Friction value.
     pub friction: f64,
 }
@@ -56,8 +75,17 @@ impl Object {
     /// assert_eq!((can.shape.height(), crate_.pose.heading), (0.10, 0.0));
     /// ```
     pub fn new(name: impl Into<String>, shape: Shape) -> Self {
-        let (mass, friction, pose) = (Self::MASS, Self::FRICTION, Pose::default());
-        Self { name: name.into(), shape, support: Support::Even, mass, friction, pose }
+        Self {
+            name: name.into(),
+            shape,
+            support: Support::Even,
+            mass: Self::MASS,
+            friction: Self::FRICTION,
+            pose: Pose::default(),
+            parts: Vec::new(),
+            clearance: 0.0,
+            z: 0.0,
+        }
     }
 
     /// [`Object::new`] for an upright cylinder, metres.
@@ -104,6 +132,16 @@ impl Object {
         Feet::new(&self.support, &self.shape.footprint())
     }
 
+    /// The object on feet of this height at its corners, metres, so that a blade fits below its edge.
+    pub fn on_feet(self, height: f64) -> Self {
+        Self { clearance: height, z: height, ..self }
+    }
+
+    /// Whether it is more than an upright solid on the table.
+    pub fn in_space(&self) -> bool {
+        self.z != 0.0 || self.clearance != 0.0 || !self.parts.is_empty()
+    }
+
     /// The object with its centre at (`x`, `y`), metres, turned by `heading`, radians.
     pub fn at(self, x: f64, y: f64, heading: f64) -> Self {
         Self { pose: Pose::new(x, y, heading), ..self }
@@ -113,7 +151,18 @@ impl Object {
 impl Obstacle {
     /// A fixed cuboid of these full extents (metres), of the table's usual friction value.
     pub fn new(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self { name: name.into(), size, pose, friction: Scene::FRICTION }
+        Self { name: name.into(), size, pose, z: 0.0, friction: Scene::FRICTION }
+    }
+
+    /// The obstacle with its underside so high above the table, metres.
+    pub fn raised(self, z: f64) -> Self {
+        Self { z, ..self }
+    }
+
+    /// What pushes must keep away from: the obstacle down to the table.
+    pub fn grounded(&self) -> Self {
+        let [x, y, z] = self.size;
+        Self { size: [x, y, self.z + z], z: 0.0, ..self.clone() }
     }
 
     /// The obstacle with another friction value.
@@ -205,6 +254,12 @@ impl Scene {
     pub fn with_friction(mut self, object: usize, with: Surface, coefficient: f64) -> Self {
         self.frictions.push(PairFriction { object, with, coefficient });
         self
+    }
+
+    /// Whether something in it is more than an upright solid on the table.
+    pub fn in_space(&self) -> bool {
+        self.objects.iter().any(Object::in_space)
+            || self.obstacles.iter().any(|obstacle| obstacle.z != 0.0)
     }
 
     /// Every object at its start, at rest.

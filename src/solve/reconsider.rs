@@ -290,7 +290,7 @@ mod tests {
             position: Vector::new(0.5, 0.1),
             tolerance: 0.02,
             heading: Some((3.0, 0.1)),
-            alike: 1,
+            ..Goal::of(0)
         };
         let ended = |x: f64, y: f64, heading: f64| {
             let state = State::at_rest(vec![Pose::new(x, y, heading)]);

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use crate::geometry::{Pose, Pose3, Solid, Vector, Vector3, wrap_angle};
 use crate::scene::{
-    BladeTool, Block, Disturbance, FollowUp, LeverEvidence, LeverFault, LeverJob, LeverPlan,
-    LeverRules, LeverScene, LeverTask, LeverUp, LeverVerdict, Obstacle, Pivot, ToolChoice,
+    Disturbance, FollowUp, LeverEvidence, LeverFault, LeverJob, LeverPlan, LeverRules, LeverScene,
+    LeverUp, LeverVerdict, Obstacle, Pivot, Task, Tool, ToolChoice,
 };
 use crate::sim::LeverSimulator;
 use crate::watch::{Unwatched, Watch};
@@ -60,8 +60,8 @@ impl<'a> LeverVerifier<'a> {
     }
 
     /// The replay as written; `tool` is the one that the plan names.
-    pub fn nominal(&self, task: &LeverTask, tool: &BladeTool, plan: &LeverPlan) -> LeverVerdict {
-        let scene = Arc::new(task.scene(tool.blade));
+    pub fn nominal(&self, task: &Task, tool: &Tool, plan: &LeverPlan) -> LeverVerdict {
+        let scene = Arc::new(LeverScene::with(&task.scene, tool));
         if let Some(fault) = unplayable(&scene, plan) {
             return LeverVerdict::judge(vec![fault], Vec::new(), task.robustness);
         }
@@ -69,7 +69,7 @@ impl<'a> LeverVerifier<'a> {
         let job = LeverJob { scene, lever: plan.lever };
         let motion = plan.follow_up.as_ref().map(FollowUp::motion);
         let trajectory = self.engine.run_with(&job, &job.scene, motion.as_ref());
-        let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+        let outcome = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
         let nominal = LeverEvidence {
             disturbance: Disturbance::Nominal,
             outcome,
@@ -81,8 +81,8 @@ impl<'a> LeverVerifier<'a> {
     /// The verdict of [`LeverVerifier::nominal`] with the disturbed replays beside it.
     pub fn disturb(
         &self,
-        task: &LeverTask,
-        tool: &BladeTool,
+        task: &Task,
+        tool: &Tool,
         plan: &LeverPlan,
         verdict: LeverVerdict,
     ) -> LeverVerdict {
@@ -90,7 +90,7 @@ impl<'a> LeverVerifier<'a> {
         if evidence.is_empty() {
             return LeverVerdict::judge(forbidden, evidence, task.robustness);
         }
-        let planned = task.scene(tool.blade);
+        let planned = LeverScene::with(&task.scene, tool);
         let motion = plan.follow_up.as_ref().map(FollowUp::motion);
         let replays: Vec<LeverEvidence> = (0..self.settings.disturbed)
             .into_par_iter()
@@ -100,7 +100,7 @@ impl<'a> LeverVerifier<'a> {
                     Arc::new(disturbed(&planned, plan.lever.plate, self.settings.seed, draw));
                 let job = LeverJob { scene, lever: plan.lever };
                 let trajectory = self.engine.run_with(&job, &planned, motion.as_ref());
-                let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+                let outcome = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
                 let disturbance = Disturbance::Disturbed { draw: draw + 1 };
                 LeverEvidence { disturbance, outcome, trajectory: None }
             })
@@ -112,7 +112,7 @@ impl<'a> LeverVerifier<'a> {
     }
 
     /// All replays of a plan: nominal, then disturbed.
-    pub fn verify(&self, task: &LeverTask, tool: &BladeTool, plan: &LeverPlan) -> LeverVerdict {
+    pub fn verify(&self, task: &Task, tool: &Tool, plan: &LeverPlan) -> LeverVerdict {
         self.disturb(task, tool, plan, self.nominal(task, tool, plan))
     }
 }
@@ -164,13 +164,8 @@ fn unplayable(scene: &LeverScene, plan: &LeverPlan) -> Option<LeverFault> {
 }
 
 /// Everything that is wrong with a plan before anything moves.
-fn broken_rules(
-    task: &LeverTask,
-    scene: &LeverScene,
-    tool: &BladeTool,
-    plan: &LeverPlan,
-) -> Vec<LeverFault> {
-    let (lever, rules) = (&plan.lever, &task.levers);
+fn broken_rules(task: &Task, scene: &LeverScene, tool: &Tool, plan: &LeverPlan) -> Vec<LeverFault> {
+    let (lever, rules) = (&plan.lever, task.lever_rules());
     let plate = &scene.plates[lever.plate];
     let corners = plate.corners();
     let mut found = Vec::new();
@@ -185,7 +180,7 @@ fn broken_rules(
     });
     let within = |value: f64, [low, high]: [f64; 2]| value >= low - SLACK && value <= high + SLACK;
     for (allowed, what) in [
-        (lever.plate == task.goal.plate, "object"),
+        (lever.plate == task.goal.object, "object"),
         (within(lever.depth, rules.depth), "depth"),
         (within(lever.angle, rules.angle), "angle"),
         (pivot, "pivot"),
@@ -210,7 +205,7 @@ fn broken_rules(
 }
 
 /// What pushes that follow do that the task does not allow or no robot can do.
-fn broken_by_pushes(task: &LeverTask, follow_up: &FollowUp) -> Vec<LeverFault> {
+fn broken_by_pushes(task: &Task, follow_up: &FollowUp) -> Vec<LeverFault> {
     let plan = &follow_up.plan;
     let mut found = Vec::new();
     if let ToolChoice::Named(names) = &task.tools
@@ -218,10 +213,9 @@ fn broken_by_pushes(task: &LeverTask, follow_up: &FollowUp) -> Vec<LeverFault> {
     {
         found.push(LeverFault::ForbiddenTool { tool: plan.tool.clone() });
     }
-    let allowed = task.pushes.as_ref().is_some_and(|rules| {
-        let same = |yaw: &f64| wrap_angle(yaw - plan.grip_yaw).abs() <= SLACK;
-        plan.pushes.len() <= rules.max_count && rules.grip_yaws.iter().any(same)
-    });
+    let same = |yaw: &f64| wrap_angle(yaw - plan.grip_yaw).abs() <= SLACK;
+    let rules = &task.pushes;
+    let allowed = plan.pushes.len() <= rules.max_count && rules.grip_yaws.iter().any(same);
     if !allowed {
         found.push(LeverFault::ForbiddenLever { what: "push".to_owned() });
     }
@@ -229,14 +223,14 @@ fn broken_by_pushes(task: &LeverTask, follow_up: &FollowUp) -> Vec<LeverFault> {
         found.push(LeverFault::OutOfReach);
     }
     // A tool that is driven goes through what is fixed without a trace.
-    let fixed: Vec<Obstacle> = task.blocks.iter().map(Block::obstacle).collect();
+    let fixed: Vec<Obstacle> = task.scene.obstacles.iter().map(Obstacle::grounded).collect();
     let met = plan.pushes.iter().find_map(|push| in_the_way(&fixed, &follow_up.tool, plan, push));
     found.extend(met.map(|met| LeverFault::PushMeets { body: met.name.clone() }));
     found
 }
 
 /// What the blade does on its way that no robot can do.
-fn on_the_way(task: &LeverTask, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFault> {
+fn on_the_way(task: &Task, scene: &LeverScene, lever: &LeverUp) -> Vec<LeverFault> {
     let blocks: Vec<(&str, Solid)> = scene
         .blocks
         .iter()

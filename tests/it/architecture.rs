@@ -60,7 +60,7 @@ const ROOMS: [(&str, &str); 23] = [
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
-const DOORS: [(&str, &str); 26] = [
+const DOORS: [(&str, &str); 28] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry"),
     ("pushplan_models", "effect belief"),
@@ -77,7 +77,9 @@ const DOORS: [(&str, &str); 26] = [
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train"),
     ("safetensors", "network learn/train"),
-    ("gemm", "network learn/train"),
+    ("gemm", "learn/train"),
+    ("gemm_common", "network"),
+    ("gemm_f32", "network"),
     ("pulp", "contact network scene"),
     ("clarabel", "plan"),
     (

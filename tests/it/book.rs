@@ -4,7 +4,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use pushplan::scene::{BladeTool, LeverTask};
 use pushplan::{Task, Tool};
 use serde_json::Value as Json;
 use serde_yaml::Value as Yaml;
@@ -79,10 +78,10 @@ fn its_files_are_right() {
         for block in blocks(&text, "yaml") {
             let keys: Yaml = serde_yaml::from_str(&block).expect("YAML");
             if keys.get("levers").is_some() {
-                LeverTask::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                Task::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
                 levers += 1;
             } else if keys.get("blade").is_some() {
-                BladeTool::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
+                Tool::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
                 levers += 1;
             } else if keys.get("goal").is_some() {
                 Task::parse(&block, &path).unwrap_or_else(|faults| panic!("{faults}"));
@@ -119,8 +118,6 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
     for (kind, page) in [
         ("task", "tasks.md"),
         ("tool", "tools.md"),
-        ("lever-task", "levering.md"),
-        ("blade", "levering.md"),
         ("world", "closed-loop.md"),
         ("recording", "recordings.md"),
     ] {

@@ -251,7 +251,7 @@ fn a_blade_that_is_driven_into_something_is_a_jam() {
     // A block lies on the plate: the blade would have to go through both.
     let mut job = job(vec![square(Pose::default())], lever(0, 0.5, 0.14, 60.0));
     let mut scene = LeverScene::clone(&job.scene);
-    scene.blocks.push(pushplan::scene::Block {
+    scene.blocks.push(pushplan::scene::Obstacle {
         name: "beam".to_owned(),
         size: [0.3, 0.3, 0.02],
         pose: Pose::default(),

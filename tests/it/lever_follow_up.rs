@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::ToolLibrary;
-use pushplan::asset::{AnyTask, LeverPlanFile, load_any_task};
+use pushplan::asset::{LeverPlanFile, load_task};
 use pushplan::effect::SimulatedLevers;
 use pushplan::geometry::{Shape, Vector};
 use pushplan::scene::{
-    FollowUp, GRAVITY, LeverFault, LeverJob, LeverPlan, LeverReason, LeverTask, LeverUp,
-    LeverVerdict, LeverWarning, Place, Plan, Push, PushForm, ToolChoice,
+    FollowUp, GRAVITY, LeverFault, LeverJob, LeverPlan, LeverReason, LeverScene, LeverUp,
+    LeverVerdict, LeverWarning, Place, Plan, Push, PushForm, PushRules, Task, ToolChoice,
 };
 use pushplan::sim::LeverSimulator;
 use pushplan::solve::lever::LeverPlanner;
@@ -36,8 +36,8 @@ fn library() -> ToolLibrary {
     ToolLibrary::embedded().expect("the shipped tools")
 }
 
-fn task() -> LeverTask {
-    LeverTask::parse(TASK, "task.yaml").expect("sound")
+fn task() -> Task {
+    Task::parse(TASK, "task.yaml").expect("sound")
 }
 
 /// A little up and back.
@@ -74,8 +74,8 @@ fn follow_up(gap: f64, length: f64) -> FollowUp {
     FollowUp { tool, plan }
 }
 
-fn verify(task: &LeverTask, follow_up: FollowUp) -> LeverVerdict {
-    let blade = library().blade("screwdriver").expect("shipped").clone();
+fn verify(task: &Task, follow_up: FollowUp) -> LeverVerdict {
+    let blade = library().get("screwdriver").expect("shipped").clone();
     let plan = LeverPlan { tool: blade.name.clone(), lever: lever(), follow_up: Some(follow_up) };
     LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 }).verify(task, &blade, &plan)
 }
@@ -83,8 +83,8 @@ fn verify(task: &LeverTask, follow_up: FollowUp) -> LeverVerdict {
 #[test]
 fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let task = task();
-    let blade = library().blade("screwdriver").expect("shipped").clone();
-    let scene = Arc::new(task.scene(blade.blade));
+    let blade = library().get("screwdriver").expect("shipped").clone();
+    let scene = Arc::new(LeverScene::with(&task.scene, &blade));
     let job = LeverJob { scene, lever: lever() };
     let engine = LeverSimulator::FINE;
     let alone = engine.run(&job);
@@ -94,7 +94,7 @@ fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     // It is carried from where it fell back to, and then slides on by v^2 / (2 mu g).
     let moved = pushed.rest.position - alone.rest.position;
     let began = alone.rest.position.x - 0.5;
-    let friction = 0.5 * (0.4 + task.table_friction);
+    let friction = 0.5 * (0.4 + task.scene.table_friction);
     let carried = length - gap - began + 0.1 * 0.1 / (2.0 * friction * GRAVITY);
     assert!((moved.x - carried).abs() < 3e-4, "{moved:?} for {carried}");
     assert!(moved.y.abs() < 2e-3 && pushed.rest.tilt() < 0.01, "{pushed:?}");
@@ -121,14 +121,14 @@ fn what_pushes_must_not_do_is_found() {
         "robot:",
         "  obstacles: [{name: wall, size: [0.01, 0.4, 0.03], position: [0.41, 0]}]\nrobot:",
     );
-    let walled = LeverTask::parse(&walled, "walled.yaml").expect("sound");
+    let walled = Task::parse(&walled, "walled.yaml").expect("sound");
     let through = verify(&walled, follow_up(0.04, 0.14));
     assert!(
         through.forbidden.contains(&LeverFault::PushMeets { body: "wall".to_owned() }),
         "{:?}",
         through.forbidden
     );
-    let forbidden = |task: &LeverTask, follow_up: FollowUp| verify(task, follow_up).forbidden;
+    let forbidden = |task: &Task, follow_up: FollowUp| verify(task, follow_up).forbidden;
     let mut far = follow_up(0.02, 0.12);
     far.plan.pushes[0].length = 1.0;
     assert!(forbidden(&task(), far).contains(&LeverFault::OutOfReach));
@@ -139,7 +139,7 @@ fn what_pushes_must_not_do_is_found() {
     let mut turned = follow_up(0.02, 0.12);
     turned.plan.grip_yaw = 0.3;
     assert!(forbidden(&task(), turned).contains(&push));
-    let none = LeverTask { pushes: None, ..task() };
+    let none = task().pushing(PushRules::none());
     assert!(forbidden(&none, follow_up(0.02, 0.12)).contains(&push));
     let mut endless = follow_up(0.02, 0.12);
     endless.plan.pushes[0].speed = 1e-4;
@@ -149,13 +149,11 @@ fn what_pushes_must_not_do_is_found() {
 #[test]
 fn the_shipped_task_needs_both_and_its_plan_reads_back() {
     let path = Path::new(crate::ROOT).join("tasks/levers/turn-and-push.yaml");
-    let Ok(AnyTask::Levers(task)) = load_any_task(&path, Some(&library())) else {
-        panic!("a task of levering")
-    };
+    let task = load_task(&path, &library()).expect("a task of levering");
     let planner =
         |effort| LeverPlanner::new(SimulatedLevers { simulator: LeverSimulator::COARSE }, effort);
     let tools = ToolChoice::Named(vec!["screwdriver".to_owned()]);
-    let alone = LeverTask { pushes: None, tools, ..task.clone() };
+    let alone = Task { pushes: PushRules::none(), tools, ..task.clone() };
     let solution = planner(Effort::Draft).solve(&alone, &library()).expect("sound");
     assert_ne!(solution.status, PlanStatus::Solved, "a lever-up alone would do");
     let solve = |threads: usize| {
@@ -198,7 +196,7 @@ fn faults(changes: &[(&str, &str)]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("task.yaml");
     std::fs::write(&path, text).expect("a file");
-    let found = load_any_task(&path, Some(&library())).expect_err("a fault").to_string();
+    let found = load_task(&path, &library()).expect_err("a fault").to_string();
     found.replace(&format!("{}/", folder.path().display()), "")
 }
 

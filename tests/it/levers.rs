@@ -3,11 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use pushplan::ToolLibrary;
-use pushplan::asset::{AnyTask, Kind, LeverPlanFile, check, load_any_task};
+use pushplan::asset::{Kind, LeverPlanFile, check, load_task};
 use pushplan::effect::SimulatedLevers;
-use pushplan::scene::{
-    BladeTool, LeverFault, LeverPlan, LeverReason, LeverTask, LeverUp, Pivot, Place,
-};
+use pushplan::scene::{LeverFault, LeverPlan, LeverReason, LeverUp, Pivot, Place, Task, Tool};
 use pushplan::sim::LeverSimulator;
 use pushplan::solve::lever::{AskedLever, AskedPlace, LeverPlanner, asked_lever};
 use pushplan::solve::{Effort, PlanStatus};
@@ -38,12 +36,10 @@ fn shipped() -> Vec<PathBuf> {
     paths
 }
 
-fn load(path: &Path) -> LeverTask {
-    match load_any_task(path, Some(&library())) {
-        Ok(AnyTask::Levers(task)) => task,
-        Ok(AnyTask::Pushes(_)) => panic!("{} is a task of pushes", path.display()),
-        Err(faults) => panic!("{faults}"),
-    }
+fn load(path: &Path) -> Task {
+    let task = load_task(path, &library()).unwrap_or_else(|faults| panic!("{faults}"));
+    assert!(task.levers.is_some(), "{} is a task of pushes", path.display());
+    task
 }
 
 fn planner(effort: Effort) -> LeverPlanner {
@@ -88,17 +84,17 @@ fn shipped_tasks_are_solved_or_refused_as_they_say() {
 #[test]
 fn blades_are_no_tools_for_pushes() {
     let library = library();
-    assert!(library.blade("screwdriver").is_some() && library.blade("scraper").is_some());
-    assert!(library.get("screwdriver").is_none() && library.iter().all(|t| t.name != "scraper"));
+    assert!(library.get("screwdriver").is_some() && library.get("scraper").is_some());
+    assert!(library.iter().all(|tool| tool.pushes() && tool.blade().is_none()));
     for tool in library.blades() {
         let text = serde_json::to_string(&tool.to_json()).expect("numbers");
-        assert_eq!(&BladeTool::parse(&text, "again.yaml").expect("sound"), &**tool);
+        assert_eq!(&Tool::parse(&text, "again.yaml").expect("sound"), &**tool);
         let path = Path::new(crate::ROOT).join(format!("tools/{}.yaml", tool.name));
-        assert_eq!(&BladeTool::load(&path).expect("named after its tool"), &**tool);
-        assert_eq!(check(&path, None).ok(), Some(Kind::Blade));
+        assert_eq!(&Tool::load(&path).expect("named after its tool"), &**tool);
+        assert_eq!(check(&path, None).ok(), Some(Kind::Tool));
     }
     let again = library.blades()[0].clone();
-    assert!(library.with_blade(again).is_err(), "names are unique");
+    assert!(library.with(again).is_err(), "names are unique");
 }
 
 #[test]
@@ -106,8 +102,8 @@ fn a_task_is_written_as_it_was_read() {
     for path in shipped() {
         let task = load(&path);
         let text = task.to_yaml().expect("numbers");
-        assert_eq!(LeverTask::parse(&text, "again.yaml").expect("sound"), task);
-        assert_eq!(check(&path, Some(&library())).ok(), Some(Kind::LeverTask));
+        assert_eq!(Task::parse(&text, "again.yaml").expect("sound"), task);
+        assert_eq!(check(&path, Some(&library())).ok(), Some(Kind::Task));
     }
 }
 
@@ -120,7 +116,7 @@ fn faults(changes: &[(&str, &str)]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("task.yaml");
     std::fs::write(&path, text).expect("a file");
-    match load_any_task(&path, Some(&library())) {
+    match load_task(&path, &library()) {
         Ok(_) => String::new(),
         Err(found) => found
             .to_string()
@@ -167,8 +163,8 @@ fn faults_of_files_say_what_and_where() {
 
 #[test]
 fn what_no_robot_can_do_is_refused_in_words() {
-    let mut task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
-    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let mut task = Task::parse(PLATE, "plate.yaml").expect("sound");
+    let tool = library().get("screwdriver").expect("shipped").clone();
     let asked = |fraction: f64| AskedLever {
         place: AskedPlace::Edge(1, fraction),
         depth: 0.012,
@@ -176,7 +172,7 @@ fn what_no_robot_can_do_is_refused_in_words() {
         pivot: Pivot::Auto,
         speed: None,
     };
-    let broken = |task: &LeverTask, lever: &AskedLever| {
+    let broken = |task: &Task, lever: &AskedLever| {
         asked_lever(task, &tool, lever).expect("a lever-up").broken
     };
     assert_eq!(broken(&task, &asked(0.5)), None);
@@ -199,8 +195,8 @@ fn what_no_robot_can_do_is_refused_in_words() {
 
 #[test]
 fn verification_finds_by_itself_what_the_planner_would_refuse() {
-    let task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
-    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let task = Task::parse(PLATE, "plate.yaml").expect("sound");
+    let tool = library().get("screwdriver").expect("shipped").clone();
     let lever = LeverUp {
         plate: 0,
         place: Place { edge: 1, fraction: 0.5 },
@@ -212,7 +208,7 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
         retreat: 0.1,
     };
     let verifier = LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 });
-    let verify = |task: &LeverTask, lever: LeverUp| {
+    let verify = |task: &Task, lever: LeverUp| {
         let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
         verifier.verify(task, &tool, &plan)
     };
@@ -220,7 +216,7 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
     assert!(good.passed, "{:?}", good.reason);
     assert_eq!(good, verify(&task, lever), "the same again");
     assert_eq!(good.robustness, Some(1.0));
-    let forbidden = |task: &LeverTask, lever: LeverUp| {
+    let forbidden = |task: &Task, lever: LeverUp| {
         let verdict = verify(task, lever);
         assert!(!verdict.passed && matches!(verdict.reason, Some(LeverReason::Forbidden(_))));
         verdict.forbidden
@@ -243,8 +239,8 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
 fn a_blade_goes_through_no_wall() {
     let wall = "  obstacles: [{name: wall, size: [0.01, 0.2, 0.02], position: [0.58, 0]}]\nrobot:";
     let walled = PLATE.replace("robot:", wall);
-    let task = LeverTask::parse(&walled, "plate.yaml").expect("sound");
-    let tool = library().blade("screwdriver").expect("shipped").clone();
+    let task = Task::parse(&walled, "plate.yaml").expect("sound");
+    let tool = library().get("screwdriver").expect("shipped").clone();
     let lever = AskedLever {
         place: AskedPlace::Edge(1, 0.5),
         depth: 0.012,
@@ -264,7 +260,7 @@ fn a_blade_goes_through_no_wall() {
 
 #[test]
 fn plans_are_the_same_for_any_number_of_threads() {
-    let task = LeverTask::parse(PLATE, "plate.yaml").expect("sound");
+    let task = Task::parse(PLATE, "plate.yaml").expect("sound");
     let solve = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let solution = pool.install(|| planner(Effort::Draft).solve(&task, &library()));

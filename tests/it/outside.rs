@@ -117,6 +117,7 @@ fn a_box_crushed_against_a_wall_is_said_to_jam_and_is_simulated_when_asked() {
         name: "wall".into(),
         size: [0.1, 0.4, 0.1],
         pose: Pose::new(0.16, 0.0, 0.0),
+        z: 0.0,
         friction: 0.4,
     });
     let found = run(Outside::Warn, &scene).warnings;

@@ -8,10 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
-use pushplan::geometry::{Pose, Shape, Vector};
-use pushplan::scene::{
-    Job, Object, Part, Record, Scene, Situation, Stroke, Support, Tool, ToolMotion,
-};
+use pushplan::geometry::{Pose, Vector};
+use pushplan::scene::{Job, Object, Part, Record, Scene, Situation, Stroke, Tool, ToolMotion};
 use pushplan::sim::Simulator;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -124,12 +122,10 @@ fn slide(face: &Face, parts: Vec<Part>, random: &mut Pcg64) -> (Scene, Job) {
     let half: f64 = turn.cos() * size[0] / 2.0 + turn.sin().abs() * size[1] / 2.0;
     let at = tool_pose * outwards * Pose::new(half + 1e-3, aside, turn);
     let object = Object {
-        name: "box".into(),
-        shape: Shape::Cuboid { size },
-        support: Support::Even,
         mass: random.random_range(0.2..1.0),
         friction: 0.4,
         pose: at,
+        ..Object::cuboid("box", size)
     };
     let scene = Scene { table_friction: 0.5, objects: vec![object], ..Scene::default() };
     // The tool goes against the slide: along the face towards the box's side.

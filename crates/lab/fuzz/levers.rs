@@ -7,8 +7,8 @@ use pushplan::asset::{LeverPlanFile, ToolLibrary};
 use pushplan::effect::{LeverModel, LeverTrust};
 use pushplan::geometry::Vector;
 use pushplan::scene::{
-    BladeTool, Ending, FollowUp, LEVER_FRAMES, LeverJob, LeverPlan, LeverTask, LeverTrajectory,
-    LeverUp, Place, Plan, Push, PushForm, Tool,
+    Ending, FollowUp, LEVER_FRAMES, LeverJob, LeverPlan, LeverTrajectory, LeverUp, Place, Plan,
+    Push, PushForm, Task, Tool,
 };
 use pushplan::solve::lever::{LeverPlanner, LeverSettings};
 use pushplan::verify::{LeverVerifier, VerifySettings};
@@ -17,17 +17,18 @@ use pushplan::verify::{LeverVerifier, VerifySettings};
 const LONGEST: f64 = 6.0;
 const CROWD: usize = 20;
 
-pub fn blade(tool: BladeTool) {
+pub fn blade(tool: Tool) {
     let text = serde_json::to_string(&tool.to_json()).expect("numbers");
-    assert_eq!(BladeTool::parse(&text, "again.yaml").expect("what was read"), tool);
+    assert_eq!(Tool::parse(&text, "again.yaml").expect("what was read"), tool);
 }
 
-pub fn task(task: LeverTask) {
+pub fn task(task: Task) {
     let text = task.to_yaml().expect("a task that was read");
-    let again = LeverTask::parse(&text, "again.yaml").unwrap_or_else(|faults| panic!("{faults}"));
-    assert_eq!(again.plates, task.plates);
+    let again = Task::parse(&text, "again.yaml").unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(again.scene.objects, task.scene.objects);
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
-    let small = task.plates.len() + task.blocks.len() < CROWD && task.levers.speed > 0.05;
+    let bodies = task.scene.objects.len() + task.scene.obstacles.len();
+    let small = bodies < CROWD && task.lever_rules().speed > 0.05;
     let settings = LeverSettings {
         simulated: usize::from(small),
         doubts: 0,
@@ -36,6 +37,9 @@ pub fn task(task: LeverTask) {
         disturbed: 0,
         followed: 0,
     };
+    if task.levers.is_none() {
+        return;
+    }
     let Ok(tools) = task.blades(&library) else { return };
     if tools.len() > 2 {
         return;
@@ -54,7 +58,7 @@ pub fn task(task: LeverTask) {
 
 pub fn plan(file: LeverPlanFile) {
     let lever = &file.plan.lever;
-    let small = file.task.plates.len() + file.task.blocks.len() < CROWD;
+    let small = file.task.scene.objects.len() + file.task.scene.obstacles.len() < CROWD;
     let pushed = file.plan.follow_up.as_ref().map_or(0.0, |then| {
         then.plan.pushes.iter().map(|push| push.length / push.speed).sum::<f64>()
     });
@@ -97,10 +101,10 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let plan = |name: &str| {
-        let task = LeverTask::load(root.join(format!("{name}.yaml"))).ok()?;
+        let task = Task::load(root.join(format!("{name}.yaml"))).ok()?;
         let tool = Arc::clone(task.blades(&library).ok()?.first()?);
         let lever = LeverUp {
-            plate: task.goal.plate,
+            plate: task.goal.object,
             place: Place { edge: 1, fraction: 0.5 },
             depth: 0.012,
             pivot: 0.1,
@@ -110,7 +114,8 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
             retreat: 0.05,
         };
         let pusher = || library.get("t-head").map(Arc::clone);
-        let follow_up = task.pushes.as_ref().and_then(|_| pusher()).map(then);
+        let follow_up =
+            Some(()).filter(|()| task.pushes.max_count > 0).and_then(|()| pusher()).map(then);
         let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up };
         let file = LeverPlanFile { task, tool, plan, model: None, predicted: None, verdict: None };
         Some((name.to_owned(), serde_json::to_vec(&file).ok()?))

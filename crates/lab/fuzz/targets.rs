@@ -7,7 +7,7 @@ use pushplan::asset::{Faults, LeverPlanFile, PlanFile, TrajectoryFile, check};
 use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{Weights, WeightsError};
 use pushplan::recording::Recording;
-use pushplan::scene::{BladeTool, LeverTask, Task, Tool};
+use pushplan::scene::{Task, Tool};
 
 use crate::{levers, survive};
 
@@ -91,8 +91,8 @@ impl Target {
             Self::Plan => read(PlanFile::parse(text, &file), text, survive::plan),
             Self::Trajectory => read(TrajectoryFile::parse(text, &file), text, survive::trajectory),
             Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
-            Self::Blade => read(BladeTool::parse(text, &file), text, levers::blade),
-            Self::LeverTask => read(LeverTask::parse(text, &file), text, levers::task),
+            Self::Blade => read(Tool::parse(text, &file), text, levers::blade),
+            Self::LeverTask => read(Task::parse(text, &file), text, levers::task),
             Self::LeverPlan => read(LeverPlanFile::parse(text, &file), text, levers::plan),
             Self::Foreign => foreign(text, &file),
             Self::Weights => false,

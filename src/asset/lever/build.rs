@@ -1,4 +1,4 @@
-//! From a checked tree to a [`LeverTask`].
+//! From a checked tree to a [`Task`] of levering.
 
 use std::path::Path;
 
@@ -7,38 +7,42 @@ use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
 use crate::asset::task::{named_tools, pushes_of, reach_of};
 use crate::asset::text::named_after;
 use crate::geometry::{Pose, Vector, centroid, cross};
-use crate::scene::{Block, LeverGoal, LeverRules, LeverTask, Pivot, Plate, Scene, Slab, Task};
+use crate::scene::{
+    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Scene, Slab, Task, Unknowns,
+};
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
 /// that were written about it do not come to zero exactly.
 const CENTRED: f64 = 1e-9;
 
 /// The task, or `None` if anything needed is missing or was faulty.
-pub(super) fn lever_task(root: &Node, file: &str) -> Option<LeverTask> {
+pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let scene = root.get("scene")?;
     let items = |key| scene.get(key).map(Node::items).unwrap_or_default().iter();
-    let plates: Vec<Plate> = items("objects").map(plate).collect::<Option<_>>()?;
-    let blocks: Vec<Block> = items("obstacles").map(block).collect::<Option<_>>()?;
-    Some(LeverTask {
+    let object = |node| plate(node)?.object();
+    let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
+    let obstacles: Vec<Obstacle> = items("obstacles").map(block).collect::<Option<_>>()?;
+    let friction = match scene.get("table") {
+        Some(table) => number_or(table, "friction", Scene::FRICTION)?,
+        None => Scene::FRICTION,
+    };
+    let scene = Scene { obstacles, ..Scene::new(objects).on_table(friction) };
+    Some(Task {
         name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
-        table_friction: match scene.get("table") {
-            Some(table) => number_or(table, "friction", Scene::FRICTION)?,
-            None => Scene::FRICTION,
-        },
-        goal: goal(root.get("goal")?, &plates, &blocks)?,
-        plates,
-        blocks,
+        goal: goal(root.get("goal")?, &scene)?,
+        scene,
+        unknown: Unknowns::NONE,
         robot: reach_of(root.get("robot")?)?,
         tools: named_tools(root.get("tools")?),
-        levers: match root.get("levers") {
+        levers: Some(match root.get("levers") {
             Some(node) => levers(node)?,
             None => LeverRules::default(),
-        },
+        }),
         pushes: match root.get("pushes") {
-            Some(node) => Some(pushes_of(node)?),
-            None => None,
+            Some(node) => pushes_of(node)?,
+            None => PushRules::none(),
         },
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
@@ -113,8 +117,8 @@ fn height(place: &Node, usual: f64) -> Option<f64> {
     place.items().get(2).map_or(Some(usual), Node::number)
 }
 
-pub(super) fn block(node: &Node) -> Option<Block> {
-    Some(Block {
+pub(super) fn block(node: &Node) -> Option<Obstacle> {
+    Some(Obstacle {
         name: name_of(node)?.into(),
         size: triple(node, "size")?,
         pose: pose(node)?,
@@ -153,23 +157,21 @@ fn pivot(node: &Node) -> Option<Pivot> {
     }
 }
 
-fn goal(node: &Node, plates: &[Plate], blocks: &[Block]) -> Option<LeverGoal> {
-    let name = node.get("object")?.text()?;
-    let plate = plates.iter().position(|plate| plate.name == name)?;
+fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
+    let object = scene.object(node.get("object")?.text()?)?;
     let outside = match node.get("outside") {
         Some(name) => {
             let name = name.text()?;
-            Some(blocks.iter().position(|block| block.name == name)?)
+            Some(scene.obstacles.iter().position(|obstacle| obstacle.name == name)?)
         }
         None => None,
     };
     let place = match (node.get("position"), node.get("tolerance")) {
-        (Some(at), Some(tolerance)) => Some((vector(at)?, tolerance.number()?)),
-        (None, None) => None,
+        (Some(at), Some(tolerance)) => Goal::new(object, vector(at)?.into(), tolerance.number()?),
+        (None, None) => Goal::of(object),
         _ => return None,
     };
-    Some(LeverGoal {
-        plate,
+    Some(Goal {
         outside,
         raised: match node.get("raised") {
             Some(height) => Some(height.number()?),
@@ -179,6 +181,6 @@ fn goal(node: &Node, plates: &[Plate], blocks: &[Block]) -> Option<LeverGoal> {
             Some(flipped) => Some(flipped.switch()?),
             None => None,
         },
-        place,
+        ..place
     })
 }

@@ -2,60 +2,39 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::fault::{Fault, Faults};
 use crate::asset::saved::emit::{degrees, pushes};
 use crate::geometry::{Pose, Vector};
 use crate::scene::{
-    BladeTool, Block, LeverGoal, LeverRules, LeverTask, Pivot, Plate, Slab, ToolChoice,
+    Blade, Goal, LeverRules, Object, Obstacle, Pivot, Plate, Slab, Task, Tool, ToolChoice,
 };
 
-impl LeverTask {
-    /// The task in the keys of its file: what [`LeverTask::to_yaml`] writes.
-    pub fn to_json(&self) -> Json {
-        lever_task(self)
-    }
-
-    /// The task as a YAML file that [`LeverTask::parse`] reads back, the same to the bit if its
-    /// angles came from a file or are round in degrees.
-    ///
-    /// # Errors
-    /// If the task holds what no file can.
-    pub fn to_yaml(&self) -> Result<String, Faults> {
-        serde_yaml::to_string(&lever_task(self)).map_err(|error| {
-            let message = format!("the task cannot be written as YAML: {error}");
-            Fault::of_file(&self.name, message, "check its numbers").into()
-        })
-    }
-}
-
 /// A task as in a task file.
-pub(in crate::asset) fn lever_task(task: &LeverTask) -> Json {
+pub(in crate::asset) fn lever_task(task: &Task, rules: &LeverRules) -> Json {
     let mut fields = json!({
         "name": task.name,
         "description": task.description,
         "scene": {
-            "table": {"friction": task.table_friction},
-            "objects": task.plates.iter().map(plate).collect::<Vec<_>>(),
-            "obstacles": task.blocks.iter().map(block).collect::<Vec<_>>(),
+            "table": {"friction": task.scene.table_friction},
+            "objects": task.scene.objects.iter().map(plate).collect::<Vec<_>>(),
+            "obstacles": task.scene.obstacles.iter().map(block).collect::<Vec<_>>(),
         },
         "robot": {"reach": {"min": task.robot.reach_min, "max": task.robot.reach_max}},
         "tools": match &task.tools {
             ToolChoice::All => json!("all"),
             ToolChoice::Named(names) => json!(names),
         },
-        "levers": levers(&task.levers),
+        "levers": levers(rules),
         "goal": goal(&task.goal, task),
         "robustness": task.robustness,
     });
-    if let Some(rules) = &task.pushes {
-        fields["pushes"] = pushes(rules);
+    if task.pushes.max_count > 0 {
+        fields["pushes"] = pushes(&task.pushes);
     }
     fields
 }
 
 /// A tool as in a tool file.
-pub(in crate::asset) fn blade_tool(tool: &BladeTool) -> Json {
-    let blade = &tool.blade;
+pub(in crate::asset) fn blade_tool(tool: &Tool, blade: &Blade) -> Json {
     json!({
         "name": tool.name,
         "description": tool.description,
@@ -64,7 +43,8 @@ pub(in crate::asset) fn blade_tool(tool: &BladeTool) -> Json {
     })
 }
 
-fn plate(plate: &Plate) -> Json {
+fn plate(object: &Object) -> Json {
+    let plate = Plate::of(object);
     let parts = plate.slabs[1..]
         .iter()
         .map(|slab| json!({"shape": solid(slab), "position": [0.0, 0.0, slab.bottom]}));
@@ -86,7 +66,7 @@ fn solid(slab: &Slab) -> Json {
     json!({"prism": {"corners": corners, "height": slab.height, "origin": [0.0, 0.0]}})
 }
 
-fn block(block: &Block) -> Json {
+fn block(block: &Obstacle) -> Json {
     let fields = json!({"name": block.name, "size": block.size, "friction": block.friction});
     posed(fields, &block.pose, Some(block.z))
 }
@@ -113,10 +93,10 @@ fn levers(rules: &LeverRules) -> Json {
     })
 }
 
-fn goal(goal: &LeverGoal, task: &LeverTask) -> Json {
-    let mut json = json!({"object": task.plates[goal.plate].name});
+fn goal(goal: &Goal, task: &Task) -> Json {
+    let mut json = json!({"object": task.scene.objects[goal.object].name});
     if let Some(block) = goal.outside {
-        json["outside"] = json!(task.blocks[block].name);
+        json["outside"] = json!(task.scene.obstacles[block].name);
     }
     if let Some(height) = goal.raised {
         json["raised"] = json!(height);
@@ -124,9 +104,9 @@ fn goal(goal: &LeverGoal, task: &LeverTask) -> Json {
     if let Some(flipped) = goal.flipped {
         json["flipped"] = json!(flipped);
     }
-    if let Some((at, tolerance)) = goal.place {
-        json["position"] = json!(vector(at));
-        json["tolerance"] = json!(tolerance);
+    if goal.has_place() {
+        json["position"] = json!(vector(goal.position));
+        json["tolerance"] = json!(goal.tolerance);
     }
     json
 }

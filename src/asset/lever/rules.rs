@@ -7,7 +7,7 @@ use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, unique_names};
 use crate::asset::{prism, task};
 use crate::geometry::{Pose, Pose3, Solid, Vector, common_area};
-use crate::scene::{Blade, Block, Plate, carries};
+use crate::scene::{Blade, Obstacle, Plate, carries};
 
 use super::build;
 
@@ -134,7 +134,7 @@ fn known(
 /// What shares space, and what nothing holds.
 fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     let plates: Vec<Option<Plate>> = objects.iter().map(build::plate).collect();
-    let blocks: Vec<Option<Block>> = obstacles.iter().map(build::block).collect();
+    let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(build::block).collect();
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {
         let Some(plate) = plate else { continue };
         let place = node.get("position").unwrap_or(node);
@@ -166,15 +166,15 @@ fn solids(plate: &Plate) -> Vec<Solid> {
     plate.slabs.iter().map(solid).collect()
 }
 
-fn solid(block: &Block) -> Solid {
+fn solid(block: &Obstacle) -> Solid {
     let pose = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
     Solid::cuboid(block.size, &pose)
 }
 
 /// Whether blocks that end at its underside carry a plate.
-fn is_held(plate: &Plate, blocks: &[Option<Block>]) -> bool {
+fn is_held(plate: &Plate, blocks: &[Option<Obstacle>]) -> bool {
     let mut points: Vec<Vector> = Vec::new();
-    let below = |block: &&Block| (block.z + block.size[2] - plate.z).abs() <= SLACK;
+    let below = |block: &&Obstacle| (block.z + block.size[2] - plate.z).abs() <= SLACK;
     for block in blocks.iter().flatten().filter(below) {
         let [x, y] = [0.5 * block.size[0], 0.5 * block.size[1]];
         let local = |corner: [f64; 2]| {
@@ -209,27 +209,27 @@ pub(super) fn blades(
         })
     };
     let Some(tools) = root.get("tools") else { return };
+    let levering = |name: &str| library.get(name).and_then(|tool| tool.blade());
+    let pushing = |name: &str| library.get(name).is_some_and(|tool| tool.pushes());
     let named = || tools.items().iter().filter_map(Node::text);
     if root.get("pushes").is_some() && tools.text().is_none() {
-        if named().any(|name| library.get(name).is_some())
-            && named().all(|name| library.blade(name).is_none())
-        {
+        if named().any(pushing) && named().all(|name| levering(name).is_none()) {
             ledger.fault(tools, "none of these tools has a blade", "name one that levers, too");
-        } else if named().all(|name| library.blade(name).is_some()) {
+        } else if named().all(|name| levering(name).is_some()) {
             let message = "pushes may follow, but none of these tools pushes";
             ledger.fault(tools, message, "name one that pushes, too, or remove `pushes`");
         }
     }
     for node in tools.items() {
         let Some(name) = node.text() else { continue };
-        match (library.blade(name), clearance) {
-            (None, _) if root.get("pushes").is_some() && library.get(name).is_some() => {}
+        match (levering(name), clearance) {
+            (None, _) if root.get("pushes").is_some() && pushing(name) => {}
             (None, _) => {
                 let (message, advice) = unknown(name, library);
                 ledger.fault(node, message, advice);
             }
-            (Some(tool), Some(clearance)) => {
-                if let Some(message) = fault(&tool.blade, clearance) {
+            (Some(blade), Some(clearance)) => {
+                if let Some(message) = fault(&blade, clearance) {
                     let message = format!("`{name}` does not fit: {message}");
                     ledger.fault(node, message, "name a thinner tool, or mind the clearance");
                 }
@@ -238,11 +238,14 @@ pub(super) fn blades(
         }
     }
     if let (Some(_), Some(clearance)) = (tools.text(), clearance)
-        && let Some(thinnest) =
-            library.blades().iter().min_by(|a, b| a.blade.thickness.total_cmp(&b.blade.thickness))
-        && let Some(message) = fault(&thinnest.blade, clearance)
+        && let Some((name, thinnest)) = library
+            .blades()
+            .iter()
+            .filter_map(|tool| Some((&tool.name, tool.blade()?)))
+            .min_by(|(_, a), (_, b)| a.thickness.total_cmp(&b.thickness))
+        && let Some(message) = fault(&thinnest, clearance)
     {
-        let message = format!("no tool fits, the thinnest is `{}`: {message}", thinnest.name);
+        let message = format!("no tool fits, the thinnest is `{name}`: {message}");
         ledger.fault(tools, message, "add a thinner tool, or mind the clearance");
     }
 }
@@ -253,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_plate_is_held_by_what_ends_below_it_on_both_sides() {
-        let block = |x: f64, top: f64| Block {
+        let block = |x: f64, top: f64| Obstacle {
             name: "standoff".into(),
             size: [0.01, 0.06, top],
             pose: Pose::new(x, 0.0, 0.0),
@@ -276,7 +279,7 @@ mod tests {
             pose: Pose::default(),
             z: 0.01,
         };
-        let held = |blocks: &[Block]| {
+        let held = |blocks: &[Obstacle]| {
             is_held(&plate, &blocks.iter().cloned().map(Some).collect::<Vec<_>>())
         };
         assert!(held(&[block(-0.03, 0.01), block(0.03, 0.01)]));

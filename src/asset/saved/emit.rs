@@ -2,6 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
+use crate::asset::lever::{blade_tool, lever_task};
 use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
@@ -11,6 +12,9 @@ use crate::scene::{
 
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
+    if let Some(rules) = &task.levers {
+        return lever_task(task, rules);
+    }
     let mut robot = json!({
         "home": vector(task.robot.home),
         "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
@@ -40,6 +44,9 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
 
 /// A tool as in a tool file.
 pub(in crate::asset) fn tool(tool: &Tool) -> Json {
+    if let Some(blade) = tool.blade() {
+        return blade_tool(tool, &blade);
+    }
     let parts: Vec<Json> = tool
         .parts()
         .iter()

@@ -7,7 +7,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::fault::{Fault, Faults, Place as At};
-use crate::asset::lever::{blade_tool, blade_tool_of, lever_task, lever_task_of};
+use crate::asset::lever::{blade_tool_of, lever_task_of};
 use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::asset::spec::Value;
@@ -15,8 +15,8 @@ use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 use crate::asset::tool::tool_of;
 use crate::scene::{
-    BladeTool, FollowUp, LEVER_FRAMES, LeverMotion, LeverOutcome, LeverPlan, LeverTask,
-    LeverTrajectory, LeverVerdict, Plan,
+    FollowUp, LEVER_FRAMES, LeverMotion, LeverOutcome, LeverPlan, LeverTrajectory, LeverVerdict,
+    Plan, Plate, Task, Tool,
 };
 
 use super::emit;
@@ -27,9 +27,9 @@ use super::{PlanFile, SCHEMA_VERSION, read};
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverPlanFile {
     /// The task that it solves.
-    pub task: LeverTask,
+    pub task: Task,
     /// The tool that it uses.
-    pub tool: Arc<BladeTool>,
+    pub tool: Arc<Tool>,
     /// The lever-up.
     pub plan: LeverPlan,
     /// Name of the model that predicted the outcome.
@@ -70,9 +70,9 @@ impl AnyPlanFile {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverTrajectoryFile {
     /// The task whose scene it is.
-    pub task: LeverTask,
+    pub task: Task,
     /// The tool that moved.
-    pub tool: Arc<BladeTool>,
+    pub tool: Arc<Tool>,
     /// The lever-up that it made.
     pub plan: LeverPlan,
     /// How the levered plate moved.
@@ -161,8 +161,8 @@ impl LeverTrajectoryFile {
 struct Opened<'a> {
     root: Node,
     ledger: Ledger<'a>,
-    task: Option<LeverTask>,
-    tool: Option<BladeTool>,
+    task: Option<Task>,
+    tool: Option<Tool>,
 }
 
 impl<'a> Opened<'a> {
@@ -211,10 +211,14 @@ impl<'a> Opened<'a> {
     fn finish<T>(
         mut self,
         plan: &LeverPlan,
-        file: impl FnOnce(LeverTask, Arc<BladeTool>) -> T,
+        file: impl FnOnce(Task, Arc<Tool>) -> T,
     ) -> Result<T, Faults> {
         if let (Some(task), Some(tool)) = (&self.task, &self.tool) {
-            let sides = task.plates.get(plan.lever.plate).map(|plate| plate.corners().len());
+            let sides = task
+                .scene
+                .objects
+                .get(plan.lever.plate)
+                .map(|object| Plate::of(object).corners().len());
             let mixed = plan.tool != tool.name;
             if sides.is_none_or(|sides| plan.lever.place.edge >= sides) {
                 self.damaged("plan", "the plan levers an edge that does not exist");
@@ -297,8 +301,8 @@ impl Serialize for LeverPlanFile {
             model: &self.model,
             predicted: &self.predicted,
             verdict: &self.verdict,
-            tool: blade_tool(&self.tool),
-            task: lever_task(&self.task),
+            tool: emit::tool(&self.tool),
+            task: emit::task(&self.task),
         }
         .serialize(serializer)
     }
@@ -320,8 +324,8 @@ impl Serialize for LeverTrajectoryFile {
             schema_version: SCHEMA_VERSION,
             kind: "lever_trajectory",
             plan: &self.plan,
-            tool: blade_tool(&self.tool),
-            task: lever_task(&self.task),
+            tool: emit::tool(&self.tool),
+            task: emit::task(&self.task),
             trajectory: &self.trajectory,
             motion: &self.motion,
         }

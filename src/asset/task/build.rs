@@ -31,6 +31,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
             Some(node) => pushes(node)?,
             None => PushRules::default(),
         },
+        levers: None,
         goal,
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
@@ -81,12 +82,11 @@ pub(super) fn table_top(table: &Node) -> Option<TableTop> {
 
 fn object(node: &Node) -> Option<Object> {
     Some(Object {
-        name: name_of(node)?.into(),
-        shape: shape(node.get("shape")?)?,
         support: support(node)?,
         mass: node.get("mass")?.number()?,
         friction: node.get("friction")?.number()?,
         pose: pose(node)?,
+        ..Object::new(name_of(node)?, shape(node.get("shape")?)?)
     })
 }
 
@@ -109,6 +109,7 @@ fn obstacle(node: &Node) -> Option<Obstacle> {
         name: name_of(node)?.into(),
         size: triple(node, "size")?,
         pose: pose(node)?,
+        z: 0.0,
         friction: number_or(node, "friction", Scene::FRICTION)?,
     })
 }
@@ -204,7 +205,7 @@ fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         position: position(node)?,
         tolerance: node.get("tolerance")?.number()?,
         heading,
-        alike: 1,
+        ..Goal::of(object)
     };
     let symmetric = match node.get("symmetric") {
         Some(symmetric) => symmetric.switch()?,

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use crate::scene::{Scene, Task, Tool, ToolChoice};
 
 use crate::asset::fault::{Fault, Faults, did_you_mean};
-use crate::asset::lever::is_lever_task;
+use crate::asset::lever::{check_blades, is_lever_task, lever_task_of, unknown_blade};
 use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 
-use super::{build, rules, spec::TASK};
+use super::{build, rules, spec::TASK_FILE};
 
 impl Task {
     /// Reads a task file. Whether the named tools exist is for [`Task::tools`] to say.
@@ -33,27 +33,64 @@ impl Task {
         parse_with(text, file, None)
     }
 
-    /// The tools that the task allows, in its order (all: in the library's order).
+    /// The tools that push among those that the task allows, in its order (all: in the library's
+    /// order).
     ///
     /// # Errors
     /// A fault for every name that the library does not know, or one if there is no tool.
     pub fn tools(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
-        let names = match &self.tools {
-            ToolChoice::All if library.is_empty() => {
-                let advice = "add a tool file to the folder, or name another folder";
-                let message = "all tools are allowed, but the library has none";
-                return Err(Fault::of_file(&self.name, message, advice).into());
+        if self.tools == ToolChoice::All && library.is_empty() {
+            let advice = "add a tool file to the folder, or name another folder";
+            let message = "all tools are allowed, but the library has none";
+            return Err(Fault::of_file(&self.name, message, advice).into());
+        }
+        self.chosen(library, library.iter(), |tool| tool.pushes())
+    }
+
+    /// The tools with blades among those that the task allows, in its order (all: in the library's
+    /// order).
+    ///
+    /// # Errors
+    /// A fault for every name that the library does not know, or one if there is no such tool.
+    pub fn blades(&self, library: &ToolLibrary) -> Result<Vec<Arc<Tool>>, Faults> {
+        if self.tools == ToolChoice::All && library.blades().is_empty() {
+            let message = "all tools with blades are allowed, but the library has none";
+            let advice = "add a tool file with a `blade` to the folder";
+            return Err(Fault::of_file(&self.name, message, advice).into());
+        }
+        self.chosen(library, library.blades().iter(), |tool| tool.blade().is_some())
+    }
+
+    /// The tools that it allows for pushes beside lever-ups: those without blades.
+    pub fn pushers(&self, library: &ToolLibrary) -> ToolChoice {
+        match &self.tools {
+            ToolChoice::All => ToolChoice::All,
+            ToolChoice::Named(names) => {
+                let pushes = |name: &&String| library.get(name).is_none_or(|tool| tool.pushes());
+                ToolChoice::Named(names.iter().filter(pushes).cloned().collect())
             }
-            ToolChoice::All => return Ok(library.iter().cloned().collect()),
-            ToolChoice::Named(names) => names,
-        };
-        let mut faults = Vec::new();
-        let mut tools = Vec::new();
+        }
+    }
+
+    /// The allowed tools that are `wanted`; `all` of them where the task names none.
+    fn chosen<'a>(
+        &self,
+        library: &'a ToolLibrary,
+        all: impl Iterator<Item = &'a Arc<Tool>>,
+        wanted: impl Fn(&Tool) -> bool,
+    ) -> Result<Vec<Arc<Tool>>, Faults> {
+        let ToolChoice::Named(names) = &self.tools else { return Ok(all.cloned().collect()) };
+        let mixed = self.levers.is_some() && self.pushes.max_count > 0;
+        let (mut faults, mut tools) = (Vec::new(), Vec::new());
         for name in names {
             match library.get(name) {
-                Some(tool) => tools.push(tool.clone()),
-                None => {
-                    let (message, advice) = unknown_tool(name, library);
+                Some(tool) if wanted(tool) => tools.push(Arc::clone(tool)),
+                Some(_) if mixed => {}
+                _ => {
+                    let (message, advice) = match self.levers {
+                        Some(_) => unknown_blade(name, library),
+                        None => unknown_tool(name, library),
+                    };
                     faults.push(Fault::of_file(&self.name, message, advice));
                 }
             }
@@ -81,27 +118,33 @@ pub(in crate::asset) fn parse_with(
     let source = Source::yaml(file, text);
     let mut root = Node::parse(source)?;
     let mut ledger = Ledger::new(source);
-    if is_lever_task(&root) {
-        let node = root.get("levers").or_else(|| root.get("goal")).unwrap_or(&root);
-        let advice = "`solve`, `predict` and `verify` take such tasks";
-        ledger.fault(node, "this is a task of levering, and pushes are asked for", advice);
-        return ledger.finish(None);
-    }
-    check(&mut root, &TASK, &mut ledger);
+    check(&mut root, &TASK_FILE, &mut ledger);
     if let Some(library) = library {
-        for node in root.get("tools").map(Node::items).unwrap_or_default() {
-            if let Some(name) = node.text().filter(|name| library.get(name).is_none()) {
-                let (message, advice) = unknown_tool(name, library);
-                ledger.fault(node, message, advice);
-            }
-        }
+        check_tools(&root, library, &mut ledger);
     }
     let task = task_of(&root, file, &mut ledger);
     ledger.finish(task)
 }
 
+/// Notes named tools that are not in the library, or of no use to the task.
+fn check_tools(root: &Node, library: &ToolLibrary, ledger: &mut Ledger) {
+    if is_lever_task(root) {
+        return check_blades(root, library, ledger);
+    }
+    let pushes = |name: &str| library.get(name).is_some_and(|tool| tool.pushes());
+    for node in root.get("tools").map(Node::items).unwrap_or_default() {
+        if let Some(name) = node.text().filter(|name| !pushes(name)) {
+            let (message, advice) = unknown_tool(name, library);
+            ledger.fault(node, message, advice);
+        }
+    }
+}
+
 /// Applies the rules that span several keys; `None` if anything needed is missing.
 pub(in crate::asset) fn task_of(root: &Node, file: &str, ledger: &mut Ledger) -> Option<Task> {
+    if is_lever_task(root) {
+        return lever_task_of(root, file, ledger);
+    }
     rules::check(root, ledger);
     build::task(root, file)
 }
@@ -114,7 +157,7 @@ pub(in crate::asset) fn scene_of(node: &Node, slack: f64, ledger: &mut Ledger) -
 }
 
 fn unknown_tool(name: &str, library: &ToolLibrary) -> (String, String) {
-    if library.blade(name).is_some() {
+    if library.get(name).is_some() {
         let message = format!("`{name}` has a blade: it levers, and this task is one of pushes");
         return (message, "name a tool that pushes, or add `levers` for a task of levering".into());
     }

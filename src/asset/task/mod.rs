@@ -18,5 +18,5 @@ pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use rules::{push_rules as check_pushes, robot as check_robot, tools as check_tools};
 pub(super) use spec::{
     JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, PUSHES,
-    REACH_KEY, ROBUSTNESS, TABLE, TASK, TASK_KEYS, TOOLS,
+    REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS,
 };

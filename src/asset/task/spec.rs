@@ -1,5 +1,7 @@
 //! What a task file may hold.
 
+use crate::asset::lever::{LEVER_TASK, is_lever_task};
+use crate::asset::node::Node;
 use crate::asset::spec::{
     ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
 };
@@ -15,6 +17,13 @@ pub(in crate::asset) mod default {
 
 /// What a task file may hold.
 pub(in crate::asset) static TASK: Value = Value::Map(TASK_KEYS);
+
+/// What a file of a task of either kind may hold.
+pub(in crate::asset) static TASK_FILE: Value = Value::Told { by: of, of: &[&TASK, &LEVER_TASK] };
+
+fn of(root: &Node) -> &'static Value {
+    if is_lever_task(root) { &LEVER_TASK } else { &TASK }
+}
 
 /// The keys of a task.
 pub(in crate::asset) const TASK_KEYS: &[Key] = &[

@@ -4,6 +4,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::{error::CliError, exit_code, session::Session};
 
+use super::suite::SuiteArgs;
 use super::{saved, status, tasks, tools};
 
 /// Measure tool selection and suites of tasks
@@ -15,8 +16,8 @@ pub struct BenchArgs {
 
 #[derive(Debug, Subcommand)]
 enum What {
-    Tools(tools::ToolsArgs),
-    Tasks(tasks::TasksArgs),
+    Tools(SuiteArgs<tools::ToolsArgs>),
+    Tasks(SuiteArgs<tasks::TasksArgs>),
     Merge(saved::MergeArgs),
     Status(status::StatusArgs),
     Report(saved::ReportArgs),
@@ -25,7 +26,7 @@ enum What {
 pub fn run(args: &BenchArgs, session: &Session) -> Result<u8, CliError> {
     match &args.what {
         What::Tools(args) => tools::run(args, session)?,
-        What::Tasks(args) => tasks::run(args, session)?,
+        What::Tasks(args) => args.run(session)?,
         What::Merge(args) => saved::merge(args, &saved::SUITES, session)?,
         What::Status(args) => status::run(args, session)?,
         What::Report(args) => saved::report(args, &saved::SUITES, session)?,

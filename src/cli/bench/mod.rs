@@ -6,6 +6,7 @@ pub mod keep;
 pub mod page;
 pub mod saved;
 pub mod status;
+pub mod suite;
 pub mod tasks;
 pub mod tools;
 

@@ -3,15 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::{Serialize, de::DeserializeOwned};
 
-use crate::bench::{SolvedTask, ToolRecord};
+use crate::bench::SolvedTask;
 use crate::cli::{error::CliError, form::Form, output, session::Session};
-use crate::report::{Document, solved_document, tools_document};
-use crate::store::{self, Finished, RunManifest, Store, line_index, merge_runs};
+use crate::report::Document;
+use crate::store::{self, RunManifest, Store, line_index, merge_runs};
 
+use super::keep;
 use super::page::PageArgs;
-use super::{keep, tasks, tools};
+use super::suite::{Suite, load};
+use super::tasks::TasksArgs;
+use super::tools::ToolsArgs;
 
 /// Put the shards of a benchmark together: the same bytes as one run
 #[derive(Args, Debug)]
@@ -47,50 +49,40 @@ pub struct ReportArgs {
 
 /// A suite whose runs are kept, and what is shown of them.
 pub struct Kept {
-    /// Its name in manifests.
-    pub suite: &'static str,
-    /// The report of the runs in these folders; none where only the command that measures has all
-    /// that it needs.
-    pub document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
-    /// The solved tasks of a run, and the seed of their disturbed replays, where it has any.
-    pub solved: Option<fn(&Path) -> Result<(RunManifest, u64, Vec<SolvedTask>), CliError>>,
+    suite: &'static str,
+    /// None where only the command that measures has all that a report needs.
+    document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
+    solved: fn(&Path) -> Result<Option<SolvedRun>, CliError>,
+}
+
+/// What a run is of, the seed of its disturbed replays, and its solved tasks.
+type SolvedRun = (RunManifest, u64, Vec<SolvedTask>);
+
+impl Kept {
+    /// The runs of a suite.
+    pub const fn of<S: Suite>() -> Self {
+        Self {
+            suite: S::NAME,
+            document: Some(|dirs| S::document(&load(dirs)?)),
+            solved: |dir| {
+                let run = Store::<S::Record>::load(dir)?.into_parts();
+                let solved = S::solved(&run);
+                Ok(solved.map(|(seed, solved)| (run.0, seed, solved)))
+            },
+        }
+    }
+
+    /// Runs of which `document` is made by itself, if it can be made of what is kept at all.
+    pub const fn apart(
+        suite: &'static str,
+        document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
+    ) -> Self {
+        Self { suite, document, solved: |_| Ok(None) }
+    }
 }
 
 /// The suites of this command.
-pub const SUITES: [Kept; 2] = [
-    Kept {
-        suite: tasks::SUITE,
-        document: Some(|runs| one(runs, solved_document)),
-        solved: Some(|dir| {
-            let (manifest, finished) = Store::<SolvedTask>::load(dir)?.into_parts();
-            let seed = manifest.seed;
-            Ok((manifest, seed, finished.into_iter().map(|task| task.record).collect()))
-        }),
-    },
-    Kept {
-        suite: tools::SUITE,
-        document: Some(|runs| one::<ToolRecord>(runs, tools_document)),
-        solved: None,
-    },
-];
-
-/// The report of the only folder of a suite whose runs are not shown side by side.
-///
-/// # Errors
-/// Several folders, and one that cannot be read.
-pub fn one<R: Serialize + DeserializeOwned>(
-    runs: &[PathBuf],
-    document: impl Fn(&RunManifest, &[Finished<R>]) -> Document,
-) -> Result<Document, CliError> {
-    let [dir] = runs else {
-        return Err(CliError::usage(
-            "runs of this suite are not shown side by side",
-            "name one folder",
-        ));
-    };
-    let store = Store::<R>::load(dir)?;
-    Ok(document(store.manifest(), store.finished()))
-}
+pub const SUITES: [Kept; 2] = [Kept::of::<TasksArgs>(), Kept::of::<ToolsArgs>()];
 
 /// Merges shards of one of these `suites` and shows what they hold together.
 ///
@@ -177,12 +169,11 @@ fn page(
         return Err(CliError::usage("a page is of one run", "name one folder"));
     };
     let kept = known(suites, dir)?;
-    let Some(solved) = kept.solved else {
+    let Some((run, seed, solved)) = (kept.solved)(dir)? else {
         return Err(CliError::usage(
             format!("runs of the suite `{}` are not of single plans", kept.suite),
             "leave out --page",
         ));
     };
-    let (run, seed, solved) = solved(dir)?;
     args.page.write(task, out, session, (&run, seed), solved.iter())
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::asset::ToolLibrary;
 use crate::cli::{error::CliError, session::Session};
-use crate::scene::{BladeTool, LeverPlan, LeverTask, Pivot};
+use crate::scene::{LeverPlan, Pivot, Task, Tool};
 use crate::solve::lever::{AskedLever, AskedPlace, asked_lever};
 
 /// Help shown wherever a lever-up can be given.
@@ -84,13 +84,13 @@ fn within(key: &str, text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
 /// # Errors
 /// [`CliError::Usage`] if no such plan can be made.
 pub fn lever_plan(
-    task: &LeverTask,
+    task: &Task,
     library: &ToolLibrary,
     (name, lever): (Option<&str>, &AskedLever),
     session: &Session,
-) -> Result<(LeverPlan, Arc<BladeTool>), CliError> {
+) -> Result<(LeverPlan, Arc<Tool>), CliError> {
     let tool = match name {
-        Some(name) => Arc::clone(library.blade(name).ok_or_else(|| {
+        Some(name) => Arc::clone(library.get(name).ok_or_else(|| {
             let names: Vec<&str> = library.blades().iter().map(|t| t.name.as_str()).collect();
             let message = format!("no tool with a blade is called `{name}`");
             CliError::usage(message, format!("use {}", names.join(", ")))

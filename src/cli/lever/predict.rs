@@ -10,7 +10,7 @@ use crate::report::{
     PageView, PredictedLever, Recipe, ReplayedLever, lever_figure, lever_page,
     lever_prediction_document,
 };
-use crate::scene::{BladeTool, LeverJob, LeverPlan, LeverTask};
+use crate::scene::{LeverJob, LeverPlan, LeverScene, Task, Tool};
 use crate::sim::LeverSimulator;
 
 use super::model::lever_model;
@@ -22,8 +22,8 @@ use super::solve::FRAME;
 /// Results that cannot be written.
 pub fn predict(
     args: &PredictArgs,
-    task: &LeverTask,
-    (plan, tool): (LeverPlan, Arc<BladeTool>),
+    task: &Task,
+    (plan, tool): (LeverPlan, Arc<Tool>),
     session: &Session,
 ) -> Result<u8, CliError> {
     if args.poses.wanted() {
@@ -32,7 +32,7 @@ pub fn predict(
             "`--out DIR --trajectories` writes them into a trajectory file",
         ));
     }
-    let job = LeverJob { scene: Arc::new(task.scene(tool.blade)), lever: plan.lever };
+    let job = LeverJob { scene: Arc::new(LeverScene::with(&task.scene, &tool)), lever: plan.lever };
     let mut models = vec![lever_model(args.model.as_ref())?];
     let beside = if args.alone { &[][..] } else { &[LeverSimulator::COARSE, LeverSimulator::FINE] };
     for &simulator in beside {
@@ -50,7 +50,7 @@ pub fn predict(
         let rolled = session.compute(|| model.rollout(std::slice::from_ref(&job)));
         let seconds = began.elapsed().as_secs_f64();
         predicted.extend(rolled.into_iter().map(|trajectory| {
-            let outcome = task.goal.judge(&job.scene, &job.lever, &trajectory);
+            let outcome = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
             PredictedLever { by: model.name(), trajectory, outcome, seconds }
         }));
     }

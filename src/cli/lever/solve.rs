@@ -16,7 +16,7 @@ use crate::report::{
     Figure, PageView, Recipe, ReplayedLever, lever_figure, lever_page, lever_solution_document,
     lever_verdict_line,
 };
-use crate::scene::{LeverJob, LeverMotion, LeverTask};
+use crate::scene::{LeverJob, LeverMotion, LeverScene, Task};
 use crate::sim::LeverSimulator;
 use crate::solve::PlanStatus;
 use crate::solve::lever::{LeverPlanner, LeverSettings, LeverSolution, PushedAfter, RankedLever};
@@ -32,7 +32,7 @@ pub const FRAME: f64 = 0.02;
 /// What is wrong with the task, and results that cannot be written.
 pub fn solve(
     args: &SolveArgs,
-    mut task: LeverTask,
+    mut task: Task,
     library: &ToolLibrary,
     session: &Session,
 ) -> Result<u8, CliError> {
@@ -99,13 +99,8 @@ fn write_pushes(
 }
 
 /// The picture of a plan, and the motion that it shows.
-fn replay(
-    session: &Session,
-    task: &LeverTask,
-    best: &RankedLever,
-    name: &str,
-) -> (Figure, LeverMotion) {
-    let scene = Arc::new(task.scene(best.tool.blade));
+fn replay(session: &Session, task: &Task, best: &RankedLever, name: &str) -> (Figure, LeverMotion) {
+    let scene = Arc::new(LeverScene::with(&task.scene, &best.tool));
     let job = LeverJob { scene, lever: best.plan.lever };
     let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
     let line = format!("verdict: {}", lever_verdict_line(best.verdict.as_ref()));
@@ -115,7 +110,7 @@ fn replay(
 /// The plan file, the picture and the page.
 fn write(
     args: &SolveArgs,
-    task: &LeverTask,
+    task: &Task,
     (best, (figure, motion)): (&RankedLever, &(Figure, LeverMotion)),
     name: &str,
     document: &crate::report::Document,

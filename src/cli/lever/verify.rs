@@ -10,7 +10,7 @@ use crate::report::{
     PageView, Recipe, ReplayedLever, lever_figure, lever_page, lever_verdict_document,
     lever_verdict_line,
 };
-use crate::scene::LeverJob;
+use crate::scene::{LeverJob, LeverScene};
 use crate::sim::LeverSimulator;
 use crate::verify::{LeverVerifier, VerifySettings};
 use crate::watch::Until;
@@ -38,7 +38,7 @@ pub fn verify(
     let mut written = Ok(());
     // A plan that names what is not there has nothing to be drawn.
     if let (Some(out), Some(_)) = (&args.out, verdict.nominal()) {
-        let scene = Arc::new(task.scene(tool.blade));
+        let scene = Arc::new(LeverScene::with(&task.scene, tool));
         let job = LeverJob { scene, lever: plan.lever };
         let (_, motion) = session.compute(|| LeverSimulator::FINE.record(&job, FRAME));
         let line = lever_verdict_line(Some(&verdict));

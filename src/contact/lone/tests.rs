@@ -60,6 +60,7 @@ impl Drawn {
                 name: "wall".into(),
                 size: [0.02, 0.3, 0.1],
                 pose: Pose::new(0.012 + size + 0.002 * noise.next(), 0.0, 0.0),
+                z: 0.0,
                 friction: 0.5,
             });
         }

@@ -23,6 +23,7 @@ fn pairs_that_cannot_have_come_near_are_left_out_for_the_same_contacts() {
         name: "wall".into(),
         size: [0.02, 0.4, 0.1],
         pose: Pose::new(0.3, 0.07, 0.1),
+        z: 0.0,
         friction: 0.5,
     };
     let scene = Scene { obstacles: vec![wall], ..Scene::new(objects) };

@@ -122,6 +122,7 @@ fn what_is_pushed_against_a_wall_stays_finite_and_between() {
         name: "wall".into(),
         size: [0.02, 0.3, 0.1],
         pose: Pose::new(0.07, 0.0, 0.0),
+        z: 0.0,
         friction: 0.5,
     });
     let [motion] = prior(&scene, Vector::new(0.01, 0.0))[..] else { panic!("one object") };

@@ -317,7 +317,7 @@ fn draft<'a>(
         ledger.fault(solid.place, message, "three to eight points can be stated");
         return None;
     };
-    let object = Object { name: name.to_owned(), shape, support, mass, friction, pose };
+    let object = Object { support, mass, friction, pose, ..Object::new(name, shape) };
     Some((object, feet, low))
 }
 

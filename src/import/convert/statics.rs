@@ -171,7 +171,7 @@ fn obstacle<'a>(
     // What of it is below the table, or a little above, nobody meets.
     let size = [x, y, upright.top() - floor];
     let friction = solid.material.friction.unwrap_or(wanted.friction);
-    Some((Obstacle { name: names.take(what), size, pose, friction }, solid))
+    Some((Obstacle { name: names.take(what), size, pose, z: 0.0, friction }, solid))
 }
 
 /// The scene without objects.

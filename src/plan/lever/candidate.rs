@@ -1,6 +1,6 @@
 //! The lever-ups that a task's rules allow, on a grid.
 
-use crate::scene::{LeverRules, LeverTask, LeverUp, Pivot, Place};
+use crate::scene::{LeverRules, LeverUp, Pivot, Place, Task};
 
 /// Most lever points along the outline.
 const MOST: f64 = 256.0;
@@ -28,7 +28,7 @@ pub struct LeverCandidate {
 /// The lever-ups of one tool in a task.
 pub struct LeverGrid<'a> {
     /// The task.
-    pub task: &'a LeverTask,
+    pub task: &'a Task,
     /// Index of the tool.
     pub tool: usize,
     /// How far apart lever points are, metres.
@@ -38,9 +38,10 @@ pub struct LeverGrid<'a> {
 impl LeverGrid<'_> {
     /// All of them, in order. Where no axis follows from the plate, it is no number.
     pub fn candidates(&self) -> Vec<LeverCandidate> {
-        let (plate, rules) = (self.task.plate(), &self.task.levers);
+        let (plate, rules) = (self.task.plate(), self.task.lever_rules());
         let depths = spread(rules.depth, DEPTHS);
         let angles = spread(rules.angle, ANGLES);
+        let (plate, rules) = (&plate, &rules);
         let axes = |place: Place| {
             rules.pivots.iter().flat_map(move |pivot| match *pivot {
                 Pivot::Auto => {
@@ -56,7 +57,7 @@ impl LeverGrid<'_> {
                 for (q, pivot) in axes(place).enumerate() {
                     for (a, &angle) in angles.iter().enumerate() {
                         let lever = LeverUp {
-                            plate: self.task.goal.plate,
+                            plate: self.task.goal.object,
                             place,
                             depth,
                             pivot,
@@ -76,7 +77,8 @@ impl LeverGrid<'_> {
 
     /// Lever points along the outline, not too near to its corners and even on each edge.
     fn places(&self) -> Vec<Place> {
-        let corners = self.task.plate().corners();
+        let plate = self.task.plate();
+        let corners = plate.corners();
         let side = |k: usize| (corners[(k + 1) % corners.len()] - corners[k]).norm();
         let around: f64 = (0..corners.len()).map(side).sum();
         let apart = self.apart.max(around / MOST);

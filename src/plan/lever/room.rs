@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::geometry::{Pose3, Solid, Vector, Vector3, cross, perpendicular};
-use crate::scene::{LeverFault, LeverRules, LeverScene, LeverTask, LeverUp};
+use crate::scene::{LeverFault, LeverRules, LeverScene, LeverUp, Task};
 
 /// The blade may sink so deep into what is fixed, metres: it slides along floors.
 const SLACK: f64 = 1e-4;
@@ -17,7 +17,7 @@ const DEEPEST: f64 = 0.8;
 
 /// What stands around a plate that is to be levered.
 pub struct LeverRoom<'a> {
-    task: &'a LeverTask,
+    task: &'a Task,
     scene: &'a LeverScene,
     /// What the blade must not meet, with names.
     bodies: Vec<(String, Solid)>,
@@ -27,13 +27,13 @@ pub struct LeverRoom<'a> {
 
 impl<'a> LeverRoom<'a> {
     /// The room around the goal's plate in `scene`, that of `task` with a blade.
-    pub fn new(task: &'a LeverTask, scene: &'a LeverScene) -> Self {
+    pub fn new(task: &'a Task, scene: &'a LeverScene) -> Self {
         let blocks = scene.blocks.iter().map(|block| {
             let pose = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
             let top = block.z + block.size[2];
             (block.name.clone(), Solid::cuboid(block.size, &pose), top)
         });
-        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goal.plate);
+        let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
         let others = others.flat_map(|(_, plate)| {
             plate.slabs.iter().map(|slab| {
                 let span = [slab.bottom, slab.bottom + slab.height];

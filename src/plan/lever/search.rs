@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{
-    Ending, LeverFault, LeverGoal, LeverJob, LeverOutcome, LeverScene, LeverTask, LeverTrajectory,
+    Ending, Goal, LeverFault, LeverJob, LeverOutcome, LeverScene, LeverTrajectory, Task,
 };
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};
@@ -63,7 +63,7 @@ pub struct LeverSearchStatistics {
 /// A search for lever-ups of one task.
 pub struct LeverSearch<'a> {
     /// The task.
-    pub task: &'a LeverTask,
+    pub task: &'a Task,
     /// Its scene with the blade of each tool.
     pub scenes: &'a [Arc<LeverScene>],
 }
@@ -117,7 +117,7 @@ impl LeverSearch<'_> {
             let rolled = predict(&jobs);
             outcomes.extend(jobs.iter().zip(rolled).map(|(job, trajectory)| {
                 let goal = &self.task.goal;
-                let outcome = goal.judge(&job.scene, &job.lever, &trajectory);
+                let outcome = goal.judge_lever(&job.scene, &job.lever, &trajectory);
                 let merit = merit(goal, &outcome, &trajectory);
                 (outcome, merit)
             }));
@@ -141,7 +141,7 @@ impl LeverSearch<'_> {
 
 /// By what a lever-up is ranked, its neighbours aside: the score, more where the plate slips, leans,
 /// jams or is left undecided.
-pub fn merit(goal: &LeverGoal, outcome: &LeverOutcome, trajectory: &LeverTrajectory) -> f64 {
+pub fn merit(goal: &Goal, outcome: &LeverOutcome, trajectory: &LeverTrajectory) -> f64 {
     let tilt = trajectory.lift.last().map_or(0.0, |pose| pose.tilt().to_degrees());
     let [low, high] = UNDECIDED_DEG;
     let middle = 1.0 - (2.0 * tilt - low - high).abs() / (high - low);

@@ -2,19 +2,19 @@
 
 use crate::report::document::Figure;
 use crate::report::picture::LeverPicture;
-use crate::scene::{BladeTool, LeverMotion, LeverPlan, LeverTask};
+use crate::scene::{LeverMotion, LeverPlan, LeverScene, Task, Tool};
 
 use super::words::{goal_line, plan_line};
 
 /// The picture of a plan as it was replayed, with lines below its title; its file is named `name`.
 pub fn lever_figure(
-    task: &LeverTask,
-    (tool, plan): (&BladeTool, &LeverPlan),
+    task: &Task,
+    (tool, plan): (&Tool, &LeverPlan),
     motion: &LeverMotion,
     lines: &[String],
     name: &str,
 ) -> Figure {
-    let scene = task.scene(tool.blade);
+    let scene = LeverScene::with(&task.scene, tool);
     let notes = [format!("goal: {}", goal_line(task))].into_iter().chain(lines.iter().cloned());
     let picture = LeverPicture {
         title: format!("{}: {}", task.name, plan_line(task, plan)),

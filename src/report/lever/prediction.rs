@@ -5,7 +5,7 @@ use serde_json::json;
 use crate::report::document::{Document, Figure, Section};
 use crate::report::number::{millimetres, seconds};
 use crate::report::table::{Align, NONE, Table};
-use crate::scene::{LeverOutcome, LeverPlan, LeverTask, LeverTrajectory};
+use crate::scene::{LeverOutcome, LeverPlan, LeverTrajectory, Task};
 
 use super::words::{goal_line, lever_section, outcome_table, plan_line};
 
@@ -25,7 +25,7 @@ pub struct PredictedLever {
 /// What several models say of one lever-up, the last of them being the one that they are compared
 /// with.
 pub fn lever_prediction_document(
-    task: &LeverTask,
+    task: &Task,
     plan: &LeverPlan,
     predicted: &[PredictedLever],
     figures: Vec<Figure>,

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::report::document::{Document, Figure, Section};
 use crate::report::number::seconds;
 use crate::report::table::{Align, Table};
-use crate::scene::LeverTask;
+use crate::scene::Task;
 use crate::solve::PlanStatus;
 use crate::solve::lever::LeverSolution;
 
@@ -14,7 +14,7 @@ use super::words::{goal_line, outcome_table, plan_line, plan_sections};
 
 /// A solved task, or the nearest that there is, with its picture.
 pub fn lever_solution_document(
-    task: &LeverTask,
+    task: &Task,
     solution: &LeverSolution,
     figures: Vec<Figure>,
 ) -> Document {
@@ -46,7 +46,7 @@ pub fn lever_solution_document(
     }
 }
 
-fn headline(task: &LeverTask, solution: &LeverSolution) -> String {
+fn headline(task: &Task, solution: &LeverSolution) -> String {
     let Some(best) = solution.best() else {
         return "no plan; no lever-up can be made at all".to_owned();
     };
@@ -64,7 +64,7 @@ fn headline(task: &LeverTask, solution: &LeverSolution) -> String {
 }
 
 /// The other plans that were verified.
-fn alternatives(task: &LeverTask, solution: &LeverSolution) -> Option<Section> {
+fn alternatives(task: &Task, solution: &LeverSolution) -> Option<Section> {
     let others: Vec<_> =
         solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some()).take(7).collect();
     (!others.is_empty()).then(|| Section {
@@ -124,7 +124,7 @@ fn cost(solution: &LeverSolution) -> String {
     cost
 }
 
-fn json(task: &LeverTask, solution: &LeverSolution) -> Json {
+fn json(task: &Task, solution: &LeverSolution) -> Json {
     let plans: Vec<Json> = solution
         .plans
         .iter()

@@ -7,11 +7,11 @@ use crate::report::table::{
     Align::{Left, Right},
     Table,
 };
-use crate::scene::{LeverOutcome, LeverPlan, LeverTask};
+use crate::scene::{LeverOutcome, LeverPlan, Task};
 
 /// One line: tool, object, turn.
-pub fn plan_line(task: &LeverTask, plan: &LeverPlan) -> String {
-    let name = task.plates.get(plan.lever.plate).map_or("?", |plate| plate.name.as_str());
+pub fn plan_line(task: &Task, plan: &LeverPlan) -> String {
+    let name = task.scene.objects.get(plan.lever.plate).map_or("?", |plate| plate.name.as_str());
     let way = if plan.lever.pivot < 0.0 { "prying" } else { "lifting" };
     let lever = format!("{}, {way} {name} by {}", plan.tool, degrees(plan.lever.angle));
     match &plan.follow_up {
@@ -48,10 +48,10 @@ pub(super) fn lever_section(plan: &LeverPlan) -> Section {
 }
 
 /// What is asked for.
-pub fn goal_line(task: &LeverTask) -> String {
+pub fn goal_line(task: &Task) -> String {
     let goal = &task.goal;
     let mut demands = Vec::new();
-    if let Some(block) = goal.outside.and_then(|block| task.blocks.get(block)) {
+    if let Some(block) = goal.outside.and_then(|block| task.scene.obstacles.get(block)) {
         demands.push(format!("outside of {}", block.name));
     }
     if let Some(height) = goal.raised {
@@ -62,8 +62,9 @@ pub fn goal_line(task: &LeverTask) -> String {
         Some(false) => demands.push("on its underside".to_owned()),
         None => {}
     }
-    if let Some((at, tolerance)) = goal.place {
-        demands.push(format!("at {} within {}", point(at), millimetres(tolerance)));
+    if goal.has_place() {
+        let (at, tolerance) = (point(goal.position), millimetres(goal.tolerance));
+        demands.push(format!("at {at} within {tolerance}"));
     }
     format!("{}: {}", task.plate().name, demands.join(", "))
 }

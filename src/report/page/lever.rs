@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose3;
 use crate::report::lever::words::{goal_line, plan_line};
-use crate::scene::{BladeTool, Block, LeverMotion, LeverPlan, LeverTask, Plate, Slab};
+use crate::scene::{self, LeverMotion, LeverPlan, Obstacle, Plate, Slab, Task};
 
 use super::data::{
     Body, Data, File, Goal, Layer, Measure, Outline, Plan, Replay, Stage, Standing, Stroke, Tool,
@@ -15,9 +15,9 @@ use super::replay::{differences, packed};
 /// A lever-up that was replayed.
 pub struct ReplayedLever<'a> {
     /// The task.
-    pub task: &'a LeverTask,
+    pub task: &'a Task,
     /// The tool.
-    pub tool: &'a BladeTool,
+    pub tool: &'a scene::Tool,
     /// The plan.
     pub plan: &'a LeverPlan,
     /// What happened.
@@ -55,7 +55,7 @@ pub fn lever_page(lever: &ReplayedLever, recipe: Recipe) -> String {
         file: serde_json::Value::Null,
     };
     let goal = Goal {
-        object: task.goal.plate,
+        object: task.goal.object,
         at: [0; 2],
         tolerance: 0,
         heading: None,
@@ -67,8 +67,8 @@ pub fn lever_page(lever: &ReplayedLever, recipe: Recipe) -> String {
         description: task.description.clone(),
         headline: lever.line.to_owned(),
         stage: Stage {
-            objects: task.plates.iter().map(plate).collect(),
-            obstacles: task.blocks.iter().map(block).collect(),
+            objects: task.scene.objects.iter().map(|object| plate(&Plate::of(object))).collect(),
+            obstacles: task.scene.obstacles.iter().map(block).collect(),
             table: None,
             reach: Vec::new(),
             goal: Some(goal),
@@ -104,14 +104,14 @@ fn plate(plate: &Plate) -> Body {
     Body { name: plate.name.clone(), at: pose(&plate.pose), more, ..first }
 }
 
-fn block(block: &Block) -> Body {
+fn block(block: &Obstacle) -> Body {
     let name = block.name.clone();
     Body { name, at: pose(&block.pose), ..cuboid(block.size, block.z) }
 }
 
 /// The blade about its centre.
-fn blade(tool: &BladeTool) -> Tool {
-    let blade = &tool.blade;
+fn blade(tool: &scene::Tool) -> Tool {
+    let blade = tool.blade().unwrap_or_default();
     let part = cuboid([blade.length, blade.width, blade.thickness], -0.5 * blade.thickness);
     let parts = vec![Body { name: "blade".to_owned(), ..part }];
     Tool { name: tool.name.clone(), parts, grip: [0; 3], file: serde_json::Value::Null }
@@ -137,7 +137,7 @@ fn cuboid([x, y, z]: [f64; 3], under: f64) -> Body {
 /// Blade and plates frame by frame, and how high the edge is at the lever point.
 fn replay(lever: &ReplayedLever) -> Replay {
     let frames = &lever.motion.frames;
-    let scene = lever.task.scene(lever.tool.blade);
+    let scene = scene::LeverScene::with(&lever.task.scene, lever.tool);
     let up = &lever.plan.lever;
     let edge = scene.plates[up.plate].start().local_point(up.frame(&scene).position);
     let height = |plates: &[Pose3]| plates[up.plate].point(edge).z;

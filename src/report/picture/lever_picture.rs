@@ -3,7 +3,7 @@
 
 use crate::geometry::{Pose3, Vector, Vector3, cross};
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{LeverFrame, LeverGoal, LeverMotion, LeverScene, LeverUp, lever_frame};
+use crate::scene::{Goal, LeverFrame, LeverMotion, LeverScene, LeverUp, lever_frame};
 
 use super::palette;
 use super::view::{Bounds, View};
@@ -35,7 +35,7 @@ pub struct LeverPicture<'a> {
     /// What.
     pub lever: &'a LeverUp,
     /// What for.
-    pub goal: &'a LeverGoal,
+    pub goal: &'a Goal,
     /// What happened.
     pub motion: &'a LeverMotion,
 }
@@ -169,7 +169,8 @@ impl LeverPicture<'_> {
             let corners = corners.map(|[x, y]| view.map(block.pose.point(Vector::new(x, y))));
             svg.polygon(&corners, palette::GOAL_RIM.dashed("6 3"));
         }
-        if let Some((at, tolerance)) = self.goal.place {
+        if self.goal.has_place() {
+            let (at, tolerance) = (self.goal.position, self.goal.tolerance);
             svg.circle(view.map(at), view.length(tolerance), palette::GOAL_AREA);
             svg.circle(view.map(at), view.length(tolerance), palette::GOAL_RIM);
         }

@@ -285,7 +285,7 @@ mod tests {
             position: Vector::new(0.5, 0.0),
             tolerance: 0.02,
             heading: None,
-            alike: 1,
+            ..Goal::of(0)
         };
         MovingPicture {
             title: "a test".to_owned(),

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Vector, Vector3, clearance};
+use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
 use crate::scene::{
     Goal, MAX_FEET, Object, Obstacle, Plan, Scene, Support, Task, Tool, ToolMotion, Unknowns,
     carries,
 };
 
-use super::{Block, Ending, LeverTask, Plate};
+use super::{Ending, Plate};
 
 /// A plate whose lowest point is higher above the table lies on something else, metres.
 const ON_TABLE: f64 = 1e-3;
@@ -38,30 +38,33 @@ impl FollowUp {
     }
 }
 
-impl LeverTask {
-    /// The task of pushing the goal's plate to its place once all plates lie at `rests` (their
-    /// frames): nothing if the task allows no pushes or names no place, or if the plate does not
+impl Task {
+    /// The task of pushing the goal's object to its place once all objects lie at `rests` (their
+    /// frames): nothing if the task allows no pushes or names no place, or if the object does not
     /// lie on the table.
     ///
-    /// Seen from above plates are their outlines, on the points that carry them. Plates that lie on
-    /// something else are obstacles, as are blocks, which count as standing on the table.
-    pub fn task_after(&self, rests: &[Pose3]) -> Option<Task> {
-        let (at, tolerance) = self.goal.place?;
-        let pushes = self.pushes.clone()?;
-        let mut scene = Scene::new([]).on_table(self.table_friction);
+    /// Seen from above objects are their outlines, on the points that carry them. Those that lie on
+    /// something else are obstacles, and obstacles count as standing on the table.
+    pub fn after(&self, rests: &[Pose3]) -> Option<Task> {
+        if !self.goal.has_place() || self.pushes.max_count == 0 {
+            return None;
+        }
+        let mut scene = Scene::new([]).on_table(self.scene.table_friction);
         let mut goal = None;
-        for (k, (plate, rest)) in self.plates.iter().zip(rests).enumerate() {
-            match lying(plate, rest).filter(|object| self.is_clear(object)) {
+        for (k, (object, rest)) in self.scene.objects.iter().zip(rests).enumerate() {
+            let plate = Plate::of(object);
+            match lying(&plate, rest).filter(|object| self.is_clear(object)) {
                 Some(object) => {
-                    if k == self.goal.plate {
-                        goal = Some(Goal::new(scene.objects.len(), at.into(), tolerance));
+                    if k == self.goal.object {
+                        let Goal { position, tolerance, .. } = self.goal;
+                        goal = Some(Goal::new(scene.objects.len(), position.into(), tolerance));
                     }
                     scene.objects.push(object);
                 }
-                None => scene.obstacles.push(standing(plate, rest)),
+                None => scene.obstacles.push(standing(&plate, rest)),
             }
         }
-        scene.obstacles.extend(self.blocks.iter().map(Block::obstacle));
+        scene.obstacles.extend(self.scene.obstacles.iter().map(Obstacle::grounded));
         Some(Task {
             name: self.name.chars().take(NAME).chain("-push".chars()).collect(),
             description: format!("What is left of {} after the lever-up.", self.name),
@@ -69,18 +72,19 @@ impl LeverTask {
             unknown: Unknowns::NONE,
             robot: self.robot,
             tools: self.tools.clone(),
-            pushes,
+            pushes: self.pushes.clone(),
+            levers: None,
             goal: goal?,
             robustness: self.robustness,
         })
     }
 
-    /// Whether an object is beside all blocks, not over one.
+    /// Whether an object is beside all obstacles, not over one.
     fn is_clear(&self, object: &Object) -> bool {
         let own = object.shape.footprint();
-        self.blocks.iter().map(Block::obstacle).all(|block| {
-            let base = block.shape().footprint();
-            clearance((&own, &object.pose), (&base, &block.pose), BESIDE) > 0.0
+        self.scene.obstacles.iter().all(|obstacle| {
+            let base = obstacle.shape().footprint();
+            clearance((&own, &object.pose), (&base, &obstacle.pose), BESIDE) > 0.0
         })
     }
 }
@@ -107,14 +111,8 @@ fn lying(plate: &Plate, rest: &Pose3) -> Option<Object> {
         Some(_) if carrying.len() <= MAX_FEET => Support::Points(carrying),
         _ => Support::Even,
     };
-    Some(Object {
-        name: plate.name.clone(),
-        shape: Shape::Prism { base: polygon, height },
-        support,
-        mass: plate.mass,
-        friction: plate.friction,
-        pose: Pose { position: at, heading: 0.0 },
-    })
+    let object = Object::prism(&plate.name, polygon, height).standing_on(support);
+    Some(object.mass(plate.mass).friction(plate.friction).at(at.x, at.y, 0.0))
 }
 
 /// The plate as something to keep away from: the cuboid around it, on the world's axes.
@@ -148,41 +146,13 @@ fn corners(plate: &Plate, rest: &Pose3) -> Vec<Vector3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{LeverGoal, LeverRules, PushRules, Robot, Slab, ToolChoice};
+    use crate::scene::{LeverRules, PushRules, Robot};
 
-    fn tile() -> Plate {
-        let corner = |x: f64, y: f64| Vector::new(x, y);
-        let corners = vec![
-            corner(-0.06, -0.04),
-            corner(0.06, -0.04),
-            corner(0.06, 0.04),
-            corner(-0.06, 0.04),
-        ];
-        Plate {
-            name: "tile".into(),
-            slabs: vec![Slab { corners, bottom: 0.0, height: 0.008 }],
-            mass: 0.1,
-            friction: 0.4,
-            clearance: 0.006,
-            pose: Pose::default(),
-            z: 0.006,
-        }
-    }
-
-    fn task() -> LeverTask {
-        LeverTask {
-            name: "turn".into(),
-            description: String::new(),
-            table_friction: 0.5,
-            plates: vec![tile()],
-            blocks: Vec::new(),
-            robot: Robot::reaching(0.1, 0.9),
-            tools: ToolChoice::All,
-            levers: LeverRules::default(),
-            pushes: Some(PushRules::default()),
-            goal: LeverGoal { place: Some((Vector::new(0.5, 0.2), 0.02)), ..LeverGoal::of(0) },
-            robustness: 0.75,
-        }
+    fn task() -> Task {
+        let tile = Object::cuboid("tile", [0.12, 0.08, 0.008]).on_feet(0.006);
+        let goal = Goal { flipped: Some(true), ..Goal::new(0, [0.5, 0.2], 0.02) };
+        Task::new("turn", Scene::new([tile]), Robot::reaching(0.1, 0.9), goal)
+            .levering(LeverRules::default())
     }
 
     fn upside_down(z: f64) -> Pose3 {
@@ -195,7 +165,7 @@ mod tests {
     #[test]
     fn a_plate_on_its_feet_stands_on_them() {
         let rest = Pose3::upright(Pose::new(0.4, 0.1, 0.3), 0.006);
-        let after = task().task_after(&[rest]).expect("it lies on the table");
+        let after = task().after(&[rest]).expect("it lies on the table");
         let object = &after.scene.objects[0];
         let Support::Points(points) = &object.support else { panic!("{:?}", object.support) };
         assert_eq!(points.len(), 4);
@@ -207,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_plate_upside_down_lies_on_its_upper_face() {
-        let after = task().task_after(&[upside_down(0.008)]).expect("it lies on the table");
+        let after = task().after(&[upside_down(0.008)]).expect("it lies on the table");
         let object = &after.scene.objects[0];
         assert!((object.pose.position - Vector::new(0.4, 0.1)).norm() < 1e-9);
         // The feet point upwards.
@@ -218,14 +188,14 @@ mod tests {
 
     #[test]
     fn what_does_not_lie_on_the_table_is_not_pushed() {
-        assert_eq!(task().task_after(&[upside_down(0.02)]), None, "on a block");
+        assert_eq!(task().after(&[upside_down(0.02)]), None, "on a block");
         let leaning = Pose3::upright(Pose::default(), 0.03).turned_about(
             Vector3::zeros(),
             Vector3::x_axis(),
             0.6,
         );
-        assert_eq!(task().task_after(&[leaning]), None);
-        let forbidden = LeverTask { pushes: None, ..task() };
-        assert_eq!(forbidden.task_after(&[upside_down(0.008)]), None);
+        assert_eq!(task().after(&[leaning]), None);
+        let forbidden = task().pushing(PushRules::none());
+        assert_eq!(forbidden.after(&[upside_down(0.008)]), None);
     }
 }

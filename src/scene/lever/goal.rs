@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vector, Vector3};
+use crate::scene::Goal;
 
 use super::action::lever_frame;
 use super::{Ending, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
@@ -12,27 +13,6 @@ use super::{Ending, LeverScene, LeverTrajectory, LeverUp, LeverWarning};
 /// By how much a missed demand counts as missed once more: metres of an edge that is not yet high
 /// enough, or of a centre that is still inside.
 const STEP: f64 = 0.01;
-
-/// What must come of a lever-up; every stated demand counts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeverGoal {
-    /// Index into [`LeverScene::plates`].
-    pub plate: usize,
-    /// Index into [`LeverScene::blocks`]: at rest the plate's centre of mass lies outside of it,
-    /// seen from above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub outside: Option<usize>,
-    /// At the end of the turn the edge at the lever point lies on the blade, this much higher than
-    /// at the start, metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub raised: Option<f64>,
-    /// At rest it lies upside down, or on its underside.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub flipped: Option<bool>,
-    /// At rest its centre of mass is here, seen from above, off by at most this; metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub place: Option<(Vector, f64)>,
-}
 
 /// What came of a lever-up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,19 +38,9 @@ impl LeverOutcome {
     }
 }
 
-impl LeverGoal {
-    /// A goal of `plate` without any demand.
-    pub fn of(plate: usize) -> Self {
-        Self { plate, outside: None, raised: None, flipped: None, place: None }
-    }
-
-    /// Whether the goal speaks of how the plate comes to lie.
-    pub fn turns(&self) -> bool {
-        self.flipped.is_some() || self.place.is_some()
-    }
-
+impl Goal {
     /// What `trajectory` of `lever` comes to.
-    pub fn judge(
+    pub fn judge_lever(
         &self,
         scene: &LeverScene,
         lever: &LeverUp,
@@ -99,7 +69,7 @@ impl LeverGoal {
                 false => 1.0 + off / FRAC_PI_2,
             }
         });
-        let placed = self.place.map(|(at, tolerance)| (rest - at).norm() / tolerance);
+        let placed = self.has_place().then(|| (rest - self.position).norm() / self.tolerance);
         let demands = [outside, lifted, turned, placed];
         // What has no number counts as far off; comparisons with it would count as met.
         let number = |score: f64| if score.is_finite() { score } else { f64::MAX };

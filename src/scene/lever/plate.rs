@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Pose3, Vector, cross};
+use crate::geometry::{ConvexPolygon, Footprint, Pose, Pose3, Shape, Vector, cross};
+use crate::scene::{Object, Support};
 
 /// How far from a right angle a rectangle's corners may be: the sine.
 const SQUARE: f64 = 1e-9;
@@ -32,7 +33,10 @@ impl Slab {
     }
 }
 
-/// A rigid body with a flat underside: a convex plate and whatever is fixed on it.
+/// Corners of a cylinder's outline: its edge is level with a blade's width to within 0.1 mm.
+const ROUND: usize = 24;
+
+/// An object in space: a rigid body with a flat underside, a convex plate and whatever is fixed on it.
 ///
 /// Its frame lies in the plane of the underside, below the centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,6 +59,64 @@ pub struct Plate {
 }
 
 impl Plate {
+    /// All solids of an object.
+    pub fn of(object: &Object) -> Self {
+        let corners = match object.shape.footprint() {
+            Footprint::Rectangle { half } => {
+                let [x, y]: [f64; 2] = half.into();
+                [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y)).to_vec()
+            }
+            Footprint::Polygon(polygon) => polygon.corners().to_vec(),
+            Footprint::Disc { radius } => (0..ROUND)
+                .map(|k| std::f64::consts::TAU * k as f64 / ROUND as f64)
+                .map(|angle| radius * Vector::new(angle.cos(), angle.sin()))
+                .collect(),
+        };
+        let base = Slab { corners, bottom: 0.0, height: object.shape.height() };
+        Self {
+            name: object.name.clone(),
+            slabs: std::iter::once(base).chain(object.parts.iter().cloned()).collect(),
+            mass: object.mass,
+            friction: object.friction,
+            clearance: object.clearance,
+            pose: object.pose,
+            z: object.z,
+        }
+    }
+
+    /// The object that has these solids; none where the first is not a convex prism of at most
+    /// [`MAX_CORNERS`](crate::geometry::MAX_CORNERS) corners around the centre of mass.
+    pub fn object(self) -> Option<Object> {
+        let mut slabs = self.slabs.into_iter();
+        let base = slabs.next()?;
+        // Exactly, so that the solids of what comes back are these to the bit.
+        let is_centred = |corners: &[Vector; 4]| {
+            let [x, y]: [f64; 2] = corners[2].into();
+            *corners == [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y))
+        };
+        let height = base.height;
+        let shape = match <&[Vector; 4]>::try_from(&base.corners[..]) {
+            Ok(corners) if is_centred(corners) => {
+                Shape::Cuboid { size: [2.0 * corners[2].x, 2.0 * corners[2].y, height] }
+            }
+            _ => {
+                let base = ConvexPolygon::balanced(&base.corners, Vector::zeros()).ok()?;
+                Shape::Prism { base, height }
+            }
+        };
+        Some(Object {
+            name: self.name,
+            shape,
+            support: Support::Even,
+            mass: self.mass,
+            friction: self.friction,
+            pose: self.pose,
+            parts: slabs.collect(),
+            clearance: self.clearance,
+            z: self.z,
+        })
+    }
+
     /// The corners of the outline that can be levered, counter-clockwise, plate frame, metres.
     pub fn corners(&self) -> &[Vector] {
         &self.slabs[0].corners

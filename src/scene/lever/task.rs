@@ -1,38 +1,20 @@
-//! A task of levering: what lies there, with which blades and turns, and what must come of it.
+//! The lever-ups that a task allows.
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{PushRules, Robot, ToolChoice};
-
-use super::{Blade, Block, FollowUp, LeverGoal, LeverScene, LeverUp, Plate};
-
-/// A tool with a blade, held by the end effector at the end of its shaft.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BladeTool {
-    /// Unique within a library, among all tools.
-    pub name: String,
-    /// One line for people.
-    pub description: String,
-    /// What goes under an edge.
-    pub blade: Blade,
-}
-
-impl BladeTool {
-    /// Friction value of most blades: plain steel.
-    pub const FRICTION: f64 = 0.4;
-}
+use super::LeverUp;
 
 /// Where the axis lies that a blade is turned about.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Pivot {
-    /// At the support line, so that the plate's tilt is the blade's turn.
+    /// At the support line, so that the object's tilt is the blade's turn.
     Auto,
     /// At this signed distance from the edge, inward, metres: see [`LeverUp::pivot`].
     At(f64),
 }
 
-/// The lever-ups that a plan may contain.
+/// The lever-ups that a plan may contain, all of the goal's object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverRules {
     /// Smallest and largest depth of the tip behind the edge, metres.
@@ -74,60 +56,4 @@ impl Default for LeverRules {
             retreat: LeverUp::RETREAT,
         }
     }
-}
-
-/// Everything that a planner needs to know to lever something, besides the tools themselves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeverTask {
-    /// From the file's name or its `name` key.
-    pub name: String,
-    /// One line for people.
-    pub description: String,
-    /// Friction value of the table.
-    pub table_friction: f64,
-    /// What can move.
-    pub plates: Vec<Plate>,
-    /// What cannot.
-    pub blocks: Vec<Block>,
-    /// The robot.
-    pub robot: Robot,
-    /// Allowed tools: those with blades, and where pushes may follow those that push.
-    pub tools: ToolChoice,
-    /// Allowed lever-ups, all of the goal's plate.
-    pub levers: LeverRules,
-    /// The pushes that may follow a lever-up; none if nothing is said.
-    pub pushes: Option<PushRules>,
-    /// What to reach.
-    pub goal: LeverGoal,
-    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
-    pub robustness: f64,
-}
-
-impl LeverTask {
-    /// The scene with one of the blades.
-    pub fn scene(&self, blade: Blade) -> LeverScene {
-        LeverScene {
-            plates: self.plates.clone(),
-            blocks: self.blocks.clone(),
-            table_friction: self.table_friction,
-            blade,
-        }
-    }
-
-    /// The plate that is levered.
-    pub fn plate(&self) -> &Plate {
-        &self.plates[self.goal.plate]
-    }
-}
-
-/// A lever-up and the tool that makes it, and perhaps pushes that follow.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeverPlan {
-    /// Name of the tool.
-    pub tool: String,
-    /// The lever-up.
-    pub lever: LeverUp,
-    /// The pushes that follow. Plan files hold them beside the plan, with their tool.
-    #[serde(skip)]
-    pub follow_up: Option<FollowUp>,
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::plan::lever::LeverRoom;
-use crate::scene::{BladeTool, LeverFault, LeverPlan, LeverTask, LeverUp, Pivot, Place};
+use crate::scene::{LeverFault, LeverPlan, LeverScene, LeverUp, Pivot, Place, Task, Tool};
 
 /// A lever-up as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,8 +62,8 @@ pub struct AskedLeverPlan {
 /// # Errors
 /// Why there is no such lever-up.
 pub fn asked_lever(
-    task: &LeverTask,
-    tool: &Arc<BladeTool>,
+    task: &Task,
+    tool: &Arc<Tool>,
     asked: &AskedLever,
 ) -> Result<AskedLeverPlan, LeverActionError> {
     let plate = task.plate();
@@ -90,9 +90,9 @@ pub fn asked_lever(
         Pivot::Auto => plate.auto_pivot(place).ok_or(LeverActionError::NoSupport)?,
         Pivot::At(distance) => distance,
     };
-    let rules = &task.levers;
+    let rules = &task.lever_rules();
     let lever = LeverUp {
-        plate: task.goal.plate,
+        plate: task.goal.object,
         place,
         depth: asked.depth,
         pivot,
@@ -101,7 +101,7 @@ pub fn asked_lever(
         hold: rules.hold,
         retreat: rules.retreat,
     };
-    let broken = LeverRoom::new(task, &task.scene(tool.blade)).fault(&lever);
+    let broken = LeverRoom::new(task, &LeverScene::with(&task.scene, tool)).fault(&lever);
     let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
     Ok(AskedLeverPlan { plan, broken })
 }

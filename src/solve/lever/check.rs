@@ -2,31 +2,30 @@
 
 use std::sync::Arc;
 
-use crate::scene::{BladeTool, LeverTask};
+use crate::scene::{Plate, Task, Tool};
 use crate::solve::SolveError;
 
 /// Checks every number that planning relies on.
 ///
 /// # Errors
 /// The first fault.
-pub(super) fn check(task: &LeverTask, tools: &[Arc<BladeTool>]) -> Result<(), SolveError> {
+pub(super) fn check(task: &Task, tools: &[Arc<Tool>]) -> Result<(), SolveError> {
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
     let positive = |value: f64| value.is_finite() && value > 0.0;
     let from_zero = |value: f64| value.is_finite() && value >= 0.0;
-    if task.goal.plate >= task.plates.len() {
-        return fault(format!("the goal names object {}, which does not exist", task.goal.plate));
+    if task.goal.object >= task.scene.objects.len() {
+        return fault(format!("the goal names object {}, which does not exist", task.goal.object));
     }
-    if task.goal.outside.is_some_and(|block| block >= task.blocks.len()) {
+    if task.goal.outside.is_some_and(|block| block >= task.scene.obstacles.len()) {
         return fault("the goal names an obstacle that does not exist".into());
     }
-    let place = task
-        .goal
-        .place
-        .is_none_or(|(at, tolerance)| at.iter().all(|v| v.is_finite()) && positive(tolerance));
+    let goal = &task.goal;
+    let place = !goal.has_place()
+        || goal.position.iter().all(|v| v.is_finite()) && positive(goal.tolerance);
     if !place || !task.goal.raised.is_none_or(f64::is_finite) {
         return fault("the goal must be finite, its tolerance positive".into());
     }
-    for plate in &task.plates {
+    for plate in task.scene.objects.iter().map(Plate::of) {
         let slabs = plate.slabs.iter().all(|slab| {
             slab.corners.len() >= 3
                 && slab.corners.iter().all(|c| c.iter().all(|v| v.is_finite()))
@@ -47,7 +46,7 @@ pub(super) fn check(task: &LeverTask, tools: &[Arc<BladeTool>]) -> Result<(), So
             ));
         }
     }
-    for block in &task.blocks {
+    for block in &task.scene.obstacles {
         let sound = block.size.iter().all(|size| positive(*size))
             && from_zero(block.z)
             && from_zero(block.friction)
@@ -56,7 +55,7 @@ pub(super) fn check(task: &LeverTask, tools: &[Arc<BladeTool>]) -> Result<(), So
             return fault(format!("obstacle `{}` needs a positive finite size", block.name));
         }
     }
-    let rules = &task.levers;
+    let rules = &task.lever_rules();
     let spans = [rules.depth, rules.angle];
     if !spans.iter().all(|[low, high]| positive(*low) && high.is_finite() && low <= high) {
         return fault("depths and angles need a smallest and a largest, both positive".into());
@@ -70,11 +69,11 @@ pub(super) fn check(task: &LeverTask, tools: &[Arc<BladeTool>]) -> Result<(), So
     if !(positive(task.robot.reach_max) && (0.0..=1.0).contains(&task.robustness)) {
         return fault("reach and robustness make no sense".into());
     }
-    if !from_zero(task.table_friction) {
+    if !from_zero(task.scene.table_friction) {
         return fault("the friction of the table must not be negative".into());
     }
     for tool in tools {
-        let blade = &tool.blade;
+        let blade = tool.blade().unwrap_or_default();
         let sizes = [blade.length, blade.width, blade.thickness];
         if !(sizes.into_iter().all(positive) && from_zero(blade.friction)) {
             return fault(format!("tool `{}` needs a blade of positive size", tool.name));

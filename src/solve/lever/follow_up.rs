@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use crate::asset::ToolLibrary;
-use crate::scene::{FollowUp, LeverGoal, LeverJob, LeverPlan, LeverTask, Task};
+use crate::scene::{FollowUp, Goal, LeverJob, LeverPlan, LeverScene, Task};
 use crate::sim::LeverSimulator;
 use crate::solve::{Planner, SolveError};
 use crate::verify::{LeverVerifier, VerifySettings};
@@ -25,15 +25,15 @@ impl LeverPlanner {
     /// [`SolveError`] for bad input only.
     pub(super) fn with_follow_up(
         &self,
-        task: &LeverTask,
+        task: &Task,
         library: &ToolLibrary,
         alone: LeverSolution,
         until: &Until,
     ) -> Result<LeverSolution, SolveError> {
         let pusher = Planner::for_effort(self.effort)?.seed(self.seed).build();
         // The place is left to the pushes.
-        let goal = LeverGoal { place: None, ..task.goal.clone() };
-        let lifted = LeverTask { goal, pushes: None, ..task.clone() };
+        let goal = Goal { tolerance: f64::INFINITY, ..task.goal };
+        let lifted = Task { goal, ..task.clone() };
         let tools = task.blades(library)?;
         let mut solution = self.lever_up(&lifted, &tools, until);
         let began = Instant::now();
@@ -74,7 +74,7 @@ impl LeverPlanner {
     /// The lever-up with the pushes that were found, verified as a whole; nothing if none were.
     fn followed(
         &self,
-        task: &LeverTask,
+        task: &Task,
         ranked: &RankedLever,
         pushed: Arc<PushedAfter>,
         watch: &dyn Watch,
@@ -83,10 +83,12 @@ impl LeverPlanner {
         let follow_up = FollowUp { tool: Arc::clone(&best.tool), plan: best.plan.clone() };
         let motion = follow_up.motion();
         let plan = LeverPlan { follow_up: Some(follow_up), ..ranked.plan.clone() };
-        let job =
-            LeverJob { scene: Arc::new(task.scene(ranked.tool.blade)), lever: ranked.plan.lever };
+        let job = LeverJob {
+            scene: Arc::new(LeverScene::with(&task.scene, &ranked.tool)),
+            lever: ranked.plan.lever,
+        };
         let trajectory = LeverSimulator::COARSE.run_with(&job, &job.scene, Some(&motion));
-        let predicted = task.goal.judge(&job.scene, &job.lever, &trajectory);
+        let predicted = task.goal.judge_lever(&job.scene, &job.lever, &trajectory);
         let settings = VerifySettings { disturbed: self.settings.disturbed, seed: self.seed };
         let verifier = LeverVerifier::new(settings).watched(watch);
         let nominal = verifier.nominal(task, &ranked.tool, &plan);
@@ -106,13 +108,14 @@ impl LeverPlanner {
 
 /// What is left to do after a lever-up that reaches the rest of the goal, if its plate then lies where
 /// it can be pushed.
-fn left(task: &LeverTask, library: &ToolLibrary, ranked: &RankedLever) -> Option<Task> {
+fn left(task: &Task, library: &ToolLibrary, ranked: &RankedLever) -> Option<Task> {
     if !ranked.predicted.reached {
         return None;
     }
-    let scene = Arc::new(task.scene(ranked.tool.blade));
+    let scene = Arc::new(LeverScene::with(&task.scene, &ranked.tool));
     let job = LeverJob { scene, lever: ranked.plan.lever };
     let (_, motion) = LeverSimulator::FINE.record(&job, FRAME);
-    let left = task.task_after(&motion.frames.last()?.plates)?;
-    Some(Task { tools: task.pushers(library), ..left })
+    let left = task.after(&motion.frames.last()?.plates)?;
+    let tools = left.pushers(library);
+    Some(Task { tools, ..left })
 }

@@ -9,9 +9,7 @@ use rayon::prelude::*;
 use crate::asset::ToolLibrary;
 use crate::effect::{LeverModel, LeverTrust, SimulatedLevers};
 use crate::plan::lever::{LeverCandidate, LeverSearch, ScoredLever, merit};
-use crate::scene::{
-    BladeTool, LeverJob, LeverOutcome, LeverPlan, LeverScene, LeverTask, LeverTrajectory,
-};
+use crate::scene::{LeverJob, LeverOutcome, LeverPlan, LeverScene, LeverTrajectory, Task, Tool};
 use crate::sim::LeverSimulator;
 use crate::solve::{Effort, PlanStatus, SolveError};
 use crate::verify::{LeverVerifier, VerifySettings};
@@ -80,11 +78,7 @@ impl LeverPlanner {
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
-    pub fn solve(
-        &self,
-        task: &LeverTask,
-        library: &ToolLibrary,
-    ) -> Result<LeverSolution, SolveError> {
+    pub fn solve(&self, task: &Task, library: &ToolLibrary) -> Result<LeverSolution, SolveError> {
         self.solve_with(task, library, &Unwatched)
     }
 
@@ -95,7 +89,7 @@ impl LeverPlanner {
     /// [`SolveError`] for bad input only.
     pub fn solve_with(
         &self,
-        task: &LeverTask,
+        task: &Task,
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<LeverSolution, SolveError> {
@@ -103,7 +97,8 @@ impl LeverPlanner {
         check(task, &tools)?;
         let until = Until::new(watch, self.time_limit);
         let lever_up = self.lever_up(task, &tools, &until);
-        if task.pushes.is_none() || lever_up.status == PlanStatus::Solved || until.cancelled() {
+        if task.pushes.max_count == 0 || lever_up.status == PlanStatus::Solved || until.cancelled()
+        {
             return Ok(lever_up);
         }
         self.with_follow_up(task, library, lever_up, &until)
@@ -112,15 +107,15 @@ impl LeverPlanner {
     /// Solves a task by a lever-up alone.
     pub(super) fn lever_up(
         &self,
-        task: &LeverTask,
-        tools: &[Arc<BladeTool>],
+        task: &Task,
+        tools: &[Arc<Tool>],
         until: &Until,
     ) -> LeverSolution {
         let mut statistics = LeverStatistics::default();
         let began = Instant::now();
         until.stage("searching");
         let scenes: Vec<Arc<LeverScene>> =
-            tools.iter().map(|tool| Arc::new(task.scene(tool.blade))).collect();
+            tools.iter().map(|tool| Arc::new(LeverScene::with(&task.scene, tool))).collect();
         let search = LeverSearch { task, scenes: &scenes };
         let (scored, found) = search.run(&|jobs| self.predict(jobs), &|| until.cancelled());
         statistics.search = found;
@@ -163,7 +158,7 @@ impl LeverPlanner {
     /// Coarse simulation, as planned and with small errors, and the ranking that follows.
     fn simulate(
         &self,
-        task: &LeverTask,
+        task: &Task,
         scenes: &[Arc<LeverScene>],
         chosen: Vec<ScoredLever>,
     ) -> Vec<Simulated> {
@@ -175,14 +170,14 @@ impl LeverPlanner {
                 let (lever, scene) = (scored.candidate.lever, &scenes[scored.candidate.tool]);
                 let job = LeverJob { scene: Arc::clone(scene), lever };
                 let trajectory = engine.run(&job);
-                let outcome = task.goal.judge(scene, &lever, &trajectory);
+                let outcome = task.goal.judge_lever(scene, &lever, &trajectory);
                 let mut merit = merit(&task.goal, &outcome, &trajectory) + 1.0 - scored.company;
                 if outcome.reached && doubts > 0 {
                     let missed = (0..doubts).filter(|&draw| {
                         let really = Arc::new(doubted(scene, lever.plate, draw));
                         let job = LeverJob { scene: really, lever };
                         let trajectory = engine.run_as_planned(&job, scene);
-                        !task.goal.judge(&job.scene, &lever, &trajectory).reached
+                        !task.goal.judge_lever(&job.scene, &lever, &trajectory).reached
                     });
                     merit += DOUBTED * missed.count() as f64 / doubts as f64;
                 } else if !outcome.reached {
@@ -199,8 +194,8 @@ impl LeverPlanner {
     /// Verifies in batches those that reach the goal so far, until one passes; all of them ranked.
     fn verify(
         &self,
-        task: &LeverTask,
-        tools: &[Arc<BladeTool>],
+        task: &Task,
+        tools: &[Arc<Tool>],
         simulated: Vec<Simulated>,
         watch: &dyn Watch,
     ) -> Vec<RankedLever> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::plan::lever::LeverSearchStatistics;
-use crate::scene::{BladeTool, LeverOutcome, LeverPlan, LeverVerdict, Task};
+use crate::scene::{LeverOutcome, LeverPlan, LeverVerdict, Task, Tool};
 use crate::solve::{PlanStatus, Solution};
 
 /// A lever-up with everything that is known about it.
@@ -14,7 +14,7 @@ pub struct RankedLever {
     /// The plan.
     pub plan: LeverPlan,
     /// The tool that it names.
-    pub tool: Arc<BladeTool>,
+    pub tool: Arc<Tool>,
     /// What comes of it by prediction.
     pub predicted: LeverOutcome,
     /// Name of the model that says so.
@@ -30,7 +30,7 @@ pub struct RankedLever {
 /// The task of pushes that a lever-up leaves, and its solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PushedAfter {
-    /// What is left to do: see [`LeverTask::task_after`](crate::scene::LeverTask::task_after).
+    /// What is left to do: see [`Task::task_after`](crate::scene::Task::task_after).
     pub task: Task,
     /// Its solution, whose best plan follows the lever-up.
     pub solution: Solution,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::asset::AnyPlanFile;
 use pushplan::geometry::Pose;
 use pushplan::report::PageView;
-use pushplan::scene::{Engine, LeverJob};
+use pushplan::scene::{Engine, LeverJob, LeverScene};
 use pushplan::sim::LeverSimulator;
 use pushplan::{Solution, Task};
 use serde_json::Value as Json;
@@ -174,7 +174,7 @@ fn a_lever_up_is_seen_from_all_sides() {
     let AnyPlanFile::Levers(plan) = AnyPlanFile::load(&plan).expect("a plan") else {
         panic!("a lever-up")
     };
-    let scene = Arc::new(plan.task.scene(plan.tool.blade));
+    let scene = Arc::new(LeverScene::with(&plan.task.scene, &plan.tool));
     let lever = plan.plan.lever;
     let (_, motion) =
         LeverSimulator::FINE.record(&LeverJob { scene: Arc::clone(&scene), lever }, 0.02);

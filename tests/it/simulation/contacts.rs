@@ -35,6 +35,7 @@ fn an_obstacle_holds_what_is_pushed_against_it() {
         name: "wall".into(),
         size: [0.02, 0.3, 0.1],
         pose: Pose::new(0.16, 0.0, 0.0),
+        z: 0.0,
         friction: 0.5,
     });
     // The face ends 0.2 mm further from the wall than the can is wide; it slides the rest.

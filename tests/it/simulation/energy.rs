@@ -26,6 +26,7 @@ fn colliding_objects_never_gain_energy_while_the_tool_is_away() {
         name: "wall".into(),
         size: [0.02, 0.4, 0.1],
         pose: Pose::new(0.29, 0.0, 0.0),
+        z: 0.0,
         friction: 0.5,
     });
     let start = State {

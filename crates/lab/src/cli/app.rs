@@ -1,11 +1,11 @@
 //! From the command line of `pushplan-lab` to an exit code.
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use pushplan::cli::bench::saved::{MergeArgs, ReportArgs};
 use pushplan::cli::bench::status::StatusArgs;
+use pushplan::cli::bench::suite::SuiteArgs;
 use pushplan::cli::bench::{saved, status};
 use pushplan::cli::error::CliError;
 use pushplan::cli::groups::Groups;
@@ -31,18 +31,18 @@ struct Cli {
 enum Command {
     Evaluate(evaluate::EvaluateArgs),
     Tradeoff(tradeoff::TradeOffArgs),
-    Random(random::RandomArgs),
-    Run(super::run::RunArgs),
-    Refinement(refinement::RefinementArgs),
+    Random(SuiteArgs<random::RandomArgs>),
+    Run(SuiteArgs<super::run::RunArgs>),
+    Refinement(SuiteArgs<refinement::RefinementArgs>),
     Cost(cost::CostArgs),
-    Joints(joints::JointsArgs),
+    Joints(SuiteArgs<joints::JointsArgs>),
     RestOfWay(rest_of_way::RestOfWayArgs),
-    Masses(masses::MassesArgs),
-    Probes(probes::ProbesArgs),
+    Masses(SuiteArgs<masses::MassesArgs>),
+    Probes(SuiteArgs<probes::ProbesArgs>),
     Convergence(convergence::ConvergenceArgs),
     Levers(levers::LeversArgs),
     Hdd(hdd::HddArgs),
-    LeverTasks(lever_tasks::LeverTasksArgs),
+    LeverTasks(SuiteArgs<lever_tasks::LeverTasksArgs>),
     LeverPoints(lever_points::LeverPointsArgs),
     Merge(MergeArgs),
     Status(StatusArgs),
@@ -58,8 +58,8 @@ const GROUPS: Groups = &[
     ("Runs that are kept", &["merge", "status", "report"]),
 ];
 
-/// Runs the command with the given arguments, the program's name first.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 
@@ -67,18 +67,18 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
         Command::Evaluate(args) => evaluate::run(args, session).map(drop)?,
         Command::Tradeoff(args) => tradeoff::run(args, session).map(drop)?,
-        Command::Random(args) => random::run(args, session)?,
-        Command::Run(args) => super::run::run(args, session)?,
-        Command::Refinement(args) => refinement::run(args, session)?,
+        Command::Random(args) => args.run(session)?,
+        Command::Run(args) => args.run(session)?,
+        Command::Refinement(args) => args.run(session)?,
         Command::Cost(args) => cost::run(args, session)?,
-        Command::Joints(args) => joints::run(args, session)?,
+        Command::Joints(args) => args.run(session)?,
         Command::RestOfWay(args) => rest_of_way::run(args, session)?,
-        Command::Masses(args) => masses::run(args, session)?,
-        Command::Probes(args) => probes::run(args, session)?,
+        Command::Masses(args) => args.run(session)?,
+        Command::Probes(args) => args.run(session)?,
         Command::Convergence(args) => convergence::run(args, session)?,
         Command::Levers(args) => levers::run(args, session)?,
         Command::Hdd(args) => hdd::run(args, session)?,
-        Command::LeverTasks(args) => lever_tasks::run(args, session)?,
+        Command::LeverTasks(args) => args.run(session)?,
         Command::LeverPoints(args) => lever_points::run(args, session)?,
         Command::Merge(args) => saved::merge(args, &kept::SUITES, session)?,
         Command::Status(args) => status::run(args, session)?,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 use pushplan::cli::bench::common::Common;
 use pushplan::cli::error::CliError;
+use pushplan::cli::form::Form;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::{model, output};
@@ -28,6 +29,8 @@ use crate::report::{cost_document, crowd_cost_document, equation_document, far_d
 pub struct CostArgs {
     #[command(flatten)]
     common: Common,
+    #[command(flatten)]
+    form: Form,
     /// The task that is searched
     #[arg(value_name = "TASK", required_unless_present_any = ["crowd", "far", "equations"])]
     task: Option<PathBuf>,
@@ -94,7 +97,7 @@ pub fn run(args: &CostArgs, session: &Session) -> Result<(), CliError> {
         .compute(|| search_costs(&models, &task, &library, offsets, args.candidates as usize));
     spinner.finish_and_clear();
     let searches = searches.map_err(solve_error)?;
-    args.common.form.show(session, &cost_document(&networks, &pushes, &searches))
+    args.form.show(session, &cost_document(&networks, &pushes, &searches))
 }
 
 fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
@@ -106,7 +109,7 @@ fn crowd_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let cases = crowd_cases(objects, args.seed, usize::from(args.pushes));
     let networks = inference_costs(&weights, &cases, &NETWORK_BATCHES);
     spinner.finish_and_clear();
-    args.common.form.show(session, &crowd_cost_document(objects, &networks))
+    args.form.show(session, &crowd_cost_document(objects, &networks))
 }
 
 fn equation_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
@@ -114,7 +117,7 @@ fn equation_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     let spinner = session.spinner("counting and timing");
     let costs = equation_costs(&library, args.seed, usize::from(args.pushes));
     spinner.finish_and_clear();
-    args.common.form.show(session, &equation_document(&costs))
+    args.form.show(session, &equation_document(&costs))
 }
 
 fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
@@ -138,5 +141,5 @@ fn far_cost(args: &CostArgs, session: &Session) -> Result<(), CliError> {
     if let Some(out) = &args.out {
         output::write_figures(out, document.figures())?;
     }
-    args.common.form.show(session, &document)
+    args.form.show(session, &document)
 }

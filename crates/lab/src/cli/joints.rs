@@ -3,28 +3,26 @@
 use clap::Args;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::KeepArgs;
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
 use pushplan::cli::model;
 use pushplan::cli::regulator::RegulatorArgs;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::{ENGINES, words};
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::{Engine, ModelSpec};
-use pushplan::internals::store::{Finished, RunManifest};
+use pushplan::internals::store::RunManifest;
 use pushplan_learn::cli::words::JOINTS;
 use pushplan_learn::dataset::JointRule;
 use serde_json::json;
 
 use crate::bench::{
-    BeliefCase, BeliefRecord, BeliefSuite, Circumstances, CrowdFamily, Sighting, summarise_beliefs,
+    BeliefRecord, BeliefSuite, Circumstances, CrowdFamily, Sighting, summarise_beliefs,
     update_times,
 };
+use crate::cli::kept::cases_of;
 use crate::cli::words::{FAMILIES, SIGHTINGS};
 use crate::report::joints_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "joints";
 
 /// Infer joints from observed crowds, and predict the rest of the way under each belief
 #[derive(Args, Debug)]
@@ -68,51 +66,55 @@ pub struct JointsArgs {
     types_only: bool,
     #[command(flatten)]
     regulator: RegulatorArgs,
-    #[command(flatten)]
-    keep: KeepArgs,
-    #[command(flatten)]
-    form: Form,
 }
 
-pub fn run(args: &JointsArgs, session: &Session) -> Result<(), CliError> {
-    let families = match &args.on[..] {
-        [] => &[CrowdFamily::Sparse, CrowdFamily::Dense][..],
-        some => some,
-    };
-    let sights = if args.seen.is_empty() { &Sighting::ALL[..] } else { &args.seen[..] };
-    let (regulator, digest) = match args.regulator.load()? {
-        Some((regulator, digest)) => (Some(regulator), Some(digest)),
-        None => (None, None),
-    };
-    let sets = (families, &args.objects[..], args.joints);
-    let circumstances = Circumstances { engine: args.engine, misled: args.misled };
-    let suite = BeliefSuite::new(sets, sights, args.seed, (regulator, !args.types_only))
-        .under(circumstances);
-    if suite.cases().is_empty() {
-        return Err(CliError::usage(
-            "no set has that many objects",
-            "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
-        ));
+impl Suite for JointsArgs {
+    const NAME: &'static str = "joints";
+    type Record = BeliefRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        _: &'a Session,
+    ) -> Result<Cases<'a, BeliefRecord>, CliError> {
+        let families = match &self.on[..] {
+            [] => &[CrowdFamily::Sparse, CrowdFamily::Dense][..],
+            some => some,
+        };
+        let sights = if self.seen.is_empty() { &Sighting::ALL[..] } else { &self.seen[..] };
+        let (regulator, digest) = match self.regulator.load()? {
+            Some((regulator, digest)) => (Some(regulator), Some(digest)),
+            None => (None, None),
+        };
+        let sets = (families, &self.objects[..], self.joints);
+        let circumstances = Circumstances { engine: self.engine, misled: self.misled };
+        let suite = BeliefSuite::new(sets, sights, self.seed, (regulator, !self.types_only))
+            .under(circumstances);
+        if suite.cases().is_empty() {
+            return Err(CliError::usage(
+                "no set has that many objects",
+                "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
+            ));
+        }
+        let model = model::load(&self.model)?;
+        let settings = json!({
+            "version": BeliefSuite::VERSION,
+            "cases": suite.cases(),
+            "rest": !self.types_only,
+            "circumstances": circumstances,
+        });
+        let count = self.count as usize * suite.cases().len();
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &self.model.to_string())
+            .with_weights(digest)
+            .with_settings(settings);
+        let measure = Measure::SideBySide(Box::new(move |index| suite.measure(&model, index)));
+        Ok(Cases { manifest, measure })
     }
-    let model = model::load(&args.model)?;
-    let settings = json!({
-        "version": BeliefSuite::VERSION,
-        "cases": suite.cases(),
-        "rest": !args.types_only,
-        "circumstances": circumstances,
-    });
-    let count = args.count as usize * suite.cases().len();
-    let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
-        .with_weights(digest)
-        .with_settings(settings);
-    let store =
-        args.keep.measure_side_by_side(session, manifest, |index| suite.measure(&model, index))?;
-    let document = document(suite.cases(), store.finished());
-    keep::show(args.form, session, &document, args.keep.out.as_deref())
-}
 
-/// The report of what was measured of these cases.
-pub fn document(cases: &[BeliefCase], finished: &[Finished<BeliefRecord>]) -> Document {
-    let records: Vec<&BeliefRecord> = finished.iter().map(|one| &one.record).collect();
-    joints_document(&summarise_beliefs(cases, &records), &update_times(cases, finished))
+    fn document(runs: &[Run<BeliefRecord>]) -> Result<Document, CliError> {
+        let (manifest, finished) = only(runs)?;
+        let cases = cases_of(manifest);
+        let records: Vec<_> = finished.iter().map(|one| &one.record).collect();
+        Ok(joints_document(&summarise_beliefs(&cases, &records), &update_times(&cases, finished)))
+    }
 }

@@ -6,23 +6,21 @@ use clap::Args;
 use pushplan::cli::action::LibraryArgs;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::{KeepArgs, value_digest};
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::words::{EFFORTS, words};
 use pushplan::cli::{interrupt, lever, model, output};
+use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
 use pushplan::internals::solve::Effort;
 use pushplan::internals::solve::lever::LeverPlanner;
 use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
-use crate::bench::LeverSuite;
+use crate::bench::{LeverRecord, LeverSuite};
 use crate::report::lever_tasks_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "lever-tasks";
 
 /// Solve generated tasks of levering: take the board out of a drive
 #[derive(Args, Debug)]
@@ -49,35 +47,42 @@ pub struct LeverTasksArgs {
     /// Also write the tasks to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]
     save_tasks: Option<PathBuf>,
-    #[command(flatten)]
-    keep: KeepArgs,
-    #[command(flatten)]
-    form: Form,
 }
 
-pub fn run(args: &LeverTasksArgs, session: &Session) -> Result<(), CliError> {
-    let library = args.library.load()?;
-    let count = args.count as usize;
-    let suite = LeverSuite::new(args.seed, count);
-    let planner = LeverPlanner::new(lever::lever_model(args.model.as_ref())?, args.effort);
-    let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
-    let settings = json!({
-        "effort": args.effort,
-        "budget": planner.settings(),
-        "tasks_version": LeverSuite::VERSION,
-        "tools": value_digest(&tools)?,
-    });
-    let manifest =
-        RunManifest::new(SUITE, count, args.seed, &planner.model().name()).with_settings(settings);
-    if let Some(folder) = &args.save_tasks {
-        save_tasks(folder, &suite, args.keep.indices(count))?;
+impl Suite for LeverTasksArgs {
+    const NAME: &'static str = "lever-tasks";
+    type Record = LeverRecord;
+
+    fn cases<'a>(
+        &'a self,
+        keep: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, LeverRecord>, CliError> {
+        let library = self.library.load()?;
+        let count = self.count as usize;
+        let suite = LeverSuite::new(self.seed, count);
+        let planner = LeverPlanner::new(lever::lever_model(self.model.as_ref())?, self.effort);
+        let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
+        let settings = json!({
+            "effort": self.effort,
+            "budget": planner.settings(),
+            "tasks_version": LeverSuite::VERSION,
+            "tools": value_digest(&tools)?,
+        });
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &planner.model().name())
+            .with_settings(settings);
+        if let Some(folder) = &self.save_tasks {
+            save_tasks(folder, &suite, keep.indices(count))?;
+        }
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session.compute(|| suite.measure(&planner, &library, index)).map_err(solve_error)
+        }));
+        Ok(Cases { manifest, measure })
     }
-    let store = args.keep.measure(session, manifest, |index| {
-        session.compute(|| suite.measure(&planner, &library, index)).map_err(solve_error)
-    })?;
-    let (manifest, finished) = store.into_parts();
-    let document = lever_tasks_document(&manifest, &finished);
-    keep::show(args.form, session, &document, args.keep.out.as_deref())
+
+    fn document(runs: &[Run<LeverRecord>]) -> Result<Document, CliError> {
+        only(runs).map(|(manifest, finished)| lever_tasks_document(manifest, finished))
+    }
 }
 
 /// Writes the tasks of a run as files.

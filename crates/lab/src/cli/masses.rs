@@ -3,23 +3,21 @@
 use clap::Args;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::KeepArgs;
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
 use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::store::{Finished, RunManifest};
+use pushplan::internals::store::RunManifest;
 use pushplan_learn::dataset::{Controlled, MassSetup};
 use serde_json::json;
 
-use crate::bench::{MassCase, MassRecord, MassSuite, Sighting, summarise_masses};
+use crate::bench::{MassRecord, MassSuite, Sighting, summarise_masses};
+use crate::cli::kept::cases_of;
 use crate::cli::words::{CONTROLLED, SIGHTINGS};
 use crate::report::masses_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "masses";
 
 /// Tell which of three ranges masses are in, from pushes in which objects touch
 #[derive(Args, Debug)]
@@ -57,43 +55,47 @@ pub struct MassesArgs {
     /// What plays pushes again with other masses
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
-    #[command(flatten)]
-    keep: KeepArgs,
-    #[command(flatten)]
-    form: Form,
 }
 
-pub fn run(args: &MassesArgs, session: &Session) -> Result<(), CliError> {
-    let touching = args.touching.iter().map(|count| MassSetup::Touching((*count).into()));
-    let crowds = args.crowds.iter().map(|count| MassSetup::Crowd((*count).into()));
-    let controlled = args.controlled.iter().map(|setup| MassSetup::Controlled(*setup));
-    let setups: Vec<MassSetup> = touching.chain(crowds).chain(controlled).collect();
-    let sights = match &args.seen[..] {
-        [] => &[Sighting::Exact, Sighting::Fine, Sighting::Coarse][..],
-        some => some,
-    };
-    let suite = MassSuite::new(&setups, sights, args.seed, args.frictions);
-    if suite.cases().is_empty() {
-        return Err(CliError::usage("no scenes", "name numbers of cylinders: --crowds 9"));
+impl Suite for MassesArgs {
+    const NAME: &'static str = "masses";
+    type Record = MassRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        _: &'a Session,
+    ) -> Result<Cases<'a, MassRecord>, CliError> {
+        let touching = self.touching.iter().map(|count| MassSetup::Touching((*count).into()));
+        let crowds = self.crowds.iter().map(|count| MassSetup::Crowd((*count).into()));
+        let controlled = self.controlled.iter().map(|setup| MassSetup::Controlled(*setup));
+        let setups: Vec<MassSetup> = touching.chain(crowds).chain(controlled).collect();
+        let sights = match &self.seen[..] {
+            [] => &[Sighting::Exact, Sighting::Fine, Sighting::Coarse][..],
+            some => some,
+        };
+        let suite = MassSuite::new(&setups, sights, self.seed, self.frictions);
+        if suite.cases().is_empty() {
+            return Err(CliError::usage("no scenes", "name numbers of cylinders: --crowds 9"));
+        }
+        let model = model::load(&self.model)?;
+        let settings = json!({
+            "version": MassSuite::VERSION,
+            "cases": suite.cases(),
+            "frictions": self.frictions,
+        });
+        let count = self.count as usize * suite.cases().len();
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &self.model.to_string())
+            .with_weights(keep::weights_digest(&self.model)?)
+            .with_settings(settings);
+        let measure = Measure::SideBySide(Box::new(move |index| suite.measure(&model, index)));
+        Ok(Cases { manifest, measure })
     }
-    let model = model::load(&args.model)?;
-    let settings = json!({
-        "version": MassSuite::VERSION,
-        "cases": suite.cases(),
-        "frictions": args.frictions,
-    });
-    let count = args.count as usize * suite.cases().len();
-    let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
-        .with_weights(keep::weights_digest(&args.model)?)
-        .with_settings(settings);
-    let store =
-        args.keep.measure_side_by_side(session, manifest, |index| suite.measure(&model, index))?;
-    let document = document(suite.cases(), store.finished());
-    keep::show(args.form, session, &document, args.keep.out.as_deref())
-}
 
-/// The report of what was measured of these cases.
-pub fn document(cases: &[MassCase], finished: &[Finished<MassRecord>]) -> Document {
-    let records: Vec<&MassRecord> = finished.iter().map(|one| &one.record).collect();
-    masses_document(&summarise_masses(cases, &records))
+    fn document(runs: &[Run<MassRecord>]) -> Result<Document, CliError> {
+        let (manifest, finished) = only(runs)?;
+        let cases = cases_of(manifest);
+        let records: Vec<_> = finished.iter().map(|one| &one.record).collect();
+        Ok(masses_document(&summarise_masses(&cases, &records)))
+    }
 }

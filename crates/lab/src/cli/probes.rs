@@ -3,22 +3,20 @@
 use clap::Args;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::KeepArgs;
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
-use pushplan::cli::form::Form;
 use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::{PROBES, words};
 use pushplan::internals::act::ProbeRule;
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::store::{Finished, RunManifest};
+use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
-use crate::bench::{ProbeCase, ProbeRecord, ProbeSuite, summarise_probes};
+use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};
+use crate::cli::kept::cases_of;
 use crate::report::probes_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "probes";
 
 /// Choose pushes that tell how objects hang together, and see what they told
 #[derive(Args, Debug)]
@@ -49,38 +47,45 @@ pub struct ProbesArgs {
     /// What rolls out hypotheses and pushes
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
-    #[command(flatten)]
-    keep: KeepArgs,
-    #[command(flatten)]
-    form: Form,
 }
 
-pub fn run(args: &ProbesArgs, session: &Session) -> Result<(), CliError> {
-    let rules = match &args.rule[..] {
-        [] => {
-            &[ProbeRule::Information, ProbeRule::Random, ProbeRule::Uncertain, ProbeRule::Motion][..]
+impl Suite for ProbesArgs {
+    const NAME: &'static str = "probes";
+    type Record = ProbeRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        _: &'a Session,
+    ) -> Result<Cases<'a, ProbeRecord>, CliError> {
+        let rules = match &self.rule[..] {
+            [] => &[
+                ProbeRule::Information,
+                ProbeRule::Random,
+                ProbeRule::Uncertain,
+                ProbeRule::Motion,
+            ][..],
+            some => some,
+        };
+        if rules.contains(&ProbeRule::Task) {
+            let help = "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
+            return Err(CliError::usage("there is no task here that a probe could serve", help));
         }
-        some => some,
-    };
-    if rules.contains(&ProbeRule::Task) {
-        let help = "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
-        return Err(CliError::usage("there is no task here that a probe could serve", help));
+        let suite = ProbeSuite::new(self.objects.into(), rules, self.seed);
+        let model = model::load(&self.model)?;
+        let settings = json!({"version": ProbeSuite::VERSION, "cases": suite.cases()});
+        let count = self.count as usize * suite.cases().len();
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &self.model.to_string())
+            .with_weights(keep::weights_digest(&self.model)?)
+            .with_settings(settings);
+        let measure = Measure::SideBySide(Box::new(move |index| suite.measure(&model, index)));
+        Ok(Cases { manifest, measure })
     }
-    let suite = ProbeSuite::new(args.objects.into(), rules, args.seed);
-    let model = model::load(&args.model)?;
-    let settings = json!({"version": ProbeSuite::VERSION, "cases": suite.cases()});
-    let count = args.count as usize * suite.cases().len();
-    let manifest = RunManifest::new(SUITE, count, args.seed, &args.model.to_string())
-        .with_weights(keep::weights_digest(&args.model)?)
-        .with_settings(settings);
-    let store =
-        args.keep.measure_side_by_side(session, manifest, |index| suite.measure(&model, index))?;
-    let document = document(suite.cases(), store.finished());
-    keep::show(args.form, session, &document, args.keep.out.as_deref())
-}
 
-/// The report of what was measured of these cases.
-pub fn document(cases: &[ProbeCase], finished: &[Finished<ProbeRecord>]) -> Document {
-    let records: Vec<&ProbeRecord> = finished.iter().map(|one| &one.record).collect();
-    probes_document(&summarise_probes(cases, &records))
+    fn document(runs: &[Run<ProbeRecord>]) -> Result<Document, CliError> {
+        let (manifest, finished) = only(runs)?;
+        let cases = cases_of(manifest);
+        let records: Vec<_> = finished.iter().map(|one| &one.record).collect();
+        Ok(probes_document(&summarise_probes(&cases, &records)))
+    }
 }

@@ -6,21 +6,22 @@ use clap::Args;
 use pushplan::cli::bench::common::Common;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan::cli::error::CliError;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::words::{EFFORTS, words};
 use pushplan::cli::{interrupt, model, output};
+use pushplan::internals::bench::SolvedTask;
+use pushplan::internals::report::Document;
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
-use crate::bench::{RandomError, RandomSuite, TaskKind};
+use crate::bench::{RandomError, RandomRecord, RandomSuite, TaskKind};
+use crate::cli::kept::same_tasks;
 use crate::cli::words::KINDS;
 use crate::report::random_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "random";
 
 /// Solve random tasks of several kinds, each known to be solvable
 #[derive(Args, Debug)]
@@ -50,43 +51,59 @@ pub struct RandomArgs {
     /// Also write the tasks to this folder, for `pushplan solve`
     #[arg(long, value_name = "DIR")]
     save_tasks: Option<PathBuf>,
-    #[command(flatten)]
-    keep: KeepArgs,
 }
 
-pub fn run(args: &RandomArgs, session: &Session) -> Result<(), CliError> {
-    let library = args.common.library.load()?;
-    let mut kinds: Vec<TaskKind> = args.kinds.clone();
-    kinds.sort_unstable();
-    kinds.dedup();
-    let suite = RandomSuite::new(&library, args.seed, &kinds);
-    let effort = args.effort;
-    let spec = args.common.spec(effort);
-    let planner = Planner::builder(model::load(&spec)?)
-        .effort(effort)
-        .outside(args.common.outside.outside())
-        .build();
-    let count = args.count as usize;
-    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-    let mut settings = json!({
-        "effort": effort,
-        "budget": planner.settings(),
-        "kinds": suite.kinds(),
-        "tasks_version": RandomSuite::VERSION,
-        "tools": value_digest(&tools)?,
-    });
-    args.common.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, count, args.seed, &spec.to_string())
-        .with_weights(weights_digest(&spec)?)
-        .with_settings(settings);
-    if let Some(folder) = &args.save_tasks {
-        save_tasks(folder, &suite, args.keep.indices(count), session)?;
+impl Suite for RandomArgs {
+    const NAME: &'static str = "random";
+    type Record = RandomRecord;
+
+    fn cases<'a>(
+        &'a self,
+        keep: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, RandomRecord>, CliError> {
+        let library = self.common.library.load()?;
+        let mut kinds: Vec<TaskKind> = self.kinds.clone();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let suite = RandomSuite::new(&library, self.seed, &kinds);
+        let effort = self.effort;
+        let spec = self.common.spec(effort);
+        let planner = Planner::builder(model::load(&spec)?)
+            .effort(effort)
+            .outside(self.common.outside.outside())
+            .build();
+        let count = self.count as usize;
+        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+        let mut settings = json!({
+            "effort": effort,
+            "budget": planner.settings(),
+            "kinds": suite.kinds(),
+            "tasks_version": RandomSuite::VERSION,
+            "tools": value_digest(&tools)?,
+        });
+        self.common.outside.note(&mut settings);
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(settings);
+        if let Some(folder) = &self.save_tasks {
+            save_tasks(folder, &suite, keep.indices(count), session)?;
+        }
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session.compute(|| suite.measure(&planner, &library, index)).map_err(random_error)
+        }));
+        Ok(Cases { manifest, measure })
     }
-    let store = args.keep.measure(session, manifest, |index| {
-        session.compute(|| suite.measure(&planner, &library, index)).map_err(random_error)
-    })?;
-    let document = random_document(&[store.into_parts()]);
-    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
+
+    fn document(runs: &[Run<RandomRecord>]) -> Result<Document, CliError> {
+        same_tasks(runs)?;
+        Ok(random_document(runs))
+    }
+
+    // The seed of a random run is that of its tasks; its planner has the default one.
+    fn solved((_, finished): &Run<RandomRecord>) -> Option<(u64, Vec<SolvedTask>)> {
+        Some((0, finished.iter().map(|task| task.record.solved.clone()).collect()))
+    }
 }
 
 /// Writes the tasks of a run as files.

@@ -4,23 +4,23 @@ use clap::Args;
 use pushplan::cli::bench::common::Common;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan::cli::error::CliError;
 use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::{EFFORTS, ENGINES, PROBES, words};
 use pushplan::internals::act::{ProbeRule, RunSettings};
+use pushplan::internals::report::Document;
 use pushplan::internals::scene::Engine;
 use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
-use crate::bench::{HiddenWorld, RandomSuite, TaskKind};
+use crate::bench::{ClosedRecord, HiddenWorld, RandomSuite, TaskKind};
+use crate::cli::kept::same_tasks;
 use crate::cli::random::random_error;
 use crate::cli::words::KINDS;
 use crate::report::closed_document;
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "run";
 
 /// Run random tasks with joints, masses, frictions and supports hidden
 #[derive(Args, Debug)]
@@ -63,8 +63,6 @@ pub struct RunArgs {
     /// How these are chosen
     #[arg(long, value_parser = words(&PROBES), value_name = "RULE", default_value = "task")]
     rule: ProbeRule,
-    #[command(flatten)]
-    keep: KeepArgs,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -73,44 +71,57 @@ fn tolerance(text: &str) -> Result<f64, String> {
     sound.then_some(value).ok_or_else(|| "it must be 0.05 to 10".to_owned())
 }
 
-pub fn run(args: &RunArgs, session: &Session) -> Result<(), CliError> {
-    let library = args.common.library.load()?;
-    let mut kinds: Vec<TaskKind> = args.kinds.clone();
-    kinds.sort_unstable();
-    kinds.dedup();
-    let suite = RandomSuite::new(&library, args.seed, &kinds);
-    let spec = args.common.spec(args.effort);
-    let planner = Planner::builder(model::load(&spec)?)
-        .effort(args.effort)
-        .outside(args.common.outside.outside())
-        .build();
-    let settings = RunSettings {
-        pushes: args.pushes.into(),
-        probes: args.probes.into(),
-        rule: args.rule,
-        ..RunSettings::default()
-    };
-    let world = HiddenWorld { engine: args.engine, tolerance: args.tolerance };
-    let count = args.count as usize;
-    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-    let mut noted = json!({
-        "effort": args.effort,
-        "budget": planner.settings(),
-        "run": settings,
-        "world": world,
-        "kinds": suite.kinds(),
-        "tasks_version": RandomSuite::VERSION,
-        "tools": value_digest(&tools)?,
-    });
-    args.common.outside.note(&mut noted);
-    let manifest = RunManifest::new(SUITE, count, args.seed, &spec.to_string())
-        .with_weights(weights_digest(&spec)?)
-        .with_settings(noted);
-    let store = args.keep.measure(session, manifest, |index| {
-        session
-            .compute(|| suite.run_hidden(&planner, &library, (settings, world), index))
-            .map_err(random_error)
-    })?;
-    let document = closed_document(&[store.into_parts()]);
-    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
+impl Suite for RunArgs {
+    const NAME: &'static str = "run";
+    type Record = ClosedRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, ClosedRecord>, CliError> {
+        let library = self.common.library.load()?;
+        let mut kinds: Vec<TaskKind> = self.kinds.clone();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let suite = RandomSuite::new(&library, self.seed, &kinds);
+        let spec = self.common.spec(self.effort);
+        let planner = Planner::builder(model::load(&spec)?)
+            .effort(self.effort)
+            .outside(self.common.outside.outside())
+            .build();
+        let settings = RunSettings {
+            pushes: self.pushes.into(),
+            probes: self.probes.into(),
+            rule: self.rule,
+            ..RunSettings::default()
+        };
+        let world = HiddenWorld { engine: self.engine, tolerance: self.tolerance };
+        let count = self.count as usize;
+        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+        let mut noted = json!({
+            "effort": self.effort,
+            "budget": planner.settings(),
+            "run": settings,
+            "world": world,
+            "kinds": suite.kinds(),
+            "tasks_version": RandomSuite::VERSION,
+            "tools": value_digest(&tools)?,
+        });
+        self.common.outside.note(&mut noted);
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(noted);
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session
+                .compute(|| suite.run_hidden(&planner, &library, (settings, world), index))
+                .map_err(random_error)
+        }));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<ClosedRecord>]) -> Result<Document, CliError> {
+        same_tasks(runs)?;
+        Ok(closed_document(runs))
+    }
 }

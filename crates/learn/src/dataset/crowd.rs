@@ -1,7 +1,7 @@
 //! The objects of a crowd: up to twelve, put down one after another.
 
 use pushplan::internals::geometry::{Footprint, Pose};
-use pushplan::internals::scene::{Object, Ranges, Scene, Support};
+use pushplan::internals::scene::{Object, Ranges, Scene};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -32,12 +32,10 @@ pub(super) fn crowd(
         let shape = random_shape(rng, ranges, solids);
         let pose = place(rng, &scene.objects, &shape.footprint());
         scene.objects.push(Object {
-            support: Support::Even,
-            name: format!("object-{}", index + 1),
-            shape,
             mass: log_uniform(rng, masses),
             friction: friction(rng),
             pose,
+            ..Object::new(format!("object-{}", index + 1), shape)
         });
     }
     draw_supports(rng, &mut scene);

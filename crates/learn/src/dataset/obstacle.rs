@@ -65,6 +65,7 @@ pub(super) fn place_obstacle(
             name: format!("obstacle-{}", scene.obstacles.len() + 1),
             size,
             pose,
+            z: 0.0,
             friction: uniform(rng, 0.1, 1.0),
         })
     })

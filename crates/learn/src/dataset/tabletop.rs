@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use pushplan::internals::geometry::{
     ConvexPolygon, Footprint, Pose, Shape, Vector, perpendicular, travel_to_contact,
 };
-use pushplan::internals::scene::{Object, Ranges, Scene, Span, Support, TRAINED_SLANT, slant};
+use pushplan::internals::scene::{Object, Ranges, Scene, Span, TRAINED_SLANT, slant};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
@@ -60,12 +60,10 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
             beside(rng, &scene.objects, shape.footprint(), crowd.touching)
         };
         scene.objects.push(Object {
-            support: Support::Even,
-            name: format!("object-{}", index + 1),
-            shape,
             mass: if index == 0 { middle } else { log_uniform(rng, masses) },
             friction: friction(rng),
             pose,
+            ..Object::new(format!("object-{}", index + 1), shape)
         });
     }
     scene

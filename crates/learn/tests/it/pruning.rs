@@ -116,14 +116,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
         if free {
             let name = format!("o{}", objects.len());
             let (mass, friction) = (rng.random_range(0.1..1.0), rng.random_range(0.1..0.8));
-            objects.push(Object {
-                support: pushplan::scene::Support::Even,
-                name,
-                shape,
-                mass,
-                friction,
-                pose,
-            });
+            objects.push(Object { mass, friction, pose, ..Object::new(name, shape) });
         }
     }
     scene.objects = objects;
@@ -155,6 +148,7 @@ fn random_job(rng: &mut Pcg64) -> (Scene, Job) {
                 rng.random_range(-0.6..0.6),
                 rng.random_range(-3.0..3.0),
             ),
+            z: 0.0,
             friction: 0.4,
         });
     }

@@ -2,7 +2,7 @@
 //! and the centre of mass never to the right.
 
 use crate::geometry::{Box3, Pose, Pose3, Vector, Vector3};
-use crate::scene::{Block, LeverJob, LeverUp, lever_frame};
+use crate::scene::{LeverJob, LeverUp, Obstacle, lever_frame};
 
 use super::body::{Body, Spread};
 
@@ -141,9 +141,9 @@ impl Setup {
     }
 
     /// With these blocks about the plate.
-    fn among(mut self, blocks: &[Block], friction: f64) -> Self {
+    fn among(mut self, blocks: &[Obstacle], friction: f64) -> Self {
         let own = self.world.inverse();
-        let seen = |block: &Block| {
+        let seen = |block: &Obstacle| {
             let [x, y, z] = block.size;
             let mut pose = own * Pose3::upright(block.pose, block.z + 0.5 * z);
             if self.mirrored {

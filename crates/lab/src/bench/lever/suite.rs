@@ -3,7 +3,7 @@
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::scene::{
-    Block, LeverGoal, LeverJob, LeverRules, LeverTask, Robot, Task, ToolChoice,
+    Goal, LeverJob, LeverRules, LeverScene, Obstacle, Plate, PushRules, Robot, Scene, Task,
 };
 use pushplan::internals::sim::LeverSimulator;
 use pushplan::internals::solve::lever::LeverPlanner;
@@ -61,24 +61,19 @@ impl LeverSuite {
     }
 
     /// Task `index`, which is the same for the same seed.
-    pub fn task(&self, index: usize) -> LeverTask {
+    pub fn task(&self, index: usize) -> Task {
         let LeverJob { scene, lever } = self.drawn(index);
-        let mut blocks = scene.blocks.clone();
-        let goal = LeverGoal { outside: Some(blocks.len()), ..LeverGoal::of(lever.plate) };
-        blocks.push(pocket(&scene.blocks));
-        LeverTask {
-            name: format!("board-{}", index + 1),
-            description: "Take the board out of the drive.".to_owned(),
-            table_friction: scene.table_friction,
-            plates: scene.plates.clone(),
-            blocks,
-            robot: Robot::reaching(0.0, 2.0),
-            tools: ToolChoice::Named(vec![TOOL.to_owned()]),
-            levers: LeverRules::default(),
-            pushes: None,
-            goal,
-            robustness: Task::ROBUSTNESS,
-        }
+        let mut obstacles = scene.blocks.clone();
+        let goal = Goal { outside: Some(obstacles.len()), ..Goal::of(lever.plate) };
+        obstacles.push(pocket(&scene.blocks));
+        let objects = scene.plates.iter().cloned().filter_map(Plate::object);
+        let table = Scene::new(objects).on_table(scene.table_friction);
+        let scene = Scene { obstacles, ..table };
+        Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
+            .choosing([TOOL])
+            .levering(LeverRules::default())
+            .pushing(PushRules::none())
+            .described("Take the board out of the drive.")
     }
 
     /// Solves task `index` with `planner`. The times are the planner's alone.
@@ -104,7 +99,7 @@ impl LeverSuite {
         });
         let random = self.drawn(index);
         let moved = LeverSimulator::FINE.run(&random);
-        let scene = task.scene(random.scene.blade);
+        let scene = LeverScene::new(&task.scene, random.scene.blade);
         let timing = &solution.statistics.timing;
         let seconds = [
             ("search", timing.search),
@@ -117,7 +112,7 @@ impl LeverSuite {
             works,
             robustness: verdict.and_then(|verdict| verdict.robustness),
             further: further.unwrap_or(0.0),
-            random: task.goal.judge(&scene, &random.lever, &moved).reached,
+            random: task.goal.judge_lever(&scene, &random.lever, &moved).reached,
             candidates: solution.statistics.search.rollouts,
             promising: solution.statistics.search.promising,
         };
@@ -128,7 +123,7 @@ impl LeverSuite {
 }
 
 /// The floor between the walls, as a body of its own: what must be left.
-pub(super) fn pocket(blocks: &[Block]) -> Block {
+pub(super) fn pocket(blocks: &[Obstacle]) -> Obstacle {
     let floor = &blocks[0];
     let mut inner = [f64::INFINITY; 2];
     for wall in blocks.iter().filter(|block| block.name.starts_with("wall-")) {
@@ -139,7 +134,7 @@ pub(super) fn pocket(blocks: &[Block]) -> Block {
         let face = local.position[across].abs() - 0.5 * wall.size[1];
         inner[across] = inner[across].min(face);
     }
-    Block {
+    Obstacle {
         name: POCKET.to_owned(),
         size: [2.0 * inner[0], 2.0 * inner[1], floor.size[2]],
         ..floor.clone()
@@ -156,9 +151,9 @@ mod tests {
         for index in 0..4 {
             let task = suite.task(index);
             let text = task.to_yaml().expect("numbers");
-            let again = LeverTask::parse(&text, "again.yaml");
+            let again = Task::parse(&text, "again.yaml");
             assert_eq!(again.unwrap_or_else(|faults| panic!("{faults}\n{text}")).name, task.name);
-            let [x, y, _] = task.blocks.last().expect("the pocket").size;
+            let [x, y, _] = task.scene.obstacles.last().expect("the pocket").size;
             assert!((0.05..0.11).contains(&x) && (0.045..0.10).contains(&y), "{x} {y}");
         }
     }

@@ -4,7 +4,7 @@
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::scene::{
-    Goal, Object, Obstacle, Robot, Scene, Span, Support, Task, ToolChoice, Unknowns,
+    Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
 };
 use rand::Rng;
 use rand_pcg::Pcg64;
@@ -56,15 +56,14 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         name: name.to_owned(),
         size: [thickness, SIDE, HEIGHT],
         pose: outwards * Pose::new(wall, sign * 0.5 * (gap + SIDE), 0.0),
+        z: 0.0,
         friction: 0.5,
     };
     let object = Object {
-        name: "object".to_owned(),
-        shape,
-        support: Support::Even,
         mass: round(rng.random_range(0.1..2.0), 1e2),
         friction: round(rng.random_range(0.2..0.8), 1e2),
         pose: place(near, rng.random_range(-0.02..0.02), turn),
+        ..Object::new("object", shape)
     };
     Task {
         name: format!("gap-{ordinal:04}"),
@@ -84,6 +83,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
         },
         tools: ToolChoice::All,
         pushes: pushes(2),
+        levers: None,
         goal: Goal::new(0, place(behind, 0.0, 0.0).position.into(), TOLERANCE),
         robustness: Task::ROBUSTNESS,
     }

@@ -90,6 +90,7 @@ pub(super) fn wall(
         name: "wall".to_owned(),
         size: [round(length, 1e3), round(thickness, 1e3), 0.1],
         pose: round_pose(&Pose { position: middle, heading }),
+        z: 0.0,
         friction: 0.5,
     };
     let solid = wall.shape().footprint();

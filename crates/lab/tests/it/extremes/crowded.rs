@@ -140,6 +140,7 @@ fn wall(case: &mut Case, gap: f64) {
         name: "wall".into(),
         size: [0.04, 3.0, 0.2],
         pose: Pose { position: centre, heading: ahead.y.atan2(ahead.x) },
+        z: 0.0,
         friction: 0.5,
     });
 }

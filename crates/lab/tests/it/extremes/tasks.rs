@@ -79,6 +79,7 @@ const TASKS: [(&str, Expected, Change); 20] = [
                 name: format!("wall-{k}"),
                 size,
                 pose,
+                z: 0.0,
                 friction: 0.5,
             });
         }

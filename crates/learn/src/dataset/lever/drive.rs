@@ -1,7 +1,7 @@
 //! Drives built of cuboids: a floor, walls around a pocket, standoffs, and the board with its chips.
 
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::scene::{Block, LeverScene, LeverUp, Place, Plate, Slab};
+use pushplan::internals::scene::{LeverScene, LeverUp, Obstacle, Place, Plate, Slab};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -117,14 +117,15 @@ impl Drive {
     }
 
     /// What is fixed, with the notch in the wall along `edge` at `middle` from its first corner.
-    fn blocks(&self, pose: Pose, edge: usize, middle: f64) -> Vec<Block> {
-        let block = |name: String, at: Vector, heading: f64, [x, y]: [f64; 2], z: [f64; 2]| Block {
-            name,
-            size: [x, y, z[1] - z[0]],
-            pose: pose * Pose { position: at, heading },
-            z: z[0],
-            friction: self.friction,
-        };
+    fn blocks(&self, pose: Pose, edge: usize, middle: f64) -> Vec<Obstacle> {
+        let block =
+            |name: String, at: Vector, heading: f64, [x, y]: [f64; 2], z: [f64; 2]| Obstacle {
+                name,
+                size: [x, y, z[1] - z[0]],
+                pose: pose * Pose { position: at, heading },
+                z: z[0],
+                friction: self.friction,
+            };
         let [x, y] = self.board.map(|side| 0.5 * side);
         let mut blocks = vec![block("floor".to_owned(), Vector::zeros(), 0.0, DRIVE, [0.0, FLOOR])];
         for (k, [i, j]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].iter().enumerate() {

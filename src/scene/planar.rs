@@ -1,0 +1,29 @@
+//! What only scenes in space have, left out of binary records of pushes.
+//!
+//! Records of data sets are not self-describing: a field more in each of millions of frames would make
+//! every data set that exists unreadable. They hold scenes in the plane alone, so nothing is lost.
+
+pub(super) mod planar_only {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<T: Serialize, S: Serializer>(
+        value: &T,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        if serializer.is_human_readable() {
+            value.serialize(serializer)
+        } else {
+            serializer.serialize_unit()
+        }
+    }
+
+    pub fn deserialize<'de, T: Deserialize<'de> + Default, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<T, D::Error> {
+        if deserializer.is_human_readable() {
+            T::deserialize(deserializer)
+        } else {
+            Ok(T::default())
+        }
+    }
+}
