@@ -19,7 +19,8 @@ const HOUSES: [(&str, &str, Rooms); 3] = [
         &[
             ("dataset", ""),
             ("network", ""),
-            ("train", "dataset network"),
+            ("judge", ""),
+            ("train", "dataset network judge"),
             ("report", "train"),
             ("cli", "dataset train report"),
         ],
@@ -309,7 +310,8 @@ fn imports(text: &str, start: &str) -> Vec<String> {
 /// Whether code names something of the crate `name`.
 fn names(code: &str, name: &str) -> bool {
     let path = format!("{name}::");
-    code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(in_word))
+    let inner = |c| in_word(c) || c == ':';
+    code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(inner))
 }
 
 fn first_word(text: &str) -> String {
