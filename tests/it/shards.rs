@@ -19,7 +19,7 @@ fn of_task_files() {
     let records = part.join("records.jsonl");
     let bytes = fs::read(&records).expect("records");
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
-    let output = of_runs("status", &[&part]);
+    let output = of_runs("status", &[part]);
     assert!(stderr(&output).starts_with("shard 1/2: 1 of 2 tasks in "), "{}", stderr(&output));
     // Empty shards are shards, too.
     shards_make_the_same_bytes("bench tasks tasks/too-far.yaml --effort draft", 2);
