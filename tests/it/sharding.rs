@@ -86,7 +86,7 @@ done
 /// A command in three shards by `cluster/slurm.sh`, of which some are lost in between; its records
 /// are in the file `records`.
 #[cfg(unix)]
-pub fn the_slurm_script_submits_what_is_missing_and_a_merge(command: &str, records: &str) {
+pub fn slurm_submits_what_is_missing(command: &str, records: &str) {
     use std::os::unix::fs::PermissionsExt;
 
     let home = TempDir::new().expect("a folder");

@@ -49,5 +49,5 @@ fn two_commands_never_write_to_one_folder() {
 #[test]
 fn the_slurm_script_does_them() {
     let tasks = format!("bench tasks {ROOT}/tasks/too-far.yaml --effort draft");
-    crate::sharding::the_slurm_script_submits_what_is_missing_and_a_merge(&tasks, "records.jsonl");
+    crate::sharding::slurm_submits_what_is_missing(&tasks, "records.jsonl");
 }

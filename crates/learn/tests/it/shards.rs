@@ -103,6 +103,5 @@ fn two_commands_never_write_to_one_folder() {
 #[cfg(unix)]
 #[test]
 fn the_slurm_script_does_them() {
-    let data = "generate --episodes 5 --seed 4";
-    crate::sharding::the_slurm_script_submits_what_is_missing_and_a_merge(data, "records.bin");
+    crate::sharding::slurm_submits_what_is_missing("generate --episodes 5 --seed 4", "records.bin");
 }
