@@ -73,7 +73,7 @@ impl EffectModel for Beside {
 
 fn shipped(name: &str) -> (Task, ToolLibrary) {
     let library = ToolLibrary::embedded().unwrap();
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let folder = PathBuf::from(crate::ROOT).join("tasks");
     (load_task(folder.join(name), &library).unwrap(), library)
 }
 

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{RandomSuite, SuiteTask, TaskKind};
 use pushplan::geometry::{Footprint, swept_clearance, wrap_angle};
 use pushplan::scene::{Engine, Situation, Task};
 use pushplan::store::Shard;
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan_lab::bench::{RandomSuite, SuiteTask, TaskKind};
 
 /// Tasks of each kind.
 const EACH: usize = 4;

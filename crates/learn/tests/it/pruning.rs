@@ -8,7 +8,6 @@ use rand_pcg::Pcg64;
 
 use pushplan::watch::Unwatched;
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, Preset},
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,
@@ -19,6 +18,7 @@ use pushplan::{
         Velocity,
     },
 };
+use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 
 /// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
 /// at a time: in a batch, a matrix product rounds a row differently according to what stands

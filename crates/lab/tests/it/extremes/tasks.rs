@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::random_task,
     effect::EffectModel,
     geometry::{Pose, Vector},
     scene::{Obstacle, Task},
     solve::{Effort, PlanStatus, Planner, Solution},
 };
+use pushplan_lab::bench::random_task;
 
 /// What should come of a task.
 #[derive(Clone, Copy)]
