@@ -19,7 +19,8 @@ const HOUSES: [(&str, &str, Rooms); 3] = [
         &[
             ("dataset", ""),
             ("network", ""),
-            ("train", "dataset network"),
+            ("judge", ""),
+            ("train", "dataset network judge"),
             ("report", "train"),
             ("cli", "dataset train report"),
         ],
@@ -60,7 +61,7 @@ const ROOMS: [(&str, &str); 23] = [
 
 /// Crates that only these rooms may name: whatever is behind such a door can be replaced without
 /// touching anything else.
-const DOORS: [(&str, &str); 26] = [
+const DOORS: [(&str, &str); 28] = [
     ("parry2d_f64", "geometry"),
     ("parry3d_f64", "geometry"),
     ("pushplan_models", "effect belief"),
@@ -77,7 +78,9 @@ const DOORS: [(&str, &str); 26] = [
     ("zip", "learn/dataset"),
     ("candle_core", "learn/network learn/train"),
     ("safetensors", "network learn/train"),
-    ("gemm", "network learn/train"),
+    ("gemm", "learn/train"),
+    ("gemm_common", "network"),
+    ("gemm_f32", "network"),
     ("pulp", "contact network scene"),
     ("clarabel", "plan"),
     (
@@ -307,7 +310,8 @@ fn imports(text: &str, start: &str) -> Vec<String> {
 /// Whether code names something of the crate `name`.
 fn names(code: &str, name: &str) -> bool {
     let path = format!("{name}::");
-    code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(in_word))
+    let inner = |c| in_word(c) || c == ':';
+    code.match_indices(&path).any(|(at, _)| !code[..at].ends_with(inner))
 }
 
 fn first_word(text: &str) -> String {

@@ -56,11 +56,8 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
     let trajectory = folder.path().join("pull-back.planar.trajectory.json");
     let output = run(&["check", trajectory.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let names = files(folder.path());
-    assert_eq!(
-        names,
-        ["pull-back.html", "pull-back.planar.svg", "pull-back.planar.trajectory.json"]
-    );
+    let names = ["pull-back.html", "pull-back.planar.svg", "pull-back.planar.trajectory.json"];
+    assert_eq!(files(folder.path()), names);
 }
 
 #[test]
@@ -74,11 +71,8 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
         let action = ["predict", "tasks/pull-back.yaml", "--tool", "stick", "--push", "can:0"];
         let output = run(&[&action[..], &out].concat());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        assert!(
-            stderr(&output).contains("error: cannot write to the folder"),
-            "{}",
-            stderr(&output)
-        );
+        let said = stderr(&output);
+        assert!(said.contains("error: cannot write to the folder"), "{said}");
     }
     assert_eq!(files(folder.path()), ["taken"]);
 }

@@ -10,7 +10,7 @@ use crate::{PROGRAM, ROOT};
 /// Every command of the pages that is one of the program whose tests these are, with its page.
 fn commands() -> Vec<(String, String)> {
     let (mut commands, program) = (Vec::new(), format!("{} ", name()));
-    for folder in ["", "book/src", "crates/models", "crates/lab/results"] {
+    for folder in ["", ".github", "book/src", "crates/models", "crates/lab/results"] {
         for file in fs::read_dir(Path::new(ROOT).join(folder)).expect("a folder of pages") {
             let path = file.expect("a file").path();
             if path.extension().is_none_or(|end| end != "md") {

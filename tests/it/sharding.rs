@@ -45,20 +45,18 @@ pub fn on(command: &str, folder: &Path, shard: Option<(usize, usize)>) -> Output
 }
 
 pub fn merge(out: &Path, shards: &[PathBuf]) -> Output {
-    let folders: Vec<&Path> =
-        std::iter::once(out).chain(shards.iter().map(PathBuf::as_path)).collect();
-    of_runs("merge", &folders)
+    of_runs("merge", &[&[out.to_owned()], shards].concat())
 }
 
 /// What `status` prints.
 pub fn status(folders: &[PathBuf]) -> String {
-    let output = of_runs("status", &folders.iter().map(PathBuf::as_path).collect::<Vec<_>>());
+    let output = of_runs("status", folders);
     done(&output);
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
 /// `merge` or `status`, which the product has below `bench`.
-pub fn of_runs(word: &str, folders: &[&Path]) -> Output {
+pub fn of_runs(word: &str, folders: &[PathBuf]) -> Output {
     let words = if name() == "pushplan" { &["bench", word][..] } else { &[word] };
     let folders = folders.iter().map(|folder| folder.to_str().expect("UTF-8"));
     run(&words.iter().copied().chain(folders).collect::<Vec<_>>())
@@ -88,7 +86,7 @@ done
 /// A command in three shards by `cluster/slurm.sh`, of which some are lost in between; its records
 /// are in the file `records`.
 #[cfg(unix)]
-pub fn the_slurm_script_submits_what_is_missing_and_a_merge(command: &str, records: &str) {
+pub fn slurm_submits_what_is_missing(command: &str, records: &str) {
     use std::os::unix::fs::PermissionsExt;
 
     let home = TempDir::new().expect("a folder");

@@ -19,7 +19,7 @@ fn of_task_files() {
     let records = part.join("records.jsonl");
     let bytes = fs::read(&records).expect("records");
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
-    let output = of_runs("status", &[&part]);
+    let output = of_runs("status", &[part]);
     assert!(stderr(&output).starts_with("shard 1/2: 1 of 2 tasks in "), "{}", stderr(&output));
     // Empty shards are shards, too.
     shards_make_the_same_bytes("bench tasks tasks/too-far.yaml --effort draft", 2);
@@ -49,5 +49,5 @@ fn two_commands_never_write_to_one_folder() {
 #[test]
 fn the_slurm_script_does_them() {
     let tasks = format!("bench tasks {ROOT}/tasks/too-far.yaml --effort draft");
-    crate::sharding::the_slurm_script_submits_what_is_missing_and_a_merge(&tasks, "records.jsonl");
+    crate::sharding::slurm_submits_what_is_missing(&tasks, "records.jsonl");
 }

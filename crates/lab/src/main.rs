@@ -6,5 +6,5 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    pushplan_lab::cli::run(std::env::args_os())
+    pushplan_lab::cli::run(std::env::args_os()).into()
 }

@@ -1,8 +1,6 @@
 //! Errors on crowds: the truth has none, staying is off by the motion, and the
 //! command writes what it measures.
 
-use std::path::Path;
-
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
@@ -163,15 +161,12 @@ fn the_command_measures_sets_and_writes_what_it_found() {
     let beside = "projection,joints=guessed projection,joints=none projection,joints=fixed prior follow \
                   still planar,friction=70% planar,friction=130% planar,start=100um";
     assert_eq!(names.join(" "), format!("projection {beside}"));
-    let written: Json = serde_json::from_slice(&read(&out.join("evaluation.json"))).expect("JSON");
+    let written = std::fs::read(out.join("evaluation.json"));
+    let written: Json = serde_json::from_slice(&written.expect("a file")).expect("JSON");
     assert_eq!(written["crowds"], json["crowds"]);
     assert!(out.join("error-by-horizon-dense.svg").exists());
 
     for wrong in [&["--on", "spars"][..], &["--on", "dense", "--objects", "7"]] {
         assert_eq!(run(wrong).status.code(), Some(2));
     }
-}
-
-fn read(path: &Path) -> Vec<u8> {
-    std::fs::read(path).expect("a file")
 }

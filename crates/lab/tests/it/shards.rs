@@ -52,8 +52,7 @@ fn of_evaluations() {
 /// More shards than units of work.
 #[test]
 fn of_the_trade_off() {
-    let few = "--quick --pushes 2 --tasks 1 --rounds 1 --plans none";
-    shards_make_the_same_bytes(&format!("tradeoff {few}"), 3);
+    shards_make_the_same_bytes("tradeoff --quick --pushes 2 --tasks 1 --rounds 1 --plans none", 3);
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn what_is_missing_is_named_as_array_jobs_take_it() {
     let bytes = fs::read(&records).expect("records");
     fs::write(&records, &bytes[..bytes.len() - 5]).expect("records");
     assert_eq!(status(&all), "3-4,7-9\n");
-    let output = of_runs("status", &[&folder(4)]);
+    let output = of_runs("status", &[folder(4)]);
     assert!(stderr(&output).starts_with("shard 4/9: 1 of 2 tasks in "), "{}", stderr(&output));
     for number in [3, 4, 7, 8, 9] {
         done(&on(command, &folder(number), Some((number, 9))));
@@ -103,6 +103,5 @@ fn two_commands_never_write_to_one_folder() {
 #[cfg(unix)]
 #[test]
 fn the_slurm_script_does_them() {
-    let data = "generate --episodes 5 --seed 4";
-    crate::sharding::the_slurm_script_submits_what_is_missing_and_a_merge(data, "records.bin");
+    crate::sharding::slurm_submits_what_is_missing("generate --episodes 5 --seed 4", "records.bin");
 }

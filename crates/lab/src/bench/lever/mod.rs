@@ -4,6 +4,7 @@ mod accuracy;
 mod baselines;
 mod convergence;
 mod drives;
+mod point_search;
 mod points;
 mod suite;
 mod supports;

@@ -6,13 +6,13 @@ use std::time::Instant;
 
 use pushplan::internals::asset::write_atomic;
 use pushplan::internals::effect::{LeverModel, LeverNetwork};
-use pushplan::internals::judge::lever_error;
 use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
 use pushplan::internals::scene::{LeverFeatures, LeverJob};
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
 
 use crate::dataset::LeverEpisode;
+use crate::judge::lever_error;
 use crate::network::LeverGraph;
 use crate::train::gradients::gradients_of;
 use crate::train::log::Log;
