@@ -195,7 +195,8 @@ impl<'a> Runner<'a> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
         let made = step.plan.pushes();
         let pushes = made.get(..step.pushes).filter(|pushes| !pushes.is_empty());
-        let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
+        let pushes =
+            pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
         let count = trace.task.scene.objects.len();
         let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
         let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
