@@ -1,11 +1,11 @@
 //! The networks: configuration, parameters, physics predictor and weights file.
 //!
-//! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem, Erdem,
-//! Imre, Seker and Ugur, ICRA 2020) is here twice: as the candle graph that training differentiates
-//! and that is the reference, and as a fused forward pass on preallocated buffers that planning
-//! runs and that needs no candle. Both take feature tables of any widths: the parts of what is
-//! levered propagate in the same way. The belief regulator reads its effects. Loops over time are
-//! not here but in `rollout`.
+//! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
+//! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
+//! training differentiates and that is the reference, and as a fused forward pass on preallocated
+//! buffers that planning runs and that needs no candle. Both take feature tables of any widths: the parts of
+//! what is levered propagate in the same way. The belief regulator reads its effects. Loops over time are not here but in
+//! `rollout`.
 
 mod config;
 mod forward;

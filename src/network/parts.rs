@@ -25,7 +25,7 @@ const FORMAT: u32 = 1;
 /// Key of the card in the file's metadata.
 const KEY: &str = "pushplan-parts";
 
-/// What the weights are, and how they were made.
+/// What the weights are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartsCard {
     /// Network size.
@@ -57,7 +57,7 @@ struct Header {
     card: PartsCard,
 }
 
-/// The part that is read first: a header of another format may have other keys.
+/// What is read first of it: a header of another format may have other keys.
 #[derive(Deserialize)]
 struct FormatOnly {
     format: u32,

@@ -44,7 +44,7 @@ pub enum WeightsError {
     /// Not a safetensors file.
     #[error("not a weights file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
-    /// A safetensors file from elsewhere.
+    /// A safetensors file of someone else.
     #[error("a safetensors file, but not one of pushplan: its metadata have no `{KEY}` entry")]
     Foreign,
     /// The card cannot be read.
@@ -109,7 +109,7 @@ pub struct ErrorCard {
     pub p95: f64,
 }
 
-/// What the weights are, and how they were made.
+/// What the weights are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Card {
     /// Network size.
@@ -146,7 +146,7 @@ struct Header {
     card: Card,
 }
 
-/// The part that is read first: a header of another format may have other keys.
+/// What is read first of it: a header of another format may have other keys.
 #[derive(Deserialize)]
 struct FormatOnly {
     format: u32,

@@ -11,8 +11,8 @@ pub const TYPES: usize = 4;
 /// What the network says of a pair: a logit for every type, and how far the filter is to be trusted.
 pub const OUTPUTS: usize = TYPES + 1;
 
-/// Names and shapes of all parameters for F `features` and H `width`. The order of the three gates
-/// in every row is reset, update, candidate.
+/// Names and shapes of all parameters for F `features` and H `width`. Of every row of three gates the
+/// order is reset, update, candidate.
 pub fn regulator_layout(features: usize, width: usize) -> Vec<(&'static str, Vec<usize>)> {
     vec![
         ("gates.input", vec![features, 3 * width]),
@@ -28,13 +28,13 @@ pub fn regulator_layout(features: usize, width: usize) -> Vec<(&'static str, Vec
     ]
 }
 
-/// Random first values from `seed`: uniform with the variance 1 / fan-in; biases and output weights
-/// are zero, so that an untrained regulator leaves the filter as it is.
+/// Random first values from `seed`: uniform with the variance 1 / fan-in; biases and what gives the
+/// outputs are zero, so that an untrained regulator leaves the filter as it is.
 pub fn fresh_regulator(features: usize, width: usize, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = regulator_layout(features, width).into_iter().map(|(name, shape)| {
         let zero = shape.len() == 1 || name == "head.logits";
-        // Each of several matrices whose products add up has its share.
+        // Of matrices whose products add up every one has its share.
         let bound = (3.0 / (2.0 * shape[0] as f32)).sqrt();
         let count: usize = shape.iter().product();
         let value = |_| if zero { 0.0 } else { random.random_range(-bound..bound) };

@@ -23,7 +23,7 @@ const KEY: &str = "pushplan-regulator";
 /// Largest magnitude of a parameter, a mean or a deviation.
 const LARGEST: f32 = 1e3;
 
-/// What the weights are, and how they were made.
+/// What the weights are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegulatorCard {
     /// Number of features of a pair, F.
@@ -57,7 +57,7 @@ struct Header {
     card: RegulatorCard,
 }
 
-/// The part that is read first: a header of another format may have other keys.
+/// What is read first of it: a header of another format may have other keys.
 #[derive(Deserialize)]
 struct FormatOnly {
     format: u32,
