@@ -22,8 +22,8 @@ pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{
     LeverCourse, LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverParts, LeverPrior,
-    LeverTrust, LeverView, PartGraphs, PartState, PriorSettings, SimulatedLevers, Walk, Walker,
-    lever_action, lever_features, lever_inputs, load_lever,
+    LeverTrust, LeverView, Levering, PartGraphs, PartState, PriorSettings, SimulatedLevers, Walk,
+    Walker, lever_action, lever_features, lever_inputs, load_lever,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

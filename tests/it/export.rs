@@ -25,12 +25,12 @@ fn plan(task: &str, tool: &str, form: PushForm, pushes: &[([f64; 2], f64, f64, f
         length,
         speed,
     };
-    let pushes = pushes.iter().map(push).collect();
+    let pushes = pushes.iter().map(push);
     let name = tool.name.clone();
     PlanFile {
         task,
-        tool: Arc::new(tool),
-        plan: Plan { tool: name, grip_yaw: 0.0, form, lift: 0.002, pushes },
+        tools: vec![Arc::new(tool)],
+        plan: Plan::pushing(name, 0.0, form, 0.002, pushes),
         model: None,
         predicted: None,
         verdict: None,
@@ -101,7 +101,7 @@ fn every_shipped_task_has_a_scene() {
         if path.extension().is_some_and(|end| end == "yaml") {
             let mut file = plan(SIMPLE, BAR, PushForm::Placed, &[([0.4, 0.0], 0.0, 0.1, 0.1)]);
             file.task = Task::load(&path).unwrap();
-            file.tool = Arc::new(tool.clone());
+            file.tools = vec![Arc::new(tool.clone())];
             let text = mjcf(&file).unwrap();
             for object in &file.task.scene.objects {
                 assert!(text.contains(&format!("<body name=\"object/{}\"", object.name)));

@@ -97,13 +97,13 @@ fn jobs_keep_their_order_when_some_are_simulated() {
     let jobs: Vec<Job> = (0..6)
         .map(|k| {
             let mut job = job(&scene);
-            job.motion.strokes[0].duration = fast(k);
+            job.motion.slide_mut().strokes[0].duration = fast(k);
             job
         })
         .collect();
     let rolled = routed(Outside::Simulate).rollout(&scene, &jobs, Record::Frames);
     for (k, (job, trajectory)) in jobs.iter().zip(&rolled).enumerate() {
-        let duration = trajectory.frames[job.motion.strokes[0].frames()].time;
+        let duration = trajectory.frames[job.motion.slide().strokes[0].frames()].time;
         assert!((duration - fast(k)).abs() < 1e-9, "{k}: {duration}");
         let planar = Simulator::planar().run(&scene, job, Record::Frames);
         assert_eq!(trajectory.frames == planar.frames, k % 2 == 1, "{k}");
@@ -170,7 +170,7 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
         let best = solution.best().expect("a plan");
         (best.plan.clone(), best.outcome.clone())
     });
-    assert_eq!(ends[0].0.tool, ends[1].0.tool);
+    assert_eq!(ends[0].0.tool(), ends[1].0.tool());
 }
 
 #[test]

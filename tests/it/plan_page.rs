@@ -147,7 +147,7 @@ fn its_controls_work_and_nothing_leaves() {
         assert_eq!(shown.task, task);
     }
     let other =
-        solution.plans.iter().position(|plan| plan.plan.tool != solution.plans[0].plan.tool);
+        solution.plans.iter().position(|plan| plan.plan.tool() != solution.plans[0].plan.tool());
     browser.click("#tools tr:nth-child(3) .open");
     assert_eq!(browser.value("view.plan"), json!(other));
 
@@ -155,7 +155,7 @@ fn its_controls_work_and_nothing_leaves() {
     let cells = "page.candidates.grids.flatMap((grid) => grid.cells).length";
     assert_eq!(browser.value(cells), json!(solution.candidates.len()));
     let chosen = "byId('candidates-tool').value";
-    assert_eq!(browser.value(chosen), solution.plans[other.expect("another")].plan.tool);
+    assert_eq!(browser.value(chosen), solution.plans[other.expect("another")].plan.tool());
     let counted = "document.querySelectorAll('#grids .cell').length";
     let wanted = "page.candidates.grids.filter((g) => g.tool === byId('candidates-tool').value)\
                   .flatMap((grid) => grid.cells).length";
@@ -217,7 +217,7 @@ fn tools_and_pushes_say_why_they_lost() {
     let choice = data["choice"].as_array().expect("tools");
     assert_eq!(choice.len(), solution.tools.len());
     assert_eq!(choice[0]["why"], "chosen");
-    assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool);
+    assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool());
     let sum = |key: &str| choice.iter().map(|tool| number(&tool[key]) as usize).sum::<usize>();
     // One push was enough, so every way to push was considered from one state.
     assert_eq!(solution.statistics.depth, 1);

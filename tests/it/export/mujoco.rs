@@ -86,7 +86,7 @@ fn five_shipped_plans_work_in_mujoco() {
         let best = &solution.plans[0];
         let file = PlanFile {
             task,
-            tool: best.tool.clone(),
+            tools: best.tools.clone(),
             plan: best.plan.clone(),
             model: None,
             predicted: None,

@@ -12,9 +12,9 @@ use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
 fn plan(task: Task, tool: &Tool) -> PlanFile {
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
     let (name, form) = (tool.name.clone(), PushForm::Placed);
-    let plan = Plan { tool: name, grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
+    let plan = Plan::pushing(name, 0.0, form, 0.002, [push]);
     let tool = Arc::new(tool.clone());
-    PlanFile { task, tool, plan, model: None, predicted: None, verdict: None }
+    PlanFile { task, tools: vec![tool], plan, model: None, predicted: None, verdict: None }
 }
 
 fn tasks() -> Vec<Task> {

@@ -8,7 +8,7 @@ use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
 use pushplan::cli::interrupt;
-use pushplan::cli::lever::lever_network;
+use pushplan::cli::model::lever_network;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::internals::effect::{

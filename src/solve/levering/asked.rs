@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::plan::lever::LeverRoom;
-use crate::scene::{LeverFault, LeverPlan, LeverScene, LeverUp, Pivot, Place, Task, Tool};
+use crate::scene::{LeverFault, LeverScene, LeverUp, Pivot, Place, Plan, Task, Tool};
 
 /// A lever-up as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,17 +47,8 @@ pub enum LeverActionError {
     NoSupport,
 }
 
-/// A plan with the rule that it breaks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AskedLeverPlan {
-    /// The plan.
-    pub plan: LeverPlan,
-    /// A rule that it breaks; a plan that is searched for breaks none.
-    pub broken: Option<LeverFault>,
-}
-
-/// The plan of what is asked for. One that breaks a rule is made all the same: seeing what would
-/// happen is the point.
+/// The plan of what is asked for, and a rule that it breaks. One that breaks a rule is made all the
+/// same: seeing what would happen is the point.
 ///
 /// # Errors
 /// Why there is no such lever-up.
@@ -65,7 +56,7 @@ pub fn asked_lever(
     task: &Task,
     tool: &Arc<Tool>,
     asked: &AskedLever,
-) -> Result<AskedLeverPlan, LeverActionError> {
+) -> Result<(Plan, Option<LeverFault>), LeverActionError> {
     let plate = task.plate();
     let corners = plate.corners();
     let edges = corners.len();
@@ -102,6 +93,5 @@ pub fn asked_lever(
         retreat: rules.retreat,
     };
     let broken = LeverRoom::new(task, &LeverScene::with(&task.scene, tool)).fault(&lever);
-    let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
-    Ok(AskedLeverPlan { plan, broken })
+    Ok((Plan::levering(&tool.name, lever), broken))
 }

@@ -1,11 +1,7 @@
 //! The argument of `--lever`: one lever-up.
 
-use std::sync::Arc;
-
-use crate::asset::ToolLibrary;
-use crate::cli::{error::CliError, session::Session};
-use crate::scene::{LeverPlan, Pivot, Task, Tool};
-use crate::solve::lever::{AskedLever, AskedPlace, asked_lever};
+use crate::scene::Pivot;
+use crate::solve::{AskedLever, AskedPlace};
 
 /// Help shown wherever a lever-up can be given.
 pub const LEVER_FORM: &str = "\
@@ -76,36 +72,6 @@ fn within(key: &str, text: &str, [low, high]: [f64; 2]) -> Result<f64, String> {
         Ok(value) if value.is_finite() => Err(format!("{key} must be from {low} to {high}")),
         _ => Err(format!("{key}: `{text}` is not a finite number")),
     }
-}
-
-/// The lever-up as a plan, with its tool: the one that is named, or else the first of the task; a
-/// rule that it breaks is warned of.
-///
-/// # Errors
-/// [`CliError::Usage`] if no such plan can be made.
-pub fn lever_plan(
-    task: &Task,
-    library: &ToolLibrary,
-    (name, lever): (Option<&str>, &AskedLever),
-    session: &Session,
-) -> Result<(LeverPlan, Arc<Tool>), CliError> {
-    let tool = match name {
-        Some(name) => Arc::clone(library.get(name).ok_or_else(|| {
-            let names: Vec<&str> = library.blades().iter().map(|t| t.name.as_str()).collect();
-            let message = format!("no tool with a blade is called `{name}`");
-            CliError::usage(message, format!("use {}", names.join(", ")))
-        })?),
-        None => task.blades(library)?.remove(0),
-    };
-    let asked = asked_lever(task, &tool, lever).map_err(|error| {
-        let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
-                      cuboid it is that at the smallest y";
-        CliError::usage(error.to_string(), advice)
-    })?;
-    if let Some(rule) = &asked.broken {
-        session.warn(&format!("{rule}; a plan would not contain it"));
-    }
-    Ok((asked.plan, tool))
 }
 
 #[cfg(test)]

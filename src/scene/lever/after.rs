@@ -1,17 +1,17 @@
-//! Pushes that follow a lever-up: what lies on the table by then is a task of pushes.
-
-use std::sync::Arc;
+//! What is left of a task once some of its steps are made: pushes of what lies on the table by then,
+//! or lever-ups of what still lies on its underside.
 
 use crate::geometry::{ConvexPolygon, Pose, Pose3, Vector, Vector3, clearance};
-use crate::scene::{
-    Goal, MAX_FEET, Object, Obstacle, Plan, Scene, Support, Task, Tool, ToolMotion, Unknowns,
-    carries,
-};
+use crate::scene::{Goal, MAX_FEET, Object, Obstacle, Scene, Support, Task, Unknowns, carries};
 
 use super::{Ending, Plate};
 
 /// A plate whose lowest point is higher above the table lies on something else, metres.
 const ON_TABLE: f64 = 1e-3;
+
+/// What leans by more is not stated as lying on its underside, radians: on feet of 6 mm plates of
+/// the size of a hand lean by 0.002 where one foot stands in the air.
+const LEVEL: f64 = 0.01;
 
 /// How far gaps to blocks are looked for, metres.
 const BESIDE: f64 = 1e-3;
@@ -21,22 +21,6 @@ const NAME: usize = 56;
 
 /// Points of a plate this near to its lowest one carry it, metres.
 const CARRYING: f64 = 3e-4;
-
-/// Pushes that follow a lever-up, with the tool that makes them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FollowUp {
-    /// The tool that the plan names.
-    pub tool: Arc<Tool>,
-    /// The pushes, in the world's frame: made where the plate is expected, without looking again.
-    pub plan: Plan,
-}
-
-impl FollowUp {
-    /// What the tool does.
-    pub fn motion(&self) -> ToolMotion {
-        self.plan.motion(&self.tool)
-    }
-}
 
 impl Task {
     /// The task of pushing the goal's object to its place once all objects lie at `rests` (their
@@ -77,6 +61,20 @@ impl Task {
             goal: goal?,
             robustness: self.robustness,
         })
+    }
+
+    /// The task from where all objects lie at `rests`; nothing if one does not lie on its underside
+    /// any more, as it is then no object that a scene can state.
+    pub fn moved_to(&self, rests: &[Pose3]) -> Option<Task> {
+        let mut task = self.clone();
+        for (object, rest) in task.scene.objects.iter_mut().zip(rests) {
+            let sunk = (rest.position.z - object.z).abs();
+            if Ending::of(rest) != Ending::Back || rest.tilt() > LEVEL || sunk > ON_TABLE {
+                return None;
+            }
+            object.pose = rest.from_above();
+        }
+        Some(task)
     }
 
     /// Whether an object is beside all obstacles, not over one.
