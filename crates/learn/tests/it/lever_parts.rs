@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use pushplan::effect::{
     LeverCourse, LeverModel, LeverParts, LeverPrior, PartGraphs, PartState, load_lever,
 };
-use pushplan::judge::lever_error;
 use pushplan::network::{
     Buffers, Config, Forward, Normaliser, PARTS, Parameters, PartsCard, PartsWeights,
 };
@@ -15,6 +14,7 @@ use pushplan::scene::LeverJob;
 use pushplan::store::FolderLock;
 use pushplan::watch::{Unwatched, Watch};
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::judge::lever_error;
 use pushplan_learn::network::{Inputs, Predictor};
 use pushplan_learn::train::{PartsSettings, train_parts};
 
