@@ -201,7 +201,6 @@ pub fn verify(
     plan: &PyPlan,
     disturbed: usize,
     seed: u64,
-    disturbed: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     threads: usize,
