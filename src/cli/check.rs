@@ -5,9 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{
-    self, Faults, recording_schema, task_schema, tool_schema, world_schema,
-};
+use crate::asset::{self, Faults, recording_schema, task_schema, tool_schema, world_schema};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
-use crate::network::Weights;
+use crate::network::PredictorWeights;
 use crate::scene::ModelSpec;
 
 use super::error::CliError;
@@ -51,7 +51,7 @@ pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
 ///
 /// # Errors
 /// A weights file that is missing, damaged or of someone else.
-pub fn weights(spec: &ModelSpec) -> Result<Option<Weights>, CliError> {
+pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }
 

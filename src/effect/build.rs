@@ -7,7 +7,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::{
-    network::{Weights, WeightsError},
+    network::{PredictorWeights, WeightsError},
     scene::{ModelKind, ModelPart, ModelSpec},
     sim::Simulator,
 };
@@ -48,15 +48,15 @@ impl EffectModels {
     ///
     /// # Errors
     /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
-    pub fn weights() -> Result<Weights, ModelError> {
-        Weights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
+    pub fn weights() -> Result<PredictorWeights, ModelError> {
+        PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
 
     /// The weights of the first part of `spec` that is a network, if one is.
     ///
     /// # Errors
     /// [`ModelError`] if they cannot be used.
-    pub fn weights_of(spec: &ModelSpec) -> Result<Option<Weights>, ModelError> {
+    pub fn weights_of(spec: &ModelSpec) -> Result<Option<PredictorWeights>, ModelError> {
         let file = spec.parts().find_map(|part| match &part.kind {
             ModelKind::Network { weights, .. } => Some(weights.as_deref()),
             _ => None,
@@ -82,9 +82,9 @@ impl EffectModels {
     }
 }
 
-fn load(file: Option<&str>) -> Result<Weights, ModelError> {
+fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {
     let Some(path) = file else { return EffectModels::weights() };
-    Weights::load(Path::new(path))
+    PredictorWeights::load(Path::new(path))
         .map_err(|error| ModelError::File { path: path.to_owned(), error })
 }
 

@@ -7,7 +7,7 @@
 use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Normaliser, Parameters, Rows, Statistics, Weights,
+    Config, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -58,7 +58,7 @@ pub struct Buffers {
 
 impl Forward {
     /// Takes the weights apart into the layout of the fused pass.
-    pub fn new(weights: &Weights) -> Self {
+    pub fn new(weights: &PredictorWeights) -> Self {
         Self::of(&weights.card.config, &weights.card.normaliser, &weights.parameters)
     }
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::cli::error::CliError;
-use crate::effect::{LeverModel, LeverNetwork, LeverPrior, SimulatedLevers, load_lever};
+use crate::effect::{LeverModel, LeverNetwork, LeverPrior, SimulatedLevers};
 use crate::scene::{Engine, ModelKind, ModelSpec, Stride};
 use crate::sim::LeverSimulator;
 
@@ -31,13 +31,15 @@ pub fn lever_model(spec: Option<&ModelSpec>) -> Result<Arc<dyn LeverModel>, CliE
     }
 }
 
-/// The network of lever-ups with these weights, a memory or one of parts, or else the shipped one.
+/// The network of lever-ups with these weights, or else the shipped one.
 ///
 /// # Errors
 /// [`CliError::File`] for weights that cannot be used.
 pub fn lever_network(weights: Option<&Path>) -> Result<Arc<dyn LeverModel>, CliError> {
     match weights {
-        Some(path) => load_lever(path).map_err(|error| CliError::File(error.to_string())),
+        Some(path) => LeverNetwork::load(path)
+            .map(|network| Arc::new(network) as _)
+            .map_err(|error| CliError::File(error.to_string())),
         None => LeverNetwork::shipped()
             .map(|network| Arc::new(network) as _)
             .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error)),

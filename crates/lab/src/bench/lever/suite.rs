@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use pushplan::internals::asset::ToolLibrary;
-use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::scene::{
     Goal, LeverJob, LeverRules, LeverScene, Obstacle, Plate, PushRules, Robot, Scene, Task,
@@ -13,6 +12,7 @@ use pushplan::internals::solve::lever::LeverPlanner;
 use pushplan::internals::solve::{PlanStatus, SolveError};
 use pushplan::internals::store::{Measured, Seconds};
 use pushplan::internals::verify::{LeverVerifier, VerifySettings};
+use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 
 /// The name of what must be left, and of the tool that does it.
 const POCKET: &str = "pocket";

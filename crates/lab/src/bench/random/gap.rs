@@ -6,7 +6,9 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use pushplan::internals::geometry::{Pose, Shape, Vector};
-use pushplan::internals::scene::{Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns};
+use pushplan::internals::scene::{
+    Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
+};
 
 use super::kind::TaskKind;
 use super::layout::round;
