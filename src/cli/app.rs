@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
-use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -54,8 +53,8 @@ const GROUPS: Groups = &[
     ("Measure", &["bench"]),
 ];
 
-/// Runs the command with the given arguments, the program's name first.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 
@@ -65,35 +64,35 @@ pub fn command() -> clap::Command {
 }
 
 /// Runs a command of this family: parses its arguments, starts a session, has `execute` do what
-/// they ask for, and reports what goes wrong.
+/// they ask for, reports what goes wrong, and gives the exit code.
 pub fn start<C: Parser>(
     args: impl IntoIterator<Item = OsString>,
     groups: Groups,
     global: impl FnOnce(&C) -> &GlobalArgs,
     execute: impl FnOnce(&C, &Session) -> Result<u8, CliError>,
-) -> ExitCode {
+) -> u8 {
     let parsed = grouped(C::command(), groups).try_get_matches_from(args);
     let cli = match parsed.and_then(|mut matches| C::from_arg_matches_mut(&mut matches)) {
         Ok(cli) => cli,
         Err(message) => {
             if let Some(said) = moved::now(&message) {
                 let _ = writeln!(std::io::stderr(), "{said}");
-                return exit_code::USAGE.into();
+                return exit_code::USAGE;
             }
             // Help and version come here too, for stdout and with code 0.
             let _ = message.print();
             let wrong = message.use_stderr();
-            return if wrong { exit_code::USAGE } else { exit_code::DONE }.into();
+            return if wrong { exit_code::USAGE } else { exit_code::DONE };
         }
     };
     let done = interrupt::install()
         .and_then(|()| Session::start(global(&cli)))
         .and_then(|session| execute(&cli, &session));
     match done {
-        Ok(code) => code.into(),
+        Ok(code) => code,
         Err(error) => {
             report(&error);
-            error.exit_code().into()
+            error.exit_code()
         }
     }
 }

@@ -8,20 +8,16 @@
 //! prints nothing.
 
 mod baselines;
-mod calibration;
 mod comparison;
 mod error;
-mod lever;
 mod model_errors;
 mod physical;
 mod statistics;
 mod trial;
 
 pub use baselines::{SHIFTED_START, assumed, mistaken_frictions, recorded_baselines, rivals};
-pub use calibration::Calibration;
 pub use comparison::Comparison;
 pub use error::{MOVED, ObjectError, object_errors};
-pub use lever::{LeverError, lever_error};
 pub use model_errors::{
     CurvePoint, ModelErrors, OneError, Phases, RecordedErrors, TrialErrors, own_spread,
 };

@@ -9,6 +9,7 @@
 #[doc(hidden)]
 pub mod cli;
 pub mod dataset;
+pub mod judge;
 pub mod network;
 #[doc(hidden)]
 pub mod report;

@@ -13,5 +13,5 @@ fn main() -> ExitCode {
     // own threads, see `--threads`.
     // SAFETY: no other thread exists yet that could read the environment.
     unsafe { std::env::set_var("RAYON_NUM_THREADS", "1") };
-    pushplan_learn::cli::run(std::env::args_os())
+    pushplan_learn::cli::run(std::env::args_os()).into()
 }

@@ -24,13 +24,12 @@ __all__ = [
     "ToolLibrary",
     "Trajectory",
     "Verdict",
-    "blade_schema",
     "export_mcap",
     "export_mjcf",
     "import_task",
     "import_tool",
     "infer",
-    "lever_task_schema",
+    "main",
     "predict",
     "recording_schema",
     "rollout",
@@ -47,7 +46,7 @@ __version__: str
 
 _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
-_Effort = Literal["draft", "standard", "thorough", "exhaustive"]
+_Effort = Literal["draft", "standard", "thorough"]
 _Outside = Literal["warn", "simulate", "refuse"]
 
 @final
@@ -416,7 +415,7 @@ def solve_all(
     threads: int = 0,
 ) -> list[Solution]: ...
 def predict(
-    plan: Plan, model: str = "prior", *, outside: _Outside = "warn", threads: int = 0
+    plan: Plan, model: str = "network", *, outside: _Outside = "warn", threads: int = 0
 ) -> Trajectory: ...
 def verify(
     plan: Plan,
@@ -434,7 +433,7 @@ def rollout(
     *,
     grip_yaw: npt.ArrayLike | None = None,
     start: npt.ArrayLike | None = None,
-    model: str = "prior",
+    model: str = "network",
     outside: _Outside = "warn",
     record: Literal["frames", "outcome"] = "frames",
     tools: ToolLibrary | None = None,
@@ -449,6 +448,7 @@ def infer(
     mass_ranges: Sequence[tuple[float, float]] | None = None,
     threads: int = 0,
 ) -> Belief: ...
+def main(arguments: Sequence[str]) -> int: ...
 def import_tool(
     path: _Path, *, body: str | None = None, name: str | None = None, friction: float = 0.5
 ) -> Tool: ...
@@ -471,6 +471,4 @@ def export_mcap(
 ) -> None: ...
 def tool_schema() -> dict[str, Any]: ...
 def task_schema() -> dict[str, Any]: ...
-def lever_task_schema() -> dict[str, Any]: ...
-def blade_schema() -> dict[str, Any]: ...
 def recording_schema() -> dict[str, Any]: ...

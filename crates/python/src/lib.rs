@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 
 mod arrays;
 mod belief;
+mod command;
 mod errors;
 mod formats;
 mod json;
@@ -36,6 +37,8 @@ mod _native {
     #[pymodule_export]
     use super::belief::{PyBelief, PyRecording, infer};
     #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
     use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
     #[pymodule_export]
     use super::plan::PyPlan;
@@ -47,7 +50,7 @@ mod _native {
     use super::run::{PyMotion, PyRun, run};
     #[pymodule_export]
     use super::schemas::{
-        blade_schema, lever_task_schema, recording_schema, task_schema, tool_schema,
+        recording_schema, task_schema, tool_schema,
     };
     #[pymodule_export]
     use super::solution::PySolution;

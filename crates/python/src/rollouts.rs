@@ -68,10 +68,10 @@ impl Rollouts {
 ///
 /// `grip_yaw` (radians from world +x) is one for all or `[candidates]`. Everything begins at rest at
 /// `start`, `[objects, 3]` or `[candidates, objects, 3]`, by default as the task states it. `model`
-/// is "prior", "network", "planar", "3d" and so on. With `record` "outcome" there is one frame, the
+/// is "network", "prior", "planar", "3d" and so on. With `record` "outcome" there is one frame, the
 /// last.
 #[pyfunction]
-#[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, start = None, model = "prior",
+#[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, start = None, model = "network",
                     outside = "warn", record = "frames", tools = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn rollout(

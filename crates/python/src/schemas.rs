@@ -17,18 +17,6 @@ pub fn task_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
     dict(py, &pushplan::asset::task_schema())
 }
 
-/// The JSON schema (draft 2020-12) of task files of levering.
-#[pyfunction]
-pub fn lever_task_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    dict(py, &pushplan::asset::lever_task_schema())
-}
-
-/// The JSON schema (draft 2020-12) of files of tools with blades.
-#[pyfunction]
-pub fn blade_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    dict(py, &pushplan::asset::blade_schema())
-}
-
 /// The JSON schema (draft 2020-12) of recordings and of what `Recording.of` takes.
 #[pyfunction]
 pub fn recording_schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {

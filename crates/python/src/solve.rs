@@ -132,10 +132,10 @@ fn solution(
     Ok(PySolution { task, task_file, solution })
 }
 
-/// What `model` predicts for a plan, frame by frame: "prior", "network", "planar", "3d" and so on.
+/// What `model` predicts for a plan, frame by frame: "network", "prior", "planar", "3d" and so on.
 /// Raises `RefusedError` where the model should not be trusted and `outside` is "refuse".
 #[pyfunction]
-#[pyo3(signature = (plan, model = "prior", *, outside = "warn", threads = 0))]
+#[pyo3(signature = (plan, model = "network", *, outside = "warn", threads = 0))]
 pub fn predict(
     py: Python<'_>,
     plan: &PyPlan,

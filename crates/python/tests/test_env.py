@@ -41,7 +41,7 @@ def test_its_physics_are_those_of_predict(task: pushplan.Task) -> None:
     push = pushplan.Push.before("can", math.pi, length=0.15)
     plan = pushplan.Plan.of(task, "l-hook", [push], grip_yaw=0.0)
     # Actions are of single precision.
-    assert np.allclose(env.poses, pushplan.predict(plan).poses[-1], atol=1e-4)
+    assert np.allclose(env.poses, pushplan.predict(plan, "prior").poses[-1], atol=1e-4)
 
 
 def test_a_push_that_cannot_be_made_moves_nothing(task: pushplan.Task) -> None:

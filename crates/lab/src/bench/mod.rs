@@ -5,6 +5,7 @@
 
 mod baselines;
 mod belief;
+mod calibration;
 mod closed;
 mod crowd;
 mod equations;
@@ -27,6 +28,7 @@ pub use belief::{
     Circumstances, JointMethod, Rest, RestOfWay, Right, Sighting, Sure, UpdateTimes, When,
     belief_steps, follow, summarise_beliefs, update_times,
 };
+pub use calibration::Calibration;
 pub use closed::{ClosedRecord, Left};
 pub use crowd::{CrowdFamily, CrowdReport, CrowdSet};
 pub use equations::{EquationCost, equation_costs};

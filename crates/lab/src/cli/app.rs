@@ -1,7 +1,6 @@
 //! From the command line of `pushplan-lab` to an exit code.
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use pushplan::cli::bench::saved::{MergeArgs, ReportArgs};
@@ -60,8 +59,8 @@ const GROUPS: Groups = &[
     ("Runs that are kept", &["merge", "status", "report"]),
 ];
 
-/// Runs the command with the given arguments, the program's name first.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 

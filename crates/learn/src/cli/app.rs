@@ -1,7 +1,6 @@
 //! From the command line of `pushplan-learn` to an exit code.
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use pushplan::cli::bench::status;
@@ -34,8 +33,8 @@ enum Command {
 /// What the commands are for, in the order of `--help`.
 const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train"])];
 
-/// Runs the command with the given arguments, the program's name first.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     start(args, GROUPS, |cli: &Cli| &cli.global, execute)
 }
 

@@ -1,9 +1,11 @@
 //! Trajectories of a case, taken together.
 
 use pushplan::internals::belief::JointType;
-use pushplan::internals::judge::{Calibration, Summary, mean, percentile};
+use pushplan::internals::judge::{Summary, mean, percentile};
 use pushplan::internals::store::Finished;
 use serde::{Deserialize, Serialize};
+
+use crate::bench::Calibration;
 
 use super::record::{BeliefRecord, Checkpoint, JointMethod, When};
 use super::suite::BeliefCase;

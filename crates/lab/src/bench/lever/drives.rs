@@ -1,9 +1,10 @@
 //! Errors of models of boards that are levered out of drives (Tekden 2020, section 8.5).
 
 use pushplan::internals::effect::{LeverModel, LeverTrust};
-use pushplan::internals::judge::{Summary, lever_error};
+use pushplan::internals::judge::Summary;
 use pushplan::internals::scene::{LeverJob, LeverScene, LeverTrajectory};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverEpisode};
+use pushplan_learn::judge::{LeverError, lever_error};
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::on_one_core;
@@ -79,7 +80,7 @@ fn row(model: &dyn LeverModel, episodes: &[&LeverEpisode]) -> DriveRow {
         is_outside(&episode.scene, said) == is_outside(&episode.scene, &episode.trajectory)
     });
     let right = right.count() as f64 / mine.len().max(1) as f64;
-    let of = |error: fn(&pushplan::internals::judge::LeverError) -> f64| {
+    let of = |error: fn(&LeverError) -> f64| {
         Summary::of(&errors.iter().map(error).collect::<Vec<f64>>())
     };
     DriveRow {

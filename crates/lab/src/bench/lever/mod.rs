@@ -5,6 +5,7 @@ mod baselines;
 mod convergence;
 mod drives;
 mod networks;
+mod point_search;
 mod points;
 mod suite;
 mod supports;

@@ -1,13 +1,14 @@
 //! How well the lever point is inferred from the first frames, and what it says of the rest.
 
 use pushplan::internals::effect::LeverModel;
-use pushplan::internals::fit::LeverSearch;
 use pushplan::internals::geometry::Pose3;
 use pushplan::internals::judge::Summary;
 use pushplan::internals::scene::LEVER_FRAMES;
 use pushplan_learn::dataset::{LeverEpisode, LeverPreset};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+
+use super::point_search::LeverSearch;
 
 /// What so many frames say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,5 @@
 //! Generated tasks of levering: take the board out of the pocket of a drive.
 
-use serde::{Deserialize, Serialize};
-
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::scene::{
@@ -13,6 +11,7 @@ use pushplan::internals::solve::{PlanStatus, SolveError};
 use pushplan::internals::store::{Measured, Seconds};
 use pushplan::internals::verify::{LeverVerifier, VerifySettings};
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
+use serde::{Deserialize, Serialize};
 
 /// The name of what must be left, and of the tool that does it.
 const POCKET: &str = "pocket";

@@ -1,8 +1,10 @@
 //! Many trajectories in a few numbers.
 
-use pushplan::internals::judge::{Calibration, mean, percentile};
+use pushplan::internals::judge::{mean, percentile};
 use pushplan_learn::dataset::{MASS_RANGES, Touched};
 use serde::{Deserialize, Serialize};
+
+use crate::bench::Calibration;
 
 use super::suite::{MassCase, MassRecord, SeenMass, SeenRatio};
 

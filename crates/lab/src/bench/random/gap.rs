@@ -2,13 +2,12 @@
 //!
 //! What a planner says about them shows whether rigid things stay rigid in its verdict.
 
-use rand::Rng;
-use rand_pcg::Pcg64;
-
 use pushplan::internals::geometry::{Pose, Shape, Vector};
 use pushplan::internals::scene::{
     Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
 };
+use rand::Rng;
+use rand_pcg::Pcg64;
 
 use super::kind::TaskKind;
 use super::layout::round;

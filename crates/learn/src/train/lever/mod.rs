@@ -6,7 +6,6 @@ mod settings;
 use std::path::PathBuf;
 
 use pushplan::internals::effect::{LeverModel, LeverNetwork};
-use pushplan::internals::judge::lever_error;
 use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
 use pushplan::internals::scene::LeverJob;
 use pushplan::internals::seeded::generator;
@@ -15,6 +14,7 @@ use pushplan::internals::watch::Watch;
 use rand::Rng;
 
 use crate::dataset::LeverEpisode;
+use crate::judge::lever_error;
 use crate::network::LeverGraph;
 
 use super::gradients::gradients_of;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Pose3;
-use crate::scene::{LeverJob, LeverTrajectory};
+use pushplan::internals::geometry::Pose3;
+use pushplan::internals::scene::{LeverJob, LeverTrajectory};
 
 /// Differences of two trajectories of one lever-up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,9 +5,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::effect::LeverModel;
-use crate::geometry::{Pose3, Vector, Vector3};
-use crate::scene::{LeverJob, LeverTrajectory, LeverUp, Place};
+use pushplan::internals::effect::LeverModel;
+use pushplan::internals::geometry::{Pose3, Vector, Vector3};
+use pushplan::internals::scene::{LeverJob, LeverTrajectory, LeverUp, Place};
 
 /// Spacing of the first places, metres.
 const SPACING: f64 = 0.01;
@@ -171,9 +171,9 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::effect::LeverPrior;
-    use crate::geometry::Pose;
-    use crate::scene::{Blade, LeverScene, Plate, Slab};
+    use pushplan::internals::effect::LeverPrior;
+    use pushplan::internals::geometry::Pose;
+    use pushplan::internals::scene::{Blade, LeverScene, Plate, Slab};
 
     /// A plate that is no mirror image of itself, levered somewhere along its second edge.
     fn job() -> LeverJob {
