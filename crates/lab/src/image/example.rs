@@ -7,7 +7,7 @@ use pushplan_learn::dataset::LeverEpisode;
 use pushplan_learn::train::LeverExample;
 use rayon::prelude::*;
 
-use super::{ImageSettings, ImageSizes, lever_image};
+use super::{ImageFeatures, ImageSettings, ImageSizes, lever_image};
 
 /// A lever-up with its answer, and what is seen of it.
 #[derive(Clone, Debug)]
@@ -31,11 +31,16 @@ impl Seen {
     }
 }
 
-/// What a memory that sees images is told beside them.
-pub(super) fn inputs(job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverInputs {
+/// What a network that sees images is told of a job, with what the prior says of it if that is
+/// corrected: what stands beside the image, and the image, row by row.
+pub fn image_inputs(
+    features: ImageFeatures,
+    job: &LeverJob,
+    prior: Option<&LeverTrajectory>,
+) -> (LeverInputs, Vec<f32>) {
     let mut inputs = lever_inputs(LeverFeatures::Nothing, job, prior);
     hide_thickness(&mut inputs);
-    inputs
+    (inputs, lever_image(features, job, &LeverView::new(job)))
 }
 
 /// How thick a plate is belongs to what is seen of it, or is not.

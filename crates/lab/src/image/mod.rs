@@ -20,6 +20,7 @@ mod train;
 pub use card::{CODE, ImageCard, ImageWeights, fresh_image};
 pub use convolution::{Convolution, ImageSizes, fresh_bound, image_code, image_layout};
 pub use drawn::lever_image;
+pub use example::image_inputs;
 pub use features::ImageFeatures;
 pub use graph::{Autoencoder, ImageGraph, autoencoder_layout, fresh_autoencoder};
 pub use model::ImageNetwork;

@@ -1,7 +1,7 @@
 //! Networks that see images as models of lever-ups.
 
 use pushplan::internals::effect::{
-    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
+    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust,
 };
 use pushplan::internals::network::{
     LeverCell, LeverSizes, LeverWeights, Parameters, Statistics, tanh,
@@ -9,8 +9,7 @@ use pushplan::internals::network::{
 use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use rayon::prelude::*;
 
-use super::example::inputs;
-use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, lever_image};
+use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
 
 /// A network, alone or as a correction of the prior.
 #[derive(Clone, Debug)]
@@ -56,8 +55,7 @@ impl ImageNetwork {
     }
 
     fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
-        let inputs = inputs(job, prior);
-        let image = lever_image(self.features, job, &LeverView::new(job));
+        let (inputs, image) = image_inputs(self.features, job, prior);
         let code = image_code(&self.sizes, &self.parameters, &image);
         let still: Vec<f32> =
             inputs.still.iter().copied().chain(code.into_iter().map(tanh)).collect();
