@@ -66,7 +66,7 @@ fn main() -> Result<(), pushplan::Error> {
     assert_eq!(solution.status, PlanStatus::Solved);
     if let Some(best) = solution.best() {
         let robustness = best.verdict.as_ref().and_then(|verdict| verdict.robustness);
-        println!("{}: use the {}", task.name, best.plan.tool);
+        println!("{}: use the {}", task.name, best.plan.tool());
         println!("{:.0} % of disturbed replays work", 100.0 * robustness.unwrap_or_default());
     }
     Ok(())

@@ -2,7 +2,6 @@
 //! `cargo run --release --example solve_task [-- FOLDER]`.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::{
@@ -26,15 +25,15 @@ fn main() -> Result<(), pushplan::Error> {
     let solution = planner.solve(&task, &library)?;
     assert_eq!(solution.status, PlanStatus::Solved);
     let Some(best) = solution.best() else { return Ok(()) };
-    let pushes = best.plan.pushes.len();
-    println!("{}: {pushes} push(es) with the {}", task.name, best.plan.tool);
+    let pushes = best.plan.steps.len();
+    println!("{}: {pushes} push(es) with the {}", task.name, best.plan.tool());
     println!("off by {:.1} mm as predicted", 1000.0 * best.outcome.error);
 
     // `pushplan verify` and `pushplan export` read this file.
     if let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) {
         let file = PlanFile {
             task,
-            tool: Arc::clone(&best.tool),
+            tools: best.tools.clone(),
             plan: best.plan.clone(),
             model: Some(best.predicted.by.clone()),
             predicted: Some(best.outcome.clone()),

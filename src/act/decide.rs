@@ -116,14 +116,14 @@ impl Runner<'_> {
     ) -> Result<Option<Judged>, ActError> {
         let quiet = Quiet(watch);
         let solution = self.planner.solve_from(situation, task, self.library, &quiet)?;
-        if solution.best().is_some_and(|best| best.plan.pushes.is_empty() && best.outcome.reached) {
+        if solution.best().is_some_and(|best| best.plan.is_empty() && best.outcome.reached) {
             return Ok(None);
         }
         let plans: Vec<(Plan, Arc<Tool>)> = solution
             .plans
             .into_iter()
-            .filter(|ranked| !ranked.plan.pushes.is_empty())
-            .map(|ranked| (ranked.plan, ranked.tool))
+            .filter(|ranked| !ranked.plan.is_empty())
+            .filter_map(|ranked| Some((ranked.plan, ranked.tools.into_iter().next()?)))
             .collect();
         let reach = samples.reach(self.planner.model(), task, &plans);
         Ok(Some(Judged { plans, reach }))
@@ -147,8 +147,9 @@ fn probes(steps: &[Step]) -> usize {
 /// What is left of a plan after a step, moved by as much as the object stands beside where it was
 /// expected; `None` if that breaks a rule of the task or no push is left.
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
-    let left = last.plan.pushes.get(last.pushes..).filter(|left| !left.is_empty())?;
-    if last.why == Why::Probe || last.plan.form == PushForm::Chained {
+    let made = last.plan.pushes();
+    let left = made.get(last.pushes..).filter(|left| !left.is_empty())?;
+    if last.why == Why::Probe || last.plan.form() == PushForm::Chained {
         return None;
     }
     let off: Vector = now.start.poses[task.goal.object].position - last.expected.position;
@@ -160,6 +161,6 @@ fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> 
     };
     let pushes: Vec<AskedPush> = left.iter().map(asked).collect();
     let tool = Arc::new(last.tool.clone());
-    let asked = asked_plan(task, now, &tool, &[last.plan.grip_yaw], &pushes).ok()?;
+    let asked = asked_plan(task, now, &tool, &[last.plan.grip_yaw()], &pushes).ok()?;
     asked.broken.is_empty().then_some((asked.plan, tool))
 }

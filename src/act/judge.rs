@@ -35,7 +35,7 @@ impl Samples {
     pub fn jobs(&self, motion: &ToolMotion) -> Vec<Job> {
         let job = |physics: &Arc<Physics>| Job {
             start: self.now.start.clone(),
-            motion: motion.clone(),
+            motion: motion.clone().into(),
             physics: Arc::clone(physics),
         };
         self.physics.iter().map(job).collect()
@@ -52,7 +52,7 @@ impl Samples {
             plans.iter().flat_map(|(plan, tool)| self.jobs(&plan.motion(tool))).collect();
         let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
         let reach = |trajectory: &Trajectory| {
-            let outcome = Outcome::judge(&task.goal, trajectory);
+            let outcome = Outcome::judge(&task.scene, &task.goal, trajectory);
             let score = task.goal.score(&outcome.state);
             // A NaN is no smaller than anything.
             Reach { reached: outcome.reached, score: if score < WORST { score } else { WORST } }

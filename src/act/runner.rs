@@ -153,11 +153,11 @@ impl<'a> Runner<'a> {
         (why, plan, tool, chance): (Why, Plan, Arc<Tool>, Chance),
     ) -> Result<Step, ActError> {
         let task = &trace.task;
-        let pushes = match plan.form {
-            PushForm::Placed => 1.min(plan.pushes.len()),
-            PushForm::Chained => plan.pushes.len(),
+        let pushes = match plan.form() {
+            PushForm::Placed => 1.min(plan.pushes().len()),
+            PushForm::Chained => plan.pushes().len(),
         };
-        let done = Plan { pushes: plan.pushes[..pushes].to_vec(), ..plan.clone() };
+        let done = plan.first(pushes);
         let predicted = self.predicted(&belief.situation(), &done, &tool, Record::Frames);
         let rest = predicted.outcome();
         let motion = done.motion(&tool);
@@ -171,7 +171,7 @@ impl<'a> Runner<'a> {
             Ok(look)
         };
         let observations = rests(trace, &mut gatherer, seen, &mut look)?;
-        self.believe(belief, (&tool, plan.lift), observations);
+        self.believe(belief, (&tool, plan.lift()), observations);
         Ok(Step {
             why,
             pushes,
@@ -193,7 +193,8 @@ impl<'a> Runner<'a> {
     /// Takes a step of a trace into the belief again.
     fn again(&self, trace: &Trace, belief: &mut Belief, step: &Step) -> Result<(), ActError> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
-        let pushes = step.plan.pushes.get(..step.pushes).filter(|pushes| !pushes.is_empty());
+        let made = step.plan.pushes();
+        let pushes = made.get(..step.pushes).filter(|pushes| !pushes.is_empty());
         let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan has not"))?;
         let count = trace.task.scene.objects.len();
         let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
@@ -205,7 +206,7 @@ impl<'a> Runner<'a> {
         if !pushes.iter().all(can_be) {
             return Err(unfit("a step makes a push that none can make"));
         }
-        let done = Plan { pushes: pushes.to_vec(), ..step.plan.clone() };
+        let done = step.plan.first(pushes.len());
         let tool = Arc::new(step.tool.clone());
         let motion = done.motion(&tool);
         let now = belief.situation();
@@ -215,7 +216,7 @@ impl<'a> Runner<'a> {
         let mut again = step.again.iter().cloned();
         let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
         let observations = rests(trace, &mut gatherer, seen, &mut look)?;
-        self.believe(belief, (&tool, done.lift), observations);
+        self.believe(belief, (&tool, done.lift()), observations);
         Ok(())
     }
 
@@ -246,7 +247,7 @@ impl<'a> Runner<'a> {
         rolled.filter(|rolled| !rolled.frames.is_empty()).unwrap_or_else(|| {
             Trajectory::standing(
                 model.spec().clone(),
-                job.motion.strokes[0].from,
+                job.motion.slide().strokes[0].from,
                 now.start.clone(),
             )
         })

@@ -57,7 +57,7 @@ impl World for SimulatedWorld {
 
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
         let physics = Physics::stated(&self.truth.scene).into();
-        let job = Job { start: self.state.clone(), motion: motion.clone(), physics };
+        let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
         let trajectory = self.simulator.run(&self.truth.scene, &job, Record::Frames);
         if let Some(warning) = trajectory.warnings.iter().find(|warning| ends(warning)) {
             return Err(WorldError(format!("the simulated world cannot go on: {warning}")));
@@ -89,7 +89,11 @@ pub fn really(trace: &Trace) -> Vec<Trajectory> {
     let begins = std::iter::once(before).chain(begins);
     let replay = |(begin, step): (&WorldState, &Step)| {
         let (start, physics) = (begin.state.clone(), Arc::clone(&physics));
-        simulator.run(&truth.scene, &Job { start, motion: step.motion(), physics }, Record::Frames)
+        simulator.run(
+            &truth.scene,
+            &Job { start, motion: step.motion().into(), physics },
+            Record::Frames,
+        )
     };
     begins.zip(&trace.steps).map(replay).collect()
 }

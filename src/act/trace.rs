@@ -122,8 +122,7 @@ pub enum End {
 impl Step {
     /// The motion of the pushes that were made.
     pub fn motion(&self) -> ToolMotion {
-        let pushes = self.plan.pushes.iter().take(self.pushes).copied().collect();
-        Plan { pushes, ..self.plan.clone() }.motion(&Arc::new(self.tool.clone()))
+        self.plan.first(self.pushes).motion(&Arc::new(self.tool.clone()))
     }
 }
 

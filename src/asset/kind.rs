@@ -11,7 +11,7 @@ use super::lever::{BLADE_TOOL_KEYS, LEVER_TASK_KEYS};
 use super::library::ToolLibrary;
 use super::node::Node;
 use super::recording::RECORDING_KEYS;
-use super::saved::{LeverPlanFile, LeverTrajectoryFile, PlanFile, TrajectoryFile};
+use super::saved::{PlanFile, TrajectoryFile};
 use super::text::{Source, read_text};
 use super::{spec::Key, task, tool, world};
 
@@ -30,10 +30,6 @@ pub enum Kind {
     Recording,
     /// A world file.
     World,
-    /// A plan file of levering.
-    LeverPlan,
-    /// A trajectory file of levering.
-    LeverTrajectory,
 }
 
 impl fmt::Display for Kind {
@@ -45,8 +41,6 @@ impl fmt::Display for Kind {
             Kind::Trajectory => "trajectory",
             Kind::Recording => "recording",
             Kind::World => "world",
-            Kind::LeverPlan => "plan of levering",
-            Kind::LeverTrajectory => "trajectory of levering",
         })
     }
 }
@@ -67,19 +61,15 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
         // What it says of a task's objects can be checked beside the task alone.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
-        Kind::LeverPlan => LeverPlanFile::parse(&text, &file).map(|_| kind),
-        Kind::LeverTrajectory => LeverTrajectoryFile::parse(&text, &file).map(|_| kind),
     }
 }
 
 fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
     let root = Node::parse(Source::of(file, text))?;
     match root.get("kind").and_then(Node::text) {
-        Some("plan") => return Ok(Kind::Plan),
+        Some("plan" | "lever_plan") => return Ok(Kind::Plan),
         Some("trajectory") => return Ok(Kind::Trajectory),
         Some("recording") => return Ok(Kind::Recording),
-        Some("lever_plan") => return Ok(Kind::LeverPlan),
-        Some("lever_trajectory") => return Ok(Kind::LeverTrajectory),
         _ => {}
     }
     // By the number of keys that fit, so that a misspelled one does not hide what was meant.

@@ -33,12 +33,9 @@ pub use kind::{Kind, check};
 pub use library::ToolLibrary;
 pub use printable::printable;
 pub use recording::RECORDING_FORMAT;
-pub use saved::{
-    AnyPlanFile, LeverPlanFile, LeverTrajectoryFile, PlanFile, SCHEMA_VERSION, TrajectoryFile,
-};
+pub use saved::{PLAN_VERSION, PlanFile, SCHEMA_VERSION, TrajectoryFile};
 pub use schema::{
-    lever_plan_schema, lever_trajectory_schema, plan_schema, recording_schema, task_schema,
-    tool_schema, trajectory_schema, world_schema,
+    plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
 };
 pub use task::load_task;
 pub use text::{named_after, read_text};

@@ -45,16 +45,6 @@ pub fn task_schema() -> Json {
     schema
 }
 
-/// The schema of plan files of levering.
-pub fn lever_plan_schema() -> Json {
-    document("pushplan plan of levering", &super::saved::LEVER_PLAN_FILE)
-}
-
-/// The schema of trajectory files of levering.
-pub fn lever_trajectory_schema() -> Json {
-    document("pushplan trajectory of levering", &super::saved::LEVER_TRAJECTORY_FILE)
-}
-
 /// The schema of plan files.
 pub fn plan_schema() -> Json {
     document("pushplan plan", &super::saved::PLAN_FILE)

@@ -65,7 +65,7 @@ impl Belief {
         let start = &self.track.state;
         let job = |physics: Physics| Job {
             start: start.clone(),
-            motion: motion.clone(),
+            motion: motion.clone().into(),
             physics: Arc::new(physics),
         };
         let jobs: Vec<Job> = std::iter::once(self.supposed()).chain(drawn).map(job).collect();

@@ -135,7 +135,7 @@ impl Belief {
     pub(super) fn job(&self, window: &[Observation], physics: Physics) -> Job {
         let strokes: Vec<Stroke> = window.iter().flat_map(|seen| seen.strokes.clone()).collect();
         let motion = ToolMotion { tool: Arc::clone(&self.tool), lift: self.lift, strokes };
-        Job { start: self.track.state.clone(), motion, physics: Arc::new(physics) }
+        Job { start: self.track.state.clone(), motion: motion.into(), physics: Arc::new(physics) }
     }
 
     /// A pair at the observations of a window, as it was seen and as it was rolled out.

@@ -83,7 +83,7 @@ impl Belief {
         let scene = self.scene_at(start);
         let job = |physics| Job {
             start: start.clone(),
-            motion: motion.clone(),
+            motion: motion.clone().into(),
             physics: Arc::new(physics),
         };
         let roll = |each: Vec<Physics>| {

@@ -8,11 +8,10 @@ use clap::Args;
 use crate::asset::ToolLibrary;
 use crate::report::Origin;
 use crate::scene::{ModelSpec, Plan, Situation, Task, Tool};
-use crate::solve::lever::AskedLever;
-use crate::solve::{ActionError, AskedPush, asked_plan};
+use crate::solve::{ActionError, AskedLever, AskedPush, asked_lever, asked_plan};
 
 use super::{
-    error::CliError, lever::lever_argument, push_argument::push_argument, session::Session,
+    error::CliError, lever_argument::lever_argument, push_argument::push_argument, session::Session,
 };
 
 /// Where tools come from.
@@ -76,22 +75,6 @@ impl ActionArgs {
         self.tool.is_some() || self.lever.is_some()
     }
 
-    /// The lever-up, and the name of its tool if one is given.
-    ///
-    /// # Errors
-    /// [`CliError::Usage`] if pushes are given, or nothing.
-    pub fn lever(&self) -> Result<(Option<&str>, &AskedLever), CliError> {
-        let lever = self.lever.as_ref().ok_or_else(|| {
-            let advice = "add --lever point=0:0.5,depth=0.012,angle=90, see --help";
-            let message = match self.pushes.is_empty() {
-                true => "this is a task of levering, and no lever-up is given",
-                false => "this is a task of levering, not one of pushes",
-            };
-            CliError::usage(message, advice)
-        })?;
-        Ok((self.tool.as_deref(), lever))
-    }
-
     /// The action as a plan, with the tool that it names; rules of the task that it breaks are
     /// warned of.
     ///
@@ -103,14 +86,24 @@ impl ActionArgs {
         library: &ToolLibrary,
         session: &Session,
     ) -> Result<(Plan, Arc<Tool>), CliError> {
-        if self.lever.is_some() {
-            let advice = "give --tool and --push, or another task";
-            return Err(CliError::usage("this task is one of pushes, not of levering", advice));
+        if let Some(lever) = &self.lever {
+            return self.levering(task, library, lever, session);
+        }
+        if task.levers.is_some() && (self.tool.is_none() || task.pushes.max_count == 0) {
+            let advice = "add --lever point=0:0.5,depth=0.012,angle=90, see --help";
+            let message = match self.pushes.is_empty() {
+                true => "this is a task of levering, and no lever-up is given",
+                false => "this is a task of levering, not one of pushes",
+            };
+            return Err(CliError::usage(message, advice));
         }
         let name = self.tool.as_deref().ok_or_else(|| {
             CliError::usage("no action is given", "add --tool and --push, see --help")
         })?;
-        let tool = library.get(name).ok_or_else(|| unknown_tool(name, library))?;
+        let tool = library
+            .get(name)
+            .filter(|tool| tool.pushes())
+            .ok_or_else(|| unknown_tool(name, "tool", library.iter()))?;
         let yaws = match self.grip_yaw_deg {
             Some(yaw) if yaw.is_finite() => vec![yaw.to_radians()],
             Some(_) => return Err(CliError::usage("--grip-yaw-deg must be finite", "try 90")),
@@ -124,6 +117,37 @@ impl ActionArgs {
             session.warn(&format!("push {}: {rule}; a plan would not contain it", push + 1));
         }
         Ok((asked.plan, Arc::clone(tool)))
+    }
+
+    /// A lever-up as a plan, with its tool: the one that is named, or else the first of the task.
+    fn levering(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        lever: &AskedLever,
+        session: &Session,
+    ) -> Result<(Plan, Arc<Tool>), CliError> {
+        if task.levers.is_none() {
+            let advice = "give --tool and --push, or another task";
+            return Err(CliError::usage("this task is one of pushes, not of levering", advice));
+        }
+        let tool = match &self.tool {
+            Some(name) => {
+                let found = library.get(name).filter(|tool| tool.blade().is_some());
+                let blades = library.blades().iter();
+                Arc::clone(found.ok_or_else(|| unknown_tool(name, "tool with a blade", blades))?)
+            }
+            None => task.blades(library)?.remove(0),
+        };
+        let (plan, broken) = asked_lever(task, &tool, lever).map_err(|error| {
+            let advice = "edge 0 runs from the first corner to the second, counter-clockwise; of a \
+                          cuboid it is that at the smallest y";
+            CliError::usage(error.to_string(), advice)
+        })?;
+        if let Some(rule) = &broken {
+            session.warn(&format!("{rule}; a plan would not contain it"));
+        }
+        Ok((plan, tool))
     }
 }
 
@@ -144,7 +168,11 @@ fn refused(error: &ActionError, task: &Task) -> CliError {
     CliError::usage(error.to_string(), advice)
 }
 
-fn unknown_tool(name: &str, library: &ToolLibrary) -> CliError {
-    let names: Vec<&str> = library.iter().map(|tool| tool.name.as_str()).collect();
-    CliError::usage(format!("no tool is called `{name}`"), format!("use {}", names.join(", ")))
+fn unknown_tool<'a>(
+    name: &str,
+    what: &str,
+    known: impl Iterator<Item = &'a Arc<Tool>>,
+) -> CliError {
+    let names: Vec<&str> = known.map(|tool| tool.name.as_str()).collect();
+    CliError::usage(format!("no {what} is called `{name}`"), format!("use {}", names.join(", ")))
 }

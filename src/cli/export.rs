@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::{self, Fault, Faults, Kind, PlanFile, SCHEMA_VERSION, TrajectoryFile};
-use crate::export::{ExportError, REPLAY_SCRIPT, mjcf};
+use crate::export::{ExportError, LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use crate::scene::{ModelSpec, Trajectory};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
@@ -19,7 +19,8 @@ use super::{error::CliError, exit_code, model, output, session::Session};
   pushplan export plans/pull-back.plan.json --format mcap --model planar
 
 mjcf writes <out>/<plan>.xml, a scene of MuJoCo with the plan's pushes and goal in it, and
-<out>/replay.py, which plays such scenes and says for each whether the plan works there.
+<out>/replay.py, which plays such scenes and says for each whether the plan works there; of a plan with
+lever-ups <out>/lever.py does.
 
 mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
 foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
@@ -84,6 +85,8 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
     }
     output::prepare(&args.out)?;
     let mut written = Vec::new();
+    let in_space = |plan: &PlanFile| plan.task.in_space() || plan.plan.levers();
+    let spaces: Vec<bool> = opened.iter().map(|(_, plan, _)| in_space(plan)).collect();
     for (name, (path, plan, known)) in names.iter().zip(opened) {
         let refused = |error: ExportError| CliError::File(format!("{}: {error}", path.display()));
         let bytes = match args.format {
@@ -102,7 +105,13 @@ pub fn run(args: &ExportArgs, session: &Session) -> Result<u8, CliError> {
         written.push(output::write(&args.out, name, &bytes)?);
     }
     if args.format == Format::Mjcf {
-        written.push(output::write(&args.out, "replay.py", REPLAY_SCRIPT.as_bytes())?);
+        for (script, text, of_space) in
+            [("replay.py", REPLAY_SCRIPT, false), ("lever.py", LEVER_SCRIPT, true)]
+        {
+            if spaces.contains(&of_space) {
+                written.push(output::write(&args.out, script, text.as_bytes())?);
+            }
+        }
     }
     if args.json {
         let report = json!({"schema_version": SCHEMA_VERSION, "files": written});
@@ -120,9 +129,9 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
     match asset::check(path, None)? {
         Kind::Plan => PlanFile::load(path).map(|plan| (plan, None)),
         Kind::Trajectory => {
-            let TrajectoryFile { task, tool, plan, trajectory } = TrajectoryFile::load(path)?;
+            let TrajectoryFile { task, tools, plan, trajectory } = TrajectoryFile::load(path)?;
             let model = Some(trajectory.by.clone());
-            let plan = PlanFile { task, tool, plan, model, predicted: None, verdict: None };
+            let plan = PlanFile { task, tools, plan, model, predicted: None, verdict: None };
             Ok((plan, Some(trajectory)))
         }
         kind => {
@@ -143,13 +152,22 @@ fn carried_out(
 ) -> Result<Trajectory, CliError> {
     use crate::effect::EffectModel;
     use crate::scene::{Job, Record};
-    let model = model::load(spec)?;
     let scene = &plan.task.scene;
-    let job = Job::stated(scene, plan.plan.motion(&plan.tool));
-    let jobs = std::slice::from_ref(&job);
-    let rolled = session.compute(|| model.rollout(scene, jobs, Record::Frames)).pop();
+    let motions = plan.plan.motions(&plan.tools).unwrap_or_default();
     let trajectory =
-        rolled.ok_or_else(|| CliError::unexpected("cannot carry out the plan", spec))?;
+        match &motions[..] {
+            [motion] => {
+                let (model, job) = (model::load(spec)?, Job::stated(scene, motion.clone()));
+                let jobs = std::slice::from_ref(&job);
+                session.compute(|| model.rollout(scene, jobs, Record::Frames)).pop()
+            }
+            // What several tools do in turn is for the engine alone.
+            motions => Some(session.compute(|| {
+                crate::sim::Simulator::spatial().run_plan(scene, motions, Record::Frames)
+            })),
+        };
+    let trajectory =
+        trajectory.ok_or_else(|| CliError::unexpected("cannot carry out the plan", spec))?;
     for warning in &trajectory.warnings {
         session.warn(&format!("{}: {warning}", trajectory.by));
     }

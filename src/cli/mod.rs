@@ -18,7 +18,7 @@ pub mod groups;
 pub mod import;
 pub mod infer;
 pub mod interrupt;
-pub mod lever;
+pub mod lever_argument;
 pub mod model;
 pub mod moved;
 pub mod noise;

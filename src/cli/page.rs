@@ -37,11 +37,10 @@ fn predict(
     file: &PlanFile,
     spec: &ModelSpec,
 ) -> Result<Option<Trajectory>, CliError> {
-    let motion = file.plan.motion(&file.tool);
-    if motion.strokes.is_empty() {
-        return Ok(None);
-    }
-    let (model, job) = (model::load(spec)?, Job::stated(&file.task.scene, motion));
+    let motions = file.plan.motions(&file.tools).unwrap_or_default();
+    // What several tools do in turn no model of one motion tells.
+    let [motion] = &motions[..] else { return Ok(None) };
+    let (model, job) = (model::load(spec)?, Job::stated(&file.task.scene, motion.clone()));
     let jobs = std::slice::from_ref(&job);
     Ok(session.compute(|| model.rollout(&file.task.scene, jobs, Record::Frames)).pop())
 }

@@ -5,21 +5,21 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use crate::asset::{self, AnyPlanFile, Kind, PlanFile, TrajectoryFile};
+use crate::asset::{self, Kind, PlanFile, TrajectoryFile};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
 use crate::report::{PageView, PoseRow, prediction_document, prediction_page, trajectory_figures};
 use crate::scene::{
-    Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, Task, Tool, Trajectory, Warning,
+    Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, Task, Tool, Trajectory, Warning,
 };
+use crate::sim::LeverSimulator;
 
 use super::{
     action::{ActionArgs, LibraryArgs},
     error::CliError,
     exit_code,
     form::Form,
-    lever,
     model::{self, OutsideArgs},
     output,
     poses::PosesArgs,
@@ -38,11 +38,11 @@ pub struct PredictArgs {
     #[arg(required = true, value_name = "TASK|PLAN|RECORDING")]
     pub files: Vec<PathBuf>,
     #[command(flatten)]
-    pub action: ActionArgs,
+    action: ActionArgs,
     #[command(flatten)]
     library: LibraryArgs,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
-    pub model: Option<ModelSpec>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     pub outside: OutsideArgs,
     /// The model alone, without those that it is compared with
@@ -56,18 +56,39 @@ pub struct PredictArgs {
     pub out: Option<PathBuf>,
     /// Also write every frame that each model predicts as a trajectory file, with a picture
     #[arg(long, requires = "out")]
-    pub trajectories: bool,
+    trajectories: bool,
     /// Pictures of trajectories that move as well
     #[arg(long, requires = "trajectories")]
-    pub animate: bool,
+    animate: bool,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
-    pub page: PageView,
+    page: PageView,
     /// Of recordings only one table, a row for each folder
     #[arg(long)]
     pub summary: bool,
     #[command(flatten)]
     pub form: Form,
+}
+
+/// What is predicted.
+struct Asked<'a> {
+    file: &'a Path,
+    task: Task,
+    tools: Vec<Arc<Tool>>,
+    plan: Plan,
+}
+
+pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
+    let motion = args.motion()?;
+    args.out.as_deref().map(output::prepare).transpose()?;
+    match motion {
+        Some((file, kind)) => predict(args, args.asked(file, kind, session)?, session),
+        None if args.action.given() => Err(CliError::usage(
+            "recordings say themselves what was done",
+            "leave --tool and --push out, or name one task",
+        )),
+        None => recorded::run(args, session),
+    }
 }
 
 impl PredictArgs {
@@ -85,44 +106,50 @@ impl PredictArgs {
         let kind = asset::check(file, None)?;
         Ok((!matches!(kind, Kind::Recording | Kind::Trajectory)).then_some((&**file, kind)))
     }
+
+    /// The plan of a plan file, or the action in a task.
+    fn asked<'a>(
+        &self,
+        file: &'a Path,
+        kind: Kind,
+        session: &Session,
+    ) -> Result<Asked<'a>, CliError> {
+        if kind == Kind::Plan {
+            let PlanFile { task, tools, plan, .. } = PlanFile::load(file)?;
+            return Ok(Asked { file, task, tools, plan });
+        }
+        let library = self.library.load()?;
+        let task = Task::load(file)?;
+        let (plan, tool) = self.action.plan(&task, &library, session)?;
+        Ok(Asked { file, task, tools: vec![tool], plan })
+    }
 }
 
-pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
-    let library = args.library.load()?;
-    let asked = args.motion()?;
-    args.out.as_deref().map(output::prepare).transpose()?;
-    let Some((file, kind)) = asked else {
-        if args.action.given() {
-            let advice = "leave --tool and --push out, or name one task";
-            return Err(CliError::usage("recordings say themselves what was done", advice));
-        }
-        return recorded::run(args, session);
+fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, CliError> {
+    let Asked { file, task, tools, plan } = asked;
+    let motions = plan.motions(&tools).unwrap_or_default();
+    let [motion] = &motions[..] else {
+        return Err(CliError::usage(
+            "models predict one motion, and this plan has another number of them",
+            "`pushplan verify` plays all of it",
+        ));
     };
-    let (task, tool, plan) = match kind {
-        Kind::Plan | Kind::LeverPlan => match AnyPlanFile::load(file)? {
-            AnyPlanFile::Pushes(opened) => {
-                let PlanFile { task, tool, plan, .. } = *opened;
-                (task, tool, plan)
-            }
-            AnyPlanFile::Levers(opened) => {
-                return lever::predict(args, &opened.task, (opened.plan, opened.tool), session);
-            }
-        },
-        _ => {
-            let task = Task::load(file)?;
-            if task.levers.is_some() {
-                let planned = lever::lever_plan(&task, &library, args.action.lever()?, session)?;
-                return lever::predict(args, &task, planned, session);
-            }
-            let (plan, tool) = args.action.plan(&task, &library, session)?;
-            (task, tool, plan)
-        }
-    };
-    let asked = args.spec();
-    let job = Job::stated(&task.scene, plan.motion(&tool));
-    let mut specs = vec![asked.clone()];
-    let simulated = [ModelKind::PLANAR, ModelKind::SPATIAL].map(ModelSpec::of);
-    specs.extend(simulated.into_iter().filter(|spec| *spec != asked && !args.alone));
+    let in_space = motion.is_lever() || task.in_space();
+    let spec = args.model.clone().unwrap_or(match task.levers {
+        // Among other things than a plain table the network of lever-ups knows nothing.
+        Some(_) => ModelKind::PRIOR.into(),
+        None => ModelKind::NETWORK.into(),
+    });
+    let job = Job::stated(&task.scene, motion.clone());
+    let mut specs = vec![spec.clone()];
+    if !args.alone {
+        // What leaves the plane is simulated coarsely, as planning does, and finely.
+        let coarse =
+            ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
+        let next = if in_space { coarse } else { ModelKind::PLANAR };
+        let simulated = [next, ModelKind::SPATIAL].map(ModelSpec::of);
+        specs.extend(simulated.into_iter().filter(|other| *other != spec));
+    }
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
@@ -146,12 +173,12 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(file, Some(asked.clone())).plan(&plan);
-        let page = prediction_page(&task, &tool, &plan, &trajectories, recipe, args.page);
-        let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
-        let mut written = vec![path];
+        let recipe = args.library.origin(file, Some(spec)).plan(&plan);
+        let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
+        let mut written =
+            vec![output::write(out, &format!("{}.html", task.name), page.as_bytes())?];
         if args.trajectories {
-            let planned = (&task, &tool, &plan);
+            let planned = (&task, &tools[..], &plan);
             written.extend(write_trajectories(planned, trajectories, args.animate, out)?);
         }
         document.wrote(&written);
@@ -162,7 +189,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
 
 /// Writes every trajectory with its pictures, and gives their paths.
 fn write_trajectories(
-    (task, tool, plan): (&Task, &Arc<Tool>, &Plan),
+    (task, tools, plan): (&Task, &[Arc<Tool>], &Plan),
     trajectories: Vec<Trajectory>,
     animate: bool,
     out: &Path,
@@ -174,8 +201,8 @@ fn write_trajectories(
         let by: String =
             by.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
         let name = format!("{}.{by}", task.name);
-        let (task, tool, plan) = (task.clone(), Arc::clone(tool), plan.clone());
-        let file = TrajectoryFile { task, tool, plan, trajectory };
+        let (task, tools, plan) = (task.clone(), tools.to_vec(), plan.clone());
+        let file = TrajectoryFile { task, tools, plan, trajectory };
         let path = out.join(format!("{name}.trajectory.json"));
         file.write(&path).map_err(CliError::Output)?;
         written.push(path);

@@ -15,7 +15,7 @@ Pushes, in the order they are made:
 
 /// Help shown wherever pushes or a lever-up can be given.
 pub fn forms() -> String {
-    format!("{FORMS}\n\n{}", super::lever::LEVER_FORM)
+    format!("{FORMS}\n\n{}", super::lever_argument::LEVER_FORM)
 }
 
 /// Reads one push.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::asset::{self, Faults, Kind, TrajectoryFile};
+use crate::asset::{self, Fault, Faults, Kind, TrajectoryFile};
 use crate::recording::Recording;
 
 use super::error::CliError;
@@ -53,7 +53,12 @@ fn load(file: &Path) -> Result<Recording, Faults> {
     match asset::check(file, None)? {
         Kind::Trajectory => {
             let file = TrajectoryFile::load(file)?;
-            let motion = file.plan.motion(&file.tool);
+            let flat = file.tools.first().filter(|_| !file.task.in_space() && !file.plan.levers());
+            let Some(tool) = flat else {
+                let message = "what leaves the plane is no recording of pushes";
+                return Err(Fault::of_file(&file.task.name, message, "leave it out").into());
+            };
+            let motion = file.plan.motion(tool);
             let frames = &file.trajectory.frames;
             Ok(Recording::of_frames(&file.task.name, &file.task.scene, &motion, frames))
         }

@@ -1,7 +1,6 @@
 //! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
@@ -17,7 +16,6 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
-    lever,
     model::{self, OutsideArgs},
     output,
     session::Session,
@@ -33,8 +31,7 @@ use super::{
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
-shows why the others lost; with --animate <out>/<task>.animated.svg, too. Pushes that follow a lever-up are
-written as <out>/<task>-push.*, with the task that is left then.
+shows why the others lost; with --animate <out>/<task>.animated.svg, too.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
@@ -42,9 +39,9 @@ pub struct SolveArgs {
     task: PathBuf,
     /// How hard to try
     #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
-    pub effort: Effort,
+    effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    pub model: Option<ModelSpec>,
+    model: Option<ModelSpec>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
@@ -57,31 +54,28 @@ pub struct SolveArgs {
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says, 0.75 if nothing]
     #[arg(long, value_name = "SHARE", value_parser = share)]
-    pub robustness: Option<f64>,
+    robustness: Option<f64>,
     /// Stop after this time and show the best plan so far
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
-    pub time_limit: Option<Duration>,
+    time_limit: Option<Duration>,
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = output::FOLDER)]
-    pub out: PathBuf,
+    out: PathBuf,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d")]
-    pub page: PageView,
+    page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
     /// Draw a picture of the 3-D replay that moves as well
     #[arg(long)]
-    pub animate: bool,
+    animate: bool,
     #[command(flatten)]
-    pub form: Form,
+    form: Form,
 }
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let mut task = load_task(&args.task, &library)?;
-    if task.levers.is_some() {
-        return lever::solve(args, task, &library, session);
-    }
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
@@ -153,7 +147,7 @@ pub fn solve_error(error: SolveError) -> CliError {
 ///
 /// # Errors
 /// Results that cannot be written.
-pub fn write(
+fn write(
     args: &SolveArgs,
     session: &Session,
     (task, origin): (&Task, &Path),
@@ -166,7 +160,7 @@ pub fn write(
     let path = args.out.join(format!("{name}.plan.json"));
     let file = PlanFile {
         task: task.clone(),
-        tool: Arc::clone(&best.tool),
+        tools: best.tools.clone(),
         plan: best.plan.clone(),
         model: Some(best.predicted.by.clone()),
         predicted: Some(best.outcome.clone()),

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use crate::asset::AnyPlanFile;
+use crate::asset::PlanFile;
 use crate::report::{PageView, Recipe, replay_warnings, verdict_document};
 use crate::scene::Situation;
 use crate::verify::{Verifier, VerifySettings};
@@ -16,7 +16,7 @@ use super::{
     exit_code,
     follow::Following,
     form::Form,
-    lever, output, page,
+    output, page,
     session::Session,
     solve::{share, time_limit},
     words::{VIEWS, words},
@@ -37,37 +37,34 @@ Example:
 )]
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
-    pub plan: PathBuf,
+    plan: PathBuf,
     /// Disturbed replays in each simulation
     #[arg(long, value_name = "N", default_value_t = 16,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
-    pub disturbed: u32,
+    disturbed: u32,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
-    pub robustness: Option<f64>,
+    robustness: Option<f64>,
     /// Stop after this time, whatever is done by then
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
-    pub time_limit: Option<Duration>,
+    time_limit: Option<Duration>,
     /// Seed of the disturbances
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub seed: u64,
+    seed: u64,
     /// Folder for a page that plays the replays, named after the task
     #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    out: Option<PathBuf>,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
-    pub page: PageView,
+    page: PageView,
     #[command(flatten)]
-    pub form: Form,
+    form: Form,
 }
 
 pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     args.out.as_deref().map(output::prepare).transpose()?;
-    let mut file = match AnyPlanFile::load(&args.plan)? {
-        AnyPlanFile::Pushes(file) => *file,
-        AnyPlanFile::Levers(file) => return lever::verify(args, *file, session),
-    };
+    let mut file = PlanFile::load(&args.plan)?;
     file.task.robustness = args.robustness.unwrap_or(file.task.robustness);
     let settings = VerifySettings { disturbed: args.disturbed as usize, seed: args.seed };
     let situation = Situation::stated(&file.task.scene);
@@ -82,7 +79,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
         ));
     }
     let verdict =
-        session.compute(|| verifier.verify(&file.task, &situation, &file.tool, &file.plan));
+        session.compute(|| verifier.verify(&file.task, &situation, &file.tools, &file.plan));
     following.finish()?;
     for warning in replay_warnings(&verdict) {
         session.warn(&warning);

@@ -71,7 +71,7 @@ fn told(assumptions: Assumptions, scene: &Scene, job: &Job) -> Job {
         physics.frictions.iter_mut().for_each(|friction| *friction *= factor);
         physics.table_friction *= factor;
         physics.pairs.iter_mut().for_each(|pair| pair.coefficient *= factor);
-        Arc::make_mut(&mut job.motion.tool).friction *= factor;
+        Arc::make_mut(&mut job.motion.slide_mut().tool).friction *= factor;
     }
     if let Some(micrometres) = start {
         let mut rng = directions(&job.start);

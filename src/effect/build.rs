@@ -8,12 +8,13 @@ use thiserror::Error;
 
 use crate::{
     network::{PredictorWeights, WeightsError},
-    scene::{ModelKind, ModelPart, ModelSpec},
+    scene::{Engine, ModelKind, ModelPart, ModelSpec},
     sim::Simulator,
 };
 
 use super::{
-    Assuming, EffectModel, Follow, Network, Prior, Projection, Routed, Simulated, Still, UpTo,
+    Assuming, EffectModel, Follow, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior,
+    Projection, Routed, Simulated, Still, UpTo,
 };
 
 /// Why a model cannot be made.
@@ -77,9 +78,30 @@ impl EffectModels {
     /// # Errors
     /// [`ModelError`] if it needs weights that cannot be used.
     pub fn build(spec: &ModelSpec) -> Result<Routed, ModelError> {
-        let first = Routed::new(part(spec.first())?);
+        let first = Routed::new(levering(spec.first())?);
         spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other)?)))
     }
+}
+
+/// A part that takes lever-ups as well: by the network of lever-ups where it is one, else by their
+/// prior. A weights file of lever-ups is one of those alone, and pushes are the prior's.
+fn levering(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
+    let levers: Arc<dyn LeverModel> = match &part.kind {
+        ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part),
+        ModelKind::Network { weights: Some(file), .. } => {
+            if let Ok(levers) = LeverNetwork::load(Path::new(file)) {
+                let (prior, levers) = (Arc::new(Prior::default()), Arc::new(levers));
+                return Ok(Arc::new(Levering::new(prior, levers)));
+            }
+            Arc::new(LeverPrior::default())
+        }
+        ModelKind::Network { weights: None, .. } => match LeverNetwork::shipped() {
+            Ok(network) => Arc::new(network),
+            Err(_) => Arc::new(LeverPrior::default()),
+        },
+        _ => Arc::new(LeverPrior::default()),
+    };
+    Ok(Arc::new(Levering::new(self::part(part)?, levers)))
 }
 
 fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {

@@ -72,7 +72,7 @@ pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Opt
 /// What the prior was measured on: the scenes and pushes of `pushplan-lab evaluate`, with the shipped
 /// tools and in crowds, and those that the network is trained on.
 ///
-/// Outside (`cargo test --release --test it -- --ignored the_prior_hides_no_defect_either`, 22
+/// Outside (`cargo test --release -p pushplan-lab -- --ignored the_prior_hides_no_defect_either`, 22
 /// pushes of seed 7 in each cell) it is wrong at 2 m/s, where the tool turns by 90 degrees in a push,
 /// where it is set down into an object, and nearly without friction; a single object may have any
 /// mass and size. Inside it is wrong in front of a wall after 5 cm, and warns of 15 pushes in 22.

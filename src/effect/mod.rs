@@ -22,7 +22,7 @@ pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{
     LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
-    PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
+    Levering, PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

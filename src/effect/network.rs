@@ -103,12 +103,15 @@ impl EffectModel for Network {
     }
 
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        if job.in_space() {
+            return Trust::NotMine;
+        }
         let warnings = outside(&self.weights.card.ranges, scene, job);
         Trust::Mine { error: self.error, warnings }
     }
 
-    fn takes(&self, _: &Scene, _: &Job) -> bool {
-        true
+    fn takes(&self, _: &Scene, job: &Job) -> bool {
+        !job.in_space()
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {

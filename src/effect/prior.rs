@@ -36,12 +36,15 @@ impl EffectModel for Prior {
     }
 
     fn trust(&self, scene: &Scene, job: &Job) -> Trust {
+        if job.in_space() {
+            return Trust::NotMine;
+        }
         let error = measured(&self.spec.first().kind, || reachable(scene, job).len());
         Trust::Mine { error, warnings: outside(&PRIOR_RANGES, scene, job) }
     }
 
-    fn takes(&self, _: &Scene, _: &Job) -> bool {
-        true
+    fn takes(&self, _: &Scene, job: &Job) -> bool {
+        !job.in_space()
     }
 
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {

@@ -114,6 +114,10 @@ impl EffectModel for Routed {
         Trust::Mine { error, warnings: warnings.into_iter().map(simulated).collect() }
     }
 
+    fn takes(&self, scene: &Scene, job: &Job) -> bool {
+        self.models.iter().any(|model| model.takes(scene, job))
+    }
+
     fn rollout(&self, scene: &Scene, jobs: &[Job], record: Record) -> Vec<Trajectory> {
         let work = (scene, jobs, record);
         if self.outside == Outside::Warn {
@@ -162,7 +166,7 @@ impl EffectModel for Routed {
 impl Routed {
     /// No prediction: the start alone, with all that speaks against one.
     fn refused(&self, job: &Job, route: &Route, doubtful: Option<Trajectory>) -> Trajectory {
-        let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+        let tool = job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
         let by = self.models[route.model].spec().clone();
         let mut refused = Trajectory::standing(by, tool, job.start.clone());
         refused.warnings = doubtful.map(|doubtful| doubtful.warnings).unwrap_or_default();

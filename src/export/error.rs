@@ -11,6 +11,9 @@ pub enum ExportError {
         /// Names of the two objects.
         between: [String; 2],
     },
+    /// A plan without its tools; a file of ours never holds one.
+    #[error("its steps name tools that the file does not hold")]
+    Tools,
     /// A trajectory that cannot be written, such as one of more frames than a file can count.
     #[error("it cannot be written as MCAP: {0}")]
     Mcap(String),

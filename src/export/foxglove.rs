@@ -5,7 +5,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::geometry::{ConvexPolygon, Pose, Shape};
+use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape};
 
 /// Red, green, blue and opacity, 0 to 1.
 pub(super) type Colour = [f64; 4];
@@ -39,6 +39,18 @@ pub(super) fn transform(at: u64, child: &str, frame: &Pose, height: f64) -> Json
         "child_frame_id": child,
         "translation": vector([frame.position.x, frame.position.y, height]),
         "rotation": quaternion(frame.heading),
+    })
+}
+
+/// The same of a frame in space.
+pub(super) fn transform_in_space(at: u64, child: &str, frame: &Pose3) -> Json {
+    let [x, y, z, w] = frame.quaternion();
+    json!({
+        "timestamp": time(at),
+        "parent_frame_id": TABLE,
+        "child_frame_id": child,
+        "translation": vector(frame.position.into()),
+        "rotation": {"x": x, "y": y, "z": z, "w": w},
     })
 }
 

@@ -8,11 +8,13 @@ use mcap::{Attachment, WriteOptions, Writer, records::Metadata};
 use serde_json::{Value as Json, json};
 
 use crate::asset::PlanFile;
-use crate::geometry::{Pose, Shape};
-use crate::scene::{Frame, Outcome, Trajectory};
+use crate::geometry::{ConvexPolygon, Pose, Shape, centroid};
+use crate::scene::{Blade, Frame, Outcome, Slab, Step, Trajectory};
 
 use super::ExportError;
-use super::foxglove::{self, Colour, TABLE, entity, list, object, titled, transform};
+use super::foxglove::{
+    self, Colour, TABLE, entity, list, object, titled, transform, transform_in_space,
+};
 
 const OBJECT: Colour = [0.45, 0.60, 0.80, 1.0];
 const WANTED: Colour = [0.90, 0.55, 0.20, 1.0];
@@ -54,10 +56,10 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
         file.message(frames, at, &json!({"transforms": transforms(plan, frame, at)}))?;
         file.message(state, at, &numbers(plan, frame))?;
     }
-    let outcome = Outcome::judge(&plan.task.goal, trajectory);
+    let outcome = Outcome::judge(&plan.task.scene, &plan.task.goal, trajectory);
     let said = [
         ("task", plan.task.name.clone()),
-        ("tool", plan.tool.name.clone()),
+        ("tool", plan.plan.tools().join(", ")),
         ("model", trajectory.by.to_string()),
         ("reached", outcome.reached.to_string()),
         ("error_m", outcome.error.to_string()),
@@ -108,32 +110,79 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     for (index, object) in scene.objects.iter().enumerate() {
         let name = format!("object/{}", object.name);
         let colour = if index == goal.object { WANTED } else { OBJECT };
-        found.push(entity(&name, &name, &[(object.shape, Pose::default(), 0.0)], colour));
+        let middle = if in_space(plan) { object.shape.height() / 2.0 } else { 0.0 };
+        let mut solids = vec![(object.shape, Pose::default(), middle)];
+        solids.extend(object.parts.iter().filter_map(fixed));
+        found.push(entity(&name, &name, &solids, colour));
     }
     for obstacle in &scene.obstacles {
         let name = format!("obstacle/{}", obstacle.name);
-        let solid = (obstacle.shape(), obstacle.pose, obstacle.size[2] / 2.0);
+        let solid = (obstacle.shape(), obstacle.pose, obstacle.z + obstacle.size[2] / 2.0);
         found.push(entity(TABLE, &name, &[solid], OBSTACLE));
     }
     let part = |part: &crate::scene::Part| (part.shape, part.pose, part.shape.height() / 2.0);
-    let parts: Vec<_> = plan.tool.parts().iter().map(part).collect();
-    found.push(entity("tool", "tool", &parts, TOOL));
+    for (k, tool) in plan.tools.iter().enumerate() {
+        let mut parts: Vec<_> = tool.parts().iter().map(part).collect();
+        parts.extend(tool.blade().map(|Blade { length, width, thickness, .. }| {
+            (Shape::Cuboid { size: [length, width, thickness] }, Pose::default(), 0.0)
+        }));
+        found.push(entity(&frame_of(k), &frame_of(k), &parts, TOOL));
+    }
+    if !goal.has_place() {
+        return found;
+    }
     let disc = Shape::Cylinder { radius: goal.tolerance, height: DISC };
     let there = Pose { position: goal.position, heading: 0.0 };
     found.push(entity(TABLE, "goal", &[(disc, there, DISC / 2.0)], GOAL));
     found
 }
 
+/// The frame of the tool of this index.
+fn frame_of(tool: usize) -> String {
+    if tool == 0 { "tool".to_owned() } else { format!("tool/{tool}") }
+}
+
+/// What is fixed on an object, about its underside.
+fn fixed(slab: &Slab) -> Option<(Shape, Pose, f64)> {
+    let middle = slab.bottom + slab.height / 2.0;
+    if let Some((centre, heading, [x, y])) = slab.rectangle() {
+        let shape = Shape::Cuboid { size: [x, y, slab.height] };
+        return Some((shape, Pose { position: centre, heading }, middle));
+    }
+    let position = centroid(&slab.corners);
+    let base = ConvexPolygon::new(&slab.corners).ok()?;
+    let shape = Shape::Prism { base, height: slab.height };
+    Some((shape, Pose { position, heading: 0.0 }, middle))
+}
+
+fn in_space(plan: &PlanFile) -> bool {
+    plan.task.in_space() || plan.plan.levers()
+}
+
 /// Where everything is in one frame.
 fn transforms(plan: &PlanFile, frame: &Frame, at: u64) -> Vec<Json> {
-    let objects = plan.task.scene.objects.iter().zip(&frame.state.poses);
-    let mut found: Vec<Json> = objects
-        .map(|(object, pose)| {
-            let name = format!("object/{}", object.name);
-            transform(at, &name, pose, object.shape.height() / 2.0)
-        })
-        .collect();
-    found.push(transform(at, "tool", &frame.tool, plan.plan.lift));
+    let scene = &plan.task.scene;
+    let mut found: Vec<Json> = Vec::new();
+    for (k, (object, pose)) in scene.objects.iter().zip(&frame.state.poses).enumerate() {
+        let name = format!("object/{}", object.name);
+        found.push(match frame.state.space.as_ref().and_then(|space| space.get(k)) {
+            Some(pose) => transform_in_space(at, &name, pose),
+            None => transform(at, &name, pose, object.shape.height() / 2.0),
+        });
+    }
+    let steps = &plan.plan.steps;
+    let at_work = steps
+        .get(frame.stroke)
+        .and_then(|step| plan.tools.iter().position(|tool| tool.name == step.tool()));
+    let lift = match steps.get(frame.stroke) {
+        Some(Step::Push(step)) => step.lift,
+        _ => plan.plan.lift(),
+    };
+    let name = frame_of(at_work.unwrap_or(0));
+    found.push(match &frame.blade {
+        Some(blade) => transform_in_space(at, &name, blade),
+        None => transform(at, &name, &frame.tool, lift),
+    });
     found
 }
 

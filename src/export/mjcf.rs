@@ -26,6 +26,7 @@ use super::forest::{Node, forest};
 use super::mesh;
 use super::pairs;
 use super::seamless::seamless;
+use super::space::plan_mjcf;
 use super::xml::{Xml, numbers};
 
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
@@ -64,11 +65,15 @@ const CLEAR: f64 = 5e-4;
 /// the end of our own 3-D replay (where the file has one) stand under `custom`.
 ///
 /// # Errors
-/// [`ExportError::JointLoop`].
+/// [`ExportError::JointLoop`], [`ExportError::Tools`].
 pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
+    if file.task.in_space() || file.plan.levers() {
+        return plan_mjcf(file);
+    }
     let scene = &file.task.scene;
+    let own = file.tools.first().ok_or(ExportError::Tools)?;
     let trees = forest(scene)?;
-    let motion = file.plan.motion(&file.tool);
+    let motion = file.plan.motion(own);
     let mut xml = Xml::default();
     xml.open("mujoco", &[("model", file.task.name.clone())]);
     xml.comment(
@@ -100,7 +105,7 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
-    for pair in pairs::pairs(scene, &file.tool) {
+    for pair in pairs::pairs(scene, own) {
         let friction = numbers(&[pair.friction, pair.friction]);
         let [a, b] = pair.geoms;
         xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);

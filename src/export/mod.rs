@@ -3,8 +3,7 @@
 //!
 //! A plan becomes one file that holds all of it, the pushes and the goal included
 //! ([`mjcf()`]), and one script for all such files carries it out and judges it by our rules
-//! ([`REPLAY_SCRIPT`]). Lever-ups have a scene and a script of their own ([`lever_mjcf()`],
-//! [`LEVER_SCRIPT`]). An MCAP file holds a plan and what a model says it does. Nothing is simulated
+//! ([`REPLAY_SCRIPT`], and [`LEVER_SCRIPT`] where something leaves the plane). An MCAP file holds a plan and what a model says it does. Nothing is simulated
 //! here, nothing is written to disk, and MuJoCo is no dependency. Reports for people are in
 //! [`crate::report`].
 
@@ -12,17 +11,17 @@ mod error;
 mod forest;
 #[cfg(feature = "formats")]
 mod foxglove;
-mod lever;
 #[cfg(feature = "formats")]
 mod mcap;
 mod mesh;
 mod mjcf;
 mod pairs;
 mod seamless;
+mod space;
 mod xml;
 
 #[cfg(feature = "formats")]
 pub use self::mcap::mcap;
 pub use error::ExportError;
-pub use lever::{LEVER_SCRIPT, lever_mjcf};
 pub use mjcf::{REPLAY_SCRIPT, mjcf};
+pub use space::{LEVER_SCRIPT, lever_mjcf};

@@ -63,6 +63,12 @@ impl Pose3 {
         }
     }
 
+    /// What is seen of it from above: its position, and where its x-axis points.
+    pub fn from_above(&self) -> Pose {
+        let x = self.rotation * Vector3::x();
+        Pose { position: self.position.xy(), heading: x.y.atan2(x.x) }
+    }
+
     /// Maps a point of this pose's frame into the parent frame, metres.
     pub fn point(&self, local: Vector3) -> Vector3 {
         self.position + self.rotation * local

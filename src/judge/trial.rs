@@ -141,7 +141,7 @@ mod tests {
     /// A frame of stroke `stroke` in which the one object is at `x`.
     fn frame(stroke: usize, x: f64) -> Frame {
         let state = State::at_rest(vec![Pose::new(x, 0.0, 0.0)]);
-        Frame { time: 0.0, stroke, tool: Pose::default(), state }
+        Frame { time: 0.0, stroke, tool: Pose::default(), state, blade: None }
     }
 
     fn trajectory(frames: &[(usize, f64)]) -> Trajectory {

@@ -30,7 +30,7 @@ impl<'a> Rollouts<'a> {
 
     /// `motion`, beginning in `start`.
     pub(super) fn job(&self, motion: ToolMotion, start: State) -> Job {
-        Job { start, motion, physics: Arc::clone(&self.situation.physics) }
+        Job { start, motion: motion.into(), physics: Arc::clone(&self.situation.physics) }
     }
 
     /// Rolls out a batch, in parallel, and counts it.

@@ -205,7 +205,7 @@ impl<'a> Search<'a> {
     fn job(&self, extension: &Extension) -> Job {
         let start = self.nodes[extension.node].state.clone();
         let physics = Arc::clone(&self.situation.physics);
-        Job { start, motion: self.motion(extension), physics }
+        Job { start, motion: self.motion(extension).into(), physics }
     }
 
     fn motion(&self, extension: &Extension) -> ToolMotion {

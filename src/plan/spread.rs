@@ -83,7 +83,7 @@ impl Spread {
                 let rubbing = tool.friction * friction;
                 let tool = Tool::clone(tool).friction(rubbing);
                 let motion = ToolMotion { tool: Arc::new(tool), ..motion.clone() };
-                Job { start: start.clone(), motion, physics: Arc::clone(physics) }
+                Job { start: start.clone(), motion: motion.into(), physics: Arc::clone(physics) }
             })
             .collect()
     }

@@ -61,7 +61,7 @@ impl Supports {
             let motion = evaluation.motion(workspace);
             jobs.extend(self.0.iter().map(|physics| Job {
                 start: start.clone(),
-                motion: motion.clone(),
+                motion: motion.clone().into(),
                 physics: Arc::clone(physics),
             }));
         }

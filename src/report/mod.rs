@@ -10,7 +10,6 @@ mod fit;
 mod html;
 mod keyframes;
 mod labels;
-mod lever;
 mod number;
 mod page;
 mod picture;
@@ -33,17 +32,13 @@ pub use belief::belief_document;
 pub use chart::{Axis, Chart, Mark, Series};
 pub use document::{Document, Drawing, Figure, Section};
 pub use fit::fit_document;
-pub use lever::{
-    PredictedLever, lever_figure, lever_prediction_document, lever_solution_document,
-    lever_verdict_document, lever_verdict_line,
-};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
-    Origin, PageView, Recipe, ReplayedLever, Setting, lever_page, prediction_page, recording_page,
-    run_page, solution_page, verdict_page,
+    Origin, PageView, Recipe, Setting, prediction_page, recording_page, run_page, solution_page,
+    verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
-pub use plan_picture::plan_figures;
+pub use plan_picture::{plan_figures, space_figures};
 pub use poses::{PoseRow, RECORDED, poses_document};
 pub use prediction::prediction_document;
 pub use recorded::{

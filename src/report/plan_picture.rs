@@ -1,12 +1,14 @@
 //! Pictures of a plan: as it is, and moving.
 
-use crate::scene::{Engine, Plan, Task, ToolMotion, Trajectory, Verdict};
+use std::sync::Arc;
+
+use crate::scene::{Engine, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 use crate::solve::RankedPlan;
 
 use super::document::Figure;
 use super::number::millimetres;
-use super::picture::{MovingPicture, ScenePicture, Source, Track};
-use super::plan_text::{engine_name, plan_line};
+use super::picture::{MovingPicture, ScenePicture, Source, SpacePicture, Track};
+use super::plan_text::{engine_name, goal_line, plan_line};
 use super::verdict::{nominal, verdict_line};
 
 /// The pictures of a plan with its ways by prediction and in its replays; `animate` adds one that
@@ -18,10 +20,17 @@ pub fn plan_figures(
     name: &str,
     animate: bool,
 ) -> Vec<Figure> {
-    let motion = plan.plan.motion(&plan.tool);
+    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
+    if task.in_space() || plan.plan.levers() {
+        let line = format!("verdict: {}", verdict_line(task, plan.verdict.as_ref()));
+        let plan = (&plan.plan, &plan.tools[..]);
+        return replay.map_or(Vec::new(), |replay| {
+            space_figures(task, plan, replay, &[line], (name, animate))
+        });
+    }
+    let motion = plan.plan.motion(plan.tool());
     let still = still(task, plan, &motion, replays).to_svg();
     let mut figures = vec![Figure::svg(name, still)];
-    let replay = replays.nominal(Engine::Spatial).and_then(|found| found.trajectory.as_ref());
     if let Some(replay) = replay.filter(|_| animate) {
         figures.push(moving_figure(
             task,
@@ -30,6 +39,32 @@ pub fn plan_figures(
             (Source::Simulated(Engine::Spatial), replay),
             name,
         ));
+    }
+    figures
+}
+
+/// The pictures of what leaves the plane, with lines below their title; `animate` adds one that
+/// moves.
+pub fn space_figures(
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    trajectory: &Trajectory,
+    lines: &[String],
+    (name, animate): (&str, bool),
+) -> Vec<Figure> {
+    let notes = [format!("goal: {}", goal_line(task))].into_iter().chain(lines.iter().cloned());
+    let picture = SpacePicture {
+        title: format!("{}: {}", task.name, plan_line(plan)),
+        notes: notes.collect(),
+        scene: &task.scene,
+        plan,
+        tools,
+        goal: &task.goal,
+        trajectory,
+    };
+    let mut figures = vec![Figure::svg(name, picture.to_svg())];
+    if animate {
+        figures.push(Figure::svg(format!("{name}.animated"), picture.to_moving_svg()));
     }
     figures
 }

@@ -1,7 +1,7 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Vector, wrap_angle};
-use crate::scene::{Engine, Outcome, Plan, Task, Warning};
+use crate::scene::{Engine, LeverUp, Lying, Outcome, Plan, Step, Task, Warning};
 
 use super::{
     document::Section,
@@ -12,31 +12,85 @@ use super::{
     },
 };
 
-/// One line: tool, grip yaw, number of pushes; of a plan to leave things as they are, just that.
+/// One line: tool, grip yaw, number of pushes, or what a lever-up does; of a plan to leave things as
+/// they are, just that.
 pub(super) fn plan_line(plan: &Plan) -> String {
-    let pushes = match plan.pushes.len() {
-        0 => return "no push".to_owned(),
-        1 => "1 push".to_owned(),
-        count => format!("{count} pushes"),
+    let lines: Vec<String> = rows(plan).into_iter().map(row_line).collect();
+    match lines.is_empty() {
+        true => "no push".to_owned(),
+        false => lines.join(", then "),
+    }
+}
+
+/// Steps of one kind in a row with one tool, held in one way.
+fn rows(plan: &Plan) -> Vec<&[Step]> {
+    let together = |a: &Step, b: &Step| match (a, b) {
+        (Step::Push(a), Step::Push(b)) => a.tool == b.tool && a.grip_yaw == b.grip_yaw,
+        _ => false,
     };
-    format!("{}, grip yaw {}, {pushes}", plan.tool, whole_degrees(plan.grip_yaw))
+    plan.steps.chunk_by(together).collect()
 }
 
-/// One row per push; `None` without any.
-pub(super) fn push_section(plan: &Plan) -> Option<Section> {
-    let table = push_table(plan);
-    (!table.is_empty()).then(|| Section { table, ..Section::default() })
+fn row_line(row: &[Step]) -> String {
+    match &row[0] {
+        Step::Push(step) => {
+            let pushes = match row.len() {
+                1 => "1 push".to_owned(),
+                count => format!("{count} pushes"),
+            };
+            format!("{}, grip yaw {}, {pushes}", step.tool, whole_degrees(step.grip_yaw))
+        }
+        Step::LeverUp(step) => {
+            let way = if step.lever.pivot < 0.0 { "prying" } else { "lifting" };
+            format!("{}, {way} by {}", step.tool, degrees(step.lever.angle))
+        }
+    }
 }
 
-fn push_table(plan: &Plan) -> Table {
+/// The steps in full, a table for each tool and way to hold it.
+pub(super) fn plan_sections(plan: &Plan) -> Vec<Section> {
+    let rows = rows(plan);
+    let section = |(k, row): (usize, &&[Step])| {
+        let title = match k {
+            0 => String::new(),
+            _ => format!("Then {}, once everything rests", row_line(row)),
+        };
+        let table = match &row[0] {
+            Step::Push(_) => push_table(row),
+            Step::LeverUp(step) => lever_table(&step.lever),
+        };
+        Section { title, table, ..Section::default() }
+    };
+    rows.iter().enumerate().map(section).collect()
+}
+
+fn push_table(row: &[Step]) -> Table {
+    let pushes = row.iter().filter_map(|step| match step {
+        Step::Push(step) => Some(&step.push),
+        Step::LeverUp(_) => None,
+    });
     Table::of(
-        plan.pushes.iter().enumerate(),
+        pushes.enumerate(),
         &[
             ("push", Right, &|(k, _)| (k + 1).to_string()),
             ("end effector starts at", Left, &|(_, push)| point(push.start)),
             ("direction", Right, &|(_, push)| direction(push.direction)),
             ("length", Right, &|(_, push)| millimetres(push.length)),
             ("speed", Right, &|(_, push)| format!("{:.2} m/s", push.speed)),
+        ],
+    )
+}
+
+fn lever_table(lever: &LeverUp) -> Table {
+    Table::of(
+        [lever],
+        &[
+            ("edge", Right, &|lever| lever.place.edge.to_string()),
+            ("along it", Right, &|lever| format!("{:.0} %", 100.0 * lever.place.fraction)),
+            ("depth", Right, &|lever| millimetres(lever.depth)),
+            ("pivot", Right, &|lever| millimetres(lever.pivot)),
+            ("turn", Right, &|lever| degrees(lever.angle)),
+            ("speed", Right, &|lever| format!("{:.2} m/s", lever.speed)),
         ],
     )
 }
@@ -51,6 +105,10 @@ pub(super) fn outcome_table<'a>(
         end.map_or(NONE.to_owned(), |pose| point(pose.position))
     };
     let heading = |outcome: &Outcome| outcome.heading_error.map_or(NONE.to_owned(), degrees);
+    let outcomes: Vec<(String, &Outcome, Option<&Warning>)> = outcomes.collect();
+    if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
+        return lying_table(outcomes, &end);
+    }
     Table::of(
         outcomes,
         &[
@@ -58,11 +116,37 @@ pub(super) fn outcome_table<'a>(
             ("final position", Left, &|(_, outcome, _)| end(outcome)),
             ("error", Right, &|(_, outcome, _)| millimetres(outcome.error)),
             ("heading error", Right, &|(_, outcome, _)| heading(outcome)),
-            ("reached", Left, &|(_, outcome, fault)| match (outcome.reached, fault) {
-                (true, _) => "yes".to_owned(),
-                (false, None) => "no".to_owned(),
-                (false, Some(fault)) => format!("no, {}", fault.word()),
+            ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
+        ],
+    )
+}
+
+fn reached(outcome: &Outcome, fault: Option<&Warning>) -> String {
+    match (outcome.reached, fault) {
+        (true, _) => "yes".to_owned(),
+        (false, None) => "no".to_owned(),
+        (false, Some(fault)) => format!("no, {}", fault.word()),
+    }
+}
+
+/// How the goal object lies by several sources.
+fn lying_table(
+    outcomes: Vec<(String, &Outcome, Option<&Warning>)>,
+    end: &dyn Fn(&Outcome) -> String,
+) -> Table {
+    let of = |outcome: &Outcome, told: &dyn Fn(&Lying) -> String| {
+        outcome.lying.as_ref().map_or(NONE.to_owned(), told)
+    };
+    Table::of(
+        outcomes,
+        &[
+            ("", Left, &|(source, ..)| source.clone()),
+            ("edge raised", Right, &|(_, outcome, _)| {
+                of(outcome, &|lying| millimetres(lying.raised))
             }),
+            ("at rest", Left, &|(_, outcome, _)| of(outcome, &|lying| lying.ending.to_string())),
+            ("final position", Left, &|(_, outcome, _)| end(outcome)),
+            ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
         ],
     )
 }
@@ -87,8 +171,24 @@ pub(super) fn goal_line(task: &Task) -> String {
         };
         format!(", heading {} \u{00b1} {}{alike}", degrees(heading), degrees(tolerance))
     });
-    let (at, within) = (point(goal.position), millimetres(goal.tolerance));
-    format!("{name} at {at} within {within}{heading}")
+    let mut demands = Vec::new();
+    if let Some(obstacle) = goal.outside.and_then(|k| task.scene.obstacles.get(k)) {
+        demands.push(format!("outside of {}", obstacle.name));
+    }
+    if let Some(height) = goal.raised {
+        demands.push(format!("edge raised by {}", millimetres(height)));
+    }
+    match goal.flipped {
+        Some(true) => demands.push("upside down".to_owned()),
+        Some(false) => demands.push("on its underside".to_owned()),
+        None => {}
+    }
+    if goal.has_place() {
+        let (at, within) = (point(goal.position), millimetres(goal.tolerance));
+        demands.push(format!("at {at} within {within}{heading}"));
+    }
+    let colon = if goal.in_space() { ":" } else { "" };
+    format!("{name}{colon} {}", demands.join(", "))
 }
 
 /// A position on the table.
@@ -116,15 +216,10 @@ mod tests {
     #[test]
     fn a_plan_reads_as_a_table() {
         let push = Push { start: Vector::new(0.42, -0.0), direction: 3.2, length: 0.2, speed: 0.1 };
-        let plan = Plan {
-            tool: "l-hook".to_owned(),
-            grip_yaw: -std::f64::consts::FRAC_PI_2,
-            form: PushForm::Placed,
-            lift: 0.002,
-            pushes: vec![push],
-        };
+        let yaw = -std::f64::consts::FRAC_PI_2;
+        let plan = Plan::pushing("l-hook", yaw, PushForm::Placed, 0.002, [push]);
         insta::assert_snapshot!(plan_line(&plan), @"l-hook, grip yaw -90°, 1 push");
-        insta::assert_snapshot!(push_table(&plan).to_text(), @r"
+        insta::assert_snapshot!(plan_sections(&plan)[0].table.to_text(), @r"
         push  end effector starts at  direction  length     speed
            1  (0.420, 0.000) m          -176.7°  200 mm  0.10 m/s
         ");

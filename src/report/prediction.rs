@@ -3,11 +3,11 @@
 use serde_json::{Value as Json, json};
 
 use crate::bench::TimedEffect;
-use crate::scene::{Plan, State, Task};
+use crate::scene::{Outcome, Plan, State, Task};
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres, seconds};
-use super::plan_text::{goal_line, plan_line, point, push_section};
+use super::plan_text::{goal_line, outcome_table, plan_line, plan_sections, point};
 use super::table::{
     Align::{Left, Right},
     NONE, Table,
@@ -32,6 +32,20 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
         })
         .collect();
     let objects: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
+    let outcomes: Vec<Outcome> = effects
+        .iter()
+        .map(|effect| Outcome::judge(&task.scene, &task.goal, &effect.trajectory))
+        .collect();
+    let lying = outcomes.iter().any(|outcome| outcome.lying.is_some()).then(|| {
+        let fault = |effect: &TimedEffect| {
+            effect.trajectory.warnings.iter().find(|warning| warning.forbids_success()).cloned()
+        };
+        let faults: Vec<_> = effects.iter().map(fault).collect();
+        let rows = effects.iter().zip(&outcomes).zip(&faults).map(|((effect, outcome), fault)| {
+            (effect.trajectory.by.to_string(), outcome, fault.as_ref())
+        });
+        Section { table: outcome_table(task, rows), ..Section::default() }
+    });
     let ends = Section {
         table: effect_table(task, effects),
         lines: vec![format!("goal: {}", goal_line(task))],
@@ -39,7 +53,7 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
     };
     Document {
         title: plan_line(plan),
-        sections: push_section(plan).into_iter().chain([ends]).collect(),
+        sections: plan_sections(plan).into_iter().chain(lying).chain([ends]).collect(),
         json: json!({"task": task.name, "plan": plan, "objects": objects, "effects": json}),
         ..Document::default()
     }

@@ -49,8 +49,8 @@ pub fn run_document(trace: &Trace) -> Document {
             "steps": trace.steps.iter().map(|step| json!({
                 "why": step.why,
                 "tool": step.tool.name,
-                "pushes": step.plan.pushes.get(..step.pushes),
-                "grip_yaw": step.plan.grip_yaw,
+                "pushes": step.plan.pushes().get(..step.pushes),
+                "grip_yaw": step.plan.grip_yaw(),
                 "chance": step.chance,
                 "notes": step.notes,
                 "state": step.state,
@@ -94,7 +94,7 @@ fn seen(trace: &Trace) -> Option<State> {
 /// What was done, push by push.
 pub fn steps(trace: &Trace) -> Table {
     let goal = &trace.task.goal;
-    let push = |step: &Step| step.plan.pushes.first().copied();
+    let push = |step: &Step| step.plan.pushes().first().copied();
     let real = |step: &Step| step.world.as_ref().map(|world| goal.error(&world.state));
     Table::of(
         trace.steps.iter().enumerate(),
@@ -109,7 +109,7 @@ pub fn steps(trace: &Trace) -> Table {
                 push(step).map_or(NONE.to_owned(), |push| millimetres(push.length))
             }),
             ("left of the plan", Right, &|(_, step)| {
-                step.plan.pushes.len().saturating_sub(step.pushes).to_string()
+                step.plan.pushes().len().saturating_sub(step.pushes).to_string()
             }),
             ("reaches the goal in", Right, &|(_, step)| {
                 format!("{:.0} %", 100.0 * step.chance.share)
@@ -249,6 +249,7 @@ fn picture(trace: &Trace) -> Figure {
     let states: Vec<State> = std::iter::once(start).chain(states).collect();
     let motion = motion(trace);
     let frames = states.iter().enumerate().map(|(k, state)| Frame {
+        blade: None,
         time: k as f64,
         stroke: k.saturating_sub(1),
         tool: motion.as_ref().map_or(Pose::default(), |motion| motion.strokes[0].from),
@@ -285,8 +286,9 @@ fn motion(trace: &Trace) -> Option<ToolMotion> {
     };
     let tool = if one { last.tool.clone() } else { pin()? };
     let strokes = trace.steps.iter().flat_map(|step| {
-        let done = step.plan.pushes.get(..step.pushes).unwrap_or_default();
-        let at = |position| tool.pose(Pose { position, heading: step.plan.grip_yaw });
+        let made = step.plan.pushes();
+        let done = made.get(..step.pushes).unwrap_or_default();
+        let at = |position| tool.pose(Pose { position, heading: step.plan.grip_yaw() });
         done.iter()
             .map(move |push| Stroke {
                 from: at(push.start),
@@ -299,7 +301,7 @@ fn motion(trace: &Trace) -> Option<ToolMotion> {
     let strokes: Vec<Stroke> = strokes.collect();
     (!strokes.is_empty()).then(|| ToolMotion {
         tool: Arc::new(tool),
-        lift: last.plan.lift,
+        lift: last.plan.lift(),
         strokes,
     })
 }

@@ -7,7 +7,7 @@ use crate::solve::{PlanStatus, Solution};
 
 use super::document::{Document, Section};
 use super::number::seconds;
-use super::plan_text::{goal_line, plan_line, point, push_section};
+use super::plan_text::{goal_line, plan_line, plan_sections, point};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
 
@@ -15,7 +15,7 @@ use super::verdict::{outcome_section, verdict_line};
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {
-        sections.extend(push_section(&best.plan));
+        sections.extend(plan_sections(&best.plan));
         let fault = best.predicted.warnings.iter().find(|warning| warning.forbids_success());
         let predicted = Some((best.predicted.by.to_string(), &best.outcome, fault));
         let mut outcomes = outcome_section(task, predicted, best.verdict.as_ref());
@@ -24,6 +24,9 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
             format!("aimed at {aim}, as the same plan aimed at the goal ended beside it in 3-D")
         }));
         sections.push(outcomes);
+    }
+    if solution.statistics.levers.is_some() {
+        sections.extend(alternatives(task, solution));
     }
     if solution.status == PlanStatus::NoPlan {
         sections.extend(refusals(solution));
@@ -40,16 +43,17 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
 
 pub(super) fn headline(solution: &Solution) -> String {
     let Some(best) = solution.best() else {
-        return "no plan; no push can be made at all".to_owned();
+        let step = if solution.statistics.levers.is_some() { "lever-up" } else { "push" };
+        return format!("no plan; no {step} can be made at all");
     };
     let plan = plan_line(&best.plan);
     let headline = match solution.status {
-        PlanStatus::Solved if best.plan.pushes.is_empty() => {
+        PlanStatus::Solved if best.plan.is_empty() => {
             "solved; the object is at the goal already".to_owned()
         }
         PlanStatus::Solved => format!("solved with {plan}"),
         PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
-        PlanStatus::NoPlan if best.plan.pushes.is_empty() => {
+        PlanStatus::NoPlan if best.plan.is_empty() => {
             "no plan; no push brings the object nearer".to_owned()
         }
         PlanStatus::NoPlan => format!("no plan; the nearest is {plan}"),
@@ -65,17 +69,45 @@ pub(super) fn headline(solution: &Solution) -> String {
 
 /// Why pushes were not tried, most frequent first.
 fn refusals(solution: &Solution) -> Option<Section> {
-    let search = &solution.statistics.search;
-    let mut reasons: Vec<_> = search.infeasible.iter().collect();
-    reasons.sort_by(|a, b| b.1.cmp(a.1).then(a.0.cmp(b.0)));
-    let considered = search.considered;
+    let statistics = &solution.statistics;
+    let (what, considered, mut reasons) = match &statistics.levers {
+        Some(levers) => {
+            let refused = levers.search.refused.iter();
+            let reasons: Vec<_> = refused.map(|(why, count)| (why.clone(), *count)).collect();
+            ("lever-ups", levers.search.considered, reasons)
+        }
+        None => {
+            let refused = statistics.search.infeasible.iter();
+            let reasons: Vec<_> = refused.map(|(why, count)| (why.to_string(), *count)).collect();
+            ("pushes", statistics.search.considered, reasons)
+        }
+    };
+    // Stable: equal ones keep the order of their kinds.
+    reasons.sort_by(|a, b| b.1.cmp(&a.1));
     (!reasons.is_empty()).then(|| Section {
-        lines: vec![format!("{considered} pushes were considered; of these could not be made:")],
+        lines: vec![format!("{considered} {what} were considered; of these could not be made:")],
         table: Table::of(
             reasons,
             &[
-                ("pushes", Align::Right, &|(_, count)| count.to_string()),
-                ("why", Align::Left, &|(why, _)| why.to_string()),
+                (what, Align::Right, &|(_, count)| count.to_string()),
+                ("why", Align::Left, &|(why, _)| why.clone()),
+            ],
+        ),
+        ..Section::default()
+    })
+}
+
+/// The other plans that were verified.
+fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
+    let verified = solution.plans.iter().skip(1).filter(|plan| plan.verdict.is_some());
+    let others: Vec<_> = verified.take(7).collect();
+    (!others.is_empty()).then(|| Section {
+        title: "Other plans".to_owned(),
+        table: Table::of(
+            others,
+            &[
+                ("plan", Align::Left, &|ranked| plan_line(&ranked.plan)),
+                ("verdict", Align::Left, &|ranked| verdict_line(task, ranked.verdict.as_ref())),
             ],
         ),
         ..Section::default()

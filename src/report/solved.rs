@@ -83,8 +83,8 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
         table.row([
             record.task.clone(),
             status(record.status).to_owned(),
-            plan.map_or(String::new(), |plan| plan.tool.clone()),
-            plan.map_or(String::new(), |plan| plan.pushes.len().to_string()),
+            plan.map_or(String::new(), |plan| plan.tool().to_owned()),
+            plan.map_or(String::new(), |plan| plan.pushes().len().to_string()),
             error(record.predicted),
             error(record.planar),
             error(record.spatial),
@@ -109,8 +109,8 @@ pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<S
         index.to_string(),
         record.task.clone(),
         status(record.status).to_owned(),
-        plan.map_or(String::new(), |plan| plan.tool.clone()),
-        plan.map_or(String::new(), |plan| plan.pushes.len().to_string()),
+        plan.map_or(String::new(), |plan| plan.tool().to_owned()),
+        plan.map_or(String::new(), |plan| plan.pushes().len().to_string()),
         record.tolerance.to_string(),
     ];
     cells.extend(ends.map(error));

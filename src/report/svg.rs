@@ -265,6 +265,30 @@ impl Svg {
         self.points("polygon", points, style);
     }
 
+    /// A polygon that has these outlines one after another, each for as long, in `seconds`, and the
+    /// last one for so many times as long; where nothing moves it has the last one.
+    pub fn moving_polygon(
+        &mut self,
+        ways: &[Vec<Vector>],
+        (seconds, pause): (f64, usize),
+        style: Style,
+    ) {
+        let list = |points: &Vec<Vector>| {
+            points.iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
+        };
+        let Some(last) = ways.last() else { return };
+        let mut values: Vec<String> = ways.iter().map(list).collect();
+        values.extend(std::iter::repeat_n(list(last), pause));
+        let _ = write!(self.body, "<polygon points=\"{}\" stroke-linejoin=\"round\"", list(last));
+        style.write(&mut self.body);
+        let _ = writeln!(
+            self.body,
+            "><animate attributeName=\"points\" calcMode=\"discrete\" repeatCount=\"indefinite\" \
+             dur=\"{seconds:.2}s\" values=\"{}\"/></polygon>",
+            values.join(";")
+        );
+    }
+
     /// A straight arrow with a filled head of `head` pixels.
     pub fn arrow(&mut self, from: Vector, to: Vector, head: f64, colour: &'static str, width: f64) {
         let along = to - from;

@@ -6,12 +6,15 @@ use crate::scene::{ModelKind, Trajectory};
 use super::document::Figure;
 use super::number::millimetres;
 use super::picture::{ScenePicture, Source, Track};
-use super::plan_picture::moving_figure;
+use super::plan_picture::{moving_figure, space_figures};
 use super::plan_text::plan_line;
 
 /// A picture of a trajectory, whose file is named `name`; `animate` adds one that moves.
 pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> Vec<Figure> {
-    let TrajectoryFile { task, tool, plan, trajectory, .. } = file;
+    let TrajectoryFile { task, tools, plan, trajectory, .. } = file;
+    let (false, Some(tool)) = (task.in_space() || plan.levers(), tools.first()) else {
+        return space_figures(task, (plan, tools), trajectory, &[], (name, animate));
+    };
     let error = task.goal.error(trajectory.outcome());
     let motion = plan.motion(tool);
     let source = source(trajectory);

@@ -7,7 +7,7 @@ use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Task, Verdict, Warn
 
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};
-use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, push_section};
+use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
 
 /// A plan that was replayed.
 pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
@@ -17,7 +17,7 @@ pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
     Document {
         title: format!("{}: {}", file.task.name, plan_line(&file.plan)),
         notes: vec![format!("goal: {}", goal_line(&file.task))],
-        sections: push_section(&file.plan).into_iter().chain([outcomes]).collect(),
+        sections: plan_sections(&file.plan).into_iter().chain([outcomes]).collect(),
         json: json!({
             "task": file.task.name, "plan": file.plan, "verdict": verdict,
             "reason": verdict_line(&file.task, Some(verdict)),
@@ -69,8 +69,15 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
     let Some(verdict) = verdict else {
         return "not verified, as the prediction misses the goal".to_owned();
     };
+    let engines: Vec<&str> = nominal(verdict).map(|e| engine_name(e.engine)).collect();
     match &verdict.reason {
-        None => format!("passed: reaches the goal in both simulations{}", disturbed(verdict)),
+        None => {
+            let simulations = match engines[..] {
+                [one] => format!("the {one} simulation"),
+                _ => "both simulations".to_owned(),
+            };
+            format!("passed: reaches the goal in {simulations}{}", disturbed(verdict))
+        }
         Some(Reason::Forbidden(what)) => format!("failed: {what}"),
         Some(Reason::GoesWrong { engine, fault }) => {
             format!("failed: in the {} simulation {fault}", engine_name(*engine))
@@ -86,8 +93,11 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
             {
                 by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
             }
-            let engine = engine_name(*engine);
-            format!("failed: misses the goal by {} in the {engine} simulation", by.join(" and "))
+            let by = match by.is_empty() {
+                true => String::new(),
+                false => format!(" by {}", by.join(" and ")),
+            };
+            format!("failed: misses the goal{by} in the {} simulation", engine_name(*engine))
         }
         Some(Reason::Fragile { engine, reached, replays, wanted }) => format!(
             "fragile: works as written, but with small errors of starts and frictions {reached} of \
@@ -136,8 +146,13 @@ mod tests {
     fn a_warning_of_both_engines_is_said_once() {
         let landed = || Warning::SetDownOn { object: "can".to_owned(), stroke: 1 };
         let toppled = Warning::Toppled { object: "can".to_owned() };
-        let outcome =
-            Outcome { state: State::default(), error: 0.1, heading_error: None, reached: false };
+        let outcome = Outcome {
+            state: State::default(),
+            error: 0.1,
+            heading_error: None,
+            reached: false,
+            lying: None,
+        };
         let evidence = |engine, warnings| Evidence {
             engine,
             disturbance: Disturbance::Nominal,

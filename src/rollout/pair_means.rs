@@ -20,7 +20,7 @@ pub struct PairMeans {
 impl PairMeans {
     /// Of a rollout of `job` with no frames yet, for rows of `width` numbers.
     pub fn new(scene: &Scene, job: &Job, width: usize) -> Self {
-        let parts = job.motion.tool.outline().len();
+        let parts = job.motion.slide().tool.outline().len();
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), parts);
         Self { pairs, width, sums: BTreeMap::new(), frames: 0 }
     }

@@ -50,13 +50,13 @@ pub struct Course<'a> {
 pub fn reachable(scene: &Scene, job: &Job) -> Vec<usize> {
     let Job { start, motion, physics } = job;
     let count = scene.objects.len();
-    if motion.strokes.is_empty() {
+    if motion.slide().strokes.is_empty() {
         return (0..count).collect();
     }
-    let whole = Bodies::new(scene, &motion.tool, motion.lift, physics);
+    let whole = Bodies::new(scene, &motion.slide().tool, motion.slide().lift, physics);
     let (mut reach, mut subset) = (Reach::default(), Listed::default());
     let mut reached = vec![false; count];
-    for stroke in &motion.strokes {
+    for stroke in &motion.slide().strokes {
         let course = Course { stroke, frame: 0, stride: 1 };
         reach.list(&whole, start, course, 0.0, &mut subset);
         subset.objects.iter().for_each(|object| reached[object.0] = true);

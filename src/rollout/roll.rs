@@ -114,14 +114,19 @@ fn casts(scene: &Scene, jobs: &[Job]) -> (Vec<Bodies>, Vec<usize>) {
     let mut firsts: Vec<&Job> = Vec::new();
     let same = |a: &Job, b: &Job| {
         let same_physics = Arc::ptr_eq(&a.physics, &b.physics) || a.physics == b.physics;
-        let same_tool = Arc::ptr_eq(&a.motion.tool, &b.motion.tool);
-        same_tool && a.motion.lift == b.motion.lift && same_physics
+        let same_tool = Arc::ptr_eq(&a.motion.slide().tool, &b.motion.slide().tool);
+        same_tool && a.motion.slide().lift == b.motion.slide().lift && same_physics
     };
     let which = jobs
         .iter()
         .map(|job| {
             firsts.iter().position(|first| same(first, job)).unwrap_or_else(|| {
-                casts.push(Bodies::new(scene, &job.motion.tool, job.motion.lift, &job.physics));
+                casts.push(Bodies::new(
+                    scene,
+                    &job.motion.slide().tool,
+                    job.motion.slide().lift,
+                    &job.physics,
+                ));
                 firsts.push(job);
                 firsts.len() - 1
             })

@@ -99,7 +99,8 @@ impl<'a> Run<'a> {
             trajectory: Trajectory::new(by.clone()),
         };
         if record == Record::Frames {
-            let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+            let tool =
+                job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
             run.keep_frame(tool);
         }
         run
@@ -113,7 +114,7 @@ impl<'a> Run<'a> {
     /// Decides what the tool does in the next frame that can change anything.
     fn next_step(&mut self) {
         self.step = None;
-        while let Some(stroke) = self.job.motion.strokes.get(self.stroke) {
+        while let Some(stroke) = self.job.motion.slide().strokes.get(self.stroke) {
             let moving = stroke.frames();
             if self.frame < moving {
                 self.axis = stroke.direction().unwrap_or(self.axis);
@@ -175,7 +176,7 @@ impl<'a> Run<'a> {
 
     /// Notes on what the tool is set down at the start of the stroke, if it is.
     fn set_down(&mut self) {
-        let motion = &self.job.motion;
+        let motion = self.job.motion.slide();
         let before = self.stroke.checked_sub(1).map(|before| &motion.strokes[before]);
         if before.is_some_and(|before| !before.settle) {
             return;
@@ -189,14 +190,14 @@ impl<'a> Run<'a> {
 
     /// Notes what the way and its end show that no real table does.
     fn doubt(&mut self) {
-        let Some(stroke) = self.job.motion.strokes.last() else { return };
+        let Some(stroke) = self.job.motion.slide().strokes.last() else { return };
         let Scene { objects, obstacles, .. } = self.scene;
         let moved = |k: usize| self.state.poses[k] != self.job.start.poses[k];
         let name = |body: Body| match body {
             Body::Object(k) => objects[k].name.clone(),
             Body::Obstacle(k) => obstacles[k].name.clone(),
             Body::Part(k) => {
-                let tool = &self.job.motion.tool;
+                let tool = &self.job.motion.slide().tool;
                 format!("{}/{}", tool.name, tool.outline()[k].name)
             }
         };
@@ -294,6 +295,7 @@ impl<'a> Run<'a> {
 
     fn keep_frame(&mut self, tool: Pose) {
         self.trajectory.frames.push(Frame {
+            blade: None,
             time: self.time,
             stroke: self.stroke,
             tool,
@@ -345,8 +347,9 @@ impl<'a> Run<'a> {
     pub fn finish(mut self) -> Trajectory {
         self.doubt();
         if self.trajectory.frames.is_empty() || self.blocked {
-            self.stroke = self.job.motion.strokes.len().saturating_sub(1);
-            let tool = self.job.motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default();
+            self.stroke = self.job.motion.slide().strokes.len().saturating_sub(1);
+            let tool =
+                self.job.motion.slide().strokes.last().map(|stroke| stroke.to).unwrap_or_default();
             self.keep_frame(tool);
         }
         self.trajectory
@@ -383,7 +386,7 @@ impl Walk for Run<'_> {
         if !state.is_finite() {
             std::mem::swap(state, before);
             self.trajectory.warnings.push(Warning::NotFinite);
-            self.stroke = self.job.motion.strokes.len();
+            self.stroke = self.job.motion.slide().strokes.len();
             return;
         }
         subset.return_state(state, &mut self.state);

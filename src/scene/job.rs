@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Physics, Scene, Situation, State, ToolMotion};
+use super::{Motion, Physics, Scene, Situation, State};
 
 /// One rollout to compute.
 #[derive(Clone, Debug)]
@@ -10,20 +10,29 @@ pub struct Job {
     /// Poses and velocities at the start.
     pub start: State,
     /// What the tool does.
-    pub motion: ToolMotion,
+    pub motion: Motion,
     /// Under which physical parameters.
     pub physics: Arc<Physics>,
 }
 
 impl Job {
     /// `motion`, beginning in `situation`.
-    pub fn new(situation: &Situation, motion: ToolMotion) -> Self {
+    pub fn new(situation: &Situation, motion: impl Into<Motion>) -> Self {
         let Situation { start, physics, .. } = situation;
-        Self { start: start.clone(), motion, physics: Arc::clone(physics) }
+        Self { start: start.clone(), motion: motion.into(), physics: Arc::clone(physics) }
     }
 
     /// `motion` in the scene exactly as it is stated.
-    pub fn stated(scene: &Scene, motion: ToolMotion) -> Self {
-        Self { start: scene.start(), motion, physics: Arc::new(Physics::stated(scene)) }
+    pub fn stated(scene: &Scene, motion: impl Into<Motion>) -> Self {
+        Self {
+            start: scene.start(),
+            motion: motion.into(),
+            physics: Arc::new(Physics::stated(scene)),
+        }
+    }
+
+    /// Whether it leaves the plane, or begins out of it: for models in space.
+    pub fn in_space(&self) -> bool {
+        self.motion.is_lever() || self.start.space.is_some()
     }
 }

@@ -21,6 +21,7 @@ mod model;
 mod motion;
 mod near;
 mod observation;
+mod outcome;
 mod outline;
 mod physics;
 mod plan;
@@ -51,22 +52,23 @@ pub use guess::NEARLY_TOUCHING;
 pub use job::Job;
 pub use joint::{Joint, JointKind};
 pub use lever::{
-    Blade, Ending, FollowUp, LEVER_FRAMES, LeverEvidence, LeverFault, LeverFeatures, LeverFrame,
-    LeverJob, LeverMotion, LeverOutcome, LeverPlan, LeverReason, LeverRules, LeverScene,
-    LeverTrajectory, LeverUp, LeverVerdict, LeverWarning, Pivot, Place, Plate, Slab, Weight,
-    has_slipped, lever_frame,
+    Blade, Ending, LEVER_FRAMES, LeverFault, LeverFeatures, LeverFrame, LeverJob, LeverRecord,
+    LeverRules, LeverScene, LeverTrajectory, LeverUp, LeverWarning, Pivot, Place, Plate, Slab,
+    Weight, has_slipped, lever_frame,
 };
 pub use model::{
     Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,
 };
 pub use motion::{
-    COAST_FRAME, FRAME_TRAVEL, FrameStep, MAX_COAST_FRAMES, Push, REST_SPEED, Stroke, ToolMotion,
+    COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,
+    Stroke, ToolMotion,
 };
 pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use observation::{Noise, Observation, Sight};
+pub use outcome::{Lying, Outcome};
 pub use outline::Piece;
 pub use physics::{Physics, face_height};
-pub use plan::{Engine, Outcome, Plan};
+pub use plan::{Engine, LeverStep, Plan, PushStep, Step};
 pub use quantity::Quantity;
 pub use ranges::{Ranges, Span, TRAINED_SLANT, TRAINED_SLIDE, TRAINED_TURN, slant};
 pub use separation::{JOINT_ARM, Misfit, Separation};
@@ -76,7 +78,7 @@ pub use state::{State, Velocity};
 pub use support::Support;
 pub use task::{Directions, Goal, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
-pub use trajectory::{Body, Contact, Force, Frame, Record, TOUCHING, Trajectory};
+pub use trajectory::{Body, Contact, Force, Frame, Lift, Record, TOUCHING, Trajectory};
 pub use truth::Truth;
 pub use unknowns::Unknowns;
 pub use verdict::{Disturbance, Evidence, Reason, Verdict};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector, contact_points};
 
-use super::{Part, Scene, State, TOUCHING, Tool};
+use super::{LeverUp, Part, Scene, State, TOUCHING, Tool};
 
 /// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
 /// this travel, so a slow and a fast push cost the same number of frames.
@@ -117,6 +117,73 @@ pub struct ToolMotion {
     pub lift: f64,
     /// In order of time.
     pub strokes: Vec<Stroke>,
+}
+
+/// What a tool does in one go: it slides over the table, or it levers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Strokes in the plane.
+    Slide(ToolMotion),
+    /// A lever-up.
+    Lever(LeverMotion),
+}
+
+/// A lever-up with its tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeverMotion {
+    /// The tool with the blade, which makes no strokes.
+    hand: ToolMotion,
+    /// What the blade does.
+    pub lever: LeverUp,
+    /// Where the object is expected, if not where the scene has it.
+    pub expected: Option<Pose>,
+}
+
+impl LeverMotion {
+    /// A lever-up with `tool`, of an object that is expected there rather than where the scene has
+    /// it.
+    pub fn new(tool: Arc<Tool>, lever: LeverUp, expected: Option<Pose>) -> Self {
+        Self { hand: ToolMotion { tool, lift: 0.0, strokes: Vec::new() }, lever, expected }
+    }
+
+    /// The tool.
+    pub fn tool(&self) -> &Arc<Tool> {
+        &self.hand.tool
+    }
+}
+
+impl Motion {
+    /// What of it happens in the plane: of a lever-up the tool and no strokes.
+    pub fn slide(&self) -> &ToolMotion {
+        match self {
+            Motion::Slide(motion) => motion,
+            Motion::Lever(motion) => &motion.hand,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn slide_mut(&mut self) -> &mut ToolMotion {
+        match self {
+            Motion::Slide(motion) => motion,
+            Motion::Lever(motion) => &mut motion.hand,
+        }
+    }
+
+    /// The tool that moves.
+    pub fn tool(&self) -> &Arc<Tool> {
+        &self.slide().tool
+    }
+
+    /// Whether it leaves the plane.
+    pub fn is_lever(&self) -> bool {
+        matches!(self, Motion::Lever(_))
+    }
+}
+
+impl From<ToolMotion> for Motion {
+    fn from(motion: ToolMotion) -> Self {
+        Motion::Slide(motion)
+    }
 }
 
 impl ToolMotion {

@@ -1,10 +1,12 @@
-//! A plan, and where it ends.
+//! A plan: steps in order, each complete in itself.
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{Goal, Push, PushForm, State, Tool, ToolMotion, Trajectory};
+use crate::geometry::Pose;
+
+use super::{LeverMotion, LeverUp, Motion, Push, PushForm, Tool, ToolMotion};
 
 /// A physics engine of the simulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -24,53 +26,315 @@ impl Engine {
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }
 
-/// A tool, how it is held, and the pushes to make with it.
+/// A push with the tool that makes it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Plan {
+pub struct PushStep {
     /// Name of the tool.
     pub tool: String,
     /// Turn of the end effector about z against world +x, radians.
     pub grip_yaw: f64,
-    /// How the pushes start.
+    /// Whether the tool comes from above, or goes on where the last push ended.
     pub form: PushForm,
     /// Height of the tool's underside above the table, metres.
     pub lift: f64,
-    /// In order.
-    pub pushes: Vec<Push>,
+    /// What the end effector does.
+    #[serde(flatten)]
+    pub push: Push,
 }
 
-impl Plan {
-    /// What the tool does when the plan is carried out with `tool`, the one it names.
-    pub fn motion(&self, tool: &Arc<Tool>) -> ToolMotion {
-        let placed = self.form == PushForm::Placed;
-        ToolMotion::pushes(Arc::clone(tool), self.lift, self.grip_yaw, &self.pushes, placed)
+impl PushStep {
+    /// Whether the tool is held as in another push, and need not be taken anew.
+    fn goes_on(&self, other: &Self) -> bool {
+        self.tool == other.tool
+            && self.grip_yaw == other.grip_yaw
+            && self.form == other.form
+            && self.lift == other.lift
     }
 }
 
-/// Where a plan ends according to one source.
+/// A lever-up with the tool that makes it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
-    /// Final poses of all objects.
-    pub state: State,
-    /// Distance of the goal object from the goal, metres.
-    pub error: f64,
-    /// Heading error, radians, where a heading is asked for.
-    pub heading_error: Option<f64>,
-    /// Whether the goal is reached at rest.
-    pub reached: bool,
+pub struct LeverStep {
+    /// Name of the tool.
+    pub tool: String,
+    /// What the blade does.
+    #[serde(flatten)]
+    pub lever: LeverUp,
+    /// Where the object is expected by then, if earlier steps have moved it: the blade goes there
+    /// without looking. Else it is where the scene has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<Pose>,
 }
 
-impl Outcome {
-    /// Judges where a trajectory ended. One that did not come to rest, left the finite numbers,
-    /// or lost an object's footing does not count as reaching the goal.
-    pub fn judge(goal: &Goal, trajectory: &Trajectory) -> Self {
-        let state = trajectory.outcome().clone();
-        let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
-        Self {
-            error: goal.error(&state),
-            heading_error: goal.heading_error(&state),
-            reached: sound && state.is_finite() && goal.reached(&state),
-            state,
+/// One step of a plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Step {
+    /// A push.
+    Push(PushStep),
+    /// A lever-up.
+    LeverUp(LeverStep),
+}
+
+impl Step {
+    /// Name of its tool.
+    pub fn tool(&self) -> &str {
+        match self {
+            Step::Push(step) => &step.tool,
+            Step::LeverUp(step) => &step.tool,
         }
+    }
+}
+
+/// What to do, step by step; nothing at all is a plan too.
+///
+/// ```
+/// use pushplan::{Plan, Push, PushForm, Step, Vector};
+///
+/// let push = Push { start: Vector::new(0.4, 0.0), direction: 0.0, length: 0.2, speed: 0.1 };
+/// let plan = Plan::pushing("stick", 0.0, PushForm::Placed, 0.002, [push, push]);
+/// assert!(plan.steps.iter().all(|step| matches!(step, Step::Push(_)) && step.tool() == "stick"));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Plan {
+    /// In order.
+    pub steps: Vec<Step>,
+}
+
+impl Plan {
+    /// These pushes with one tool, held in one way.
+    pub fn pushing(
+        tool: impl Into<String>,
+        grip_yaw: f64,
+        form: PushForm,
+        lift: f64,
+        pushes: impl IntoIterator<Item = Push>,
+    ) -> Self {
+        let tool = tool.into();
+        let step = |push| Step::Push(PushStep { tool: tool.clone(), grip_yaw, form, lift, push });
+        Self { steps: pushes.into_iter().map(step).collect() }
+    }
+
+    /// One lever-up of an object where the scene has it.
+    pub fn levering(tool: impl Into<String>, lever: LeverUp) -> Self {
+        let step = LeverStep { tool: tool.into(), lever, expected: None };
+        Self { steps: vec![Step::LeverUp(step)] }
+    }
+
+    /// The plan followed by another one.
+    #[must_use]
+    pub fn then(mut self, other: Self) -> Self {
+        self.steps.extend(other.steps);
+        self
+    }
+
+    /// Its first `count` steps.
+    #[must_use]
+    pub fn first(&self, count: usize) -> Self {
+        Self { steps: self.steps[..count.min(self.steps.len())].to_vec() }
+    }
+
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// The steps that push.
+    pub fn push_steps(&self) -> impl Iterator<Item = &PushStep> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Push(step) => Some(step),
+            Step::LeverUp(_) => None,
+        })
+    }
+
+    /// The steps that lever.
+    pub fn lever_steps(&self) -> impl Iterator<Item = &LeverStep> {
+        self.steps.iter().filter_map(|step| match step {
+            Step::Push(_) => None,
+            Step::LeverUp(step) => Some(step),
+        })
+    }
+
+    /// All pushes, whichever tool makes them.
+    pub fn pushes(&self) -> Vec<Push> {
+        self.push_steps().map(|step| step.push).collect()
+    }
+
+    /// Whether it levers anything.
+    pub fn levers(&self) -> bool {
+        self.lever_steps().next().is_some()
+    }
+
+    /// Name of the first tool; of a plan without steps empty.
+    pub fn tool(&self) -> &str {
+        self.steps.first().map_or("", Step::tool)
+    }
+
+    /// Turn of the end effector in the first push, radians.
+    pub fn grip_yaw(&self) -> f64 {
+        self.push_steps().next().map_or(0.0, |step| step.grip_yaw)
+    }
+
+    /// How the first push starts.
+    pub fn form(&self) -> PushForm {
+        self.push_steps().next().map_or(PushForm::Placed, |step| step.form)
+    }
+
+    /// Height of the tool's underside above the table in the first push, metres.
+    pub fn lift(&self) -> f64 {
+        self.push_steps().next().map_or(0.0, |step| step.lift)
+    }
+
+    /// Names of its tools, each once, in the order in which they are used.
+    pub fn tools(&self) -> Vec<&str> {
+        let mut tools: Vec<&str> = Vec::new();
+        for tool in self.steps.iter().map(Step::tool) {
+            if !tools.contains(&tool) {
+                tools.push(tool);
+            }
+        }
+        tools
+    }
+
+    /// What the tool does when all pushes of the plan are made with `tool`, the one that they name.
+    pub fn motion(&self, tool: &Arc<Tool>) -> ToolMotion {
+        let steps: Vec<&PushStep> = self.push_steps().collect();
+        run(tool, &steps)
+    }
+
+    /// What its tools do, one motion for each lever-up and for pushes in a row with one tool. None
+    /// where one of its tools is not among `tools`, or a lever-up has one without a blade.
+    pub fn motions(&self, tools: &[Arc<Tool>]) -> Option<Vec<Motion>> {
+        let find = |name: &str| tools.iter().find(|tool| tool.name == name);
+        let (mut motions, mut left) = (Vec::new(), &self.steps[..]);
+        while let Some(step) = left.first() {
+            let tool = find(step.tool())?;
+            match step {
+                Step::LeverUp(step) => {
+                    tool.blade()?;
+                    let (tool, expected) = (Arc::clone(tool), step.expected);
+                    motions.push(Motion::Lever(LeverMotion::new(tool, step.lever, expected)));
+                    left = &left[1..];
+                }
+                Step::Push(first) => {
+                    let row = left.iter().map_while(|step| match step {
+                        Step::Push(step) if step.goes_on(first) => Some(step),
+                        _ => None,
+                    });
+                    let row: Vec<&PushStep> = row.collect();
+                    motions.push(Motion::Slide(run(tool, &row)));
+                    left = &left[row.len()..];
+                }
+            }
+        }
+        Some(motions)
+    }
+}
+
+/// Pushes in a row with one tool.
+fn run(tool: &Arc<Tool>, steps: &[&PushStep]) -> ToolMotion {
+    let first = steps.first();
+    let (lift, grip_yaw) = first.map_or((0.0, 0.0), |step| (step.lift, step.grip_yaw));
+    let placed = first.is_none_or(|step| step.form == PushForm::Placed);
+    let pushes: Vec<Push> = steps.iter().map(|step| step.push).collect();
+    ToolMotion::pushes(Arc::clone(tool), lift, grip_yaw, &pushes, placed)
+}
+
+/// Plans used to be pushes of one tool, or one lever-up: such are read as well.
+impl<'de> Deserialize<'de> for Plan {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Written {
+            steps: Option<Vec<Step>>,
+            tool: Option<String>,
+            grip_yaw: Option<f64>,
+            form: Option<PushForm>,
+            lift: Option<f64>,
+            pushes: Option<Vec<Push>>,
+            lever: Option<LeverUp>,
+        }
+        let written = Written::deserialize(deserializer)?;
+        let missing = |key| <D::Error as serde::de::Error>::missing_field(key);
+        if let Some(steps) = written.steps {
+            return Ok(Self { steps });
+        }
+        let tool = written.tool.ok_or_else(|| missing("steps"))?;
+        if let Some(lever) = written.lever {
+            return Ok(Self::levering(tool, lever));
+        }
+        Ok(Self::pushing(
+            tool,
+            written.grip_yaw.ok_or_else(|| missing("grip_yaw"))?,
+            written.form.ok_or_else(|| missing("form"))?,
+            written.lift.ok_or_else(|| missing("lift"))?,
+            written.pushes.ok_or_else(|| missing("pushes"))?,
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+    use crate::scene::{Blade, Part, Place};
+
+    fn push(x: f64) -> Push {
+        Push { start: Vector::new(x, 0.0), direction: 0.0, length: 0.1, speed: 0.1 }
+    }
+
+    fn lever() -> LeverUp {
+        let place = Place { edge: 0, fraction: 0.5 };
+        LeverUp {
+            plate: 0,
+            place,
+            depth: 0.01,
+            pivot: 0.1,
+            angle: 1.0,
+            speed: 0.1,
+            hold: 0.2,
+            retreat: 0.1,
+        }
+    }
+
+    #[test]
+    fn pushes_in_a_row_with_one_tool_are_one_motion() {
+        let bar = Part::cuboid("bar", [0.02, 0.1, 0.05], Pose::default());
+        let bar = Arc::new(Tool::new("bar", [bar]).expect("one piece"));
+        let blade = Blade { length: 0.1, width: 0.01, thickness: 0.002, friction: 0.4 };
+        let tools = [bar, Arc::new(Tool::with_blade("blade", blade))];
+        let pushing = |count: usize, yaw: f64| {
+            let pushes = (0..count).map(|k| push(0.1 * k as f64));
+            Plan::pushing("bar", yaw, PushForm::Placed, 0.002, pushes)
+        };
+        let plan = pushing(2, 0.0)
+            .then(Plan::levering("blade", lever()))
+            .then(pushing(1, 0.0))
+            .then(pushing(1, 0.5));
+        let motions = plan.motions(&tools).expect("its tools");
+        let strokes: Vec<usize> = motions.iter().map(|m| m.slide().strokes.len()).collect();
+        assert_eq!(strokes, [2, 0, 1, 1]);
+        assert!(motions[1].is_lever() && !motions[0].is_lever());
+        assert_eq!(plan.tools(), ["bar", "blade"]);
+        assert_eq!(plan.motions(&tools[..1]), None, "no blade");
+        let whole = pushing(2, 0.0);
+        let motions = whole.motions(&tools).expect("its tool");
+        assert_eq!(motions, [Motion::Slide(whole.motion(&tools[0]))]);
+        assert_eq!(Plan::default().motions(&tools), Some(Vec::new()));
+    }
+
+    #[test]
+    fn plans_of_the_first_version_are_read() {
+        let plan = Plan::pushing("bar", 0.5, PushForm::Chained, 0.002, [push(0.0), push(0.1)]);
+        let text = serde_json::to_string(&plan).expect("numbers");
+        assert_eq!(serde_json::from_str::<Plan>(&text).expect("sound"), plan);
+        let pushes = serde_json::to_string(&plan.pushes()).expect("numbers");
+        let old = format!(
+            r#"{{"tool":"bar","grip_yaw":0.5,"form":"chained","lift":0.002,"pushes":{pushes}}}"#
+        );
+        assert_eq!(serde_json::from_str::<Plan>(&old).expect("sound"), plan);
+        let plan = Plan::levering("blade", lever());
+        let old = serde_json::to_string(&lever()).expect("numbers").replace("object", "plate");
+        let old = format!(r#"{{"tool":"blade","lever":{old}}}"#);
+        assert_eq!(serde_json::from_str::<Plan>(&old).expect("sound"), plan);
     }
 }

@@ -220,7 +220,7 @@ impl Ranges {
             let ratio = heaviest / lightest;
             check(&whole, Quantity::MassRatio, ratio, Span::new(1.0, self.mass_ratio));
         }
-        let tool = &motion.tool;
+        let tool = &motion.slide().tool;
         let name = || tool.name.clone();
         check(&name, Quantity::Friction, tool.friction, self.friction);
         check(&name, Quantity::Parts, tool.parts().len() as f64, self.parts);
@@ -243,7 +243,7 @@ impl Ranges {
                 }
             }
         }
-        let moving = || motion.strokes.iter().filter(|stroke| stroke.duration > 0.0);
+        let moving = || motion.slide().strokes.iter().filter(|stroke| stroke.duration > 0.0);
         let speed = |stroke: &Stroke| stroke.travel() / stroke.duration;
         if let Some(speed) = moving().map(speed).find(|speed| !self.speed.contains(*speed)) {
             check(&push, Quantity::Speed, speed, self.speed);
@@ -255,7 +255,7 @@ impl Ranges {
             let slide = fastest * fastest / (2.0 * smoothest * GRAVITY);
             check(&push, Quantity::Slide, slide, Span::new(0.0, self.slide));
         }
-        let turn = motion.strokes.iter().map(turn_per_travel).fold(0.0, f64::max);
+        let turn = motion.slide().strokes.iter().map(turn_per_travel).fold(0.0, f64::max);
         check(&push, Quantity::Turn, turn, Span::new(0.0, self.turn));
         found
     }

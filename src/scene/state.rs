@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Vector};
+use crate::geometry::{Pose, Pose3, Vector};
+
+use super::planar::planar_only;
 
 /// A planar velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,17 +29,23 @@ pub struct State {
     pub poses: Vec<Pose>,
     /// Velocities in the world frame.
     pub velocities: Vec<Velocity>,
+    /// Poses in space, once something has left the plane: `poses` are then what is seen of them from
+    /// above.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<Vec<Pose3>>,
 }
 
 impl Clone for State {
     fn clone(&self) -> Self {
-        Self { poses: self.poses.clone(), velocities: self.velocities.clone() }
+        let Self { poses, velocities, space } = self;
+        Self { poses: poses.clone(), velocities: velocities.clone(), space: space.clone() }
     }
 
     /// On the memory that is there: rollouts do so in every frame.
     fn clone_from(&mut self, other: &Self) {
         self.poses.clone_from(&other.poses);
         self.velocities.clone_from(&other.velocities);
+        self.space.clone_from(&other.space);
     }
 }
 
@@ -45,12 +53,19 @@ impl State {
     /// The given poses, nothing moving.
     pub fn at_rest(poses: Vec<Pose>) -> Self {
         let velocities = vec![Velocity::default(); poses.len()];
-        Self { poses, velocities }
+        Self { poses, velocities, space: None }
+    }
+
+    /// The given poses in space, nothing moving.
+    pub fn in_space(poses: Vec<Pose3>) -> Self {
+        let seen = poses.iter().map(Pose3::from_above).collect();
+        Self { space: Some(poses), ..Self::at_rest(seen) }
     }
 
     /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.poses.iter().all(Pose::is_finite)
+            && self.space.iter().flatten().all(Pose3::is_finite)
             && self
                 .velocities
                 .iter()

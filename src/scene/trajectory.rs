@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Pose3};
 
+use super::planar::planar_only;
 use super::{ModelSpec, State, Warning};
 
 /// One recorded instant.
@@ -17,6 +18,23 @@ pub struct Frame {
     pub tool: Pose,
     /// Every object.
     pub state: State,
+    /// The middle of the blade while something is levered; `tool` is then what is seen of it from
+    /// above.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub blade: Option<Pose3>,
+}
+
+/// What a lever-up has come to at the end of its turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lift {
+    /// Index of the object that is levered.
+    pub object: usize,
+    /// How much higher its edge lies at the lever point than before, metres.
+    pub raised: f64,
+    /// Whether it lies on the blade.
+    pub held: bool,
+    /// How far it is tilted, radians.
+    pub tilt: f64,
 }
 
 /// Bodies with a smaller gap than this touch, metres; the same depth of overlap is no more than a
@@ -91,17 +109,27 @@ pub struct Trajectory {
     /// How hard the tool pressed; nothing where the model does not tell.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
+    /// What each lever-up has come to, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lifts: Vec<Lift>,
 }
 
 impl Trajectory {
     /// Nothing yet, computed `by` this model.
     pub fn new(by: ModelSpec) -> Self {
-        Self { by, frames: Vec::new(), contacts: Vec::new(), warnings: Vec::new(), force: None }
+        Self {
+            by,
+            frames: Vec::new(),
+            contacts: Vec::new(),
+            warnings: Vec::new(),
+            force: None,
+            lifts: Vec::new(),
+        }
     }
 
     /// `state` alone, the tool at `tool`, where nothing is done.
     pub fn standing(by: ModelSpec, tool: Pose, state: State) -> Self {
-        let frame = Frame { time: 0.0, stroke: 0, tool, state };
+        let frame = Frame { time: 0.0, stroke: 0, tool, state, blade: None };
         Self { frames: vec![frame], ..Self::new(by) }
     }
 

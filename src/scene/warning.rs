@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ModelSpec, Quantity, Unknowns};
+use super::{LeverFault, ModelSpec, Quantity, Unknowns};
 
 /// Something that lowers the trust in a result without making it an error.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,6 +86,27 @@ pub enum Warning {
         /// The yaw, radians.
         yaw: f64,
     },
+    /// The task does not allow so many pushes in a row.
+    TooManyPushes {
+        /// How many there are.
+        pushes: usize,
+        /// How many are allowed.
+        allowed: usize,
+    },
+    /// A lever-up that no robot can make, or that the task does not allow.
+    CannotLever {
+        /// Index of the step.
+        step: usize,
+        /// Why.
+        fault: LeverFault,
+    },
+    /// An object slid off the blade during the turn.
+    Slipped {
+        /// Its name.
+        object: String,
+    },
+    /// Forces grew as they do when something is jammed. The replay ended.
+    Strained,
     /// The tool came down on an object instead of beside it.
     SetDownOn {
         /// Name of the object.
@@ -148,11 +169,15 @@ impl Warning {
             | Warning::LooseJoint { .. }
             | Warning::Differs { .. }
             | Warning::Simulated { .. }
+            | Warning::Slipped { .. }
             | Warning::Guessed { .. } => false,
             Warning::NotAtRest { .. }
             | Warning::NotFinite
             | Warning::Stopped
             | Warning::Toppled { .. }
+            | Warning::TooManyPushes { .. }
+            | Warning::CannotLever { .. }
+            | Warning::Strained
             | Warning::Jammed { .. }
             | Warning::OffTable { .. }
             | Warning::TooMuchForce { .. }
@@ -179,7 +204,7 @@ impl Warning {
     /// Whether something on the way cannot pass. An engine ends a replay there; an effect model
     /// records no frames from there on but the last.
     pub fn blocks(&self) -> bool {
-        matches!(self, Warning::Jammed { .. } | Warning::OffTable { .. })
+        matches!(self, Warning::Jammed { .. } | Warning::Strained | Warning::OffTable { .. })
     }
 
     /// Whether this is about the model, so that simulating instead would help.
@@ -209,7 +234,12 @@ impl Warning {
             Warning::TooMuchForce { .. } => "too much force",
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",
-            Warning::ForbiddenTool { .. } | Warning::ForbiddenYaw { .. } => "forbidden",
+            Warning::ForbiddenTool { .. }
+            | Warning::ForbiddenYaw { .. }
+            | Warning::TooManyPushes { .. }
+            | Warning::CannotLever { .. } => "forbidden",
+            Warning::Slipped { .. } => "slipped off the blade",
+            Warning::Strained => "jammed",
             Warning::SetDownOn { .. } => "set down on it",
             Warning::Pressed { .. } => "pressed",
             Warning::Overlap { .. } => "overlapping",
@@ -319,6 +349,12 @@ impl fmt::Display for Warning {
             Warning::ForbiddenYaw { yaw } => {
                 write!(f, "the task does not allow a grip yaw of {:.1} degrees", yaw.to_degrees())
             }
+            Warning::TooManyPushes { pushes, allowed } => {
+                write!(f, "{pushes} pushes in a row, and the task allows {allowed}")
+            }
+            Warning::CannotLever { step, fault } => write!(f, "step {}: {fault}", step + 1),
+            Warning::Slipped { object } => write!(f, "{object} slipped off the blade"),
+            Warning::Strained => write!(f, "something is jammed"),
             Warning::Toppled { object } => write!(
                 f,
                 "{object} toppled; its pose on the table means little, push lower or slower"

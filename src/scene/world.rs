@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
+use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Solid, Vector};
 
 use super::planar::planar_only;
 use super::{
@@ -157,6 +157,12 @@ impl Obstacle {
     /// The obstacle with its underside so high above the table, metres.
     pub fn raised(self, z: f64) -> Self {
         Self { z, ..self }
+    }
+
+    /// Where it is, as a solid in space.
+    pub fn solid(&self) -> Solid {
+        let middle = Pose3::upright(self.pose, self.z + 0.5 * self.size[2]);
+        Solid::cuboid(self.size, &middle)
     }
 
     /// What pushes must keep away from: the obstacle down to the table.

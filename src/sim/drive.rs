@@ -76,6 +76,7 @@ pub(super) fn drive<W: World>(
     watch: &dyn Watch,
 ) -> Trajectory {
     let Job { start, motion, physics } = job;
+    let motion = motion.slide();
     let step = simulator.step();
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
     let mut recorder = Recorder::new(simulator.spec(), record, start, tool);
@@ -250,7 +251,7 @@ impl Recorder {
                 self.toppled.push(object);
             }
         }
-        let frame = Frame { time, stroke, tool, state };
+        let frame = Frame { time, stroke, tool, state, blade: None };
         match self.record {
             Record::Frames => self.trajectory.frames.push(frame),
             Record::Outcome => self.trajectory.frames[0] = frame,

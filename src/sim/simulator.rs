@@ -1,9 +1,13 @@
 //! An engine with its step, playing tool motions.
 
-use crate::scene::{Engine, Job, ModelKind, ModelSpec, Rate, Record, Scene, Trajectory};
+use crate::geometry::Pose;
+use crate::scene::{
+    Engine, Job, LeverScene, ModelKind, ModelSpec, Motion, Rate, Record, Scene, Trajectory, Warning,
+};
 use crate::watch::{Unwatched, Watch};
 
 use super::drive::drive;
+use super::lever::LeverSimulator;
 use super::planar::PlanarWorld;
 use super::spatial::SpatialWorld;
 
@@ -83,11 +87,51 @@ impl Simulator {
         record: Record,
         watch: &dyn Watch,
     ) -> Trajectory {
+        if job.in_space() {
+            return self.in_space(scene, job, record, watch);
+        }
         let play = match self.engine {
             Engine::Planar => drive::<PlanarWorld>,
             Engine::Spatial => drive::<SpatialWorld<true>>,
             Engine::Upright => drive::<SpatialWorld<false>>,
         };
         play(scene, job, self, record, watch)
+    }
+
+    /// Plays motions one after another until everything rests: in the plane those of one tool, which
+    /// are one motion, in space any.
+    pub fn run_plan(&self, scene: &Scene, motions: &[Motion], record: Record) -> Trajectory {
+        match motions {
+            [] => Trajectory::standing(self.spec(), Pose::default(), scene.start()),
+            [Motion::Slide(motion)] if !scene.in_space() => {
+                self.run(scene, &Job::stated(scene, motion.clone()), record)
+            }
+            motions => {
+                let first = motions.iter().find(|motion| motion.is_lever());
+                let tool = first.unwrap_or(&motions[0]).tool();
+                let planned = LeverScene::with(scene, tool);
+                let simulator = LeverSimulator { rate: self.rate };
+                simulator.run_all((&planned, &planned), None, motions, (record, &Unwatched))
+            }
+        }
+    }
+
+    /// Whether it can play a job: what leaves the plane is for the 3-D engine.
+    pub fn takes(&self, job: &Job) -> bool {
+        self.engine == Engine::Spatial || !job.in_space()
+    }
+
+    /// Plays a job that leaves the plane, or begins out of it.
+    fn in_space(&self, scene: &Scene, job: &Job, record: Record, watch: &dyn Watch) -> Trajectory {
+        if !self.takes(job) {
+            let tool = Pose::default();
+            let mut declined = Trajectory::standing(self.spec(), tool, job.start.clone());
+            declined.warnings.push(Warning::Declined { model: self.spec() });
+            return declined;
+        }
+        let planned = LeverScene::with(scene, job.motion.tool());
+        let simulator = LeverSimulator { rate: self.rate };
+        let motions = std::slice::from_ref(&job.motion);
+        simulator.run_all((&planned, &planned), Some(&job.start), motions, (record, watch))
     }
 }

@@ -119,11 +119,11 @@ fn with_yaw(
 ) -> Result<Asked, ActionError> {
     let rules = &task.pushes;
     let (form, lift) = (rules.form, rules.lift);
-    let mut plan = Plan { tool: tool.name.clone(), grip_yaw, form, lift, pushes: Vec::new() };
+    let mut plan = Plan::default();
     let mut broken = Vec::new();
     for (k, asked) in pushes.iter().enumerate() {
         let state = after(situation, tool, &plan);
-        let previous = plan.pushes.last().map(Push::end);
+        let previous = plan.push_steps().last().map(|step| step.push.end());
         let push = Push {
             start: start(task, (tool, grip_yaw), asked, &state, previous)?,
             direction: asked.direction,
@@ -135,14 +135,14 @@ fn with_yaw(
         let workspace = Workspace { task, tools };
         let rule = workspace.margins((0, grip_yaw), &state, &push, set_down).broken();
         broken.extend(rule.map(|rule| (k, rule)));
-        plan.pushes.push(push);
+        plan = plan.then(Plan::pushing(&tool.name, grip_yaw, form, lift, [push]));
     }
     Ok(Asked { plan, broken })
 }
 
 /// Where the pushes so far leave the objects.
 fn after(situation: &Situation, tool: &Arc<Tool>, plan: &Plan) -> State {
-    if plan.pushes.is_empty() {
+    if plan.is_empty() {
         return situation.start.clone();
     }
     let job = Job::new(situation, plan.motion(tool));

@@ -9,7 +9,7 @@ use std::num::NonZeroU16;
 use crate::effect::{EffectModels, ModelError, Routed};
 use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 
-use super::{Effort, Settings};
+use super::{Effort, LeverSettings, Settings};
 
 /// The planar engine that pushes into crowds are left to: among touching objects it is off by less
 /// in the plane than the prior, and costs a quarter of what the engine does at its default step.
@@ -37,6 +37,7 @@ const COARSE: Settings = Settings {
     verified_at_once: 4,
     verify_batches: 2,
     disturbed: 4,
+    levers: LeverSettings::DRAFT,
 };
 
 /// Medium search, strong refinement, up to 24 verified, 8 disturbed.
@@ -50,6 +51,7 @@ const MEDIUM: Settings = Settings {
     verified_at_once: 8,
     verify_batches: 3,
     disturbed: 8,
+    levers: LeverSettings::STANDARD,
 };
 
 impl Effort {
@@ -68,7 +70,12 @@ impl Effort {
     /// the plan is.
     pub fn settings(self) -> Settings {
         let (_, settings, disturbed) = self.level();
-        Settings { disturbed, ..settings }
+        let levers = match self {
+            Effort::Draft => LeverSettings::DRAFT,
+            Effort::Standard => LeverSettings::STANDARD,
+            Effort::Thorough => LeverSettings::THOROUGH,
+        };
+        Settings { disturbed, levers, ..settings }
     }
 
     /// The effect model of its level; where that is the prior, the planar engine for pushes that

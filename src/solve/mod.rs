@@ -3,15 +3,15 @@
 //! [`Planner::solve`] looks at plans of one push, then of two, and so on; of each length it
 //! searches, refines the best and has them verified, and it returns the first plan that passes.
 //! Not finding one is a [`PlanStatus`], not an error. [`asked_plan`] makes a plan of pushes that a
-//! person asks for. [`lever`]
-//! does the same for lever-ups.
+//! person asks for. Where something leaves the plane, `levering` does the same for lever-ups and for
+//! plans that push as well.
 
 mod asked;
 mod check;
 mod efforts;
 mod error;
 mod grade;
-pub mod lever;
+mod levering;
 mod planner;
 mod rank;
 mod ranking;
@@ -22,6 +22,9 @@ mod solving;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
 pub use error::SolveError;
+pub use levering::{AskedLever, AskedPlace, LeverActionError, LeverSettings, asked_lever};
 pub use planner::{Planner, PlannerBuilder, Prediction};
 pub use settings::{Effort, Settings};
-pub use solution::{PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing};
+pub use solution::{
+    LeverStatistics, PlanStatus, RankedPlan, Refinement, Solution, Statistics, Timing,
+};

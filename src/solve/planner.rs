@@ -16,6 +16,7 @@ use crate::scene::{
 use crate::watch::{Until, Unwatched, Watch};
 
 use super::check::check;
+use super::levering::{self, Steps};
 use super::solving::Solving;
 use super::{Effort, Settings, Solution, SolveError};
 
@@ -178,6 +179,9 @@ impl Planner {
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
+        if task.in_space() {
+            return self.solve_in_space(situation, task, library, watch);
+        }
         let tools = task.tools(library)?;
         check(task, situation, &tools)?;
         let motion = |tool: &Arc<Tool>| typical(task, &situation.start, tool);
@@ -186,7 +190,24 @@ impl Planner {
         Ok(Solving::new(self, task, situation, &tools, &until).run())
     }
 
-    /// What the effect model predicts for a plan made with `tool`.
+    /// [`Planner::solve_from`] where something leaves the plane.
+    fn solve_in_space(
+        &self,
+        situation: &Situation,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Result<Solution, SolveError> {
+        let blades = match task.levers {
+            Some(_) => task.blades(library)?,
+            None => Vec::new(),
+        };
+        levering::check(task, situation, &blades)?;
+        let until = Until::new(watch, self.time_limit);
+        Steps::new(self, (task, situation), library, &blades, &until).run()
+    }
+
+    /// What the effect model predicts for a plan of pushes made with `tool`.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
@@ -243,12 +264,12 @@ impl Planner {
             plans.iter().map(|(plan, tool)| Job::new(situation, plan.motion(tool))).collect();
         // A plan without pushes moves nothing and needs no model.
         let moving: Vec<Job> =
-            jobs.iter().filter(|job| !job.motion.strokes.is_empty()).cloned().collect();
+            jobs.iter().filter(|job| !job.motion.slide().strokes.is_empty()).cloned().collect();
         let mut rolled = self.model.rollout(scene, &moving, Record::Frames).into_iter();
         jobs.iter()
             .map(|job| {
-                let still = || still(task, &job.start, &job.motion.tool);
-                let trajectory = match job.motion.strokes.is_empty() {
+                let still = || still(task, &job.start, job.motion.tool());
+                let trajectory = match job.motion.slide().strokes.is_empty() {
                     true => still(),
                     false => rolled.next().filter(|t| !t.frames.is_empty()).unwrap_or_else(still),
                 };
@@ -262,7 +283,7 @@ impl Planner {
                     // Once simulated the doubt has a number.
                     warnings.extend(consequence(scene, job, trajectory.outcome()));
                 }
-                let outcome = Outcome::judge(&task.goal, &trajectory);
+                let outcome = Outcome::judge(scene, &task.goal, &trajectory);
                 Prediction { trajectory, outcome, warnings }
             })
             .collect()

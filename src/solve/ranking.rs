@@ -49,7 +49,7 @@ impl Solving<'_> {
             .zip(predictions)
             .map(|((_, tried), prediction)| RankedPlan {
                 plan: tried.plan,
-                tool: tried.tool,
+                tools: vec![tried.tool],
                 predicted: prediction.trajectory,
                 outcome: prediction.outcome,
                 verdict: tried.verdict,

@@ -130,12 +130,11 @@ impl Solving<'_> {
                 })
             };
             let placed = self.workspace.is_placed();
-            let count = (1..tried.plan.pushes.len()).find(|&count| placed && reached(count));
+            let count = (1..tried.plan.pushes().len()).find(|&count| placed && reached(count));
             let Some(count) = count else { continue };
             let mut candidate = candidate.clone();
             candidate.pushes.truncate(count);
-            let mut plan = tried.plan.clone();
-            plan.pushes.truncate(count);
+            let plan = tried.plan.first(count);
             let known = self.tried.iter().any(|tried| tried.plan == plan);
             if !known {
                 let shorter = Tried {
@@ -294,7 +293,8 @@ mod tests {
         };
         let ended = |x: f64, y: f64, heading: f64| {
             let state = State::at_rest(vec![Pose::new(x, y, heading)]);
-            let outcome = Outcome { error: 0.0, heading_error: None, reached: false, state };
+            let outcome =
+                Outcome { error: 0.0, heading_error: None, reached: false, lying: None, state };
             let evidence = Evidence {
                 engine: Engine::Spatial,
                 disturbance: Disturbance::Nominal,

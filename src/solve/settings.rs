@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::plan::SearchSettings;
 
+use super::LeverSettings;
+
 /// How hard a planner tries.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
@@ -65,6 +67,8 @@ pub struct Settings {
     pub verify_batches: usize,
     /// Disturbed replays of the winning plan in each engine.
     pub disturbed: usize,
+    /// Those of lever-ups.
+    pub levers: LeverSettings,
 }
 
 /// A replay costs more the more objects there are, so at most so many, of all plans, are replayed together:
@@ -89,6 +93,7 @@ impl Settings {
         verified_at_once: 1,
         verify_batches: 1,
         disturbed: 0,
+        levers: LeverSettings::DRAFT,
     };
 
     /// The part that the search takes, with a model that is off by `model_error` metres at times.

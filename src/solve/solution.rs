@@ -6,6 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
+use crate::plan::lever::LeverSearchStatistics;
 use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
 use crate::scene::{Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
 use crate::verify::{Verifier, VerifySettings};
@@ -49,9 +50,10 @@ pub struct Refinement {
 pub struct RankedPlan {
     /// The plan.
     pub plan: Plan,
-    /// The tool that it names.
+    /// The tools that it names, each once, in the order in which they are used; of a plan without
+    /// steps the first that was offered.
     #[serde(with = "shared")]
-    pub tool: Arc<Tool>,
+    pub tools: Vec<Arc<Tool>>,
     /// What the effect model predicts, frame by frame.
     pub predicted: Trajectory,
     /// Where that ends.
@@ -63,6 +65,14 @@ pub struct RankedPlan {
 }
 
 impl RankedPlan {
+    /// Its first tool.
+    ///
+    /// # Panics
+    /// Never for a plan that a planner returned: those have at least one tool.
+    pub fn tool(&self) -> &Arc<Tool> {
+        &self.tools[0]
+    }
+
     /// Its nominal replays in both engines: those of the verdict, or ones made now from
     /// `situation` where the plan was not worth verifying.
     pub fn replays(&self, task: &Task, situation: &Situation) -> Cow<'_, Verdict> {
@@ -70,7 +80,7 @@ impl RankedPlan {
             Some(verdict) => Cow::Borrowed(verdict),
             None => {
                 let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-                Cow::Owned(verifier.nominal(task, situation, &self.tool, &self.plan))
+                Cow::Owned(verifier.nominal(task, situation, &self.tools, &self.plan))
             }
         }
     }
@@ -83,9 +93,22 @@ impl RankedPlan {
         Physics::PLAUSIBLE_SUPPORTS.iter().all(|support| {
             let mut situation = situation.clone();
             Arc::make_mut(&mut situation.physics).support_all(&situation.scene, support);
-            verifier.nominal(task, &situation, &self.tool, &self.plan).passed
+            verifier.nominal(task, &situation, &self.tools, &self.plan).passed
         })
     }
+}
+
+/// What looking for lever-ups cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LeverStatistics {
+    /// Of the last search.
+    pub search: LeverSearchStatistics,
+    /// Candidates that were simulated coarsely.
+    pub simulated: usize,
+    /// Plans that were verified.
+    pub verified: usize,
+    /// Lever-ups after which pushes were looked for.
+    pub followed: usize,
 }
 
 /// Wall-clock time of each stage, seconds. Reported, never used to decide anything.
@@ -116,6 +139,9 @@ pub struct Statistics {
     pub depth: usize,
     /// Wall-clock times.
     pub timing: Timing,
+    /// Of lever-ups, where a task allows them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levers: Option<LeverStatistics>,
 }
 
 /// The result of [`super::Planner::solve`].
@@ -145,19 +171,21 @@ impl Solution {
     }
 }
 
-/// A shared tool is written as the tool itself.
+/// Shared tools are written as the tools themselves.
 mod shared {
     use std::sync::Arc;
 
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use serde::{Deserialize, Deserializer, Serializer};
 
     use crate::scene::Tool;
 
-    pub fn serialize<S: Serializer>(tool: &Arc<Tool>, serializer: S) -> Result<S::Ok, S::Error> {
-        Tool::serialize(tool, serializer)
+    pub fn serialize<S: Serializer>(tools: &[Arc<Tool>], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(tools.iter().map(|tool| &**tool))
     }
 
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Tool>, D::Error> {
-        Tool::deserialize(deserializer).map(Arc::new)
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<Arc<Tool>>, D::Error> {
+        Ok(Vec::<Tool>::deserialize(deserializer)?.into_iter().map(Arc::new).collect())
     }
 }

@@ -226,7 +226,8 @@ impl<'a> Solving<'a> {
             .par_iter()
             .map(|&k| {
                 let Tried { tool, plan, .. } = &self.tried[k];
-                self.verifier.nominal(self.task, self.situation, tool, plan)
+                let tools = std::slice::from_ref(tool);
+                self.verifier.nominal(self.task, self.situation, tools, plan)
             })
             .collect();
         self.statistics.verified += indices.len();
@@ -246,8 +247,9 @@ impl<'a> Solving<'a> {
         for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
-                let (tool, plan) = (&tried.tool, &tried.plan);
-                let verdict = self.verifier.disturb(self.task, self.situation, tool, plan, verdict);
+                let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
+                let verdict =
+                    self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
                 let grade = Grade::of(&self.task.goal, &verdict);
                 tried.verdict = Some(verdict);
                 if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {
@@ -285,28 +287,18 @@ impl<'a> Solving<'a> {
     }
 
     fn plan(&self, tool: &Tool, evaluation: &Evaluation) -> Plan {
-        Plan {
-            tool: tool.name.clone(),
-            grip_yaw: evaluation.candidate.grip_yaw,
-            form: self.task.pushes.form,
-            lift: self.task.pushes.lift,
-            pushes: evaluation.pushes.clone(),
-        }
+        let (yaw, rules) = (evaluation.candidate.grip_yaw, &self.task.pushes);
+        let pushes = evaluation.pushes.iter().copied();
+        Plan::pushing(&tool.name, yaw, rules.form, rules.lift, pushes)
     }
 
     /// Doing nothing, which is a plan too.
     fn without_pushes(&self) -> Tried {
-        let (start, rules) = (&self.situation.start, &self.task.pushes);
+        let start = &self.situation.start;
         let error = self.task.goal.error(start);
         let tool = Arc::clone(&self.workspace.tools[0]);
         Tried {
-            plan: Plan {
-                tool: tool.name.clone(),
-                grip_yaw: rules.grip_yaws.first().copied().unwrap_or_default(),
-                form: rules.form,
-                lift: rules.lift,
-                pushes: Vec::new(),
-            },
+            plan: Plan::default(),
             tool,
             candidate: None,
             aim: self.task.goal,

@@ -4,7 +4,7 @@
 //! says what no robot can do or the task forbids.
 
 use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};
-use crate::scene::{Obstacle, Plan, Push, Robot, Scene, Task, Tool, ToolChoice, Warning};
+use crate::scene::{Obstacle, Plan, Push, PushStep, Robot, Scene, Task, Tool, ToolChoice, Warning};
 
 /// Slack for rounding, metres and radians.
 const SLACK: f64 = 1e-5;
@@ -13,7 +13,7 @@ const SLACK: f64 = 1e-5;
 /// moves.
 pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec<Warning> {
     let mut found = Vec::new();
-    if plan.pushes.is_empty() {
+    if plan.is_empty() {
         return found;
     }
     if let ToolChoice::Named(names) = &task.tools
@@ -21,15 +21,19 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
     {
         found.push(Warning::ForbiddenTool { tool: tool.name.clone() });
     }
-    let same = |yaw: &f64| wrap_angle(yaw - plan.grip_yaw).abs() <= SLACK;
-    if !task.pushes.grip_yaws.iter().any(same) {
-        found.push(Warning::ForbiddenYaw { yaw: plan.grip_yaw });
+    let mut yaws: Vec<f64> = plan.push_steps().map(|step| step.grip_yaw).collect();
+    yaws.dedup();
+    for yaw in yaws {
+        let same = |allowed: &f64| wrap_angle(allowed - yaw).abs() <= SLACK;
+        if !task.pushes.grip_yaws.iter().any(same) {
+            found.push(Warning::ForbiddenYaw { yaw });
+        }
     }
-    for (index, push) in plan.pushes.iter().enumerate() {
-        if !is_within_reach(&task.robot, push) {
+    for (index, step) in plan.push_steps().enumerate() {
+        if !is_within_reach(&task.robot, &step.push) {
             found.push(Warning::OutOfReach { push: index });
         }
-        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, plan, push) {
+        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, step) {
             let obstacle = obstacle.name.clone();
             found.push(Warning::ThroughObstacle { push: index, obstacle });
         }
@@ -37,15 +41,14 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
     found
 }
 
-/// The first obstacle that the tool goes through during a push of `plan`.
+/// The first obstacle that the tool goes through during a push.
 pub(super) fn in_the_way<'a>(
     obstacles: &'a [Obstacle],
     tool: &Tool,
-    plan: &Plan,
-    push: &Push,
+    step: &PushStep,
 ) -> Option<&'a Obstacle> {
-    let frame = |at: Vector| tool.pose(Pose { position: at, heading: plan.grip_yaw });
-    let (from, to) = (frame(push.start), frame(push.end()));
+    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
+    let (from, to) = (frame(step.push.start), frame(step.push.end()));
     obstacles.iter().find(|obstacle| {
         let still = (&obstacle.shape().footprint(), &obstacle.pose);
         let meets = |k: usize| {
@@ -53,7 +56,7 @@ pub(super) fn in_the_way<'a>(
             let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
             swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
         };
-        plan.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
+        step.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
     })
 }
 

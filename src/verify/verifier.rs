@@ -6,14 +6,15 @@ use rayon::prelude::*;
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Evidence, Job, Outcome, Plan, Record, Scene, Situation, Task, Tool, Trajectory,
-    Verdict, Warning,
+    Disturbance, Evidence, Job, LeverScene, Outcome, Plan, Record, Scene, Situation, Task, Tool,
+    Trajectory, Verdict, Warning,
 };
-use crate::sim::Simulator;
+use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
 
 use super::disturbance::Disturbed;
 use super::rules::broken_rules;
+use super::space;
 
 /// Processor time of a time step for each object, seconds: with one object 1 and 6 us were measured,
 /// with nine 0.5 and 5.
@@ -54,30 +55,46 @@ impl<'a> Verifier<'a> {
     /// About how long verifying a plan takes on one core, seconds: right to within a factor of
     /// three where not everything is pushed into everything.
     pub fn seconds(&self, scene: &Scene, plan: &Plan) -> f64 {
-        let moving: f64 = plan.pushes.iter().map(|push| push.length / push.speed).sum();
+        let pushing = plan.push_steps().map(|step| step.push.length / step.push.speed);
+        let levering = plan.lever_steps().map(|step| step.lever.duration());
+        let moving: f64 = pushing.chain(levering).sum();
         let each = [(&self.planar, PLANAR_STEP), (&self.spatial, SPATIAL_STEP)];
         let replay: f64 = each.iter().map(|(engine, cost)| moving / engine.step() * cost).sum();
         replay * scene.objects.len() as f64 * (self.settings.disturbed + 1) as f64
     }
 
-    /// Nominal replays in both engines; enough to tell whether a plan works as written.
+    /// Nominal replays in both engines, or in 3-D of what leaves the plane; enough to tell whether a
+    /// plan works as written.
     ///
-    /// `tool` is the one that the plan names.
+    /// `tools` are those that the plan names.
     pub fn nominal(
         &self,
         task: &Task,
         situation: &Situation,
-        tool: &Arc<Tool>,
+        tools: &[Arc<Tool>],
         plan: &Plan,
     ) -> Verdict {
+        let scene = &*situation.scene;
+        if in_space(task, plan) {
+            if let Some(fault) = space::unplayable(scene, tools, plan) {
+                return Verdict::judge(vec![fault], Vec::new(), task.robustness);
+            }
+            let forbidden = space::broken_rules(task, scene, tools, plan);
+            let evidence = self.replay_in_space(task, situation, (tools, plan), None);
+            return Verdict::judge(forbidden, vec![evidence], task.robustness);
+        }
+        let Some(tool) = tools.first() else {
+            let missing = Warning::ForbiddenTool { tool: plan.tool().to_owned() };
+            return Verdict::judge(vec![missing], Vec::new(), task.robustness);
+        };
         let job = Job::new(situation, plan.motion(tool));
         let mut evidence: Vec<Evidence> = [&self.spatial, &self.planar]
             .into_par_iter()
-            .map(|engine| self.replay(engine, task, &situation.scene, &job, Disturbance::Nominal))
+            .map(|engine| self.replay(engine, task, scene, &job, Disturbance::Nominal))
             .collect();
         // The planar engine is the one that people compare predictions with: it comes first.
         evidence.reverse();
-        Verdict::judge(broken_rules(task, &situation.scene, tool, plan), evidence, task.robustness)
+        Verdict::judge(broken_rules(task, scene, tool, plan), evidence, task.robustness)
     }
 
     /// The verdict of [`Verifier::nominal`] with the disturbed replays beside it.
@@ -85,10 +102,31 @@ impl<'a> Verifier<'a> {
         &self,
         task: &Task,
         situation: &Situation,
-        tool: &Arc<Tool>,
+        tools: &[Arc<Tool>],
         plan: &Plan,
         verdict: Verdict,
     ) -> Verdict {
+        let Verdict { forbidden, mut evidence, .. } = verdict;
+        if evidence.is_empty() {
+            return Verdict::judge(forbidden, evidence, task.robustness);
+        }
+        if in_space(task, plan) {
+            let replays: Vec<Evidence> = (0..self.settings.disturbed)
+                .into_par_iter()
+                .map(|draw| {
+                    if self.watch.cancelled() {
+                        let disturbance = Disturbance::Disturbed { draw: draw + 1 };
+                        return stopped(&self.spatial, task, situation, disturbance);
+                    }
+                    self.replay_in_space(task, situation, (tools, plan), Some(draw))
+                })
+                .collect();
+            evidence.extend(replays);
+            return Verdict::judge(forbidden, evidence, task.robustness);
+        }
+        let Some(tool) = tools.first() else {
+            return Verdict::judge(forbidden, evidence, task.robustness);
+        };
         let motion = plan.motion(tool);
         let draws: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
             .into_iter()
@@ -105,7 +143,6 @@ impl<'a> Verifier<'a> {
                 self.replay(engine, task, &situation.scene, &job, disturbance)
             })
             .collect();
-        let Verdict { forbidden, mut evidence, .. } = verdict;
         evidence.extend(replays);
         Verdict::judge(forbidden, evidence, task.robustness)
     }
@@ -115,11 +152,42 @@ impl<'a> Verifier<'a> {
         &self,
         task: &Task,
         situation: &Situation,
-        tool: &Arc<Tool>,
+        tools: &[Arc<Tool>],
         plan: &Plan,
     ) -> Verdict {
-        let nominal = self.nominal(task, situation, tool, plan);
-        self.disturb(task, situation, tool, plan, nominal)
+        let nominal = self.nominal(task, situation, tools, plan);
+        self.disturb(task, situation, tools, plan, nominal)
+    }
+
+    /// Plays a plan that can be played in space, as written or as this draw disturbs it.
+    fn replay_in_space(
+        &self,
+        task: &Task,
+        situation: &Situation,
+        (tools, plan): (&[Arc<Tool>], &Plan),
+        draw: Option<usize>,
+    ) -> Evidence {
+        let scene = &*situation.scene;
+        let first = plan.lever_steps().next();
+        let blade =
+            first.and_then(|step| tools.iter().find(|tool| tool.name == step.tool)?.blade());
+        let planned = LeverScene::new(scene, blade.unwrap_or_default());
+        let about = first.map_or(task.goal.object, |step| step.lever.plate);
+        let really = draw.map(|draw| space::disturbed(&planned, about, self.settings.seed, draw));
+        let really = really.as_ref().unwrap_or(&planned);
+        let record = if draw.is_none() { Record::Frames } else { Record::Outcome };
+        let motions = plan.motions(tools).unwrap_or_default();
+        let start = Some(&situation.start);
+        let engine = LeverSimulator::default();
+        let watched = (record, self.watch);
+        let trajectory = engine.run_all((really, &planned), start, &motions, watched);
+        // What must be left has been moved as well.
+        let scene = Scene { obstacles: really.blocks.clone(), ..scene.clone() };
+        let disturbance = match draw {
+            None => Disturbance::Nominal,
+            Some(draw) => Disturbance::Disturbed { draw: draw + 1 },
+        };
+        evidence(&self.spatial, task, &scene, trajectory, disturbance)
     }
 
     /// Plays a job; one without pushes leaves everything where it is.
@@ -133,21 +201,38 @@ impl<'a> Verifier<'a> {
     ) -> Evidence {
         let nominal = disturbance == Disturbance::Nominal;
         let record = if nominal { Record::Frames } else { Record::Outcome };
-        let mut trajectory = engine.run_watched(scene, job, record, self.watch);
-        if let (Some(force), Some(limit)) = (trajectory.force, task.robot.max_force)
-            && force.lasting > limit
-        {
-            let needed = force.lasting;
-            trajectory.warnings.push(Warning::TooMuchForce { needed, limit });
-        }
-        Evidence {
-            engine: engine.engine(),
-            disturbance,
-            outcome: Outcome::judge(&task.goal, &trajectory),
-            warnings: trajectory.warnings.clone(),
-            force: trajectory.force,
-            trajectory: nominal.then_some(trajectory),
-        }
+        let trajectory = engine.run_watched(scene, job, record, self.watch);
+        evidence(engine, task, scene, trajectory, disturbance)
+    }
+}
+
+/// Whether a plan is replayed in space.
+fn in_space(task: &Task, plan: &Plan) -> bool {
+    task.in_space() || plan.levers()
+}
+
+/// What a replay shows.
+fn evidence(
+    engine: &Simulator,
+    task: &Task,
+    scene: &Scene,
+    mut trajectory: Trajectory,
+    disturbance: Disturbance,
+) -> Evidence {
+    let nominal = disturbance == Disturbance::Nominal;
+    if let (Some(force), Some(limit)) = (trajectory.force, task.robot.max_force)
+        && force.lasting > limit
+    {
+        let needed = force.lasting;
+        trajectory.warnings.push(Warning::TooMuchForce { needed, limit });
+    }
+    Evidence {
+        engine: engine.engine(),
+        disturbance,
+        outcome: Outcome::judge(scene, &task.goal, &trajectory),
+        warnings: trajectory.warnings.clone(),
+        force: trajectory.force,
+        trajectory: nominal.then_some(trajectory),
     }
 }
 
@@ -165,7 +250,7 @@ fn stopped(
     Evidence {
         engine: engine.engine(),
         disturbance,
-        outcome: Outcome::judge(&task.goal, &trajectory),
+        outcome: Outcome::judge(&situation.scene, &task.goal, &trajectory),
         warnings: trajectory.warnings,
         force: None,
         trajectory: None,

@@ -114,9 +114,9 @@ fn mistakes_change_friction_or_the_start_and_keep_joints_whole() {
     lighter.table_friction *= 0.7;
     lighter.objects.iter_mut().for_each(|object| object.friction *= 0.7);
     let mut with_lighter_tool = job(&lighter);
-    let mut tool = (*with_lighter_tool.motion.tool).clone();
+    let mut tool = (*with_lighter_tool.motion.slide().tool).clone();
     tool.friction *= 0.7;
-    with_lighter_tool.motion.tool = Arc::new(tool);
+    with_lighter_tool.motion.slide_mut().tool = Arc::new(tool);
     let expected = planar.rollout(&lighter, &[with_lighter_tool], Record::Frames).remove(0);
     assert_eq!(roll(&slippery, &scene).frames, expected.frames);
 

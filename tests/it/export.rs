@@ -1,6 +1,5 @@
 //! Plans for other programs: what is written, and what MuJoCo makes of it.
 
-mod lever_twins;
 mod mujoco;
 
 use std::fs;
@@ -26,12 +25,12 @@ fn plan(task: &str, tool: &str, form: PushForm, pushes: &[([f64; 2], f64, f64, f
         length,
         speed,
     };
-    let pushes = pushes.iter().map(push).collect();
+    let pushes = pushes.iter().map(push);
     let name = tool.name.clone();
     PlanFile {
         task,
-        tool: Arc::new(tool),
-        plan: Plan { tool: name, grip_yaw: 0.0, form, lift: 0.002, pushes },
+        tools: vec![Arc::new(tool)],
+        plan: Plan::pushing(name, 0.0, form, 0.002, pushes),
         model: None,
         predicted: None,
         verdict: None,
@@ -97,12 +96,12 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
 #[test]
 fn every_shipped_task_has_a_scene() {
     let tool = Tool::parse(BAR, "bar.yaml").unwrap();
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks")).unwrap() {
+    for entry in fs::read_dir(Path::new(crate::ROOT).join("tasks")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|end| end == "yaml") {
             let mut file = plan(SIMPLE, BAR, PushForm::Placed, &[([0.4, 0.0], 0.0, 0.1, 0.1)]);
             file.task = Task::load(&path).unwrap();
-            file.tool = Arc::new(tool.clone());
+            file.tools = vec![Arc::new(tool.clone())];
             let text = mjcf(&file).unwrap();
             for object in &file.task.scene.objects {
                 assert!(text.contains(&format!("<body name=\"object/{}\"", object.name)));
@@ -146,7 +145,7 @@ fn the_command_writes_a_scene_for_each_plan_and_the_script() {
 }
 
 fn export(plans: &[impl AsRef<Path>], out: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pushplan"))
+    Command::new(crate::PROGRAM)
         .arg("export")
         .args(plans.iter().map(AsRef::as_ref))
         .args(["--format", "mjcf", "--out"])

@@ -1,20 +1,21 @@
-//! Pushes that follow a lever-up: their files, their engine, plans of both, and what is refused.
+//! Pushes before and after a lever-up: their files, their engine, plans of both, and what is refused.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::ToolLibrary;
-use pushplan::asset::{LeverPlanFile, load_task};
-use pushplan::effect::SimulatedLevers;
+use pushplan::asset::{PlanFile, load_task};
 use pushplan::geometry::{Shape, Vector};
 use pushplan::scene::{
-    FollowUp, GRAVITY, LeverFault, LeverJob, LeverPlan, LeverReason, LeverScene, LeverUp,
-    LeverVerdict, LeverWarning, Place, Plan, Push, PushForm, PushRules, Task, ToolChoice,
+    Engine, GRAVITY, LeverFault, LeverScene, LeverUp, Place, Plan, Push, PushForm, PushRules,
+    Reason, Record, Situation, Step, Task, Tool, ToolChoice, Trajectory, Verdict, Warning,
 };
 use pushplan::sim::LeverSimulator;
-use pushplan::solve::lever::LeverPlanner;
-use pushplan::solve::{Effort, PlanStatus};
-use pushplan::verify::{LeverVerifier, VerifySettings};
+use pushplan::solve::{Effort, PlanStatus, Planner};
+use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::watch::Unwatched;
+
+use crate::levers::plan_file;
 
 /// A plate that is levered up a little and falls back, and may be pushed.
 const TASK: &str = "
@@ -54,104 +55,170 @@ fn lever() -> LeverUp {
     }
 }
 
-/// A push along x that begins with the tool's front this far before the plate, metres.
-fn follow_up(gap: f64, length: f64) -> FollowUp {
+/// The tools that plans here are made with.
+fn tools() -> [Arc<Tool>; 2] {
+    ["screwdriver", "paddle"].map(|name| library().get(name).expect("shipped").clone())
+}
+
+/// A lever-up and a push along x that begins with the tool's front this far before the plate, metres.
+fn plan(gap: f64, length: f64) -> Plan {
+    Plan::levering("screwdriver", lever()).then(pushed(0.5, gap, length))
+}
+
+/// A push along x of a plate at `x`.
+fn pushed(x: f64, gap: f64, length: f64) -> Plan {
     let tool = library().get("paddle").expect("shipped").clone();
     let front = tool.parts().iter().map(|part| match part.shape {
         Shape::Cuboid { size } => part.pose.position.x + 0.5 * size[0],
         _ => panic!("the paddle is made of cuboids"),
     });
     let front = front.fold(0.0, f64::max) - tool.grip.position.x;
-    let start = Vector::new(0.5 - HALF - gap - front, 0.0);
+    let start = Vector::new(x - HALF - gap - front, 0.0);
     let push = Push { start, direction: 0.0, length, speed: 0.1 };
-    let plan = Plan {
-        tool: tool.name.clone(),
-        grip_yaw: 0.0,
-        form: PushForm::Placed,
-        lift: 0.002,
-        pushes: vec![push],
-    };
-    FollowUp { tool, plan }
+    Plan::pushing(&tool.name, 0.0, PushForm::Placed, 0.002, [push])
 }
 
-fn verify(task: &Task, follow_up: FollowUp) -> LeverVerdict {
-    let blade = library().get("screwdriver").expect("shipped").clone();
-    let plan = LeverPlan { tool: blade.name.clone(), lever: lever(), follow_up: Some(follow_up) };
-    LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 }).verify(task, &blade, &plan)
+fn verify(task: &Task, plan: &Plan) -> Verdict {
+    let situation = Situation::stated(&task.scene);
+    let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 0 });
+    verifier.verify(task, &situation, &tools(), plan)
+}
+
+/// Its first push changed.
+fn changed(mut plan: Plan, change: impl FnOnce(&mut Push)) -> Plan {
+    let step = plan.steps.iter_mut().find_map(|step| match step {
+        Step::Push(step) => Some(step),
+        Step::LeverUp(_) => None,
+    });
+    change(&mut step.expect("a push").push);
+    plan
 }
 
 #[test]
 fn a_push_carries_the_plate_as_far_as_the_tool_goes() {
     let task = task();
-    let blade = library().get("screwdriver").expect("shipped").clone();
-    let scene = Arc::new(LeverScene::with(&task.scene, &blade));
-    let job = LeverJob { scene, lever: lever() };
-    let engine = LeverSimulator::FINE;
-    let alone = engine.run(&job);
+    let scene = LeverScene::with(&task.scene, &tools()[0]);
+    let run = |plan: &Plan| -> Trajectory {
+        let motions = plan.motions(&tools()).expect("its tools");
+        let watched = (Record::Outcome, &Unwatched as _);
+        LeverSimulator::FINE.run_all((&scene, &scene), None, &motions, watched)
+    };
+    let rest = |found: &Trajectory| found.outcome().space.as_ref().expect("in space")[0];
     let (gap, length) = (0.02, 0.10);
-    let pushed = engine.run_with(&job, &job.scene, Some(&follow_up(gap, length).motion()));
-    assert_eq!(pushed.lift, alone.lift, "the lever-up is the same");
+    let (alone, pushed) = (run(&plan(gap, length).first(1)), run(&plan(gap, length)));
+    assert_eq!(pushed.lifts, alone.lifts, "the lever-up is the same");
     // It is carried from where it fell back to, and then slides on by v^2 / (2 mu g).
-    let moved = pushed.rest.position - alone.rest.position;
-    let began = alone.rest.position.x - 0.5;
+    let moved = rest(&pushed).position - rest(&alone).position;
+    let began = rest(&alone).position.x - 0.5;
     let friction = 0.5 * (0.4 + task.scene.table_friction);
     let carried = length - gap - began + 0.1 * 0.1 / (2.0 * friction * GRAVITY);
     assert!((moved.x - carried).abs() < 3e-4, "{moved:?} for {carried}");
-    assert!(moved.y.abs() < 2e-3 && pushed.rest.tilt() < 0.01, "{pushed:?}");
+    assert!(moved.y.abs() < 2e-3 && rest(&pushed).tilt() < 0.01, "{pushed:?}");
     assert_eq!(pushed.warnings, alone.warnings);
 }
 
 #[test]
 fn the_whole_is_judged_and_disturbed_as_one() {
-    let verdict = verify(&task(), follow_up(0.02, 0.12));
+    let verdict = verify(&task(), &plan(0.02, 0.12));
     assert!(verdict.passed, "{:?}", verdict.reason);
     assert_eq!(verdict.evidence.len(), 5);
     // Too short a push misses, and says so.
-    let short = verify(&task(), follow_up(0.02, 0.05));
-    assert_eq!(short.reason, Some(LeverReason::Misses));
-    let end = short.nominal().expect("a replay").outcome.rest;
+    let short = verify(&task(), &plan(0.02, 0.05));
+    assert!(matches!(short.reason, Some(Reason::Misses { .. })), "{:?}", short.reason);
+    let nominal = short.nominal(Engine::Spatial).expect("a replay");
+    let end = nominal.outcome.state.poses[0].position;
     assert!((end.x - 0.53).abs() < 5e-3, "{end:?}");
 }
 
 #[test]
 fn what_pushes_must_not_do_is_found() {
-    let on_it = verify(&task(), follow_up(-0.03, 0.12));
-    assert_eq!(on_it.reason, Some(LeverReason::GoesWrong(LeverWarning::SetDown)));
+    let on_it = verify(&task(), &plan(-0.03, 0.12));
+    let fault = Warning::SetDownOn { object: "plate".to_owned(), stroke: 1 };
+    assert_eq!(on_it.reason, Some(Reason::GoesWrong { engine: Engine::Spatial, fault }));
     let walled = TASK.replace(
         "robot:",
         "  obstacles: [{name: wall, size: [0.01, 0.4, 0.03], position: [0.41, 0]}]\nrobot:",
     );
     let walled = Task::parse(&walled, "walled.yaml").expect("sound");
-    let through = verify(&walled, follow_up(0.04, 0.14));
-    assert!(
-        through.forbidden.contains(&LeverFault::PushMeets { body: "wall".to_owned() }),
-        "{:?}",
-        through.forbidden
-    );
-    let forbidden = |task: &Task, follow_up: FollowUp| verify(task, follow_up).forbidden;
-    let mut far = follow_up(0.02, 0.12);
-    far.plan.pushes[0].length = 1.0;
-    assert!(forbidden(&task(), far).contains(&LeverFault::OutOfReach));
-    let push = LeverFault::ForbiddenLever { what: "push".to_owned() };
-    let mut twice = follow_up(0.02, 0.12);
-    twice.plan.pushes.push(twice.plan.pushes[0]);
-    assert!(forbidden(&task(), twice).contains(&push), "one is allowed");
-    let mut turned = follow_up(0.02, 0.12);
-    turned.plan.grip_yaw = 0.3;
-    assert!(forbidden(&task(), turned).contains(&push));
+    let through = verify(&walled, &plan(0.04, 0.14)).forbidden;
+    let met = Warning::ThroughObstacle { push: 1, obstacle: "wall".to_owned() };
+    assert!(through.contains(&met), "{through:?}");
+    let forbidden = |task: &Task, plan: Plan| verify(task, &plan).forbidden;
+    let far = changed(plan(0.02, 0.12), |push| push.length = 1.0);
+    assert!(forbidden(&task(), far).contains(&Warning::OutOfReach { push: 1 }));
+    let twice = plan(0.02, 0.12).then(pushed(0.5, 0.02, 0.12));
+    let many = |allowed| Warning::TooManyPushes { pushes: 2 - usize::from(allowed == 0), allowed };
+    assert!(forbidden(&task(), twice).contains(&many(1)), "one is allowed");
+    let mut turned = plan(0.02, 0.12);
+    let Step::Push(step) = &mut turned.steps[1] else { panic!("a push") };
+    step.grip_yaw = 0.3;
+    assert!(forbidden(&task(), turned).contains(&Warning::ForbiddenYaw { yaw: 0.3 }));
     let none = task().pushing(PushRules::none());
-    assert!(forbidden(&none, follow_up(0.02, 0.12)).contains(&push));
-    let mut endless = follow_up(0.02, 0.12);
-    endless.plan.pushes[0].speed = 1e-4;
-    assert_eq!(forbidden(&task(), endless), [LeverFault::TooLong]);
+    assert!(forbidden(&none, plan(0.02, 0.12)).contains(&many(0)));
+    let endless = changed(plan(0.02, 0.12), |push| push.speed = 1e-4);
+    let too_long = Warning::CannotLever { step: 1, fault: LeverFault::TooLong };
+    assert_eq!(forbidden(&task(), endless), [too_long]);
+}
+
+#[test]
+fn a_plan_pushes_levers_and_pushes_again() {
+    // Pushed 8 cm away, levered up a little where it is then expected, and pushed on to its place.
+    let Step::LeverUp(mut levering) = plan(0.0, 0.1).steps.remove(0) else { panic!("a lever-up") };
+    let first = pushed(0.5, 0.02, 0.10);
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let situation = Situation::stated(&task().scene);
+    let moved = verifier.nominal(&task(), &situation, &tools(), &first);
+    let nominal = moved.nominal(Engine::Spatial).expect("a replay");
+    let there = nominal.outcome.state.poses[0];
+    assert!((there.position.x - 0.58).abs() < 3e-3, "{there:?}");
+    levering.expected = Some(there);
+    let levering = Plan { steps: vec![Step::LeverUp(levering)] };
+    let whole = first.then(levering).then(pushed(there.position.x, 0.02, 0.10));
+    let mut task = task();
+    task.goal.position.x = 0.66;
+    let verdict = verify(&task, &whole);
+    assert!(verdict.passed, "{:?}", verdict.reason);
+    let trajectory = verdict.evidence[0].trajectory.as_ref().expect("frame by frame");
+    let [lift] = trajectory.lifts[..] else { panic!("one lever-up") };
+    assert!(lift.held && lift.raised > 0.02, "{lift:?}");
+    let strokes: Vec<usize> = trajectory.frames.iter().map(|frame| frame.stroke).collect();
+    assert!(strokes.is_sorted() && strokes.last() == Some(&2));
+    // Not told where the plate is by then, the blade goes under nothing.
+    let mut blind = whole.clone();
+    let Step::LeverUp(step) = &mut blind.steps[1] else { panic!("a lever-up") };
+    step.expected = None;
+    assert!(!verify(&task, &blind).evidence[0].trajectory.as_ref().expect("frames").lifts[0].held);
+    // One page and one file hold all of it.
+    let file = PlanFile {
+        task: task.clone(),
+        tools: tools().to_vec(),
+        plan: whole,
+        model: None,
+        predicted: None,
+        verdict: Some(verdict.clone()),
+    };
+    let text = serde_json::to_string(&file).expect("numbers");
+    assert_eq!(PlanFile::parse(&text, "again.json").expect("sound").plan, file.plan);
+    let (recipe, view) = Default::default();
+    let page = pushplan::report::verdict_page(&file, None, &verdict, recipe, view);
+    assert!(
+        page.contains("paddle, grip yaw 0\u{b0}, 1 push, then screwdriver, lifting by 34.4\u{b0}")
+    );
+    let figures = pushplan::report::space_figures(
+        &task,
+        (&file.plan, &file.tools),
+        trajectory,
+        &[],
+        ("whole", true),
+    );
+    assert!(figures[1].to_svg().contains("<animate attributeName=\"points\""));
 }
 
 #[test]
 fn the_shipped_task_needs_both_and_its_plan_reads_back() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers/turn-and-push.yaml");
+    let path = Path::new(crate::ROOT).join("tasks/levers/turn-and-push.yaml");
     let task = load_task(&path, &library()).expect("a task of levering");
-    let planner =
-        |effort| LeverPlanner::new(SimulatedLevers { simulator: LeverSimulator::COARSE }, effort);
+    let planner = |effort| Planner::for_effort(effort).expect("the shipped weights").build();
     let tools = ToolChoice::Named(vec!["screwdriver".to_owned()]);
     let alone = Task { pushes: PushRules::none(), tools, ..task.clone() };
     let solution = planner(Effort::Draft).solve(&alone, &library()).expect("sound");
@@ -164,27 +231,16 @@ fn the_shipped_task_needs_both_and_its_plan_reads_back() {
     let solution = solve(1);
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().expect("a plan");
-    assert!(best.plan.follow_up.is_some() && best.pushed.is_some());
+    assert!(best.plan.levers() && best.plan.push_steps().count() > 0);
     let again = solve(3);
     assert_eq!(again.best().expect("a plan").plan, best.plan, "for any number of threads");
-    let file = LeverPlanFile {
-        task: task.clone(),
-        tool: best.tool.clone(),
-        plan: best.plan.clone(),
-        model: None,
-        predicted: Some(best.predicted.clone()),
-        verdict: best.verdict.clone(),
-    };
+    let file = plan_file(&task, best);
     let text = serde_json::to_string(&file).expect("numbers");
-    let read = LeverPlanFile::parse(&text, "again.json").expect("sound");
+    let read = PlanFile::parse(&text, "again.json").expect("sound");
     assert_eq!((read.plan, read.predicted), (file.plan, file.predicted));
     let mixed = text.replacen("\"grip_yaw\"", "\"grip_jaw\"", 1);
-    let fault = LeverPlanFile::parse(&mixed, "mixed.json").expect_err("an unknown key");
+    let fault = PlanFile::parse(&mixed, "mixed.json").expect_err("an unknown key");
     assert!(fault.to_string().contains("`grip_jaw`"), "{fault}");
-    // What the lever-up leaves is a task of its own that a file can hold.
-    let left = &best.pushed.as_ref().expect("pushes").task;
-    let text = left.to_yaml().expect("numbers");
-    assert_eq!(&pushplan::Task::parse(&text, "left.yaml").expect("sound"), left);
 }
 
 /// The faults of `TASK` with every `from` replaced.

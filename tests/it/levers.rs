@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use pushplan::ToolLibrary;
-use pushplan::asset::{Kind, LeverPlanFile, check, load_task};
-use pushplan::effect::SimulatedLevers;
-use pushplan::scene::{LeverFault, LeverPlan, LeverReason, LeverUp, Pivot, Place, Task, Tool};
-use pushplan::sim::LeverSimulator;
-use pushplan::solve::lever::{AskedLever, AskedPlace, LeverPlanner, asked_lever};
-use pushplan::solve::{Effort, PlanStatus};
-use pushplan::verify::{LeverVerifier, VerifySettings};
+use pushplan::asset::{Kind, PlanFile, check, load_task};
+use pushplan::scene::{
+    Engine, LeverFault, LeverUp, Pivot, Place, Plan, Reason, Situation, Task, Tool, Warning,
+};
+use pushplan::solve::{
+    AskedLever, AskedPlace, Effort, PlanStatus, Planner, RankedPlan, Solution, asked_lever,
+};
+use pushplan::verify::{Verifier, VerifySettings};
 
 /// A small plate that one lever-up tips over.
 const PLATE: &str = "
@@ -28,7 +29,7 @@ fn library() -> ToolLibrary {
 }
 
 fn shipped() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
+    let folder = Path::new(crate::ROOT).join("tasks/levers");
     let entries = std::fs::read_dir(folder).expect("a folder of tasks");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|end| end == "yaml"));
@@ -42,8 +43,25 @@ fn load(path: &Path) -> Task {
     task
 }
 
-fn planner(effort: Effort) -> LeverPlanner {
-    LeverPlanner::new(SimulatedLevers { simulator: LeverSimulator::COARSE }, effort)
+fn planner(effort: Effort) -> Planner {
+    Planner::for_effort(effort).expect("the shipped weights").build()
+}
+
+/// A plan as it is written, with the task that it solves.
+pub fn plan_file(task: &Task, best: &RankedPlan) -> PlanFile {
+    PlanFile {
+        task: task.clone(),
+        tools: best.tools.clone(),
+        plan: best.plan.clone(),
+        model: Some(best.predicted.by.clone()),
+        predicted: Some(best.outcome.clone()),
+        verdict: best.verdict.clone(),
+    }
+}
+
+/// The only fault of a lever-up as the first step.
+fn cannot(fault: LeverFault) -> Warning {
+    Warning::CannotLever { step: 0, fault }
 }
 
 #[test]
@@ -56,7 +74,8 @@ fn shipped_tasks_are_solved_or_refused_as_they_say() {
         let solution = planner(Effort::Standard).solve(&task, &library()).expect("a sound task");
         if task.description.contains("no solution") {
             assert_eq!(solution.status, PlanStatus::NoPlan, "{}", task.name);
-            assert!(!solution.statistics.search.refused.is_empty());
+            let levers = solution.statistics.levers.as_ref().expect("it was searched");
+            assert!(!levers.search.refused.is_empty());
             continue;
         }
         assert_eq!(solution.status, PlanStatus::Solved, "{}", task.name);
@@ -64,19 +83,12 @@ fn shipped_tasks_are_solved_or_refused_as_they_say() {
         let verdict = best.verdict.as_ref().expect("a verdict");
         assert!(verdict.passed && verdict.robustness >= Some(0.75), "{}", task.name);
         // Another seed's draws agree, and the plan is the same after it was written and read.
-        let file = LeverPlanFile {
-            task: task.clone(),
-            tool: best.tool.clone(),
-            plan: best.plan.clone(),
-            model: Some(best.by.clone()),
-            predicted: Some(best.predicted.clone()),
-            verdict: best.verdict.clone(),
-        };
-        let text = serde_json::to_string(&file).expect("numbers");
-        let again = LeverPlanFile::parse(&text, "again.json").unwrap_or_else(|f| panic!("{f}"));
+        let text = serde_json::to_string(&plan_file(&task, best)).expect("numbers");
+        let again = PlanFile::parse(&text, "again.json").unwrap_or_else(|f| panic!("{f}"));
         assert_eq!(again.task, task, "to the bit");
-        let verifier = LeverVerifier::new(VerifySettings { disturbed: 16, seed: 5 });
-        let verdict = verifier.verify(&again.task, &again.tool, &again.plan);
+        let verifier = Verifier::new(VerifySettings { disturbed: 16, seed: 5 });
+        let situation = Situation::stated(&again.task.scene);
+        let verdict = verifier.verify(&again.task, &situation, &again.tools, &again.plan);
         assert!(verdict.works() && verdict.robustness >= Some(0.5), "{}", task.name);
     }
 }
@@ -89,7 +101,7 @@ fn blades_are_no_tools_for_pushes() {
     for tool in library.blades() {
         let text = serde_json::to_string(&tool.to_json()).expect("numbers");
         assert_eq!(&Tool::parse(&text, "again.yaml").expect("sound"), &**tool);
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tools/{}.yaml", tool.name));
+        let path = Path::new(crate::ROOT).join(format!("tools/{}.yaml", tool.name));
         assert_eq!(&Tool::load(&path).expect("named after its tool"), &**tool);
         assert_eq!(check(&path, None).ok(), Some(Kind::Tool));
     }
@@ -172,9 +184,8 @@ fn what_no_robot_can_do_is_refused_in_words() {
         pivot: Pivot::Auto,
         speed: None,
     };
-    let broken = |task: &Task, lever: &AskedLever| {
-        asked_lever(task, &tool, lever).expect("a lever-up").broken
-    };
+    let broken =
+        |task: &Task, lever: &AskedLever| asked_lever(task, &tool, lever).expect("a lever-up").1;
     assert_eq!(broken(&task, &asked(0.5)), None);
     assert_eq!(broken(&task, &asked(0.1)), Some(LeverFault::NearCorner));
     assert_eq!(broken(&task, &AskedLever { depth: 0.1, ..asked(0.5) }), Some(LeverFault::TooDeep));
@@ -185,7 +196,8 @@ fn what_no_robot_can_do_is_refused_in_words() {
     task.robot.reach_max = 0.5;
     assert_eq!(broken(&task, &asked(0.5)), Some(LeverFault::OutOfReach));
     let along = AskedLever { place: AskedPlace::Along(0.16), ..asked(0.5) };
-    let place = asked_lever(&task, &tool, &along).expect("a lever-up").plan.lever.place;
+    let plan = asked_lever(&task, &tool, &along).expect("a lever-up").0;
+    let place = plan.lever_steps().next().expect("a lever-up").lever.place;
     assert!(place.edge == 1 && (place.fraction - 0.5).abs() < 1e-9, "{place:?}");
     assert!(
         asked_lever(&task, &tool, &AskedLever { place: AskedPlace::Edge(9, 0.5), ..along })
@@ -207,10 +219,11 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
         hold: 0.2,
         retreat: 0.1,
     };
-    let verifier = LeverVerifier::new(VerifySettings { disturbed: 4, seed: 0 });
+    let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 0 });
     let verify = |task: &Task, lever: LeverUp| {
-        let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up: None };
-        verifier.verify(task, &tool, &plan)
+        let plan = Plan::levering(&tool.name, lever);
+        let situation = Situation::stated(&task.scene);
+        verifier.verify(task, &situation, std::slice::from_ref(&tool), &plan)
     };
     let good = verify(&task, lever);
     assert!(good.passed, "{:?}", good.reason);
@@ -218,21 +231,25 @@ fn verification_finds_by_itself_what_the_planner_would_refuse() {
     assert_eq!(good.robustness, Some(1.0));
     let forbidden = |task: &Task, lever: LeverUp| {
         let verdict = verify(task, lever);
-        assert!(!verdict.passed && matches!(verdict.reason, Some(LeverReason::Forbidden(_))));
+        assert!(!verdict.passed && matches!(verdict.reason, Some(Reason::Forbidden(_))));
         verdict.forbidden
     };
     let near = Place { edge: 1, fraction: 0.05 };
-    assert_eq!(forbidden(&task, LeverUp { place: near, ..lever }), [LeverFault::NearCorner]);
+    assert_eq!(
+        forbidden(&task, LeverUp { place: near, ..lever }),
+        [cannot(LeverFault::NearCorner)]
+    );
     let nowhere = Place { edge: 7, fraction: 0.5 };
     assert_eq!(forbidden(&task, LeverUp { place: nowhere, ..lever }).len(), 1);
     assert!(!forbidden(&task, LeverUp { depth: 0.05, ..lever }).is_empty());
-    assert_eq!(forbidden(&task, LeverUp { speed: 1e-4, ..lever }), [LeverFault::TooLong]);
+    assert_eq!(forbidden(&task, LeverUp { speed: 1e-4, ..lever }), [cannot(LeverFault::TooLong)]);
     let mut short = task.clone();
     short.robot.reach_max = 0.5;
-    assert_eq!(forbidden(&short, lever), [LeverFault::OutOfReach]);
+    assert_eq!(forbidden(&short, lever), [cannot(LeverFault::OutOfReach)]);
     // Turned too little it falls back.
     let little = verify(&task, LeverUp { angle: 0.6, ..lever });
-    assert_eq!(little.reason, Some(LeverReason::Misses));
+    let misses = Reason::Misses { engine: Engine::Spatial, error: 0.0, heading_error: None };
+    assert_eq!(little.reason, Some(misses));
 }
 
 #[test]
@@ -248,14 +265,17 @@ fn a_blade_goes_through_no_wall() {
         pivot: Pivot::Auto,
         speed: None,
     };
-    let asked = asked_lever(&task, &tool, &lever).expect("a lever-up");
+    let (plan, broken) = asked_lever(&task, &tool, &lever).expect("a lever-up");
     let through = LeverFault::Meets { body: "wall".to_owned() };
-    assert_eq!(asked.broken, Some(through.clone()));
-    let verifier = LeverVerifier::new(VerifySettings { disturbed: 0, seed: 0 });
-    assert_eq!(verifier.verify(&task, &tool, &asked.plan).forbidden, [through]);
+    assert_eq!(broken, Some(through.clone()));
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let situation = Situation::stated(&task.scene);
+    let tools = std::slice::from_ref(&tool);
+    let verdict = verifier.verify(&task, &situation, tools, &plan);
+    assert_eq!(verdict.forbidden, [cannot(through)]);
     // From the other side there is no wall.
     let other = AskedLever { place: AskedPlace::Edge(3, 0.5), ..lever };
-    assert_eq!(asked_lever(&task, &tool, &other).expect("a lever-up").broken, None);
+    assert_eq!(asked_lever(&task, &tool, &other).expect("a lever-up").1, None);
 }
 
 #[test]
@@ -264,7 +284,8 @@ fn plans_are_the_same_for_any_number_of_threads() {
     let solve = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let solution = pool.install(|| planner(Effort::Draft).solve(&task, &library()));
-        solution.expect("a sound task").plans
+        let Solution { plans, .. } = solution.expect("a sound task");
+        plans
     };
     assert_eq!(solve(1), solve(3));
 }

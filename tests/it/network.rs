@@ -190,7 +190,7 @@ fn set(weights: &mut PredictorWeights, name: &str, value: f32) {
 
 #[test]
 fn the_shipped_weights_are_written_as_they_were_read() {
-    let shipped = include_bytes!("../../models/brdpn.safetensors");
+    let shipped = include_bytes!("../../crates/models/brdpn.safetensors");
     let weights = PredictorWeights::from_bytes(shipped).expect("the shipped weights");
     assert!(weights.to_bytes().expect("encode") == shipped, "reading and writing changes the file");
 }

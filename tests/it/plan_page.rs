@@ -147,7 +147,7 @@ fn its_controls_work_and_nothing_leaves() {
         assert_eq!(shown.task, task);
     }
     let other =
-        solution.plans.iter().position(|plan| plan.plan.tool != solution.plans[0].plan.tool);
+        solution.plans.iter().position(|plan| plan.plan.tool() != solution.plans[0].plan.tool());
     browser.click("#tools tr:nth-child(3) .open");
     assert_eq!(browser.value("view.plan"), json!(other));
 
@@ -155,7 +155,7 @@ fn its_controls_work_and_nothing_leaves() {
     let cells = "page.candidates.grids.flatMap((grid) => grid.cells).length";
     assert_eq!(browser.value(cells), json!(solution.candidates.len()));
     let chosen = "byId('candidates-tool').value";
-    assert_eq!(browser.value(chosen), solution.plans[other.expect("another")].plan.tool);
+    assert_eq!(browser.value(chosen), solution.plans[other.expect("another")].plan.tool());
     let counted = "document.querySelectorAll('#grids .cell').length";
     let wanted = "page.candidates.grids.filter((g) => g.tool === byId('candidates-tool').value)\
                   .flatMap((grid) => grid.cells).length";
@@ -165,10 +165,10 @@ fn its_controls_work_and_nothing_leaves() {
     assert!(said.contains("score") || said.contains("would") || said.contains("meet"), "{said}");
 
     // The command that it offers is one that runs.
-    let command = browser.text("#command").replacen("pushplan", env!("CARGO_BIN_EXE_pushplan"), 1);
+    let command = browser.text("#command").replacen("pushplan", crate::PROGRAM, 1);
     let output = Command::new("sh")
         .args(["-c", &format!("{command} --json")])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(crate::ROOT)
         .output()
         .expect("a shell");
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
@@ -217,7 +217,7 @@ fn tools_and_pushes_say_why_they_lost() {
     let choice = data["choice"].as_array().expect("tools");
     assert_eq!(choice.len(), solution.tools.len());
     assert_eq!(choice[0]["why"], "chosen");
-    assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool);
+    assert_eq!(choice[0]["tool"], solution.plans[0].plan.tool());
     let sum = |key: &str| choice.iter().map(|tool| number(&tool[key]) as usize).sum::<usize>();
     // One push was enough, so every way to push was considered from one state.
     assert_eq!(solution.statistics.depth, 1);
@@ -277,18 +277,13 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
 
 /// How the program ends, run in the checkout.
 fn exit_code(arguments: &[&str]) -> i32 {
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the command runs");
-    output.status.code().expect("no signal")
+    crate::program::run(arguments).status.code().expect("no signal")
 }
 
 /// A shipped task, solved.
 fn solved(path: &str) -> (Task, Solution) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let path = Path::new(crate::ROOT).join(path);
     let task = load_task(&path, &library).unwrap_or_else(|faults| panic!("{faults}"));
     let planner = Planner::for_effort(Effort::Standard).expect("a model").build();
     let solution = planner.solve(&task, &library).expect("a sound task");

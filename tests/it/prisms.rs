@@ -95,7 +95,7 @@ fn shipped_tasks_with_prisms_are_solved() {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let planner = Planner::for_effort(Effort::Standard).expect("shipped weights").build();
     for name in ["triangle-turned", "hexagon-any-side"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tasks/{name}.yaml"));
+        let path = Path::new(crate::ROOT).join(format!("tasks/{name}.yaml"));
         let task = Task::load(path).expect("a shipped task");
         let solution = planner.solve(&task, &library).expect("a sound task");
         assert_eq!(solution.status, PlanStatus::Solved, "{name}");

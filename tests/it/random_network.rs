@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
-use pushplan::dataset::DatasetConfig;
+use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::graph::Batch;
 use pushplan::network::{Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Tables};
@@ -26,7 +26,7 @@ pub fn weights(width: usize) -> PredictorWeights {
         card: PredictorCard {
             config,
             normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
-            ranges: DatasetConfig::default().ranges(),
+            ranges: PRIOR_RANGES,
             data_seed: 0,
             episodes: 0,
             steps: 0,

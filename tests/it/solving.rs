@@ -40,9 +40,9 @@ impl EffectModel for Wishful {
         let landed = |job: &Job| {
             let mut state = job.start.clone();
             state.poses.iter_mut().for_each(|pose| pose.position = self.0);
-            let tool = job.motion.strokes[0].to;
+            let tool = job.motion.slide().strokes[0].to;
             Trajectory {
-                frames: vec![Frame { time: 1.0, stroke: 0, tool, state }],
+                frames: vec![Frame { time: 1.0, stroke: 0, tool, state, blade: None }],
                 ..Trajectory::new(WISHFUL.clone())
             }
         };
@@ -73,7 +73,7 @@ impl EffectModel for Beside {
 
 fn shipped(name: &str) -> (Task, ToolLibrary) {
     let library = ToolLibrary::embedded().unwrap();
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let folder = PathBuf::from(crate::ROOT).join("tasks");
     (load_task(folder.join(name), &library).unwrap(), library)
 }
 
@@ -128,7 +128,7 @@ fn a_goal_that_is_met_already_needs_no_push() {
     let solution = planner().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
-    assert!(best.plan.pushes.is_empty() && best.verdict.as_ref().unwrap().passed);
+    assert!(best.plan.is_empty() && best.verdict.as_ref().unwrap().passed);
     assert_eq!(best.verdict.as_ref().unwrap().robustness, Some(1.0));
 }
 
@@ -240,9 +240,9 @@ fn row(name: &str, solution: &Solution) -> String {
         timing.verification,
         statistics.rollouts,
         statistics.verified,
-        best.plan.tool,
-        best.plan.grip_yaw.to_degrees(),
-        best.plan.pushes.len(),
+        best.plan.tool(),
+        best.plan.grip_yaw().to_degrees(),
+        best.plan.pushes().len(),
         best.refinement.before * 1e3,
         best.outcome.error * 1e3,
         replayed.unwrap_or_default(),

@@ -1,7 +1,6 @@
 //! The reference tool benchmark: the shipped goals can be made again, and what is chosen is what
 //! is scored.
 
-use std::process::Command;
 use std::sync::OnceLock;
 
 use pushplan::bench::{
@@ -11,6 +10,8 @@ use pushplan::effect::EffectModels;
 use pushplan::geometry::Vector;
 use pushplan::scene::ModelKind;
 use pushplan::solve::{Effort, Planner};
+
+use crate::program::succeed;
 
 /// A start with goals that need corners and edges.
 const START: usize = 9;
@@ -132,21 +133,14 @@ fn single_pushes_are_solved_where_they_can_be_whatever_the_number_of_threads() {
 fn a_part_of_the_benchmark_is_kept_and_shown_again() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
-    let run = |args: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).args(args).output();
-        let output = output.expect("the command starts");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    let args =
-        ["bench", "tools", "--effort", "draft", "--shard", "118/118", "--out", out, "--json"];
-    let json = run(&args);
+    let run = |line: &str| String::from_utf8(succeed(line).stdout).expect("UTF-8");
+    let json = run(&format!("bench tools --effort draft --shard 118/118 --out {out} --json"));
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON alone");
     assert_eq!(json["run"]["suite"], "tools");
     assert_eq!(json["tasks"].as_array().map(Vec::len), Some(1));
     assert!(json["tasks"][0]["seconds"]["first"].as_f64() > Some(0.0), "{json}");
     assert_eq!(json["summary"].as_array().map(Vec::len), Some(6 * 8));
-    let text = run(&["bench", "report", out]);
+    let text = run(&format!("bench report {out}"));
     assert!(text.contains("1 tasks on the grid layout, network"), "{text}");
     assert!(text.contains("stick -90, first choice"), "{text}");
     let rows = std::fs::read_to_string(folder.path().join("tasks.csv")).expect("rows");

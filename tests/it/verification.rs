@@ -38,7 +38,7 @@ fn push(start: [f64; 2], direction: f64, length: f64) -> Push {
 
 fn plan(pushes: Vec<Push>) -> Plan {
     let form = PushForm::Placed;
-    Plan { tool: "paddle".into(), grip_yaw: 0.0, form, lift: 0.002, pushes }
+    Plan::pushing("paddle", 0.0, form, 0.002, pushes)
 }
 
 fn task() -> Task {
@@ -50,7 +50,7 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     let verifier = Verifier::new(VerifySettings { disturbed: 3, seed: 1 });
     // The face's front is 0.22 ahead of the grip: from 0.235 it travels 5 mm to the can.
     let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
-    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good);
     assert!(verdict.passed);
     assert_eq!(verdict.evidence.len(), 2 + 2 * 3);
     assert_eq!(verdict.evidence[0].engine, Engine::Planar);
@@ -63,17 +63,20 @@ fn a_plan_that_works_passes_with_evidence_from_both_engines() {
     assert!(outcome(2).error != outcome(3).error);
     assert_eq!(
         verdict,
-        verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good)
+        verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good)
     );
     let other = Verifier::new(VerifySettings { disturbed: 3, seed: 2 });
-    assert_ne!(verdict, other.verify(&task(), &Situation::stated(&task().scene), &paddle(), &good));
+    assert_ne!(
+        verdict,
+        other.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good)
+    );
 }
 
 #[test]
 fn a_plan_that_stops_short_fails() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     let short = plan(vec![push([0.235, 0.0], 0.0, 0.05)]);
-    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &short);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &short);
     assert!(!verdict.passed && verdict.robustness.is_none());
     assert!((verdict.evidence[1].outcome.error - 0.105).abs() < 5e-3);
 }
@@ -83,7 +86,7 @@ fn a_tool_set_down_on_an_object_is_no_pass() {
     let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
     // The second push forgets that the first has moved the can to 0.65.
     let blind = plan(vec![push([0.235, 0.0], 0.0, 0.155), push([0.42, 0.0], 0.0, 0.01)]);
-    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &paddle(), &blind);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &blind);
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let landed = Warning::SetDownOn { object: "can".into(), stroke: 1 };
@@ -98,9 +101,9 @@ fn a_toppled_object_is_no_pass() {
     // A tall thin bottle, pushed fast and high up.
     let text = TASK.replace("radius: 0.04, height: 0.10", "radius: 0.015, height: 0.30");
     task.scene = Task::parse(&text, "bottle.yaml").unwrap().scene;
-    let mut high = plan(vec![push([0.26, 0.0], 0.0, 0.155)]);
-    high.lift = 0.2;
-    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &high);
+    let high = [push([0.26, 0.0], 0.0, 0.155)];
+    let high = Plan::pushing("paddle", 0.0, PushForm::Placed, 0.2, high);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &high);
     assert!(!verdict.passed);
     let spatial = &verdict.evidence[1];
     assert!(spatial.warnings.iter().any(|w| matches!(w, Warning::Toppled { .. })));
@@ -118,8 +121,14 @@ fn a_can_does_not_pass_through_a_gap_narrower_than_itself() {
     // A finger pushes, which fits through itself.
     let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::new(0.22, 0.0, 0.0));
     let tool = Arc::new(Tool::new("finger", [finger]).expect("one part"));
-    let through = Plan { tool: "finger".into(), ..plan(vec![push([0.225, 0.0], 0.0, 0.155)]) };
-    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &tool, &through);
+    let through = push([0.225, 0.0], 0.0, 0.155);
+    let through = Plan::pushing("finger", 0.0, PushForm::Placed, 0.002, [through]);
+    let verdict = verifier.verify(
+        &task,
+        &Situation::stated(&task.scene),
+        std::slice::from_ref(&tool),
+        &through,
+    );
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         let fault = evidence.fault().expect("a fault");
@@ -137,9 +146,9 @@ fn what_the_task_does_not_allow_is_said_of_any_plan() {
     task.robot.reach_max = 0.3;
     let behind = Pose::new(0.3, 0.0, 0.0);
     task.scene.obstacles.push(Obstacle::new("post", [0.02, 0.02, 0.1], behind));
-    let mut askew = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
-    askew.grip_yaw = 0.3;
-    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &askew);
+    let askew = [push([0.235, 0.0], 0.0, 0.155)];
+    let askew = Plan::pushing("paddle", 0.3, PushForm::Placed, 0.002, askew);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &askew);
     let says = |wanted: fn(&Warning) -> bool| verdict.forbidden.iter().any(wanted);
     assert!(says(|w| matches!(w, Warning::ForbiddenTool { .. })));
     assert!(says(|w| matches!(w, Warning::ForbiddenYaw { .. })));
@@ -156,7 +165,7 @@ fn a_safe_is_not_moved_by_an_arm_that_has_a_limit() {
     assert_eq!(task.scene.objects[0].mass, 200.0);
     task.robot.max_force = Some(100.0);
     let moved = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
-    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &moved);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &moved);
     assert!(!verdict.passed);
     for evidence in &verdict.evidence {
         assert!(evidence.warnings.iter().any(|w| matches!(w, Warning::TooMuchForce { .. })));
@@ -169,7 +178,7 @@ fn an_object_pushed_beyond_the_table_falls() {
     let mut task = task();
     task.scene.table_top = Some(TableTop { size: [1.2, 1.0], middle: Vector::zeros() });
     let off = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
-    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &paddle(), &off);
+    let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &off);
     let fell = Warning::OffTable { object: "can".into() };
     assert!(!verdict.passed && verdict.evidence.iter().all(|e| e.warnings.contains(&fell)));
 }

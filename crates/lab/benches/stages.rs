@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
 use pushplan::contact::{Bodies, Frame, FrameProblem, FrameSolver};
 use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::graph::Batch;
@@ -18,6 +17,7 @@ use pushplan::plan::{
 use pushplan::scene::{FrameStep, Job, ModelKind, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
+use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases, random_task};
 
 /// Candidates that a search predicts together.
 const BATCH: usize = 64;

@@ -147,19 +147,15 @@ fn sample(name: &str) -> Option<Sample> {
     let tool = Arc::clone(task.tools(&library).ok()?.first()?);
     let at = task.scene.objects[task.goal.object].pose.position;
     let push = |start, direction| Push { start, direction, length: 0.1, speed: 0.1 };
-    let plan = Plan {
-        tool: tool.name.clone(),
-        grip_yaw: 0.0,
-        form: task.pushes.form,
-        lift: task.pushes.lift,
-        pushes: vec![push(at - Vector::new(0.5, 0.0), 0.0), push(at - Vector::new(0.4, 0.0), 0.3)],
-    };
+    let (yaw, rules) = (0.0, &task.pushes);
+    let pushes = vec![push(at - Vector::new(0.5, 0.0), 0.0), push(at - Vector::new(0.4, 0.0), 0.3)];
+    let plan = Plan::pushing(&tool.name, yaw, rules.form, rules.lift, pushes);
     let motion = plan.motion(&tool);
     let job = Job::stated(&task.scene, motion);
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
-    let predicted = Some(Outcome::judge(&task.goal, &trajectory));
+    let predicted = Some(Outcome::judge(&task.scene, &task.goal, &trajectory));
     let model = Some(trajectory.by.clone());
-    let plan = PlanFile { task, tool, plan, model, predicted, verdict: None };
+    let plan = PlanFile { task, tools: vec![tool], plan, model, predicted, verdict: None };
     Some(Sample { plan, trajectory })
 }
 
@@ -172,8 +168,8 @@ fn trajectory(sample: &Sample) -> String {
     // A few frames say as much as all of them, and are read faster.
     trajectory.frames.truncate(6);
     trajectory.contacts.retain(|contact| contact.frame < 6);
-    let PlanFile { task, tool, plan, .. } = sample.plan.clone();
-    serde_json::to_string(&TrajectoryFile { task, tool, plan, trajectory }).unwrap_or_default()
+    let PlanFile { task, tools, plan, .. } = sample.plan.clone();
+    serde_json::to_string(&TrajectoryFile { task, tools, plan, trajectory }).unwrap_or_default()
 }
 
 /// The shipped card with a network of four units.

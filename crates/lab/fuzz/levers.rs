@@ -1,17 +1,14 @@
-//! What accepted files of levering must survive: a search without physics, one coarse lever-up, a
-//! replay, and being written and read again.
+//! What accepted files of levering must survive: a search with little physics, a replay, and being
+//! written and read again.
 
 use std::sync::Arc;
 
-use pushplan::asset::{LeverPlanFile, ToolLibrary};
-use pushplan::effect::{LeverModel, LeverTrust};
+use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::geometry::Vector;
-use pushplan::scene::{
-    Ending, FollowUp, LEVER_FRAMES, LeverJob, LeverPlan, LeverTrajectory, LeverUp, Place, Plan,
-    Push, PushForm, Task, Tool,
-};
-use pushplan::solve::lever::{LeverPlanner, LeverSettings};
-use pushplan::verify::{LeverVerifier, VerifySettings};
+use pushplan::scene::{LeverUp, Place, Plan, Push, PushForm, Situation, Task, Tool};
+use pushplan::solve::{LeverSettings, Settings};
+use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::{Planner, Simulated, Simulator};
 
 /// Longer lever-ups and larger scenes show nothing new.
 const LONGEST: f64 = 6.0;
@@ -26,10 +23,13 @@ pub fn task(task: Task) {
     let text = task.to_yaml().expect("a task that was read");
     let again = Task::parse(&text, "again.yaml").unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(again.scene.objects, task.scene.objects);
+    if task.levers.is_none() {
+        return;
+    }
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let bodies = task.scene.objects.len() + task.scene.obstacles.len();
     let small = bodies < CROWD && task.lever_rules().speed > 0.05;
-    let settings = LeverSettings {
+    let levers = LeverSettings {
         simulated: usize::from(small),
         doubts: 0,
         verified_at_once: 1,
@@ -37,62 +37,34 @@ pub fn task(task: Task) {
         disturbed: 0,
         followed: 0,
     };
-    if task.levers.is_none() {
-        return;
-    }
     let Ok(tools) = task.blades(&library) else { return };
-    if tools.len() > 2 {
+    if tools.len() > 2 || !small {
         return;
     }
-    let planner = LeverPlanner::new(Still, Default::default()).with_settings(settings);
-    match planner.solve(&task, &library) {
+    let settings = Settings { levers, ..Settings::FIRST_LOOK };
+    let planner = Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
+    // Pushes have a target of their own.
+    let alone = task.clone().pushing(pushplan::PushRules::none());
+    match planner.solve(&alone, &library) {
         Ok(solution) => {
             for ranked in &solution.plans {
-                assert!(ranked.merit.is_finite() && ranked.predicted.score.is_finite());
-                assert!(ranked.predicted.raised.is_finite(), "{:?}", ranked.predicted);
+                assert!(ranked.outcome.lying.is_some_and(|lying| lying.score.is_finite()));
             }
         }
         Err(refused) => panic!("a task file that cannot be tried: {refused}"),
     }
 }
 
-pub fn plan(file: LeverPlanFile) {
-    let lever = &file.plan.lever;
+pub fn plan(file: PlanFile) {
+    let pushing = file.plan.push_steps().map(|step| step.push.length / step.push.speed);
+    let levering = file.plan.lever_steps().map(|step| step.lever.duration());
+    let span: f64 = pushing.chain(levering).sum();
     let small = file.task.scene.objects.len() + file.task.scene.obstacles.len() < CROWD;
-    let pushed = file.plan.follow_up.as_ref().map_or(0.0, |then| {
-        then.plan.pushes.iter().map(|push| push.length / push.speed).sum::<f64>()
-    });
-    if lever.speed > 0.0 && lever.duration() + pushed < LONGEST && small {
-        let verifier = LeverVerifier::new(VerifySettings { disturbed: 1, seed: 1 });
-        let verdict = verifier.verify(&file.task, &file.tool, &file.plan);
-        assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.score.is_finite()));
-    }
-}
-
-/// Nothing moves.
-struct Still;
-
-impl LeverModel for Still {
-    fn name(&self) -> String {
-        "still".into()
-    }
-
-    fn trust(&self, _: &LeverJob) -> LeverTrust {
-        LeverTrust::Mine { p95: None }
-    }
-
-    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
-        let still = |job: &LeverJob| {
-            let start = job.scene.plates[job.lever.plate].start();
-            LeverTrajectory {
-                lift: vec![start; LEVER_FRAMES],
-                held: vec![false; LEVER_FRAMES],
-                rest: start,
-                ending: Ending::Back,
-                warnings: Vec::new(),
-            }
-        };
-        jobs.iter().map(still).collect()
+    if span < LONGEST && small {
+        let verifier = Verifier::new(VerifySettings { disturbed: 1, seed: 1 });
+        let situation = Situation::stated(&file.task.scene);
+        let verdict = verifier.verify(&file.task, &situation, &file.tools, &file.plan);
+        assert!(verdict.evidence.iter().all(|evidence| evidence.outcome.error.is_finite()));
     }
 }
 
@@ -102,7 +74,7 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let plan = |name: &str| {
         let task = Task::load(root.join(format!("{name}.yaml"))).ok()?;
-        let tool = Arc::clone(task.blades(&library).ok()?.first()?);
+        let mut tools: Vec<Arc<Tool>> = task.blades(&library).ok()?.into_iter().take(1).collect();
         let lever = LeverUp {
             plate: task.goal.object,
             place: Place { edge: 1, fraction: 0.5 },
@@ -113,25 +85,15 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
             hold: 0.1,
             retreat: 0.05,
         };
-        let pusher = || library.get("t-head").map(Arc::clone);
-        let follow_up =
-            Some(()).filter(|()| task.pushes.max_count > 0).and_then(|()| pusher()).map(then);
-        let plan = LeverPlan { tool: tool.name.clone(), lever, follow_up };
-        let file = LeverPlanFile { task, tool, plan, model: None, predicted: None, verdict: None };
+        let mut plan = Plan::levering(&tools.first()?.name, lever);
+        if task.pushes.max_count > 0 {
+            let start = Vector::new(0.3, 0.0);
+            let push = Push { start, direction: 0.0, length: 0.2, speed: 0.1 };
+            plan = plan.then(Plan::pushing("t-head", 0.0, PushForm::Placed, 0.002, [push]));
+            tools.push(Arc::clone(library.get("t-head")?));
+        }
+        let file = PlanFile { task, tools, plan, model: None, predicted: None, verdict: None };
         Some((name.to_owned(), serde_json::to_vec(&file).ok()?))
     };
     ["raise-plate", "drive-board", "turn-and-push"].into_iter().filter_map(plan).collect()
-}
-
-/// A push across the table.
-fn then(tool: Arc<Tool>) -> FollowUp {
-    let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.2, speed: 0.1 };
-    let plan = Plan {
-        tool: tool.name.clone(),
-        grip_yaw: 0.0,
-        form: PushForm::Placed,
-        lift: 0.002,
-        pushes: vec![push],
-    };
-    FollowUp { tool, plan }
 }

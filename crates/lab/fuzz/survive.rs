@@ -14,7 +14,7 @@ use pushplan::network::PredictorWeights;
 use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::scene::{
-    Job, ModelKind, Object, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
+    Job, ModelKind, Object, Plan, Push, Record, Scene, Task, Tool, ToolMotion, Trajectory, Warning,
 };
 use pushplan::solve::{Planner, Settings};
 
@@ -25,6 +25,9 @@ const LONGEST: usize = 400;
 const CROWD: usize = 6;
 
 pub fn tool(tool: Tool) {
+    if !tool.pushes() {
+        return;
+    }
     let can = Object::cylinder("can", 0.04, 0.1).at(0.5, 0.05, 0.0);
     let scene = Scene::new([can]);
     let push = Push { start: Vector::zeros(), direction: 0.1, length: 0.1, speed: 0.1 };
@@ -34,6 +37,9 @@ pub fn tool(tool: Tool) {
 }
 
 pub fn task(task: Task) {
+    if task.levers.is_some() {
+        return;
+    }
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let Ok(tools) = task.tools(&library) else { return };
     let at = task.scene.objects[task.goal.object].pose.position;
@@ -58,16 +64,17 @@ pub fn task(task: Task) {
         verified_at_once: 1,
         verify_batches: 0,
         disturbed: 0,
+        ..Settings::FIRST_LOOK
     };
     let planner = Planner::builder(Prior::default()).settings(budgets).build();
     match planner.solve(&task, &library) {
         Ok(solution) => {
             for plan in &solution.plans {
                 assert!(plan.outcome.state.is_finite() && plan.outcome.error.is_finite());
-                let (task, tool) = (task.clone(), Arc::clone(&plan.tool));
+                let (task, tools) = (task.clone(), plan.tools.clone());
                 let predicted = Some(plan.outcome.clone());
                 let plan = plan.plan.clone();
-                let file = PlanFile { task, tool, plan, model: None, predicted, verdict: None };
+                let file = PlanFile { task, tools, plan, model: None, predicted, verdict: None };
                 written(|path| file.write(path), |path| PlanFile::load(path), &file);
             }
         }
@@ -75,15 +82,22 @@ pub fn task(task: Task) {
     }
 }
 
+/// The tool of a plan in the plane; what leaves it has a target of its own.
+fn flat<'a>(task: &Task, plan: &Plan, tools: &'a [Arc<Tool>]) -> Option<&'a Arc<Tool>> {
+    tools.first().filter(|_| !task.in_space() && !plan.levers())
+}
+
 pub fn plan(file: PlanFile) {
-    let motion = file.plan.motion(&file.tool);
+    let Some(tool) = flat(&file.task, &file.plan, &file.tools) else { return };
+    let motion = file.plan.motion(tool);
     let rolled = rollout(&Prior::default(), &file.task.scene, &motion);
     picture(&file.task.scene, Some(&motion), rolled.as_ref());
     written(|path| file.write(path), |path| PlanFile::load(path), &file);
 }
 
 pub fn trajectory(file: TrajectoryFile) {
-    let motion = file.plan.motion(&file.tool);
+    let Some(tool) = flat(&file.task, &file.plan, &file.tools) else { return };
+    let motion = file.plan.motion(tool);
     picture(&file.task.scene, Some(&motion), Some(&file.trajectory));
     written(|path| file.write(path), |path| TrajectoryFile::load(path), &file);
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use pushplan::asset::{Faults, LeverPlanFile, PlanFile, TrajectoryFile, check};
+use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
 use pushplan::import::{Wanted, objects, parse, tool};
 use pushplan::network::{PredictorWeights, WeightsError};
 use pushplan::recording::Recording;
@@ -93,7 +93,7 @@ impl Target {
             Self::Recording => read(Recording::parse(text, &file), text, survive::recording),
             Self::Blade => read(Tool::parse(text, &file), text, levers::blade),
             Self::LeverTask => read(Task::parse(text, &file), text, levers::task),
-            Self::LeverPlan => read(LeverPlanFile::parse(text, &file), text, levers::plan),
+            Self::LeverPlan => read(PlanFile::parse(text, &file), text, levers::plan),
             Self::Foreign => foreign(text, &file),
             Self::Weights => false,
         }

@@ -3,10 +3,10 @@
 (() => {
   const file = () => {
     const { schema_version, task } = page.file;
-    const { tool, file: own } = plan();
+    const { tools, file: own } = plan();
     const whole = {
       schema_version, kind: 'plan', plan: own, model: null, predicted: null, verdict: null,
-      tool: page.tools[tool].file, task,
+      tools: tools.map((tool) => page.tools[tool].file), task,
     };
     return JSON.stringify(whole, null, 2);
   };

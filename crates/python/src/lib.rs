@@ -49,9 +49,7 @@ mod _native {
     #[pymodule_export]
     use super::run::{PyMotion, PyRun, run};
     #[pymodule_export]
-    use super::schemas::{
-        recording_schema, task_schema, tool_schema,
-    };
+    use super::schemas::{recording_schema, task_schema, tool_schema};
     #[pymodule_export]
     use super::solution::PySolution;
     #[pymodule_export]

@@ -81,7 +81,7 @@ impl PyPlan {
         let broken = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
         let file = PlanFile {
             task: Task::clone(&task.task),
-            tool,
+            tools: vec![tool],
             plan: asked.plan,
             model: None,
             predicted: None,
@@ -97,29 +97,48 @@ impl PyPlan {
         PyTask { task: Arc::new(self.file.task.clone()), file: Some(self.task_file.clone()) }
     }
 
-    /// The tool.
+    /// The first tool; `None` of a plan without steps that was read from a file.
     #[getter]
-    fn tool(&self) -> PyTool {
-        PyTool(Arc::clone(&self.file.tool))
+    fn tool(&self) -> Option<PyTool> {
+        self.file.tools.first().map(|tool| PyTool(Arc::clone(tool)))
+    }
+
+    /// All tools, in the order in which they are used.
+    #[getter]
+    fn tools(&self) -> Vec<PyTool> {
+        self.file.tools.iter().map(|tool| PyTool(Arc::clone(tool))).collect()
+    }
+
+    /// The steps in order, in the keys of a plan file: `{"push": ...}` or `{"lever_up": ...}`.
+    #[getter]
+    fn steps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let steps = serde_json::to_value(&self.file.plan.steps);
+        json::dict(py, &steps.map_err(|error| PyRuntimeError::new_err(error.to_string()))?)
+    }
+
+    /// Whether it levers anything.
+    #[getter]
+    fn levers(&self) -> bool {
+        self.file.plan.levers()
     }
 
     /// The pushes, in order.
     #[getter]
     fn pushes(&self) -> Vec<PyPush> {
-        self.file.plan.pushes.iter().map(PyPush::from).collect()
+        self.file.plan.pushes().iter().map(PyPush::from).collect()
     }
 
     /// Turn of the end effector against world +x, radians.
     #[getter]
     fn grip_yaw(&self) -> f64 {
-        self.file.plan.grip_yaw
+        self.file.plan.grip_yaw()
     }
 
     /// `"placed"`: the tool is lifted and set down for every push; `"chained"`: each push goes on
     /// where the last one ended.
     #[getter]
     fn form(&self) -> &'static str {
-        match self.file.plan.form {
+        match self.file.plan.form() {
             PushForm::Placed => "placed",
             PushForm::Chained => "chained",
         }
@@ -128,7 +147,7 @@ impl PyPlan {
     /// Height of the tool's underside above the table, metres.
     #[getter]
     fn lift(&self) -> f64 {
-        self.file.plan.lift
+        self.file.plan.lift()
     }
 
     /// The effect model that predicted its end, if one did.
@@ -183,9 +202,9 @@ impl PyPlan {
     /// are not at hand are made now.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let recorded = |verdict: &Verdict| {
-            Engine::ALL.iter().all(|engine| {
-                verdict.nominal(*engine).is_some_and(|evidence| evidence.trajectory.is_some())
-            })
+            let replays: Vec<_> =
+                Engine::ALL.iter().filter_map(|engine| verdict.nominal(*engine)).collect();
+            !replays.is_empty() && replays.iter().all(|replay| replay.trajectory.is_some())
         };
         let verdict = match &self.file.verdict {
             Some(verdict) if recorded(verdict) => verdict.clone(),
@@ -206,13 +225,17 @@ impl PyPlan {
 
     fn __repr__(&self) -> String {
         let plan = &self.file.plan;
-        let pushes = if plan.pushes.len() == 1 { "push" } else { "pushes" };
-        format!(
-            "<Plan for {}: {} {pushes} with {}>",
-            self.file.task.name,
-            plan.pushes.len(),
-            plan.tool
-        )
+        let steps = match (plan.steps.len(), plan.levers()) {
+            (1, false) => "1 push".to_owned(),
+            (count, false) => format!("{count} pushes"),
+            (1, true) => "1 lever-up".to_owned(),
+            (count, true) => format!("{count} steps"),
+        };
+        let tools = match self.file.tools.is_empty() {
+            true => "no tool".to_owned(),
+            false => self.file.tools.iter().map(|tool| &*tool.name).collect::<Vec<_>>().join(", "),
+        };
+        format!("<Plan for {}: {steps} with {tools}>", self.file.task.name)
     }
 }
 
@@ -221,7 +244,7 @@ impl PyPlan {
     pub fn ranked(task: &Task, task_file: &str, ranked: &RankedPlan) -> Self {
         let file = PlanFile {
             task: task.clone(),
-            tool: Arc::clone(&ranked.tool),
+            tools: ranked.tools.clone(),
             plan: ranked.plan.clone(),
             model: Some(ranked.predicted.by.clone()),
             predicted: Some(ranked.outcome.clone()),
@@ -238,9 +261,9 @@ impl PyPlan {
 
     /// Replayed as written in both engines.
     fn replayed(&self) -> Verdict {
-        let PlanFile { task, tool, plan, .. } = &self.file;
+        let PlanFile { task, tools, plan, .. } = &self.file;
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        verifier.nominal(task, &Situation::stated(&task.scene), tool, plan)
+        verifier.nominal(task, &Situation::stated(&task.scene), tools, plan)
     }
 
     fn json(&self) -> PyResult<serde_json::Value> {

@@ -93,8 +93,9 @@ impl PyRun {
     /// The pushes that were made, in order.
     #[getter]
     fn pushes(&self) -> Vec<PyPush> {
-        let made = self.0.steps.iter().flat_map(|step| step.plan.pushes.iter().take(step.pushes));
-        made.map(PyPush::from).collect()
+        let steps = self.0.steps.iter();
+        let made = steps.flat_map(|step| step.plan.pushes().into_iter().take(step.pushes));
+        made.map(|push| PyPush::from(&push)).collect()
     }
 
     /// Where everything is thought to be in the end, `[objects, 3]`: x and y in metres, heading in

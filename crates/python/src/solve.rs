@@ -8,7 +8,8 @@ use pushplan::scene::{ModelKind, Situation, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
 use pushplan::{
-    Job, Planner, Pose, Record, Solution, SolveError, Task, ToolLibrary, Trajectory, Verifier,
+    Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
+    Verifier,
 };
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -156,13 +157,17 @@ pub fn predict(
 /// What a model predicts for a plan, with what lowers the trust in it.
 pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
     let scene = &file.task.scene;
-    let motion = file.plan.motion(&file.tool);
-    if motion.strokes.is_empty() {
-        let home = Pose { position: file.task.robot.home, heading: file.plan.grip_yaw };
-        let by = ModelKind::Still.into();
-        return Trajectory::standing(by, file.tool.pose(home), scene.start());
-    }
-    let job = Job::stated(scene, motion);
+    let motions = file.plan.motions(&file.tools).unwrap_or_default();
+    let job = match &motions[..] {
+        [] => {
+            let home = Pose { position: file.task.robot.home, heading: 0.0 };
+            let tool = file.tools.first().map_or(home, |tool| tool.pose(home));
+            return Trajectory::standing(ModelKind::Still.into(), tool, scene.start());
+        }
+        [motion] => Job::stated(scene, motion.clone()),
+        // What several tools do in turn is for the engine alone.
+        motions => return Simulator::spatial().run_plan(scene, motions, Record::Frames),
+    };
     let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
     let mut trajectory = rolled.unwrap_or_else(|| {
         Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
@@ -205,7 +210,7 @@ pub fn verify(
         let until = Until::new(cancel, limit);
         let situation = Situation::stated(&file.task.scene);
         let verifier = Verifier::new(settings).watched(&until);
-        verifier.verify(&file.task, &situation, &file.tool, &file.plan)
+        verifier.verify(&file.task, &situation, &file.tools, &file.plan)
     })?;
     Ok(PyVerdict { file, verdict })
 }

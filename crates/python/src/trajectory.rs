@@ -47,6 +47,28 @@ impl PyTrajectory {
         arrays::array(py, numbers, [frames.len(), self.objects.len(), 3])
     }
 
+    /// Poses of all objects in space where something leaves the plane, `[frames, objects, 7]`: x, y
+    /// and z in metres, and the quaternion x, y, z, w; `None` where nothing does.
+    #[getter]
+    fn space<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray3<f64>>>> {
+        let frames = &self.trajectory.frames;
+        let mut numbers = Vec::new();
+        for frame in frames {
+            let Some(space) = &frame.state.space else { return Ok(None) };
+            for pose in space {
+                numbers.extend(pose.position.iter());
+                numbers.extend(pose.quaternion());
+            }
+        }
+        arrays::array(py, numbers, [frames.len(), self.objects.len(), 7]).map(Some)
+    }
+
+    /// How much higher the levered edge lay at the end of each lever-up, metres.
+    #[getter]
+    fn raised(&self) -> Vec<f64> {
+        self.trajectory.lifts.iter().map(|lift| lift.raised).collect()
+    }
+
     /// Poses of the tool frame, `[frames, 3]`: x and y in metres, heading in radians.
     #[getter]
     fn tool_poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -96,7 +118,7 @@ impl PyTrajectory {
 impl PyTrajectory {
     /// A trajectory on the table of `task`, judged by its goal.
     pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
-        let outcome = Outcome::judge(&task.goal, &trajectory);
+        let outcome = Outcome::judge(&task.scene, &task.goal, &trajectory);
         let objects = task.scene.objects.iter().map(|object| object.name.clone()).collect();
         Self { trajectory, outcome, objects }
     }

@@ -6,7 +6,7 @@ use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, unique_names};
 use crate::asset::{prism, task};
-use crate::geometry::{Pose, Pose3, Solid, Vector, common_area};
+use crate::geometry::{Pose, Solid, Vector, common_area};
 use crate::scene::{Blade, Obstacle, Plate, carries};
 
 use super::build;
@@ -138,9 +138,9 @@ fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {
         let Some(plate) = plate else { continue };
         let place = node.get("position").unwrap_or(node);
-        let own = solids(plate);
-        let earlier = plates[..k].iter().flatten().map(|other| (&other.name, solids(other)));
-        let fixed = blocks.iter().flatten().map(|block| (&block.name, vec![solid(block)]));
+        let own = plate.solids();
+        let earlier = plates[..k].iter().flatten().map(|other| (&other.name, other.solids()));
+        let fixed = blocks.iter().flatten().map(|block| (&block.name, vec![block.solid()]));
         for (name, others) in earlier.chain(fixed) {
             let deep = |a: &Solid| others.iter().any(|b| a.depth(b) > SLACK);
             if own.iter().any(deep) {
@@ -156,19 +156,6 @@ fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
             ledger.fault(node.get("z").unwrap_or(place), message, advice);
         }
     }
-}
-
-fn solids(plate: &Plate) -> Vec<Solid> {
-    let span = |bottom: f64, height: f64| [bottom, bottom + height];
-    let solid = |slab: &crate::scene::Slab| {
-        Solid::prism(&slab.corners, span(slab.bottom, slab.height), &plate.start())
-    };
-    plate.slabs.iter().map(solid).collect()
-}
-
-fn solid(block: &Obstacle) -> Solid {
-    let pose = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
-    Solid::cuboid(block.size, &pose)
 }
 
 /// Whether blocks that end at its underside carry a plate.
@@ -285,6 +272,6 @@ mod tests {
         assert!(held(&[block(-0.03, 0.01), block(0.03, 0.01)]));
         assert!(!held(&[block(0.02, 0.01), block(0.03, 0.01)]), "both on one side");
         assert!(!held(&[block(-0.03, 0.01), block(0.03, 0.009)]), "one is too low");
-        assert_eq!(solids(&plate)[0].lowest(), plate.z);
+        assert_eq!(plate.solids()[0].lowest(), plate.z);
     }
 }

@@ -3,24 +3,24 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::fault::Faults;
+use crate::asset::node::Node;
 use crate::asset::read_text;
 use crate::scene::{ModelSpec, Outcome, Plan, Task, Tool, Verdict};
 
 use super::read::{self, Opened};
-use super::{PLAN_FILE, SCHEMA_VERSION, emit};
+use super::{PLAN_FILE, PLAN_VERSION, emit};
 
-/// A plan with everything that is needed to carry it out, and what is known of its effect.
+/// Steps with everything that is needed to carry it out, and what is known of its effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanFile {
     /// The task that it solves.
     pub task: Task,
-    /// The tool that it uses.
-    pub tool: Arc<Tool>,
-    /// The pushes.
+    /// The tools that it uses, each once.
+    pub tools: Vec<Arc<Tool>>,
+    /// The steps.
     pub plan: Plan,
     /// The effect model that predicted the outcome.
     pub model: Option<ModelSpec>,
@@ -47,7 +47,10 @@ impl PlanFile {
     pub fn parse(text: &str, file: &str) -> Result<Self, Faults> {
         let mut opened = Opened::new(file, text, &PLAN_FILE)?;
         opened.ledger.sound()?;
-        let own: Own = opened.typed()?;
+        let own = match opened.root.get("kind").and_then(Node::text) {
+            Some("lever_plan") => opened.typed::<OldLever>()?.plan(),
+            _ => opened.typed::<Own>()?,
+        };
         opened.check_plan(&own.plan);
         if let Some(outcome) = &own.predicted {
             let node = opened.root.get("predicted").cloned();
@@ -60,17 +63,15 @@ impl PlanFile {
                 opened.check_outcome(node.get("outcome"), &evidence.outcome);
             }
         }
-        let file = match (opened.task, opened.tool) {
-            (Some(task), Some(tool)) => Some(Self {
-                task,
-                tool,
-                plan: own.plan,
-                model: own.model,
-                predicted: own.predicted,
-                verdict: own.verdict,
-            }),
-            _ => None,
-        };
+        let tools = opened.tools;
+        let file = opened.task.map(|task| Self {
+            task,
+            tools,
+            plan: own.plan,
+            model: own.model,
+            predicted: own.predicted,
+            verdict: own.verdict,
+        });
         opened.ledger.finish(file)
     }
 
@@ -84,22 +85,34 @@ impl PlanFile {
     }
 }
 
-/// The keys that are the program's own types.
+/// The keys that are the program's own types; the strict check has seen to the others.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Own {
-    #[serde(rename = "schema_version")]
-    _schema_version: IgnoredAny,
-    #[serde(rename = "kind")]
-    _kind: IgnoredAny,
-    #[serde(rename = "task")]
-    _task: IgnoredAny,
-    #[serde(rename = "tool")]
-    _tool: IgnoredAny,
     plan: Plan,
     model: Option<ModelSpec>,
     predicted: Option<Outcome>,
     verdict: Option<Verdict>,
+}
+
+/// The same of a lever-up in a file of the first version.
+#[derive(Deserialize)]
+struct OldLever {
+    plan: Plan,
+    follow_up: Option<OldPushes>,
+    model: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct OldPushes {
+    plan: Plan,
+}
+
+impl OldLever {
+    fn plan(self) -> Own {
+        let pushes = self.follow_up.map(|pushes| pushes.plan).unwrap_or_default();
+        let model = self.model.and_then(|model| model.parse().ok());
+        Own { plan: self.plan.then(pushes), model, predicted: None, verdict: None }
+    }
 }
 
 impl Serialize for PlanFile {
@@ -112,17 +125,17 @@ impl Serialize for PlanFile {
             model: &'a Option<ModelSpec>,
             predicted: &'a Option<Outcome>,
             verdict: &'a Option<Verdict>,
-            tool: serde_json::Value,
+            tools: Vec<serde_json::Value>,
             task: serde_json::Value,
         }
         Written {
-            schema_version: SCHEMA_VERSION,
+            schema_version: PLAN_VERSION,
             kind: "plan",
             plan: &self.plan,
             model: &self.model,
             predicted: &self.predicted,
             verdict: &self.verdict,
-            tool: emit::tool(&self.tool),
+            tools: self.tools.iter().map(|tool| emit::tool(tool)).collect(),
             task: emit::task(&self.task),
         }
         .serialize(serializer)

@@ -12,7 +12,7 @@ use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 use crate::asset::{task, tool, write_atomic};
-use crate::scene::{Outcome, Plan, State, Task, Tool};
+use crate::scene::{Outcome, Plan, Plate, State, Task, Tool};
 
 /// A file that has passed the strict check, open for the rules that span several keys.
 pub(super) struct Opened<'a> {
@@ -20,7 +20,7 @@ pub(super) struct Opened<'a> {
     pub root: Node,
     pub ledger: Ledger<'a>,
     pub task: Option<Task>,
-    pub tool: Option<Arc<Tool>>,
+    pub tools: Vec<Arc<Tool>>,
 }
 
 impl<'a> Opened<'a> {
@@ -34,8 +34,16 @@ impl<'a> Opened<'a> {
         let mut ledger = Ledger::new(source);
         check(&mut root, value, &mut ledger);
         let task = root.get("task").and_then(|node| task::task_of(node, file, &mut ledger));
-        let tool = root.get("tool").and_then(|node| tool::tool_of(node, &mut ledger));
-        Ok(Self { source, root, ledger, task, tool: tool.map(Arc::new) })
+        let own = [root.get("tool"), root.get("follow_up").and_then(|then| then.get("tool"))];
+        let listed = root.get("tools").map(Node::items).unwrap_or_default();
+        let mut tools: Vec<Arc<Tool>> = Vec::new();
+        for node in own.into_iter().flatten().chain(listed) {
+            let Some(tool) = tool::tool_of(node, &mut ledger) else { continue };
+            if !tools.iter().any(|known| known.name == tool.name) {
+                tools.push(Arc::new(tool));
+            }
+        }
+        Ok(Self { source, root, ledger, task, tools })
     }
 
     /// The parts of the file that are the program's own types.
@@ -52,12 +60,28 @@ impl<'a> Opened<'a> {
         })
     }
 
-    /// Checks that the plan is one of this task with this tool.
+    /// Checks that the plan is one of this task with these tools.
     pub fn check_plan(&mut self, plan: &Plan) {
-        let Some(node) = self.root.get("plan").and_then(|plan| plan.get("tool")) else { return };
-        if let Some(tool) = self.tool.as_ref().filter(|tool| tool.name != plan.tool) {
-            let message = format!("the plan uses `{}`, the file holds `{}`", plan.tool, tool.name);
-            self.ledger.fault(node, message, "the file is mixed from two; make it again");
+        let Some(node) = self.root.get("plan") else { return };
+        let tools: Vec<&str> = self.tools.iter().map(|tool| tool.name.as_str()).collect();
+        let mixed = "the file is mixed from two; make it again";
+        let stated = node.get("tool").and_then(Node::text).into_iter();
+        for tool in plan.tools().into_iter().chain(stated) {
+            if !tools.contains(&tool) {
+                let message =
+                    format!("the plan uses `{tool}`, the file holds `{}`", tools.join("`, `"));
+                self.ledger.fault(node.get("tool").unwrap_or(node), message, mixed);
+                break;
+            }
+        }
+        let Some(task) = &self.task else { return };
+        for lever in plan.lever_steps().map(|step| &step.lever) {
+            let object = task.scene.objects.get(lever.plate);
+            let edges = object.map_or(0, |object| Plate::of(object).corners().len());
+            if lever.place.edge >= edges {
+                let message = "the plan levers an edge that does not exist";
+                self.ledger.fault(node, message, "the file is damaged; make it again");
+            }
         }
     }
 
@@ -70,8 +94,12 @@ impl<'a> Opened<'a> {
     pub fn check_state(&mut self, node: Option<&Node>, state: &State) {
         let (Some(node), Some(task)) = (node, &self.task) else { return };
         let expected = task.scene.objects.len();
-        for (what, found) in [("poses", state.poses.len()), ("velocities", state.velocities.len())]
-        {
+        let space = state.space.as_ref().map_or(expected, Vec::len);
+        for (what, found) in [
+            ("poses", state.poses.len()),
+            ("velocities", state.velocities.len()),
+            ("poses in space", space),
+        ] {
             if found != expected {
                 let message = format!("expected {expected} {what}, one per object, found {found}");
                 self.ledger.fault(node, message, "the file is damaged; make it again");

@@ -1,41 +1,157 @@
 //! What plan and trajectory files may hold.
 
+use crate::asset::node::Node;
 use crate::asset::spec::{Key, Range, Value, numbers};
-use crate::asset::task::TASK_KEYS;
-use crate::asset::tool::TOOL_KEYS;
+use crate::asset::task::TASK_FILE;
+use crate::asset::tool::TOOL_FILE;
 
-/// Version of both formats; raised when a reader of this version could not read the new form.
+/// Version of recordings and of what commands print; raised when a reader of this version could not
+/// read the new form.
 pub const SCHEMA_VERSION: u32 = 1;
 
+/// The same of plan and trajectory files; those of the first version, which hold pushes of one tool or
+/// one lever-up, are read as well.
+pub const PLAN_VERSION: u32 = 2;
+
 /// What a plan file may hold.
-pub(in crate::asset) static PLAN_FILE: Value = Value::Map(&[
-    Key::required("schema_version", VERSION, "Version of the format."),
-    Key::required("kind", Value::Word(&["plan"]), "What the file is."),
-    Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
-    Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
-    Key::required("plan", PLAN, "The pushes."),
-    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
-    Key::optional(
-        "predicted",
-        Value::Either(&[OUTCOME, Value::Nothing]),
-        "Where the model says the plan ends; by default unknown.",
-    ),
-    Key::optional(
-        "verdict",
-        Value::Either(&[VERDICT, Value::Nothing]),
-        "Whether simulation confirms it; by default unknown.",
-    ),
-]);
+pub(in crate::asset) static PLAN_FILE: Value =
+    Value::Told { by: plan_file, of: &[&STEPS_FILE, &PUSHES_FILE, &LEVER_FILE] };
 
 /// What a trajectory file may hold.
-pub(in crate::asset) static TRAJECTORY_FILE: Value = Value::Map(&[
+pub(in crate::asset) static TRAJECTORY_FILE: Value =
+    Value::Told { by: trajectory_file, of: &[&STEPS_TRAJECTORY, &PUSHES_TRAJECTORY] };
+
+fn is_old(root: &Node) -> bool {
+    root.get("schema_version").and_then(Node::number) == Some(1.0)
+}
+
+fn plan_file(root: &Node) -> &'static Value {
+    match root.get("kind").and_then(Node::text) {
+        Some("lever_plan") => &LEVER_FILE,
+        _ if is_old(root) => &PUSHES_FILE,
+        _ => &STEPS_FILE,
+    }
+}
+
+fn trajectory_file(root: &Node) -> &'static Value {
+    if is_old(root) { &PUSHES_TRAJECTORY } else { &STEPS_TRAJECTORY }
+}
+
+static STEPS_FILE: Value = Value::Map(&[
+    Key::required("schema_version", PLAN_FILE_VERSION, "Version of the format."),
+    KIND,
+    TASK,
+    TOOLS,
+    Key::required("plan", STEPS, "The steps."),
+    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
+    PREDICTED,
+    JUDGED,
+]);
+
+/// The first version, of pushes with one tool.
+static PUSHES_FILE: Value = Value::Map(&[
     Key::required("schema_version", VERSION, "Version of the format."),
-    Key::required("kind", Value::Word(&["trajectory"]), "What the file is."),
-    Key::required("task", Value::Map(TASK_KEYS), "The task, as in a task file."),
-    Key::required("tool", Value::Map(TOOL_KEYS), "The tool, as in a tool file."),
-    Key::required("plan", PLAN, "The pushes."),
+    KIND,
+    TASK,
+    TOOL,
+    Key::required("plan", PUSHES, "The pushes."),
+    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
+    PREDICTED,
+    JUDGED,
+]);
+
+/// The first version, of a lever-up and pushes that follow. What was known of its effect was told in
+/// other words; verifying it brings it back.
+static LEVER_FILE: Value = Value::Map(&[
+    Key::required("schema_version", VERSION, "Version of the format."),
+    Key::required("kind", Value::Word(&["lever_plan"]), "What the file is."),
+    TASK,
+    TOOL,
+    Key::required(
+        "plan",
+        Value::Map(&[
+            Key::required("tool", Value::Name, "Name of the tool."),
+            Key::required("lever", Value::Map(OLD_LEVER_KEYS), "The lever-up."),
+        ]),
+        "The lever-up.",
+    ),
+    Key::optional(
+        "follow_up",
+        Value::Either(&[
+            Value::Map(&[TOOL, Key::required("plan", PUSHES, "The pushes.")]),
+            Value::Nothing,
+        ]),
+        "The pushes that follow it; by default none.",
+    ),
+    Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
+    Key::optional("predicted", Value::Anything, "What the model says; by default unknown."),
+    Key::optional("verdict", Value::Anything, "What replays showed; by default unknown."),
+]);
+
+static STEPS_TRAJECTORY: Value = Value::Map(&[
+    Key::required("schema_version", PLAN_FILE_VERSION, "Version of the format."),
+    TRAJECTORY_KIND,
+    TASK,
+    TOOLS,
+    Key::required("plan", STEPS, "The steps."),
     Key::required("trajectory", TRAJECTORY, "What happened."),
 ]);
+
+static PUSHES_TRAJECTORY: Value = Value::Map(&[
+    Key::required("schema_version", VERSION, "Version of the format."),
+    TRAJECTORY_KIND,
+    TASK,
+    TOOL,
+    Key::required("plan", PUSHES, "The pushes."),
+    Key::required("trajectory", TRAJECTORY, "What happened."),
+]);
+
+const KIND: Key = Key::required("kind", Value::Word(&["plan"]), "What the file is.");
+
+const TRAJECTORY_KIND: Key =
+    Key::required("kind", Value::Word(&["trajectory"]), "What the file is.");
+
+const TASK: Key = Key::required(
+    "task",
+    Value::Told { by: task_of_file, of: &TASKS },
+    "The task, as in a task file.",
+);
+
+const TOOL: Key = Key::required(
+    "tool",
+    Value::Told { by: tool_of_file, of: &TOOLS_OF_FILES },
+    "The tool, as in a tool file.",
+);
+
+const TOOLS: Key = Key::required(
+    "tools",
+    Value::List { of: &OF_TOOL_FILE, items: "tools", min: 0, max: 64 },
+    "The tools that the steps name, as in tool files.",
+);
+
+static OF_TOOL_FILE: Value = Value::Told { by: tool_of_file, of: &TOOLS_OF_FILES };
+static TASKS: [&Value; 1] = [&TASK_FILE];
+static TOOLS_OF_FILES: [&Value; 1] = [&TOOL_FILE];
+
+fn task_of_file(_: &Node) -> &'static Value {
+    &TASK_FILE
+}
+
+fn tool_of_file(_: &Node) -> &'static Value {
+    &TOOL_FILE
+}
+
+const PREDICTED: Key = Key::optional(
+    "predicted",
+    Value::Either(&[OUTCOME, Value::Nothing]),
+    "Where the model says the plan ends; by default unknown.",
+);
+
+const JUDGED: Key = Key::optional(
+    "verdict",
+    Value::Either(&[VERDICT, Value::Nothing]),
+    "Whether simulation confirms it; by default unknown.",
+);
 
 const MODEL: &str = "The effect model that predicted where the plan ends; by default unknown.";
 
@@ -43,6 +159,13 @@ pub(in crate::asset) const VERSION: Value = Value::Count(Range {
     what: "the schema version",
     low: SCHEMA_VERSION as f64,
     high: SCHEMA_VERSION as f64,
+    advice: "the file is of another version of pushplan; make it again with this one",
+});
+
+const PLAN_FILE_VERSION: Value = Value::Count(Range {
+    what: "the schema version",
+    low: 1.0,
+    high: PLAN_VERSION as f64,
     advice: "the file is of another version of pushplan; make it again with this one",
 });
 
@@ -79,8 +202,90 @@ pub(super) const SHARE: Value =
 
 pub(super) const VECTOR: Value = numbers(&REAL, 2);
 
-/// The pushes of a plan.
-pub(super) const PLAN: Value = Value::Map(&[
+/// The steps of a plan.
+const STEPS: Value = Value::Map(&[Key::required(
+    "steps",
+    Value::List { of: &STEP, items: "steps", min: 0, max: 64 },
+    "In order; none if nothing is to be done.",
+)]);
+
+const STEP: Value = Value::Variant(&[
+    Key::optional("push", PUSH_STEP, "A push; no default."),
+    Key::optional("lever_up", LEVER_STEP, "A lever-up; no default."),
+]);
+
+const PUSH_STEP: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
+    Key::required("form", Value::Word(&["placed", "chained"]), "How the push starts."),
+    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
+    Key::required("start", VECTOR, "End-effector position at the start, metres."),
+    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
+    Key::required("length", POSITIVE, "Travel, metres."),
+    Key::required("speed", POSITIVE, "Speed, m/s."),
+]);
+
+const LEVER_STEP: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("object", INDEX, "Index of the object that is levered."),
+    PLACE,
+    DEPTH,
+    PIVOT,
+    ANGLE,
+    SPEED,
+    HOLD,
+    RETREAT,
+    Key::optional(
+        "expected",
+        POSE,
+        "Where the object is expected by then; by default where the task has it.",
+    ),
+]);
+
+const OLD_LEVER_KEYS: &[Key] = &[
+    Key::required("plate", INDEX, "Index of the object that is levered."),
+    PLACE,
+    DEPTH,
+    PIVOT,
+    ANGLE,
+    SPEED,
+    HOLD,
+    RETREAT,
+];
+
+const PLACE: Key = Key::required(
+    "place",
+    Value::Map(&[
+        Key::required("edge", INDEX, "The edge from this corner to the next."),
+        Key::required("fraction", SHARE, "How far along it."),
+    ]),
+    "Where the blade goes under its outline.",
+);
+const DEPTH: Key = Key::required("depth", LEVER, "How far the tip lies behind the edge, metres.");
+const PIVOT: Key =
+    Key::required("pivot", REAL, "Distance of the axis from the edge, inward, metres.");
+const ANGLE: Key = Key::required("angle", TURN, "Turn of the blade, radians.");
+const SPEED: Key = Key::required("speed", LEVER, "Speed of the tip, m/s.");
+const HOLD: Key = Key::required("hold", UNSIGNED, "How long the blade then stands still, seconds.");
+const RETREAT: Key = Key::required("retreat", UNSIGNED, "How far it is then drawn back, metres.");
+
+/// Large enough for any lever, small enough that none takes hours.
+const LEVER: Value = Value::Number(Range {
+    what: "a positive number",
+    low: 1e-4,
+    high: 10.0,
+    advice: "lengths are in metres, speeds in m/s",
+});
+
+const TURN: Value = Value::Number(Range {
+    what: "a turn in radians",
+    low: 0.0,
+    high: 3.2,
+    advice: "half a turn is 3.14",
+});
+
+/// The pushes of a plan of the first version.
+const PUSHES: Value = Value::Map(&[
     Key::required("tool", Value::Name, "Name of the tool."),
     Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
     Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),
@@ -120,6 +325,16 @@ const STATE: Value = Value::Map(&[
         Value::List { of: &VELOCITY, items: "velocities", min: 1, max: 64 },
         "Velocities of the objects, in the task's order.",
     ),
+    Key::optional(
+        "space",
+        Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: 64 },
+        "Poses in space, once something has left the plane; by default nothing has.",
+    ),
+]);
+
+const POSE_IN_SPACE: Value = Value::Map(&[
+    Key::required("position", numbers(&REAL, 3), "Metres."),
+    Key::required("rotation", numbers(&REAL, 4), "A quaternion: x, y, z, w."),
 ]);
 
 const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
@@ -135,7 +350,27 @@ const OUTCOME: Value = Value::Map(&[
         "Heading error, radians; by default none is asked for.",
     ),
     Key::required("reached", Value::Switch, "Whether the goal is reached at rest."),
+    Key::optional(
+        "lying",
+        Value::Map(&[
+            Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
+            Key::required("raised", REAL, "How much higher its edge lay at the end, metres."),
+            Key::required(
+                "ending",
+                Value::Word(&["back", "flipped", "leaning"]),
+                "How it lies at rest.",
+            ),
+        ]),
+        "How the goal object lies in space; by default nothing left the plane.",
+    ),
 ]);
+
+const SCORE: Value = Value::Number(Range {
+    what: "a score",
+    low: 0.0,
+    high: f64::MAX,
+    advice: "is the file damaged?",
+});
 
 const WARNINGS: Value = Value::List { of: &Value::Anything, items: "warnings", min: 0, max: 1000 };
 
@@ -149,7 +384,7 @@ const VERDICT: Value = Value::Map(&[
     Key::optional("forbidden", WARNINGS, "What the task does not allow; by default nothing."),
     Key::required(
         "evidence",
-        Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 1000 },
+        Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 200_002 },
         "All replays, nominal ones first.",
     ),
     Key::optional(
@@ -232,6 +467,18 @@ const TRAJECTORY: Value = Value::Map(&[
     ),
     Key::required("warnings", WARNINGS, "What a reader should know."),
     Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
+    Key::optional(
+        "lifts",
+        Value::List { of: &LIFT, items: "lever-ups", min: 0, max: 64 },
+        "What each lever-up has come to; by default there is none.",
+    ),
+]);
+
+const LIFT: Value = Value::Map(&[
+    Key::required("object", INDEX, "Index of the object that is levered."),
+    Key::required("raised", REAL, "How much higher its edge lies at the end of the turn, metres."),
+    Key::required("held", Value::Switch, "Whether it lies on the blade then."),
+    Key::required("tilt", REAL, "How far it is tilted, radians."),
 ]);
 
 const FORCE: Value = Value::Map(&[
@@ -244,6 +491,11 @@ const FRAME: Value = Value::Map(&[
     Key::required("stroke", INDEX, "Index of the push that this instant belongs to."),
     Key::required("tool", POSE, "Pose of the tool frame."),
     Key::required("state", STATE, "Every object."),
+    Key::optional(
+        "blade",
+        POSE_IN_SPACE,
+        "Middle of the blade while something is levered; by default nothing is.",
+    ),
 ]);
 
 const CONTACT: Value = Value::Map(&[

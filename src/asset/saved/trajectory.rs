@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::fault::Faults;
@@ -12,16 +11,16 @@ use crate::asset::read_text;
 use crate::scene::{Body, Contact, Frame, Plan, Task, Tool, Trajectory};
 
 use super::read::{self, Opened};
-use super::{SCHEMA_VERSION, TRAJECTORY_FILE, emit};
+use super::{PLAN_VERSION, TRAJECTORY_FILE, emit};
 
 /// What happened, or was predicted to happen, when a plan was carried out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrajectoryFile {
     /// The task whose scene it is.
     pub task: Task,
-    /// The tool that moved.
-    pub tool: Arc<Tool>,
-    /// The pushes that it made.
+    /// The tools that moved, each once.
+    pub tools: Vec<Arc<Tool>>,
+    /// The steps.
     pub plan: Plan,
     /// The motion, and which model computed it.
     pub trajectory: Trajectory,
@@ -50,12 +49,8 @@ impl TrajectoryFile {
         let list = |key| node.as_ref().and_then(|node| node.get(key)).map(Node::items);
         check_frames(&mut opened, list("frames").unwrap_or_default(), &own);
         check_contacts(&mut opened, list("contacts").unwrap_or_default(), &own);
-        let file = match (opened.task, opened.tool) {
-            (Some(task), Some(tool)) => {
-                Some(Self { task, tool, plan: own.plan, trajectory: own.trajectory })
-            }
-            _ => None,
-        };
+        let (tools, Own { plan, trajectory }) = (opened.tools, own);
+        let file = opened.task.map(|task| Self { task, tools, plan, trajectory });
         opened.ledger.finish(file)
     }
 
@@ -78,23 +73,24 @@ fn check_frames(opened: &mut Opened, nodes: &[Node], own: &Own) {
             opened.ledger.fault(node, message, "frames are in order of time");
         }
         // The start belongs to push 0, also where there is none.
-        if frame.stroke >= own.plan.pushes.len().max(1) {
-            let pushes = own.plan.pushes.len();
-            let message = format!("push {} of a plan with {pushes}", frame.stroke + 1);
+        if frame.stroke >= own.plan.steps.len().max(1) {
+            let steps = own.plan.steps.len();
+            let message = format!("step {} of a plan with {steps}", frame.stroke + 1);
             opened.ledger.fault(node, message, "the file is damaged; make it again");
         }
     }
 }
 
 fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
-    let (Some(task), Some(tool)) = (&opened.task, &opened.tool) else { return };
+    let Some(task) = &opened.task else { return };
+    let pieces = opened.tools.iter().map(|tool| tool.outline().len()).max().unwrap_or(0);
     let scene = &task.scene;
     for (node, contact) in nodes.iter().zip(&own.trajectory.contacts) {
         let Contact { frame, object, with } = *contact;
         let known = match with {
             Body::Object(index) => index < scene.objects.len(),
             Body::Obstacle(index) => index < scene.obstacles.len(),
-            Body::Part(index) => index < tool.outline().len(),
+            Body::Part(index) => index < pieces,
         };
         if !known || object >= scene.objects.len() || frame >= own.trajectory.frames.len() {
             let message = "a contact with a body or in a frame that does not exist";
@@ -103,18 +99,9 @@ fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
     }
 }
 
-/// The keys that are the program's own types.
+/// The keys that are the program's own types; the strict check has seen to the others.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Own {
-    #[serde(rename = "schema_version")]
-    _schema_version: IgnoredAny,
-    #[serde(rename = "kind")]
-    _kind: IgnoredAny,
-    #[serde(rename = "task")]
-    _task: IgnoredAny,
-    #[serde(rename = "tool")]
-    _tool: IgnoredAny,
     plan: Plan,
     trajectory: Trajectory,
 }
@@ -126,15 +113,15 @@ impl Serialize for TrajectoryFile {
             schema_version: u32,
             kind: &'static str,
             plan: &'a Plan,
-            tool: serde_json::Value,
+            tools: Vec<serde_json::Value>,
             task: serde_json::Value,
             trajectory: &'a Trajectory,
         }
         Written {
-            schema_version: SCHEMA_VERSION,
+            schema_version: PLAN_VERSION,
             kind: "trajectory",
             plan: &self.plan,
-            tool: emit::tool(&self.tool),
+            tools: self.tools.iter().map(|tool| emit::tool(tool)).collect(),
             task: emit::task(&self.task),
             trajectory: &self.trajectory,
         }

@@ -94,7 +94,7 @@ impl Rolling<'_> {
             let mut next = Vec::new();
             for (((node, push), job), trajectory) in pushes.iter().zip(&jobs).zip(&trajectories) {
                 let states = states(trajectory, 0);
-                let moving = job.motion.strokes[0].frames();
+                let moving = job.motion.slide().strokes[0].frames();
                 let played = Played { states: &states, moving, settled: last };
                 let rests = played.rests(&sequences);
                 let (pose, before) = (node.pose, node.branch);
@@ -138,7 +138,7 @@ impl Rolling<'_> {
             let alike = ways.len().pow(count - 1 - level);
             for first in (0..jobs.len()).step_by(alike) {
                 let states = states(&trajectories[first], level as usize);
-                let moving = jobs[first].motion.strokes[level as usize].frames();
+                let moving = jobs[first].motion.slide().strokes[level as usize].frames();
                 let settled = level + 1 == count;
                 let rests = Played { states: &states, moving, settled }.rests(&sequences);
                 let Action { pose, pushes, .. } = &played[first];

@@ -141,8 +141,8 @@ impl<'a> Trials<'a> {
     /// What the planner would do.
     fn planned(&self, solution: &Solution) -> Option<Choice> {
         let best = solution.best()?;
-        let pose = self.setup.pose(&best.plan.tool)?;
-        let pushes = best.plan.pushes.clone();
+        let pose = self.setup.pose(&best.plan.tool())?;
+        let pushes = best.plan.pushes().clone();
         let action = Action { pose, form: PushForm::Placed, pushes };
         Some(Choice { action, predicted: Some(best.outcome.error) })
     }

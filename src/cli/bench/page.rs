@@ -55,14 +55,15 @@ impl PageArgs {
             let message = format!("no push can be made in `{}`, so there is no plan", task.name);
             CliError::usage(message, "name another task")
         })?;
-        let tool = library.get(&plan.tool).ok_or_else(|| {
-            let message = format!("the plan uses the tool `{}`, which is not here", plan.tool);
+        let tool = library.get(&plan.tool()).ok_or_else(|| {
+            let message = format!("the plan uses the tool `{}`, which is not here", plan.tool());
             CliError::usage(message, "give the --tools or --more-tools of the run")
         })?;
         let disturbed = run.settings["budget"]["disturbed"].as_u64().unwrap_or(0) as usize;
         let verifier = Verifier::new(VerifySettings { disturbed, seed });
         let situation = Situation::stated(&task.scene);
-        let verdict = session.compute(|| verifier.verify(&task, &situation, tool, &plan));
+        let verdict = session
+            .compute(|| verifier.verify(&task, &situation, std::slice::from_ref(tool), &plan));
         let end = |engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
         if [record.planar, record.spatial] != Engine::ALL.map(end) {
             return Err(CliError::usage(
@@ -72,8 +73,14 @@ impl PageArgs {
         }
         let model: Option<ModelSpec> = run.model.parse().ok();
         let recipe = self.library.origin(path, model.clone()).plan(&plan);
-        let file =
-            PlanFile { task, tool: Arc::clone(tool), plan, model, predicted: None, verdict: None };
+        let file = PlanFile {
+            task,
+            tools: vec![Arc::clone(tool)],
+            plan,
+            model,
+            predicted: None,
+            verdict: None,
+        };
         page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }
 }

@@ -1,10 +1,12 @@
 //! What a lever-up does to a plate, whoever computes it.
 //!
-//! [`LeverModel`] is to lever-ups what [`EffectModel`](super::EffectModel) is to pushes. A ladder
-//! of speed and accuracy stands behind it. Nothing is searched here.
+//! A [`LeverModel`] follows one object through one lever-up; [`Levering`] makes an
+//! [`EffectModel`](super::EffectModel) of it and of one that knows pushes. A ladder of speed and
+//! accuracy stands behind it. Nothing is searched here.
 
 mod features;
 mod inputs;
+mod levering;
 mod model;
 mod network;
 mod prior;
@@ -13,6 +15,7 @@ mod view;
 
 pub use features::{lever_action, lever_features};
 pub use inputs::{LeverInputs, lever_inputs};
+pub use levering::Levering;
 pub use model::{LeverModel, LeverTrust};
 pub use network::{LeverNetwork, LeverNetworkError};
 pub use prior::{LeverPrior, PriorSettings};

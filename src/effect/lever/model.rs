@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::scene::{LeverJob, LeverTrajectory};
+use crate::scene::{LeverJob, LeverTrajectory, ModelKind, ModelSpec};
 
 /// How far a model is to be trusted with a lever-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +25,11 @@ pub trait LeverModel: Send + Sync {
     /// What it is, as users name it: `prior`, `3d,step=1/60`.
     fn name(&self) -> String;
 
+    /// What it is as an effect model.
+    fn spec(&self) -> ModelSpec {
+        ModelKind::NETWORK.into()
+    }
+
     /// How far it is to be trusted with a job.
     fn trust(&self, job: &LeverJob) -> LeverTrust;
 
@@ -38,6 +43,10 @@ macro_rules! models_behind {
         impl<M: LeverModel + ?Sized> LeverModel for $pointer<M> {
             fn name(&self) -> String {
                 (**self).name()
+            }
+
+            fn spec(&self) -> ModelSpec {
+                (**self).spec()
             }
 
             fn trust(&self, job: &LeverJob) -> LeverTrust {

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{LeverJob, LeverTrajectory};
+use crate::scene::{LeverJob, LeverTrajectory, ModelSpec};
 use crate::sim::LeverSimulator;
 
 use super::{LeverModel, LeverTrust};
@@ -17,6 +17,10 @@ pub struct SimulatedLevers {
 impl LeverModel for SimulatedLevers {
     fn name(&self) -> String {
         format!("3d,step=1/{}", self.simulator.rate.0)
+    }
+
+    fn spec(&self) -> ModelSpec {
+        self.simulator.spec()
     }
 
     fn trust(&self, _: &LeverJob) -> LeverTrust {

@@ -94,14 +94,14 @@ pub(super) fn play_all<R: Rule>(
 }
 
 fn play<R: Rule>(by: &ModelSpec, scene: &Scene, job: &Job, record: Record) -> Trajectory {
-    let table = Table { scene, motion: &job.motion };
+    let table = Table { scene, motion: job.motion.slide() };
     let mut rule = R::begin(scene, &job.physics);
     let mut poses = job.start.poses.clone();
-    let tool = job.motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
-    let mut frame = Frame { time: 0.0, stroke: 0, tool, state: job.start.clone() };
+    let tool = job.motion.slide().strokes.first().map(|stroke| stroke.from).unwrap_or_default();
+    let mut frame = Frame { time: 0.0, stroke: 0, tool, state: job.start.clone(), blade: None };
     let mut trajectory = Trajectory::new(by.clone());
     let mut count = 0;
-    for (index, stroke) in job.motion.strokes.iter().enumerate() {
+    for (index, stroke) in job.motion.slide().strokes.iter().enumerate() {
         for step in (0..stroke.frames()).map(|k| stroke.frame(k)) {
             let travel = (step.to.position - step.from.position).norm();
             let steps = (travel / STEP).ceil().max(1.0);
@@ -111,8 +111,13 @@ fn play<R: Rule>(by: &ModelSpec, scene: &Scene, job: &Job, record: Record) -> Tr
                 rule.step(&table, &from, &to, &mut poses);
             }
             let state = State::at_rest(poses.clone());
-            let next =
-                Frame { time: frame.time + step.duration, stroke: index, tool: step.to, state };
+            let next = Frame {
+                time: frame.time + step.duration,
+                stroke: index,
+                tool: step.to,
+                state,
+                blade: None,
+            };
             let before = std::mem::replace(&mut frame, next);
             if record == Record::Frames {
                 trajectory.frames.push(before);

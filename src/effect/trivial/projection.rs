@@ -92,7 +92,10 @@ impl EffectModel for Projection {
         &SPEC
     }
 
-    fn trust(&self, _: &Scene, _: &Job) -> Trust {
+    fn trust(&self, _: &Scene, job: &Job) -> Trust {
+        if job.in_space() {
+            return Trust::NotMine;
+        }
         Trust::Mine { error: None, warnings: Vec::new() }
     }
 

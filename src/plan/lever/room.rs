@@ -28,17 +28,14 @@ pub struct LeverRoom<'a> {
 impl<'a> LeverRoom<'a> {
     /// The room around the goal's plate in `scene`, that of `task` with a blade.
     pub fn new(task: &'a Task, scene: &'a LeverScene) -> Self {
-        let blocks = scene.blocks.iter().map(|block| {
-            let pose = Pose3::upright(block.pose, block.z + 0.5 * block.size[2]);
-            let top = block.z + block.size[2];
-            (block.name.clone(), Solid::cuboid(block.size, &pose), top)
-        });
+        let blocks = scene
+            .blocks
+            .iter()
+            .map(|block| (block.name.clone(), block.solid(), block.z + block.size[2]));
         let others = scene.plates.iter().enumerate().filter(|(k, _)| *k != task.goal.object);
         let others = others.flat_map(|(_, plate)| {
-            plate.slabs.iter().map(|slab| {
-                let span = [slab.bottom, slab.bottom + slab.height];
-                let solid = Solid::prism(&slab.corners, span, &plate.start());
-                (plate.name.clone(), solid, plate.z + span[1])
+            plate.slabs.iter().zip(plate.solids()).map(|(slab, solid)| {
+                (plate.name.clone(), solid, plate.z + (slab.bottom + slab.height))
             })
         });
         let all: Vec<(String, Solid, f64)> = blocks.chain(others).collect();

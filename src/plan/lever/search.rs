@@ -7,7 +7,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{
-    Ending, Goal, LeverFault, LeverJob, LeverOutcome, LeverScene, LeverTrajectory, Task,
+    Ending, Goal, Job, LeverFault, LeverMotion, LeverScene, Motion, Outcome, Situation, Task, Tool,
+    Trajectory, Warning,
 };
 
 use super::{LeverCandidate, LeverGrid, LeverRoom};
@@ -40,7 +41,7 @@ pub struct ScoredLever {
     /// The candidate.
     pub candidate: LeverCandidate,
     /// What comes of it.
-    pub outcome: LeverOutcome,
+    pub outcome: Outcome,
     /// By what it is ranked, the smaller the better.
     pub merit: f64,
     /// Share of its neighbours on the grid that reach the goal.
@@ -64,8 +65,10 @@ pub struct LeverSearchStatistics {
 pub struct LeverSearch<'a> {
     /// The task.
     pub task: &'a Task,
-    /// Its scene with the blade of each tool.
-    pub scenes: &'a [Arc<LeverScene>],
+    /// Its scene as it is believed.
+    pub situation: &'a Situation,
+    /// The tools with blades.
+    pub tools: &'a [Arc<Tool>],
 }
 
 impl LeverSearch<'_> {
@@ -73,10 +76,11 @@ impl LeverSearch<'_> {
     fn feasible(&self, apart: f64) -> (LeverSearchStatistics, Vec<LeverCandidate>) {
         let mut statistics = LeverSearchStatistics::default();
         let mut candidates = Vec::new();
-        for (tool, scene) in self.scenes.iter().enumerate() {
+        for (tool, own) in self.tools.iter().enumerate() {
+            let scene = LeverScene::with(&self.task.scene, own);
             let all = LeverGrid { task: self.task, tool, apart }.candidates();
             statistics.considered += all.len();
-            let room = LeverRoom::new(self.task, scene);
+            let room = LeverRoom::new(self.task, &scene);
             let faults: Vec<Option<LeverFault>> =
                 all.par_iter().map(|candidate| room.fault(&candidate.lever)).collect();
             for (candidate, fault) in all.into_iter().zip(faults) {
@@ -89,11 +93,18 @@ impl LeverSearch<'_> {
         (statistics, candidates)
     }
 
+    /// What a candidate does.
+    pub fn job(&self, candidate: &LeverCandidate) -> Job {
+        let tool = Arc::clone(&self.tools[candidate.tool]);
+        let motion = Motion::Lever(LeverMotion::new(tool, candidate.lever, None));
+        Job::new(self.situation, motion)
+    }
+
     /// All candidates that can be made, the best first; `predict` tells what comes of jobs, and
     /// `cancelled` whether to make do with those that were predicted by now.
     pub fn run(
         &self,
-        predict: &dyn Fn(&[LeverJob]) -> Vec<LeverTrajectory>,
+        predict: &dyn Fn(&[Job]) -> Vec<Trajectory>,
         cancelled: &dyn Fn() -> bool,
     ) -> (Vec<ScoredLever>, LeverSearchStatistics) {
         let mut statistics = LeverSearchStatistics::default();
@@ -104,20 +115,15 @@ impl LeverSearch<'_> {
                 break;
             }
         }
-        let mut outcomes: Vec<(LeverOutcome, f64)> = Vec::with_capacity(candidates.len());
+        let mut outcomes: Vec<(Outcome, f64)> = Vec::with_capacity(candidates.len());
         for batch in candidates.chunks(BATCH) {
             if cancelled() {
                 break;
             }
-            let job = |c: &LeverCandidate| LeverJob {
-                scene: Arc::clone(&self.scenes[c.tool]),
-                lever: c.lever,
-            };
-            let jobs: Vec<LeverJob> = batch.iter().map(job).collect();
-            let rolled = predict(&jobs);
-            outcomes.extend(jobs.iter().zip(rolled).map(|(job, trajectory)| {
-                let goal = &self.task.goal;
-                let outcome = goal.judge_lever(&job.scene, &job.lever, &trajectory);
+            let jobs: Vec<Job> = batch.iter().map(|candidate| self.job(candidate)).collect();
+            let (scene, goal) = (&self.task.scene, &self.task.goal);
+            outcomes.extend(predict(&jobs).into_iter().map(|trajectory| {
+                let outcome = Outcome::judge(scene, goal, &trajectory);
                 let merit = merit(goal, &outcome, &trajectory);
                 (outcome, merit)
             }));
@@ -141,23 +147,26 @@ impl LeverSearch<'_> {
 
 /// By what a lever-up is ranked, its neighbours aside: the score, more where the plate slips, leans,
 /// jams or is left undecided.
-pub fn merit(goal: &Goal, outcome: &LeverOutcome, trajectory: &LeverTrajectory) -> f64 {
-    let tilt = trajectory.lift.last().map_or(0.0, |pose| pose.tilt().to_degrees());
+pub fn merit(goal: &Goal, outcome: &Outcome, trajectory: &Trajectory) -> f64 {
+    let tilt = trajectory.lifts.last().map_or(0.0, |lift| lift.tilt.to_degrees());
+    let (score, ending) =
+        outcome.lying.map_or((f64::MAX, Ending::Leaning), |lying| (lying.score, lying.ending));
     let [low, high] = UNDECIDED_DEG;
     let middle = 1.0 - (2.0 * tilt - low - high).abs() / (high - low);
     let matters = goal.turns() || goal.outside.is_some();
     let undecided = if matters { UNDECIDED * middle.max(0.0) } else { 0.0 };
-    let slipped = if trajectory.slipped() { SLIPPED } else { 0.0 };
-    let leaning = if outcome.ending == Ending::Leaning { LEANING } else { 0.0 };
-    let wrong = if outcome.reached || outcome.score > 1.0 { 0.0 } else { 2.0 };
+    let slips = |warning: &Warning| matches!(warning, Warning::Slipped { .. });
+    let slipped = if trajectory.warnings.iter().any(slips) { SLIPPED } else { 0.0 };
+    let leaning = if ending == Ending::Leaning { LEANING } else { 0.0 };
+    let wrong = if outcome.reached || score > 1.0 { 0.0 } else { 2.0 };
     // Among those that are well within the goal the others decide.
-    outcome.score.clamp(0.5, 1e6) + undecided + slipped + leaning + wrong
+    score.clamp(0.5, 1e6) + undecided + slipped + leaning + wrong
 }
 
 /// Of each candidate the share of its neighbours (one step along the outline, in depth or in turn)
 /// that reach the goal by prediction; those that cannot be made or are beyond the ranges count as
 /// half.
-fn company(candidates: &[LeverCandidate], outcomes: &[(LeverOutcome, f64)]) -> Vec<f64> {
+fn company(candidates: &[LeverCandidate], outcomes: &[(Outcome, f64)]) -> Vec<f64> {
     let cells: HashMap<(usize, [usize; 4]), usize> =
         candidates.iter().enumerate().map(|(k, c)| ((c.tool, c.cell), k)).collect();
     let of = |candidate: &LeverCandidate| {

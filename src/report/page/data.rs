@@ -152,8 +152,10 @@ pub enum Standing {
 
 #[derive(Serialize)]
 pub struct Plan {
-    /// Index of the tool.
+    /// Index of the first tool.
     pub tool: usize,
+    /// Indices of all of them.
+    pub tools: Vec<usize>,
     /// What it is, in a line.
     pub name: String,
     pub standing: Standing,

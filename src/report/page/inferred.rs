@@ -36,6 +36,7 @@ pub fn recording_page(
     let frames = frames(recording);
     let plan = Plan {
         tool: 0,
+        tools: vec![0],
         name: recording.name.clone(),
         standing: Standing::Inferred,
         verdict: document.title.clone(),
@@ -104,6 +105,7 @@ fn frames(recording: &Recording) -> Vec<Frame> {
     let frame = |recorded: &RecordedFrame| {
         stroke += usize::from(recorded.lifted);
         Frame {
+            blade: None,
             time: recorded.time,
             stroke,
             tool: recorded.tool,

@@ -10,17 +10,16 @@ mod candidates;
 mod data;
 mod html;
 mod inferred;
-mod lever;
 mod recipe;
 mod replay;
 mod replayed;
 mod run;
 mod solution;
+mod space;
 mod stage;
 
 pub use html::PageView;
 pub use inferred::recording_page;
-pub use lever::{ReplayedLever, lever_page};
 pub use recipe::{Origin, Recipe, Setting};
 pub use replayed::{prediction_page, verdict_page};
 pub use run::run_page;

@@ -83,14 +83,17 @@ impl Origin {
     }
 
     fn command(&self, plan: &Plan) -> String {
-        let verb = if plan.pushes.is_empty() { "solve" } else { "predict" };
+        // What several tools do in turn has no command of its own.
+        let found = plan.is_empty() || plan.levers();
+        let verb = if found { "solve" } else { "predict" };
         let mut words = vec!["pushplan".to_owned(), verb.to_owned(), quoted(&self.task)];
         words.extend(self.options());
-        if !plan.pushes.is_empty() {
-            words.extend(["--tool".to_owned(), quoted(&plan.tool)]);
-            words.extend(["--grip-yaw-deg".to_owned(), plan.grip_yaw.to_degrees().to_string()]);
+        if found {
+            return words.join(" ");
         }
-        for (k, push) in plan.pushes.iter().enumerate() {
+        words.extend(["--tool".to_owned(), quoted(plan.tool())]);
+        words.extend(["--grip-yaw-deg".to_owned(), plan.grip_yaw().to_degrees().to_string()]);
+        for (k, push) in plan.pushes().iter().enumerate() {
             let start = match goes_on(plan, k) {
                 true => String::new(),
                 false => format!("start={},{} ", push.start.x, push.start.y),
@@ -114,21 +117,22 @@ impl Origin {
         let (mut lines, tools) = self.loads();
         let tools = tools.map_or(String::new(), |tools| format!(", {tools}"));
         let model = self.model.as_ref().map(|model| literal(&model.to_string()));
-        if plan.pushes.is_empty() {
+        if plan.is_empty() || plan.levers() {
             let model = model.map_or(String::new(), |model| format!(", model={model}"));
             lines.push(format!("print(pushplan.solve(task{tools}{model}))"));
             return lines.join("\n");
         }
         lines.push("pushes = [".to_owned());
-        let pushes = plan.pushes.iter().enumerate();
+        let pushes = plan.pushes();
+        let pushes = pushes.iter().enumerate();
         lines.extend(
             pushes.map(|(k, push)| format!("    {},", python_push(push, goes_on(plan, k)))),
         );
         lines.push("]".to_owned());
         lines.push(format!(
             "plan = pushplan.Plan.of(task, {}, pushes, grip_yaw={}{})",
-            literal(&plan.tool),
-            plan.grip_yaw,
+            literal(plan.tool()),
+            plan.grip_yaw(),
             tools.replace("tools", "tools=tools")
         ));
         let model = model.map_or(String::new(), |model| format!(", {model}"));
@@ -194,16 +198,11 @@ impl Recipe {
         });
         Self { command: words.join(" "), python }
     }
-
-    /// Of the replays of a file of a lever-up, which Python does not read.
-    pub fn of_lever_file(path: &str) -> Self {
-        Self { python: String::new(), ..Self::of_plan_file(path) }
-    }
 }
 
 /// Whether a push of a plan goes on where the one before it ended, to the last digit.
 fn goes_on(plan: &Plan, push: usize) -> bool {
-    plan.form == PushForm::Chained && push > 0
+    plan.form() == PushForm::Chained && push > 0
 }
 
 fn python_push(push: &Push, goes_on: bool) -> String {
@@ -237,13 +236,7 @@ mod tests {
     fn plan() -> Plan {
         let start = Vector::new(0.5, 0.25);
         let push = Push { start, direction: std::f64::consts::PI, length: 0.1, speed: 0.1 };
-        Plan {
-            tool: "bob's hook".to_owned(),
-            grip_yaw: 0.0,
-            form: PushForm::Chained,
-            lift: 0.002,
-            pushes: vec![push, push],
-        }
+        Plan::pushing("bob's hook", 0.0, PushForm::Chained, 0.002, [push, push])
     }
 
     #[test]
@@ -257,7 +250,7 @@ mod tests {
             origin.plan(&plan()).command,
             @r"pushplan predict 'my tasks/a.yaml' --tools mine --tool 'bob'\''s hook' --grip-yaw-deg 0 --push 'start=0.5,0.25 direction_deg=180 length=0.1 speed=0.1' --push 'direction_deg=180 length=0.1 speed=0.1'"
         );
-        let nothing = Plan { pushes: Vec::new(), ..plan() };
+        let nothing = Plan::default();
         let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
         assert_eq!(origin.plan(&nothing).command, "pushplan solve a.yaml");
     }

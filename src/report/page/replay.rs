@@ -41,11 +41,11 @@ pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> O
     })
 }
 
-/// The nominal replays of a verdict that were recorded.
-pub fn replays(verdict: &Verdict) -> impl Iterator<Item = Replay> {
+/// The nominal replays of a verdict that were recorded, and whether they reach the goal.
+pub fn replays(verdict: &Verdict) -> impl Iterator<Item = (Layer, &Trajectory, bool)> {
     Engine::ALL.into_iter().filter_map(|engine| {
         let evidence = verdict.nominal(engine)?;
-        replay(layer(engine), evidence.trajectory.as_ref()?, evidence.outcome.reached)
+        Some((layer(engine), evidence.trajectory.as_ref()?, evidence.outcome.reached))
     })
 }
 

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use serde_json::Value as Json;
 
-use crate::asset::{PlanFile, SCHEMA_VERSION};
+use crate::asset::{PLAN_VERSION, PlanFile};
 use crate::report::number::millimetres;
+use crate::report::plan_picture::space_figures;
 use crate::report::plan_text::plan_line;
 use crate::report::verdict::{replay_warnings, verdict_line};
-use crate::scene::{Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
+use crate::scene::{Engine, Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
-use super::data::{self, Data, File, Layer, Standing, Stroke, length, pose};
+use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::{ends, layer_of, replay, replays};
-use super::stage;
+use super::{space, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
 /// asked; `recipe` makes the replays again.
@@ -27,41 +28,75 @@ pub fn verdict_page(
 ) -> String {
     let task = &file.task;
     let mut making = Making::of(task, plan_line(&file.plan));
-    let plan = making.plan(&file.tool, &file.plan, recipe);
+    let space = making.drawing(&file.plan, &file.tools, verdict);
+    let plan = making.plan(&file.tools, &file.plan, recipe);
     plan.standing = standing(verdict);
     plan.verdict = verdict_line(task, Some(verdict));
-    plan.replays.extend(predicted.and_then(|trajectory| {
-        replay(Layer::Predicted, trajectory, Outcome::judge(&task.goal, trajectory).reached)
-    }));
-    plan.replays.extend(replays(verdict));
+    let shown = predicted.map(|trajectory| {
+        let reached = Outcome::judge(&task.scene, &task.goal, trajectory).reached;
+        (Layer::Predicted, trajectory, reached)
+    });
+    let own = (&file.plan, &file.tools[..]);
+    let shown = shown.into_iter().chain(replays(verdict));
+    plan.replays.extend(shown.filter_map(|one| shown_replay(task, own, one)));
     plan.ends = ends(task, verdict);
     making.data.warnings = replay_warnings(verdict);
+    making.data.drawing = space;
     html::page(&making.data, view)
+}
+
+/// A trajectory as it is shown; in space where something of it left the plane.
+pub(super) fn shown_replay(
+    task: &Task,
+    (plan, tools): (&Plan, &[Arc<Tool>]),
+    (layer, trajectory, reached): (Layer, &Trajectory, bool),
+) -> Option<Replay> {
+    match is_in_space(task, plan) {
+        true => space::replay(layer, task, (plan, tools), trajectory, reached),
+        false => replay(layer, trajectory, reached),
+    }
+}
+
+fn is_in_space(task: &Task, plan: &Plan) -> bool {
+    task.in_space() || plan.levers()
 }
 
 /// The page of pushes as several models see them, each frame by frame; `recipe` makes it again.
 pub fn prediction_page(
     task: &Task,
-    tool: &Arc<Tool>,
+    tools: &[Arc<Tool>],
     plan: &Plan,
     trajectories: &[Trajectory],
     recipe: Recipe,
     view: PageView,
 ) -> String {
     let mut making = Making::of(task, plan_line(plan));
-    let page = making.plan(tool, plan, recipe);
+    let drawing = trajectories.last().and_then(|last| making.drawn(plan, tools, last, ""));
+    let page = making.plan(tools, plan, recipe);
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
-        let outcome = Outcome::judge(&task.goal, trajectory);
-        ends.push(format!("{} {}", trajectory.by, millimetres(outcome.error)));
+        let outcome = Outcome::judge(&task.scene, &task.goal, trajectory);
+        let end = match (outcome.lying, outcome.reached) {
+            (None, _) => millimetres(outcome.error),
+            (Some(_), true) => "reaches the goal".to_owned(),
+            (Some(_), false) => "misses the goal".to_owned(),
+        };
+        ends.push(format!("{} {end}", trajectory.by));
         // A model that hands a job to an engine is still the one that predicts.
         let own = layer_of(trajectory);
         let twice = trajectories[k + 1..].iter().any(|other| layer_of(other) == own);
         let layer = if twice { Layer::Predicted } else { own };
-        page.replays.extend(replay(layer, trajectory, outcome.reached));
+        let one = (layer, trajectory, outcome.reached);
+        page.replays.extend(shown_replay(task, (plan, tools), one));
     }
-    let allowed = millimetres(task.goal.tolerance);
-    page.verdict = format!("error: {}; allowed {allowed}", ends.join(", "));
+    page.verdict = match task.goal.has_place() {
+        true => {
+            let allowed = millimetres(task.goal.tolerance);
+            format!("error: {}; allowed {allowed}", ends.join(", "))
+        }
+        false => ends.join(", "),
+    };
+    making.data.drawing = drawing;
     for trajectory in trajectories {
         let line = |warning| format!("{}: {warning}", trajectory.by);
         making.data.warnings.extend(trajectory.warnings.iter().map(line));
@@ -100,7 +135,7 @@ impl<'a> Making<'a> {
             candidates: None,
             run: None,
             warnings: Vec::new(),
-            file: File { schema_version: SCHEMA_VERSION, task: Json::Null },
+            file: File { schema_version: PLAN_VERSION, task: Json::Null },
             drawing: None,
         };
         Self { task, data }
@@ -115,11 +150,35 @@ impl<'a> Making<'a> {
         })
     }
 
+    /// A drawing of what leaves the plane, by the replay of a verdict.
+    pub fn drawing(&self, plan: &Plan, tools: &[Arc<Tool>], verdict: &Verdict) -> Option<String> {
+        let replay = verdict.nominal(Engine::Spatial)?.trajectory.as_ref()?;
+        self.drawn(plan, tools, replay, &verdict_line(self.task, Some(verdict)))
+    }
+
+    /// A drawing of what leaves the plane, with a line below its title.
+    fn drawn(
+        &self,
+        plan: &Plan,
+        tools: &[Arc<Tool>],
+        trajectory: &Trajectory,
+        line: &str,
+    ) -> Option<String> {
+        if !is_in_space(self.task, plan) {
+            return None;
+        }
+        let lines: Vec<String> =
+            Some(line).filter(|line| !line.is_empty()).map(str::to_owned).into_iter().collect();
+        let named = ("", false);
+        let figures = space_figures(self.task, (plan, tools), trajectory, &lines, named);
+        figures.first().map(|figure| figure.to_svg().into())
+    }
+
     /// Adds a plan, whose replays and verdict are to be filled in.
-    pub fn plan(&mut self, tool: &Arc<Tool>, plan: &Plan, recipe: Recipe) -> &mut data::Plan {
+    pub fn plan(&mut self, tools: &[Arc<Tool>], plan: &Plan, recipe: Recipe) -> &mut data::Plan {
         let file = PlanFile {
             task: self.task.clone(),
-            tool: Arc::clone(tool),
+            tools: tools.to_vec(),
             plan: plan.clone(),
             model: None,
             predicted: None,
@@ -128,17 +187,37 @@ impl<'a> Making<'a> {
         let mut file = serde_json::to_value(&file).unwrap_or_default();
         let mut part = |key: &str| file.get_mut(key).map_or(Json::Null, Json::take);
         self.data.file.task = part("task");
-        let index = self.tool(tool, part("tool"));
+        let files = part("tools");
+        let known: Vec<usize> = tools
+            .iter()
+            .enumerate()
+            .map(|(k, tool)| self.tool(tool, files.get(k).cloned().unwrap_or_default()))
+            .collect();
+        let index = |name: &str| {
+            let place = tools.iter().position(|tool| tool.name == name);
+            place.map_or(0, |place| known[place])
+        };
+        let first = known.first().copied().unwrap_or(0);
+        let in_space = is_in_space(self.task, plan);
+        if in_space {
+            self.data.measure = Some(space::measure(plan));
+        }
+        let strokes = match (tools.first(), in_space) {
+            (_, true) => space::strokes(plan, tools, &index),
+            (Some(tool), false) => strokes(&plan.motion(tool), first),
+            (None, false) => Vec::new(),
+        };
         self.data.plans.push(data::Plan {
-            tool: index,
+            tool: first,
+            tools: known,
             name: plan_line(plan),
             standing: Standing::Open,
             verdict: String::new(),
             cells: Vec::new(),
-            strokes: strokes(&plan.motion(tool), index),
+            strokes,
             replays: Vec::new(),
             ends: Vec::new(),
-            lift: length(plan.lift),
+            lift: if in_space { 0 } else { length(plan.lift()) },
             command: recipe.command,
             python: recipe.python,
             file: part("plan"),

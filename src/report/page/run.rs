@@ -29,6 +29,7 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
     }
     let clock = Clock::new(trace, &motions, real);
     making.data.plans.push(data::Plan {
+        tools: Vec::new(),
         tool: drawn.first().map_or(0, |stroke: &data::Stroke| stroke.tool),
         name: name(trace),
         standing: match trace.end {
@@ -43,7 +44,7 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
         ends: Vec::new(),
         command: recipe.command,
         python: recipe.python,
-        lift: trace.steps.first().map_or(0, |step| length(step.plan.lift)),
+        lift: trace.steps.first().map_or(0, |step| length(step.plan.lift())),
         file: Json::Null,
     });
     making.data.run = Some(run(trace, &clock.starts));
@@ -152,7 +153,7 @@ fn replays(trace: &Trace, clock: &Clock) -> Vec<data::Replay> {
     let mut came = clock.joined(&clock.came);
     if came.is_empty() {
         let state = trace.real().unwrap_or_else(|| thought(trace, 0));
-        came.push(Frame { time: 0.0, stroke: 0, tool: Pose::default(), state });
+        came.push(Frame { time: 0.0, stroke: 0, tool: Pose::default(), state, blade: None });
     }
     let reached = came.last().is_some_and(|last| goal.reached(&last.state));
     replays.extend(replay_of(clock.layer, by, &came, reached));
@@ -164,7 +165,7 @@ fn seen(trace: &Trace, step: usize, motion: &ToolMotion) -> Vec<Frame> {
     let mut state = thought(trace, step);
     let frame = |time: f64, state: &State| {
         let (stroke, tool) = motion.at(time)?;
-        Some(Frame { time, stroke, tool, state: state.clone() })
+        Some(Frame { time, stroke, tool, state: state.clone(), blade: None })
     };
     let mut frames: Vec<Frame> = frame(0.0, &state).into_iter().collect();
     let own = &trace.steps[step];

@@ -13,8 +13,8 @@ use super::candidates::{candidates, frequent};
 use super::data::{Choice, Layer, Standing};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
-use super::replay::{ends, replay, replays};
-use super::replayed::{Making, standing};
+use super::replay::{ends, replays};
+use super::replayed::{Making, shown_replay, standing};
 
 /// Names of the columns of the table of plans.
 const COLUMNS: [&str; 6] = ["plan", "predicted", "planar", "3-D", "disturbed", "what came of it"];
@@ -29,14 +29,21 @@ pub fn solution_page(
     view: PageView,
 ) -> String {
     let mut making = Making::of(task, headline(solution));
+    making.data.drawing =
+        solution.best().and_then(|best| making.drawing(&best.plan, &best.tools, nominal));
     for (k, ranked) in solution.plans.iter().enumerate() {
         let verdict = ranked.verdict.as_ref();
         let replayed = if k == 0 { Some(nominal) } else { verdict };
         let mut list = Vec::new();
-        list.extend(replay(Layer::Predicted, &ranked.predicted, ranked.outcome.reached));
-        list.extend(replayed.into_iter().flat_map(replays));
+        let predicted = (Layer::Predicted, &ranked.predicted, ranked.outcome.reached);
+        // Of what leaves the plane only the end is predicted.
+        let predicted = Some(predicted)
+            .filter(|(_, shown, _)| ranked.outcome.lying.is_none() || shown.frames.len() > 1);
+        let shown = predicted.into_iter().chain(replayed.into_iter().flat_map(replays));
+        let own = (&ranked.plan, &ranked.tools[..]);
+        list.extend(shown.filter_map(|one| shown_replay(task, own, one)));
         let why = why(task, solution, k);
-        let plan = making.plan(&ranked.tool, &ranked.plan, recipe(ranked));
+        let plan = making.plan(&ranked.tools, &ranked.plan, recipe(ranked));
         plan.standing = verdict.map_or(Standing::Open, standing);
         plan.verdict = if k == 0 { verdict_line(task, verdict) } else { why.clone() };
         plan.cells = cells(ranked, replayed, why);
@@ -52,7 +59,11 @@ pub fn solution_page(
 
 fn cells(ranked: &RankedPlan, replayed: Option<&Verdict>, why: String) -> Vec<String> {
     let error = |outcome: Option<&Outcome>| {
-        outcome.map_or(NONE.to_owned(), |outcome| millimetres(outcome.error))
+        outcome.map_or(NONE.to_owned(), |outcome| match (outcome.lying, outcome.reached) {
+            (None, _) => millimetres(outcome.error),
+            (Some(_), true) => "reaches the goal".to_owned(),
+            (Some(_), false) => "misses the goal".to_owned(),
+        })
     };
     let nominal = |engine| replayed.and_then(|verdict| verdict.nominal(engine));
     let end = |engine| error(nominal(engine).map(|evidence| &evidence.outcome));
@@ -78,7 +89,7 @@ fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
 fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
-        return match (ranked.plan.pushes.is_empty(), ranked.outcome.reached) {
+        return match (ranked.plan.is_empty(), ranked.outcome.reached) {
             (true, _) => "leaves everything as it is".to_owned(),
             (false, true) => "predicted to reach the goal; not replayed".to_owned(),
             (false, false) => "predicted to miss the goal".to_owned(),
@@ -106,8 +117,7 @@ fn choice(solution: &Solution) -> Vec<Choice> {
         let own = |push: &&ScoredPush| push.tool == index;
         let pushes: Vec<&ScoredPush> = solution.candidates.iter().filter(own).collect();
         let best = pushes.iter().filter_map(|push| push.score).reduce(f64::min);
-        let of_tool =
-            |plan: &RankedPlan| plan.plan.tool == tool.name && !plan.plan.pushes.is_empty();
+        let of_tool = |plan: &RankedPlan| plan.plan.tools().contains(&tool.name.as_str());
         let plan = solution.plans.iter().position(of_tool);
         let refused = pushes.iter().filter(|push| push.score.is_none() && push.refused.is_some());
         let choice = Choice {

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use crate::geometry::{Footprint, Shape, Vector};
 use crate::report::plan_text::goal_line;
-use crate::scene::{self, Scene, Task};
+use crate::scene::{self, Blade, Scene, Slab, Task};
 
 use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
@@ -16,7 +16,7 @@ pub fn stage(task: &Task) -> Stage {
         goal: Some(Goal {
             object: goal.object,
             at: point(goal.position),
-            tolerance: length(goal.tolerance),
+            tolerance: if goal.has_place() { length(goal.tolerance) } else { 0 },
             heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
             alike: goal.alike,
             words: goal_line(task),
@@ -32,14 +32,14 @@ pub fn table(scene: &Scene) -> Stage {
         shape: outline(&object.shape),
         height: length(object.shape.height()),
         under: 0,
-        more: Vec::new(),
+        more: object.parts.iter().map(slab).collect(),
         at: pose(&object.pose),
     });
     let obstacles = scene.obstacles.iter().map(|obstacle| Body {
         name: obstacle.name.clone(),
         shape: outline(&obstacle.shape()),
         height: length(obstacle.size[2]),
-        under: 0,
+        under: length(obstacle.z),
         more: Vec::new(),
         at: pose(&obstacle.pose),
     });
@@ -62,7 +62,29 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         more: Vec::new(),
         at: pose(&part.pose),
     });
-    Tool { name: tool.name.clone(), parts: parts.collect(), grip: pose(&tool.grip), file }
+    let mut parts: Vec<Body> = parts.collect();
+    parts.extend(tool.blade().map(|Blade { length: long, width, thickness, .. }| Body {
+        // About its middle.
+        name: "blade".to_owned(),
+        shape: outline(&Shape::Cuboid { size: [long, width, thickness] }),
+        height: length(thickness),
+        under: length(-0.5 * thickness),
+        more: Vec::new(),
+        at: [0; 3],
+    }));
+    Tool { name: tool.name.clone(), parts, grip: pose(&tool.grip), file }
+}
+
+/// What is fixed on an object.
+fn slab(slab: &Slab) -> Body {
+    Body {
+        name: String::new(),
+        shape: Outline::Polygon(slab.corners.iter().map(|corner| point(*corner)).collect()),
+        height: length(slab.height),
+        under: length(slab.bottom),
+        more: Vec::new(),
+        at: [0; 3],
+    }
 }
 
 fn outline(shape: &Shape) -> Outline {

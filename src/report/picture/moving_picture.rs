@@ -270,6 +270,7 @@ mod tests {
         });
         let motion = ToolMotion::pushes(Arc::new(tool), 0.0, 0.0, &pushes, placed);
         let frames = ways.iter().enumerate().map(|(k, &[x, y])| Frame {
+            blade: None,
             time: 0.5 * k as f64,
             stroke: k.saturating_sub(1),
             tool: Pose::default(),

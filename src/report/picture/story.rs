@@ -107,6 +107,7 @@ impl Story<'_> {
     }
 
     fn is_reached(&self) -> bool {
-        !self.trajectory.frames.is_empty() && Outcome::judge(self.goal, self.trajectory).reached
+        !self.trajectory.frames.is_empty()
+            && Outcome::judge(self.scene, self.goal, self.trajectory).reached
     }
 }

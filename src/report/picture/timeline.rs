@@ -131,6 +131,6 @@ mod tests {
     }
 
     fn frame(stroke: usize, time: f64) -> Frame {
-        Frame { time, stroke, tool: Pose::default(), state: State::default() }
+        Frame { time, stroke, tool: Pose::default(), state: State::default(), blade: None }
     }
 }

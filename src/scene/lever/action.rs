@@ -23,7 +23,8 @@ pub struct Place {
 /// The blade lies in it along x with its upper face touching the underside.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverUp {
-    /// Index into [`LeverScene::plates`].
+    /// Index of the object that is levered.
+    #[serde(rename = "object", alias = "plate")]
     pub plate: usize,
     /// Where the blade goes under.
     pub place: Place,

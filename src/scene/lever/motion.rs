@@ -19,7 +19,7 @@ pub struct LeverFrame {
 
 /// A lever-up from its start until everything rests.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeverMotion {
+pub struct LeverRecord {
     /// In order; the first is the start and the last the rest.
     pub frames: Vec<LeverFrame>,
 }

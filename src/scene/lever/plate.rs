@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ConvexPolygon, Footprint, Pose, Pose3, Shape, Vector, cross};
+use crate::geometry::{ConvexPolygon, Footprint, Pose, Pose3, Shape, Solid, Vector, cross};
 use crate::scene::{Object, Support};
 
 /// How far from a right angle a rectangle's corners may be: the sine.
@@ -125,6 +125,15 @@ impl Plate {
     /// Where its frame is at the start.
     pub fn start(&self) -> Pose3 {
         Pose3::upright(self.pose, self.z)
+    }
+
+    /// Its solids where it starts.
+    pub fn solids(&self) -> Vec<Solid> {
+        let start = self.start();
+        let solid = |slab: &Slab| {
+            Solid::prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], &start)
+        };
+        self.slabs.iter().map(solid).collect()
     }
 
     /// Whether it stands on feet of its own.

@@ -2,9 +2,17 @@
 
 use std::num::NonZeroU16;
 
-use crate::scene::{LeverJob, LeverMotion, LeverScene, LeverTrajectory, Rate, ToolMotion};
+use crate::geometry::Pose;
+use crate::scene::{
+    Engine, Frame, LeverJob, LeverRecord, LeverScene, LeverTrajectory, ModelKind, ModelSpec,
+    Motion, Rate, Record, State, Trajectory,
+};
+use crate::watch::Watch;
 
-use super::play::{Watcher, play};
+use super::play::{Scenery, Watcher, play, play_all};
+
+/// Between two frames that are recorded, seconds.
+const FRAME: f64 = 0.02;
 
 /// Simulates lever-ups; holds no state between them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,32 +38,60 @@ impl LeverSimulator {
     ///
     /// What is jammed ends it at once: the frames that are left repeat the last pose.
     pub fn run(&self, job: &LeverJob) -> LeverTrajectory {
-        play(job, &job.scene, self.rate.step(), (None, &mut Watcher::Nobody))
+        self.run_as_planned(job, &job.scene)
     }
 
     /// [`LeverSimulator::run`] with a blade that goes where it would in the scene as `planned`: what
     /// really lies there lies a little elsewhere.
     pub fn run_as_planned(&self, job: &LeverJob, planned: &LeverScene) -> LeverTrajectory {
-        play(job, planned, self.rate.step(), (None, &mut Watcher::Nobody))
-    }
-
-    /// [`LeverSimulator::run_as_planned`], and then the pushes of `follow_up` among what lies where
-    /// it came to rest: the trajectory's rest is that after the last of them.
-    pub fn run_with(
-        &self,
-        job: &LeverJob,
-        planned: &LeverScene,
-        follow_up: Option<&ToolMotion>,
-    ) -> LeverTrajectory {
-        play(job, planned, self.rate.step(), (follow_up, &mut Watcher::Nobody))
+        play(job, planned, self.rate.step(), &mut Watcher::Nobody)
     }
 
     /// [`LeverSimulator::run`], with everything that moved, every `interval` seconds.
-    pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, LeverMotion) {
-        let mut motion = LeverMotion { frames: Vec::new() };
-        let mut watcher = Watcher::Recorder { motion: &mut motion, interval };
-        let trajectory = play(job, &job.scene, self.rate.step(), (None, &mut watcher));
-        (trajectory, motion)
+    pub fn record(&self, job: &LeverJob, interval: f64) -> (LeverTrajectory, LeverRecord) {
+        let mut record = LeverRecord { frames: Vec::new() };
+        let mut watcher = Watcher::Recorder { record: &mut record, interval };
+        let trajectory = play(job, &job.scene, self.rate.step(), &mut watcher);
+        (trajectory, record)
+    }
+
+    /// Plays motions one after another in one world, from where the objects of `really` stand or, if
+    /// it is given, from a state in space, until everything rests. The motions go where they would
+    /// in the scene as `planned`, where the objects were expected.
+    pub fn run_all(
+        &self,
+        (really, planned): (&LeverScene, &LeverScene),
+        start: Option<&State>,
+        motions: &[Motion],
+        (record, watch): (Record, &dyn Watch),
+    ) -> Trajectory {
+        let mut scenery = Scenery::stated(really, planned);
+        if let Some(space) = start.and_then(|start| start.space.as_ref()) {
+            scenery.starts.clone_from(space);
+        }
+        let mut trajectory = Trajectory::new(self.spec());
+        let (mut frames, step) = (Vec::new(), self.rate.step());
+        let mut watcher = match record {
+            Record::Frames => Watcher::Filmer { frames: &mut frames, interval: FRAME },
+            Record::Outcome => Watcher::Nobody,
+        };
+        let end = play_all(&scenery, motions, step, &mut watcher, (&mut trajectory, watch));
+        if frames.is_empty() {
+            frames.push(Frame {
+                time: 0.0,
+                stroke: 0,
+                tool: Pose::default(),
+                state: end,
+                blade: None,
+            });
+        }
+        trajectory.frames = frames;
+        trajectory
+    }
+
+    /// What it is as an effect model.
+    pub fn spec(&self) -> ModelSpec {
+        ModelKind::Simulated { engine: Engine::Spatial, rate: self.rate }.into()
     }
 }
 

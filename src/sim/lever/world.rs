@@ -8,7 +8,7 @@ use rapier3d_f64::prelude::{
 };
 
 use crate::geometry::{Pose, Pose3, Vector, Vector3};
-use crate::scene::{GRAVITY, LeverJob, LeverScene, Stroke, TOUCHING, ToolMotion};
+use crate::scene::{Blade, GRAVITY, LeverScene, Stroke, TOUCHING, ToolMotion};
 
 use super::super::parameters::ALLOWED_ERROR;
 use super::super::solids::solid;
@@ -32,8 +32,8 @@ pub(super) struct LeverWorld {
     world: PhysicsWorld,
     /// Where rapier's origin lies on the table: a scene far from the world's loses no digits.
     origin: Vector,
-    blade: RigidBodyHandle,
-    blade_solid: ColliderHandle,
+    /// What levers, with its solid: laid aside it stays where it is and meets nothing.
+    blade: Option<(RigidBodyHandle, ColliderHandle)>,
     /// What pushes, while it is down.
     tool: Option<RigidBodyHandle>,
     plates: Vec<RigidBodyHandle>,
@@ -42,10 +42,14 @@ pub(super) struct LeverWorld {
 }
 
 impl LeverWorld {
-    /// Everything at the start, the blade's centre at `blade`; steps last `step` seconds.
-    pub fn new(job: &LeverJob, blade: &Pose3, step: f64) -> Self {
-        let LeverJob { scene, lever } = job;
-        let origin = scene.plates[lever.plate].pose.position;
+    /// Everything at the start about `origin`, plates where `starts` has them, and the centre of the
+    /// scene's blade at `blade`, if it is there from the beginning; steps last `step` seconds.
+    pub fn new(
+        scene: &LeverScene,
+        (origin, starts): (Vector, &[Pose3]),
+        blade: Option<&Pose3>,
+        step: f64,
+    ) -> Self {
         let mut world = PhysicsWorld {
             gravity: RapierVector::Z * -GRAVITY,
             narrow_phase: fresh_contacts(),
@@ -59,20 +63,18 @@ impl LeverWorld {
         let (frequency, damping) = CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
         world.insert_collider(solids::table(scene.table_friction), None);
-        let at = to_rapier(blade, origin);
-        let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
-        let blade = world.insert_body(body);
-        let blade_solid = world.insert_collider(solids::blade(&scene.blade), Some(blade));
         let mut this = Self {
             world,
             origin,
-            blade,
-            blade_solid,
+            blade: None,
             tool: None,
             plates: Vec::new(),
             reaches: Vec::new(),
         };
-        this.add_plates(scene);
+        if let Some(at) = blade {
+            this.take_up(&scene.blade, at);
+        }
+        this.add_plates(scene, starts);
         this.add_blocks(scene);
         this
     }
@@ -82,22 +84,40 @@ impl LeverWorld {
         self.world.integration_parameters.dt = step;
     }
 
-    /// One step, in which the blade moves to this pose.
-    pub fn step(&mut self, blade: &Pose3) {
-        let body = &mut self.world.bodies[self.blade];
-        let mut target = to_rapier(blade, self.origin);
-        target.rotation = in_one_hemisphere(*body.rotation(), target.rotation);
-        body.set_next_kinematic_position(target);
+    /// One step, in which the blade moves to this pose, if there is one.
+    pub fn step(&mut self, blade: Option<&Pose3>) {
+        if let (Some((handle, _)), Some(pose)) = (self.blade, blade) {
+            let body = &mut self.world.bodies[handle];
+            let mut target = to_rapier(pose, self.origin);
+            target.rotation = in_one_hemisphere(*body.rotation(), target.rotation);
+            body.set_next_kinematic_position(target);
+        }
         self.world.step();
+    }
+
+    /// Takes up a blade with its centre at `at`, in place of the one before.
+    pub fn take_up(&mut self, blade: &Blade, at: &Pose3) {
+        let at = to_rapier(at, self.origin);
+        let body = RigidBodyBuilder::kinematic_position_based().pose(at).can_sleep(false);
+        let body = self.world.insert_body(body);
+        let solid = self.world.insert_collider(solids::blade(blade), Some(body));
+        self.blade = Some((body, solid));
     }
 
     /// Lays the blade aside, where it meets nothing any more.
     pub fn lay_aside(&mut self) {
-        self.world.colliders[self.blade_solid].set_enabled(false);
+        if let Some((_, solid)) = self.blade {
+            self.world.colliders[solid].set_enabled(false);
+        }
     }
 
-    /// Sets a tool down with its frame at `at`; whether it comes down on a plate.
-    pub fn set_down(&mut self, motion: &ToolMotion, at: &Pose) -> bool {
+    /// Whether a blade is there and not laid aside.
+    pub fn has_blade(&self) -> bool {
+        self.blade.is_some_and(|(_, solid)| self.world.colliders[solid].is_enabled())
+    }
+
+    /// Sets a tool down with its frame at `at`; the index of a plate that it comes down on.
+    pub fn set_down(&mut self, motion: &ToolMotion, at: &Pose) -> Option<usize> {
         let pose = to_rapier(&Pose3::upright(*at, motion.lift), self.origin);
         let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
         // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
@@ -113,9 +133,9 @@ impl LeverWorld {
         let down = |handle: &ColliderHandle| {
             let part = &self.world.colliders[*handle];
             let part = (pose * *part.position_wrt_parent().unwrap_or(&RapierPose::IDENTITY), part);
-            self.plates.iter().any(|plate| self.overlaps(*plate, &part))
+            self.plates.iter().position(|plate| self.overlaps(*plate, &part))
         };
-        self.world.bodies[tool].colliders().iter().any(down)
+        self.world.bodies[tool].colliders().iter().find_map(down)
     }
 
     /// Whether a part of a tool is deeper inside a plate than touching is.
@@ -202,7 +222,7 @@ impl LeverWorld {
 
     /// Contacts of the blade, see [`LeverWorld::on`].
     fn on_blade(&self) -> impl Iterator<Item = (RigidBodyHandle, f64, &ContactPair)> {
-        self.on(self.blade_solid)
+        self.blade.into_iter().flat_map(|(_, solid)| self.on(solid))
     }
 
     /// Contacts of a solid: with which body, and whether their normals point into it (1) or out.
@@ -220,10 +240,10 @@ impl LeverWorld {
         })
     }
 
-    fn add_plates(&mut self, scene: &LeverScene) {
-        for plate in &scene.plates {
+    fn add_plates(&mut self, scene: &LeverScene, starts: &[Pose3]) {
+        for (plate, start) in scene.plates.iter().zip(starts) {
             let body = RigidBodyBuilder::dynamic()
-                .pose(to_rapier(&plate.start(), self.origin))
+                .pose(to_rapier(start, self.origin))
                 .additional_mass_properties(solids::weight(plate))
                 .can_sleep(false);
             let handle = self.world.insert_body(body);

@@ -82,7 +82,7 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
             *axis = Vector::new(turn.cos(), turn.sin());
         }
         let parts = vec![hand.clone(), arm.clone()];
-        file.tool = Tool::new(file.tool.name.clone(), parts).unwrap().into();
+        file.tools = vec![Tool::new(file.tools[0].name.clone(), parts).unwrap().into()];
         file.predicted = None;
         file.verdict = None;
         let text = serde_json::to_string(&file).unwrap();
@@ -90,7 +90,7 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
 
         let mut motion = trajectory_file("cluster-neighbour.yaml");
         motion.task = file.task;
-        motion.tool = file.tool;
+        motion.tools = file.tools;
         motion.trajectory.frames.iter_mut().for_each(|f| f.state = motion.task.scene.start());
         let text = serde_json::to_string(&motion).unwrap();
         assert_eq!(TrajectoryFile::parse(&text, "m.json").unwrap(), motion);

@@ -7,7 +7,7 @@ use pushplan::asset::{
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
     Body, Contact, Disturbance, Engine, Evidence, Force, Frame, ModelKind, Outcome, Plan, Push,
-    Task, Tool, Trajectory, Verdict, Warning,
+    Step, Task, Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -18,15 +18,15 @@ pub fn plan_file(name: &str) -> PlanFile {
     let task = Task::load(folder("tasks").join(name)).unwrap();
     let tool = task.tools(&library).unwrap()[0].clone();
     let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
-    let plan = Plan {
-        tool: tool.name.clone(),
-        grip_yaw: 90f64.to_radians(),
-        form: task.pushes.form,
-        lift: task.pushes.lift,
-        pushes: vec![push; 2],
+    let (yaw, rules) = (90f64.to_radians(), &task.pushes);
+    let plan = Plan::pushing(&tool.name, yaw, rules.form, rules.lift, [push; 2]);
+    let outcome = Outcome {
+        state: task.scene.start(),
+        error: 0.1,
+        heading_error: Some(0.2),
+        reached: false,
+        lying: None,
     };
-    let outcome =
-        Outcome { state: task.scene.start(), error: 0.1, heading_error: Some(0.2), reached: false };
     let evidence = Evidence {
         engine: Engine::Spatial,
         disturbance: Disturbance::Nominal,
@@ -40,7 +40,7 @@ pub fn plan_file(name: &str) -> PlanFile {
     let verdict = Verdict::judge(Vec::new(), vec![evidence, disturbed], 0.75);
     PlanFile {
         task,
-        tool,
+        tools: vec![tool],
         plan,
         model: Some(ModelKind::PLANAR.into()),
         predicted: Some(outcome),
@@ -49,22 +49,24 @@ pub fn plan_file(name: &str) -> PlanFile {
 }
 
 pub fn trajectory_file(name: &str) -> TrajectoryFile {
-    let PlanFile { task, tool, plan, .. } = plan_file(name);
+    let PlanFile { task, tools, plan, .. } = plan_file(name);
     let frame = |time, stroke| Frame {
         time,
         stroke,
         tool: Pose::new(0.1, 0.7, -3.0),
+        blade: None,
         state: task.scene.start(),
     };
     let contact = Contact { frame: 1, object: 0, with: Body::Part(0) };
     let trajectory = Trajectory {
+        lifts: Vec::new(),
         by: ModelKind::PLANAR.into(),
         frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
         contacts: vec![contact],
         warnings: vec![Warning::NotFinite],
         force: Some(Force { peak: 12.5, lasting: 0.1 + 0.2 }),
     };
-    TrajectoryFile { task, tool, plan, trajectory }
+    TrajectoryFile { task, tools, plan, trajectory }
 }
 
 #[test]
@@ -147,7 +149,9 @@ fn what_could_not_be_read_again_is_not_written() {
     let path = place.path().join("plan.json");
     std::fs::write(&path, "old").unwrap();
     let mut file = plan_file("pull-back.yaml");
-    file.plan.pushes[1].length = f64::NAN;
+    if let Step::Push(step) = &mut file.plan.steps[1] {
+        step.push.length = f64::NAN;
+    }
     let faults = file.write(&path).unwrap_err().to_string();
     assert!(faults.contains("expected a positive number"), "{faults}");
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
@@ -197,11 +201,11 @@ fn a_written_file_replaces_the_old_one_and_can_be_read_by_others() {
 #[test]
 fn a_tool_built_in_code_reads_back_with_the_same_joints() {
     let mut file = plan_file("pull-back.yaml");
-    let tool = Tool::clone(&file.tool);
+    let tool = Tool::clone(&file.tools[0]);
     let mut parts = tool.parts().to_vec();
     parts[0].pose.position.y += 1.0;
     let tool = Tool::joined(tool.name, parts, &[[0, 1]]).unwrap().held_at(tool.grip).friction(0.3);
-    file.tool = tool.into();
+    file.tools = vec![tool.into()];
     let text = serde_json::to_string(&file).unwrap();
-    assert_eq!(PlanFile::parse(&text, "p.json").unwrap().tool, file.tool);
+    assert_eq!(PlanFile::parse(&text, "p.json").unwrap().tools, file.tools);
 }

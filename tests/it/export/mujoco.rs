@@ -1,9 +1,7 @@
 //! What MuJoCo makes of exported plans: closed forms of friction, and the shipped tasks.
 //!
-//! Needs a Python with the package `mujoco`: the one that `PUSHPLAN_PYTHON` names, or else
-//! `python3`. Without it these tests say so and check nothing; one that is named must have it.
+//! Needs a Python with the package `mujoco`.
 
-use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -16,6 +14,8 @@ use serde_json::Value as Json;
 use tempfile::TempDir;
 
 use super::{BAR, plan};
+use crate::ROOT;
+use crate::mujoco_python::python;
 
 /// Where the box of [`pushed`] stands at the start, metres.
 const START: f64 = 0.50;
@@ -76,7 +76,7 @@ fn five_shipped_plans_work_in_mujoco() {
     let Some(python) = python() else { return };
     let library = ToolLibrary::embedded().unwrap();
     let planner = Planner::for_effort(Effort::Standard).unwrap().build();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let root = Path::new(ROOT).join("tasks");
     let mut texts = Vec::new();
     // A can behind a wall; a box that takes two pulls; a joint with limits; prisms.
     let names = ["pull-back-behind-wall", "pull-back-twice", "drawer"];
@@ -86,7 +86,7 @@ fn five_shipped_plans_work_in_mujoco() {
         let best = &solution.plans[0];
         let file = PlanFile {
             task,
-            tool: best.tool.clone(),
+            tools: best.tools.clone(),
             plan: best.plan.clone(),
             model: None,
             predicted: None,
@@ -156,17 +156,4 @@ fn replay(python: &str, scenes: &[(&str, String)]) -> Vec<Json> {
     let all = results.iter().all(|result| result["reached"] == true);
     assert_eq!(output.status.code(), Some(i32::from(!all)), "{error}");
     results
-}
-
-/// A Python that has MuJoCo.
-pub(super) fn python() -> Option<String> {
-    let named = env::var("PUSHPLAN_PYTHON").ok();
-    let python = named.clone().unwrap_or_else(|| "python3".to_owned());
-    let found = Command::new(&python).args(["-c", "import mujoco"]).output();
-    if found.is_ok_and(|output| output.status.success()) {
-        return Some(python);
-    }
-    assert!(named.is_none(), "{python} cannot import mujoco");
-    eprintln!("skipped: python3 cannot import mujoco (pip install mujoco)");
-    None
 }

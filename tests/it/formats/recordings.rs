@@ -13,16 +13,16 @@ use serde_json::Value as Json;
 fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let library = ToolLibrary::embedded().unwrap();
     let tool = Arc::clone(library.get("stick").unwrap());
-    let task = Task::load(concat!(env!("CARGO_MANIFEST_DIR"), "/tasks/pull-back-behind-wall.yaml"));
+    let task = Task::load(format!("{}/tasks/pull-back-behind-wall.yaml", crate::ROOT));
     let task = task.unwrap();
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.1, length: 0.1, speed: 0.1 };
     let form = PushForm::Placed;
-    let plan =
-        Plan { tool: tool.name.clone(), grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
+    let plan = Plan::pushing(&tool.name, 0.0, form, 0.002, [push]);
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let model = Simulated::new(Simulator::planar());
     let trajectory = model.rollout(&task.scene, &[job], Record::Frames).remove(0);
-    let file = PlanFile { task, tool, plan, model: None, predicted: None, verdict: None };
+    let file =
+        PlanFile { task, tools: vec![tool], plan, model: None, predicted: None, verdict: None };
     let bytes = pushplan::export::mcap(&file, &trajectory).unwrap();
     assert!(bytes == pushplan::export::mcap(&file, &trajectory).unwrap());
     let messages: Vec<_> = MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();

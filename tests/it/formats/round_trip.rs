@@ -12,13 +12,13 @@ use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
 fn plan(task: Task, tool: &Tool) -> PlanFile {
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.0, length: 0.1, speed: 0.1 };
     let (name, form) = (tool.name.clone(), PushForm::Placed);
-    let plan = Plan { tool: name, grip_yaw: 0.0, form, lift: 0.002, pushes: vec![push] };
+    let plan = Plan::pushing(name, 0.0, form, 0.002, [push]);
     let tool = Arc::new(tool.clone());
-    PlanFile { task, tool, plan, model: None, predicted: None, verdict: None }
+    PlanFile { task, tools: vec![tool], plan, model: None, predicted: None, verdict: None }
 }
 
 fn tasks() -> Vec<Task> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let folder = std::path::Path::new(crate::ROOT).join("tasks");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files = paths.filter(|path| path.extension().is_some_and(|end| end == "yaml"));
     files.map(|path| Task::load(path).unwrap_or_else(|faults| panic!("{faults}"))).collect()

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use pushplan::asset::AnyPlanFile;
+use pushplan::asset::PlanFile;
 use pushplan::geometry::Pose;
 use pushplan::report::PageView;
 use pushplan::scene::{Engine, LeverJob, LeverScene};
@@ -171,11 +171,9 @@ fn a_lever_up_is_seen_from_all_sides() {
     let size = std::fs::metadata(&file).expect("a page").len() as usize;
     assert!(size <= LARGEST + PACKED, "{size} bytes");
     let plan = folder.path().join("raise-plate.plan.json");
-    let AnyPlanFile::Levers(plan) = AnyPlanFile::load(&plan).expect("a plan") else {
-        panic!("a lever-up")
-    };
-    let scene = Arc::new(LeverScene::with(&plan.task.scene, &plan.tool));
-    let lever = plan.plan.lever;
+    let plan = PlanFile::load(&plan).expect("a plan");
+    let scene = Arc::new(LeverScene::with(&plan.task.scene, &plan.tools[0]));
+    let lever = plan.plan.lever_steps().next().expect("a lever-up").lever;
     let (_, motion) =
         LeverSimulator::FINE.record(&LeverJob { scene: Arc::clone(&scene), lever }, 0.02);
     let start = scene.plates[lever.plate].start();

@@ -110,7 +110,7 @@ fn once(
         object.pose = *pose;
     }
     let solution = planner.solve_from(&Situation::stated(&scene), task, library, &Unwatched)?;
-    let best = solution.best().filter(|best| !best.plan.pushes.is_empty());
-    let sound = best.is_none_or(|best| world.act(&best.plan.motion(&best.tool)).is_ok());
+    let best = solution.best().filter(|best| !best.plan.is_empty());
+    let sound = best.is_none_or(|best| world.act(&best.plan.motion(best.tool())).is_ok());
     Ok(Left::of(&task.goal, world.state(), sound))
 }

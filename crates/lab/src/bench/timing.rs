@@ -128,6 +128,7 @@ pub fn search_costs(
     candidates: usize,
 ) -> Result<Vec<SearchCost>, SolveError> {
     let settings = Settings {
+        levers: pushplan::internals::solve::LeverSettings::STANDARD,
         offsets,
         beam: 1,
         search_rollouts: candidates,

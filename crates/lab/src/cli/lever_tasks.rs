@@ -11,11 +11,10 @@ use pushplan::cli::error::CliError;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::words::{EFFORTS, words};
-use pushplan::cli::{interrupt, lever, model, output};
+use pushplan::cli::{interrupt, model, output};
 use pushplan::internals::report::Document;
-use pushplan::internals::scene::ModelSpec;
-use pushplan::internals::solve::Effort;
-use pushplan::internals::solve::lever::LeverPlanner;
+use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan::internals::solve::{Effort, Planner};
 use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
@@ -61,15 +60,16 @@ impl Suite for LeverTasksArgs {
         let library = self.library.load()?;
         let count = self.count as usize;
         let suite = LeverSuite::new(self.seed, count);
-        let planner = LeverPlanner::new(lever::lever_model(self.model.as_ref())?, self.effort);
+        let spec = self.model.clone().unwrap_or(ModelKind::PRIOR.into());
+        let planner = Planner::builder(model::load(&spec)?).effort(self.effort).build();
         let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
         let settings = json!({
             "effort": self.effort,
-            "budget": planner.settings(),
+            "budget": planner.settings().levers,
             "tasks_version": LeverSuite::VERSION,
             "tools": value_digest(&tools)?,
         });
-        let manifest = RunManifest::new(Self::NAME, count, self.seed, &planner.model().name())
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
             .with_settings(settings);
         if let Some(folder) = &self.save_tasks {
             save_tasks(folder, &suite, keep.indices(count))?;

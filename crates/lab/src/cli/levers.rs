@@ -8,11 +8,10 @@ use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
 use pushplan::cli::interrupt;
-use pushplan::cli::lever::lever_network;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::internals::effect::{
-    LeverModel, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
+    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
 };
 use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use pushplan::internals::sim::LeverSimulator;
@@ -67,7 +66,8 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     }
     let others =
         args.network.iter().map(|path| Named::load(path, false)).collect::<Result<Vec<_>, _>>()?;
-    let shipped = lever_network(None)?;
+    let shipped = LeverNetwork::shipped()
+        .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error))?;
     interrupt::watch();
     let usual = [LeverPreset::Fixed, LeverPreset::Varied];
     let families = if args.families.is_empty() { &usual[..] } else { &args.families };

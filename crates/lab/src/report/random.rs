@@ -244,7 +244,7 @@ fn effort(methods: &[Method], kinds: &[TaskKind]) -> Table {
                 ended(PlanStatus::NoPlan).to_string(),
                 ended(PlanStatus::FailedVerification).to_string(),
                 ended(PlanStatus::Fragile).to_string(),
-                average(&|task| task.plan.as_ref().map_or(0.0, |plan| plan.pushes.len() as f64)),
+                average(&|task| task.plan.as_ref().map_or(0.0, |plan| plan.pushes().len() as f64)),
                 average(&|task| task.attempts as f64),
                 average(&|task| task.rollouts as f64),
                 time(&times("search"), &mean),

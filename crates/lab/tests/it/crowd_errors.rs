@@ -1,21 +1,20 @@
-//! Errors on crowds and recordings: the truth has none, staying is off by the motion, and the
+//! Errors on crowds: the truth has none, staying is off by the motion, and the
 //! command writes what it measures.
-
-use std::path::Path;
-use std::process::{Command, Output};
 
 use pushplan::recording::Recording;
 use pushplan::watch::Unwatched;
 use pushplan::{
-    bench::{CrowdFamily, CrowdModel, CrowdReport, CrowdSet, crowd_cases, evaluate_crowd},
-    dataset::{DatasetConfig, Episode, JointRule, Preset, Solids},
     effect::{Assuming, EffectModel, Projection, Simulated, Still},
-    judge::Trial,
-    report::{crowd_document, evaluation_document},
+    judge::{ModelErrors, Trial, TrialErrors},
     scene::{Assumptions, JointBelief},
     sim::Simulator,
 };
+use pushplan_lab::bench::{CrowdFamily, CrowdReport, CrowdSet, crowd_cases};
+use pushplan_lab::report::{crowd_document, evaluation_document};
+use pushplan_learn::dataset::{DatasetConfig, Episode, JointRule, Preset, Solids};
 use serde_json::Value as Json;
+
+use crate::program::{self, stderr};
 
 fn set(family: CrowdFamily, objects: usize) -> CrowdSet {
     CrowdSet { family, objects, joints: JointRule::Mixed, solids: Solids::Any }
@@ -25,8 +24,8 @@ fn trials(family: CrowdFamily, objects: usize, count: usize) -> Vec<Trial> {
     set(family, objects).draw(3, count, &Unwatched)
 }
 
-fn measured(model: &dyn EffectModel, trials: &[Trial]) -> CrowdModel {
-    evaluate_crowd(model, trials, &Unwatched)
+fn measured(model: impl EffectModel + 'static, trials: &[Trial]) -> ModelErrors {
+    TrialErrors::of(String::new(), trials, &[Box::new(model)], &Unwatched).models.remove(0)
 }
 
 #[test]
@@ -34,14 +33,14 @@ fn the_truth_has_no_error_and_staying_errs_by_the_motion() {
     for (family, objects, count) in [(CrowdFamily::Dense, 8, 6), (CrowdFamily::Sparse, 6, 2)] {
         let trials = trials(family, objects, count);
         assert!(trials.iter().all(|trial| trial.scene.objects.len() == objects));
-        let truth = measured(&Simulated::new(Simulator::planar()), &trials);
+        let truth = measured(Simulated::new(Simulator::planar()), &trials);
         let end = truth.all.end.as_ref().expect("objects");
         assert_eq!((end.objects, end.mean, truth.failed), (objects * count, 0.0, 0));
         assert!(truth.curve.iter().all(|point| point.error == 0.0));
         assert!(truth.drift.iter().all(|drift| drift.max < 5e-3), "{:?}", truth.drift);
         assert!(truth.overlap < 0.02, "{}", truth.overlap);
 
-        let still = measured(&Still, &trials);
+        let still = measured(Still, &trials);
         let (all, moved) = (still.all.end.as_ref(), still.moved.end.as_ref());
         let (all, moved) = (all.expect("objects"), moved.expect("something moves"));
         let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
@@ -66,7 +65,7 @@ fn sets_differ_from_each_other_and_from_training_and_threads_change_nothing() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let trials = trials(CrowdFamily::Dense, 6, 6);
-            (measured(&Projection, &trials), trials)
+            (measured(Projection, &trials), trials)
         })
     };
     let one = with(1);
@@ -96,9 +95,9 @@ fn a_recorded_simulation_is_judged_like_the_simulation() {
     let both =
         [trial, Trial::of_frames(episode.scene.clone(), episode.motion.clone(), &episode.frames)];
     let planar = Simulated::new(Simulator::planar());
-    let still = both.clone().map(|trial| measured(&Still, &[trial]).all.end.expect("objects"));
+    let still = both.clone().map(|trial| measured(Still, &[trial]).all.end.expect("objects"));
     assert!((still[0].motion - still[1].motion).abs() < 1e-9);
-    let again = measured(&planar, &both[..1]).all.end.expect("objects");
+    let again = measured(planar, &both[..1]).all.end.expect("objects");
     // Frames end in other steps of the engine, so not to the bit.
     assert!(again.relative < 0.02, "{again:?}");
 }
@@ -112,7 +111,7 @@ fn reports_become_tables_and_curves_and_survive_json() {
     let drawn = set.draw(3, 3, &Unwatched);
     let models: Vec<Box<dyn EffectModel>> =
         vec![Box::new(Projection), Box::new(Assuming::new(Projection, NO_JOINTS)), Box::new(Still)];
-    let report = CrowdReport::of_set(&set, 3, &drawn, &models, &Unwatched);
+    let report = CrowdReport::of((&set, 3), &drawn, &models, &Unwatched);
     let text = serde_json::to_string(&report).unwrap();
     let back: CrowdReport = serde_json::from_str(&text).unwrap();
     assert_eq!(serde_json::to_string(&back).unwrap(), text);
@@ -139,17 +138,12 @@ fn the_network_is_timed_on_scenes_of_the_asked_size() {
 }
 
 #[test]
-fn the_command_measures_sets_and_files_and_writes_what_it_found() {
+fn the_command_measures_sets_and_writes_what_it_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
-    let run = |arguments: &[&str]| -> Output {
-        Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .arg("evaluate")
-            .args(arguments)
-            .args(["--out", out.to_str().expect("UTF-8")])
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .output()
-            .expect("the command runs")
+    let run = |arguments: &[&str]| {
+        let out = ["--out", out.to_str().expect("UTF-8")];
+        program::run(&[&["evaluate"], arguments, &out].concat())
     };
     let one = ["--objects", "6", "--joints", "fixed", "--solids", "cylinders", "--count", "2"];
     let dense = run(&[&["projection", "--on", "dense"], &one[..], &["--json"]].concat());
@@ -162,77 +156,17 @@ fn the_command_measures_sets_and_files_and_writes_what_it_found() {
     let report = &json["crowds"][0];
     assert_eq!(report["trajectories"], 2);
     assert_eq!(report["set"]["objects"], 6);
-    let names: Vec<&str> = report["models"]
-        .as_array()
-        .expect("models")
-        .iter()
-        .filter_map(|model| model["model"].as_str())
-        .collect();
-    assert_eq!(
-        names,
-        [
-            "projection",
-            "projection,joints=guessed",
-            "projection,joints=none",
-            "projection,joints=fixed",
-            "prior",
-            "follow",
-            "still",
-            "planar,friction=70%",
-            "planar,friction=130%",
-            "planar,start=100um",
-        ]
-    );
-    let written: Json = serde_json::from_slice(&read(&out.join("evaluation.json"))).expect("JSON");
+    let models = report["models"].as_array().expect("models");
+    let names: Vec<&str> = models.iter().filter_map(|model| model["model"].as_str()).collect();
+    let beside = "projection,joints=guessed projection,joints=none projection,joints=fixed prior follow \
+                  still planar,friction=70% planar,friction=130% planar,start=100um";
+    assert_eq!(names.join(" "), format!("projection {beside}"));
+    let written = std::fs::read(out.join("evaluation.json"));
+    let written: Json = serde_json::from_slice(&written.expect("a file")).expect("JSON");
     assert_eq!(written["crowds"], json["crowds"]);
     assert!(out.join("error-by-horizon-dense.svg").exists());
 
-    let push = "tests/it/assets/push.recording.json";
-    let recorded = run(&["--model", "prior", "--on", push, push]);
-    assert_eq!(recorded.status.code(), Some(0), "{}", stderr(&recorded));
-    let text = String::from_utf8(recorded.stdout).expect("UTF-8");
-    assert!(text.contains("push: 1 trajectories") && text.contains("2 recordings: 2 trajectories"));
-    assert!(text.lines().any(|line| line.starts_with("planar  ")), "{text}");
-
-    let set = folder.path().join("set");
-    std::fs::create_dir_all(set.join("more")).expect("folders");
-    for file in ["b.recording.json", "a.recording.json", "more/c.recording.json"] {
-        std::fs::copy(push, set.join(file)).expect("a file");
+    for wrong in [&["--on", "spars"][..], &["--on", "dense", "--objects", "7"]] {
+        assert_eq!(run(wrong).status.code(), Some(2));
     }
-    std::fs::write(set.join("README.md"), "Not a recording.").expect("a file");
-    let poses = folder.path().join("poses.csv");
-    let [set_name, poses_name] = [&set, &poses].map(|path| path.to_str().expect("UTF-8"));
-    let measured = run(&["prior", "--on", set_name, "--export", poses_name, "--json"]);
-    assert_eq!(measured.status.code(), Some(0), "{}", stderr(&measured));
-    let json: Json = serde_json::from_slice(&measured.stdout).expect("JSON alone");
-    let counts: Vec<u64> =
-        (0..3).filter_map(|k| json["crowds"][k]["trajectories"].as_u64()).collect();
-    assert_eq!(counts, [2, 1, 3], "each folder, then all");
-    assert_eq!(json["crowds"][0]["models"][0]["each"].as_array().map(Vec::len), Some(2));
-    let own = json["crowds"][2]["own_spread"].as_f64().expect("a length");
-    assert!((0.0..1e-3).contains(&own), "{own}: starts are off by 0.1 mm");
-    let csv = String::from_utf8(read(&poses)).expect("UTF-8");
-    assert!(csv.starts_with("name,by,object,time,x,y,heading\na,recorded,can,"));
-    assert!(csv.contains("\nb,prior,can,") && csv.contains("\nc,planar,can,"));
-    std::fs::write(set.join("c.yaml"), "kind: recording\n").expect("a file");
-    let refused = run(&["prior", "--on", set_name]);
-    assert_eq!(refused.status.code(), Some(3));
-    assert!(stderr(&refused).contains("c.yaml:1:1: error:"), "{}", stderr(&refused));
-
-    let bad = folder.path().join("bad.recording.json");
-    let spoiled = String::from_utf8(read(Path::new(push))).expect("UTF-8").replace("0.05", "5.0");
-    std::fs::write(&bad, spoiled).expect("a file");
-    let refused = run(&["--on", bad.to_str().expect("UTF-8")]);
-    assert_eq!(refused.status.code(), Some(3));
-    assert!(stderr(&refused).contains("is this in centimetres?"), "{}", stderr(&refused));
-    assert_eq!(run(&["--on", "spars"]).status.code(), Some(2));
-    assert_eq!(run(&["--on", "dense", "--objects", "7"]).status.code(), Some(2));
-}
-
-fn read(path: &Path) -> Vec<u8> {
-    std::fs::read(path).expect("a file")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }

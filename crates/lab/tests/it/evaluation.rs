@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::{
-        HeldOut, HeldOutReport, PlanErrors, RefinedTask, RefinementReport, Suite, SuiteKind,
-        push_costs, random_task, refine_task, search_costs,
-    },
     effect::{EffectModel, Projection, Simulated, Still},
     judge::MOVED,
     sim::Simulator,
     solve::{Effort, Planner, Settings},
+};
+use pushplan_lab::bench::{
+    HeldOut, HeldOutReport, PlanErrors, RefinedTask, RefinementReport, Suite, SuiteKind,
+    push_costs, random_task, refine_task, search_costs,
 };
 
 fn library() -> ToolLibrary {

@@ -1,50 +1,21 @@
 //! The benchmark of inferred joints, and recordings with what is told of their joints.
 
-use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use pushplan::asset::{ToolLibrary, load_task};
+use pushplan::geometry::Vector;
+use pushplan::recording::Recording;
+use pushplan::scene::{Job, Push, Record, ToolMotion};
+use pushplan::sim::Simulator;
 
-fn pushplan(arguments: &[&str]) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).arg("-q").args(arguments).output();
-    output.expect("the command starts")
-}
-
-fn json(output: &Output) -> serde_json::Value {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("JSON")
-}
-
-fn records(folder: &Path) -> String {
-    fs::read_to_string(folder.join("records.jsonl")).expect("records")
-}
-
-const BENCH: [&str; 12] = [
-    "bench",
-    "joints",
-    "--on",
-    "dense",
-    "--objects",
-    "6",
-    "--seen",
-    "exact",
-    "fine",
-    "--count",
-    "2",
-    "--json",
-];
+use crate::ROOT;
+use crate::program::{run, stderr, succeed};
+use crate::sharding::shards_make_the_same_bytes;
 
 #[test]
 fn shards_on_any_number_of_threads_merge_to_the_bytes_of_one_run() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let run = |more: &[&str]| json(&pushplan(&[&BENCH[..], more].concat()));
-    let whole = run(&["--threads", "1", "--out", &path("whole")]);
-    for (name, shard) in [("one", "1/2"), ("two", "2/2")] {
-        run(&["--threads", "3", "--out", &path(name), "--shard", shard]);
-    }
-    json(&pushplan(&["bench", "merge", &path("merged"), &path("one"), &path("two"), "--json"]));
-    assert!(records(&folder.path().join("whole")) == records(&folder.path().join("merged")));
-
+    let bench = "joints --on dense --objects 6 --seen exact fine --count 2 -q";
+    let home = shards_make_the_same_bytes(bench, 2);
+    let report = succeed(&format!("report {} --json", home.path().join("merged").display()));
+    let whole: serde_json::Value = serde_json::from_slice(&report.stdout).expect("JSON");
     let cases = whole["beliefs"].as_array().expect("cases");
     assert_eq!(cases.len(), 2);
     for case in cases {
@@ -65,34 +36,27 @@ fn shards_on_any_number_of_threads_merge_to_the_bytes_of_one_run() {
 
 #[test]
 fn recordings_are_predicted_on_with_what_is_told_of_their_joints() {
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let scene =
+        load_task(format!("{ROOT}/tasks/jointed-pair.yaml"), &library).expect("a task").scene;
+    let push = Push { start: Vector::new(0.44, 0.06), direction: 0.0, length: 0.15, speed: 0.1 };
+    let finger = library.get("finger").expect("a shipped tool").clone();
+    let motion = ToolMotion::pushes(finger, 0.002, 0.0, &[push], true);
+    let job = Job::stated(&scene, motion.clone());
+    let frames = Simulator::planar().run(&scene, &job, Record::Frames).frames;
     let folder = tempfile::tempdir().expect("a folder");
-    let dir = folder.path().to_str().expect("UTF-8");
-    let push = "start=0.44,0.06 direction_deg=0 length=0.15";
-    let simulated = pushplan(&[
-        "simulate",
-        "tasks/jointed-pair.yaml",
-        "--tool",
-        "finger",
-        "--push",
-        push,
-        "--out",
-        dir,
-    ]);
-    assert!(simulated.status.success(), "{}", String::from_utf8_lossy(&simulated.stderr));
-    let mut files =
-        fs::read_dir(dir).expect("the folder").map(|entry| entry.expect("a file").path());
-    let file = files.find(|path| path.to_string_lossy().ends_with(".trajectory.json"));
-    let file = file.expect("a trajectory");
-    let evaluate = |joints: &[&str]| {
-        let fixed = ["evaluate", "prior", "--no-baselines", "--on", file.to_str().expect("UTF-8")];
-        let exact = ["--noise", "0", "--heading-noise", "0", "--joints"];
-        pushplan(&[&fixed[..], &exact, joints].concat())
+    let file = folder.path().join("pair.recording.json");
+    Recording::of_frames("pair", &scene, &motion, &frames).write(&file).expect("a file");
+    let predict = |joints: &str| {
+        let exact = "--noise 0 --heading-noise 0 --joints";
+        let line = format!("rest-of-way {} --model prior {exact} {joints}", file.display());
+        run(&line.split(' ').collect::<Vec<_>>())
     };
-    let output = evaluate(&["given", "none", "believed", "one-step"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = predict("given none believed one-step");
+    assert!(output.status.success(), "{}", stderr(&output));
     let text = String::from_utf8_lossy(&output.stdout);
     for word in ["true joints", "none", "regulator", "last window", "contact + 0", "contact + 3"] {
         assert!(text.contains(word), "{word}: {text}");
     }
-    assert_eq!(evaluate(&["guessed"]).status.code(), Some(2));
+    assert_eq!(predict("guessed").status.code(), Some(2));
 }

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use pushplan::bench::{LeverBaseline, drive_report, lever_report, point_report};
-use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{
     LeverInputs, LeverModel, LeverNetwork, LeverPrior, LeverTrust, SimulatedLevers, lever_inputs,
 };
@@ -14,6 +12,10 @@ use pushplan::network::{
 use pushplan::scene::{LeverFeatures, LeverJob, LeverScene, Place};
 use pushplan::sim::LeverSimulator;
 use pushplan::watch::Unwatched;
+use pushplan_lab::bench::{
+    LeverBaseline, Setting, convergence, drive_report, lever_report, point_report,
+};
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -208,7 +210,7 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
 /// On other lever-ups than those that the page of results shows.
 #[test]
 fn the_shipped_network_is_small_and_better_than_what_it_corrects_and_than_the_prior() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/models/lever.safetensors");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../models/lever.safetensors");
     assert!(std::fs::metadata(file).expect("a file").len() < 150_000);
     let network = LeverNetwork::shipped().expect("sound weights");
     for preset in [LeverPreset::Fixed, LeverPreset::Varied] {
@@ -242,5 +244,20 @@ fn the_prior_is_better_than_nothing_and_the_lever_point_is_found() {
         assert_eq!(row.seen, seen);
         let angle = row.angle.as_ref().expect("angles").mean.to_degrees();
         assert!(angle < most, "{seen} frames: {angle} degrees");
+    }
+}
+
+#[test]
+fn finer_steps_and_another_start_change_little() {
+    for preset in [LeverPreset::Fixed, LeverPreset::Varied, LeverPreset::Drive] {
+        let report = convergence(preset, 3, 12);
+        let mean = |wanted: Setting| {
+            let row = report.rows.iter().find(|row| row.setting == wanted).expect("a row");
+            1e3 * row.lift.as_ref().expect("errors").mean
+        };
+        let (steps, aside) = (mean(Setting::Steps(240)), mean(Setting::Aside));
+        assert!(steps <= 0.8, "{preset}: 1/240 s is off by {steps:.2} mm");
+        assert!(aside <= 0.6, "{preset}: 0.1 mm aside gives {aside:.2} mm");
+        assert_eq!(report.jammed, 0, "{preset}");
     }
 }

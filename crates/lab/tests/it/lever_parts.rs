@@ -1,6 +1,5 @@
 //! The network of parts: symmetry, threads, and what its file must be.
 
-use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{LeverCourse, LeverModel, LeverParts, LeverTrust, PartGraphs, load_lever};
 use pushplan::network::{
     Config, LeverWeights, Normaliser, PARTS, Parameters, PartsCard, PartsWeights, Weights,
@@ -8,6 +7,7 @@ use pushplan::network::{
 };
 use pushplan::scene::LeverJob;
 use pushplan::watch::Unwatched;
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 
 use super::lever_models::is_symmetric;
 
@@ -85,7 +85,7 @@ fn its_file_is_read_back_and_a_damaged_or_another_one_refused() {
     assert_eq!(load_lever(&path).expect("a model").name(), "prior + propagation network, parts");
     assert!(matches!(LeverWeights::from_bytes(&bytes), Err(WeightsError::Foreign)));
     assert!(matches!(Weights::from_bytes(&bytes), Err(WeightsError::Foreign)));
-    let other = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/models/lever.safetensors"));
+    let other = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../models/lever.safetensors"));
     let other = other.expect("the shipped memory");
     assert!(matches!(PartsWeights::from_bytes(&other), Err(WeightsError::Foreign)));
     std::fs::write(&path, &other).expect("written");

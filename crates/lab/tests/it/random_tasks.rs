@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{RandomSuite, SuiteTask, TaskKind};
 use pushplan::geometry::{Footprint, swept_clearance, wrap_angle};
 use pushplan::scene::{Engine, Situation, Task};
 use pushplan::store::Shard;
 use pushplan::verify::{Verifier, VerifySettings};
+use pushplan_lab::bench::{RandomSuite, SuiteTask, TaskKind};
 
 /// Tasks of each kind.
 const EACH: usize = 4;
@@ -22,14 +22,19 @@ fn the_plan_that_made_a_task_solves_it_and_the_task_is_of_its_kind() {
         let made = suite.task(index).expect("a task");
         let task = &made.task;
         let (plan, tool) = made.made.as_ref().expect("the plan that made it");
-        let verdict = verifier.nominal(task, &Situation::stated(&task.scene), tool, plan);
+        let verdict = verifier.nominal(
+            task,
+            &Situation::stated(&task.scene),
+            std::slice::from_ref(tool),
+            plan,
+        );
         assert!(verdict.passed, "{}: its own plan does not solve it", task.name);
         let planar = &verdict.evidence[0];
         assert_eq!(planar.engine, Engine::Planar);
         // The goal is where the planar engine ends, rounded to tenths of a millimetre.
         assert!(planar.outcome.error < 1e-4, "{}: {}", task.name, planar.outcome.error);
-        assert!(plan.pushes.len() <= task.pushes.max_count);
-        assert!(plan.pushes.iter().all(|push| task.robot.reaches(push.end())));
+        assert!(plan.pushes().len() <= task.pushes.max_count);
+        assert!(plan.pushes().iter().all(|push| task.robot.reaches(push.end())));
         is_of_its_kind(&made);
         counts[made.kind as usize] += 1;
     }

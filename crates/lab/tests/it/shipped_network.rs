@@ -1,13 +1,13 @@
 //! What a network must be good at to be shipped, beside its errors on the suites of pushes.
 
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{Suite, SuiteKind};
 use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};
 use pushplan::judge::{MOVED, mean};
 use pushplan::scene::{Engine, ModelKind, Rate, Record};
 use pushplan::sim::Simulator;
+use pushplan_lab::bench::{Suite, SuiteKind};
 
-use crate::real_pushes::{SUPPORTS, errors, pushes};
+use crate::recorded_pushes::{SUPPORTS, errors, pushes};
 
 fn network() -> Routed {
     EffectModels::build(&ModelKind::NETWORK.into()).unwrap()

@@ -4,11 +4,11 @@ use std::num::NonZeroU16;
 use std::sync::Arc;
 
 use pushplan::asset::ToolLibrary;
-use pushplan::bench::{Suite, SuiteKind};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::judge::mean;
 use pushplan::scene::{Engine, Job, Rate, Record, Scene, Support};
 use pushplan::sim::Simulator;
+use pushplan_lab::bench::{Suite, SuiteKind};
 
 use crate::fixtures::{brick, can, push};
 

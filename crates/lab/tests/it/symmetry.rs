@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::{Case, Suite, SuiteKind, crowd_cases},
     effect::{EffectModel, Prior},
     geometry::{Pose, Shape},
     scene::{Job, JointKind, Record, State, Tool},
 };
+use pushplan_lab::bench::{Case, Suite, SuiteKind, crowd_cases};
 
 /// Metres. Rounding makes a hundredth of this in pushes among cuboids that touch.
 const SAME: f64 = 1e-8;

@@ -4,15 +4,15 @@ use pushplan::store::{Seconds, Store, StoreError};
 use pushplan::watch::Watch;
 use pushplan::{
     asset::ToolLibrary,
-    bench::{
-        Level, ObjectCost, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings,
-        Unit, dominates, levels, plan_levels,
-    },
     effect::{EffectModel, EffectModels, Job, Routed},
-    report::tradeoff_document,
     scene::{ModelSpec, Record},
     solve::{Effort, Settings},
 };
+use pushplan_lab::bench::{
+    Level, ObjectCost, PlanRow, Suite, SuiteKind, TradeOff, TradeOffReport, TradeOffSettings, Unit,
+    dominates, levels, plan_levels,
+};
+use pushplan_lab::report::tradeoff_document;
 
 fn model(spec: &str) -> Routed {
     EffectModels::build(&spec.parse().unwrap()).unwrap()
@@ -122,7 +122,7 @@ fn every_level_is_measured_and_an_interrupted_run_goes_on() {
 }
 
 /// What `pushplan-lab tradeoff` measured, as shipped.
-const MEASURED: &str = include_str!("../../models/tradeoff.json");
+const MEASURED: &str = include_str!("../../results/tradeoff.json");
 
 #[test]
 fn every_effort_is_a_measured_level_that_no_other_makes_needless() {
@@ -164,7 +164,10 @@ fn the_page_says_what_each_effort_costs_and_gives() {
     let document = tradeoff_document(&report);
     let efforts = document.sections.iter().find(|section| section.title == "Efforts");
     let table = efforts.expect("a table of efforts").table.to_markdown();
-    assert!(include_str!("../../models/tradeoff.md").contains(&table), "the page has not\n{table}");
+    assert!(
+        include_str!("../../results/tradeoff.md").contains(&table),
+        "the page has not\n{table}"
+    );
 }
 
 /// Share of the engine's cost below which a model is preferred: nearer to it the engine's smaller
@@ -242,7 +245,7 @@ fn what_models_say_of_their_errors_is_what_was_measured() {
         }
     }
     // The prior's are those of the results, on four times as many pushes.
-    let results = include_str!("../../models/results.md");
+    let results = include_str!("../../results/results.md");
     let rows: Vec<Vec<&str>> = results
         .lines()
         .filter(|line| line.starts_with("| prior "))

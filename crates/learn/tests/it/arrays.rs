@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::{fs, io::Read};
 
-use pushplan::dataset::{
+use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{
     A_FILE, Dataset, DatasetConfig, DatasetError, NPZ_FORMAT, Preset, generate_npz,
 };
-use pushplan::watch::{Unwatched, Watch};
 use tempfile::TempDir;
 
 /// Stops after so many episodes.

@@ -1,11 +1,24 @@
-//! `pushplan-learn train` as a user sees it.
+//! `pushplan-learn` as a user sees it.
 
-use std::process::Command;
+use std::fs;
+
+use tempfile::TempDir;
 
 #[cfg(unix)]
 use crate::interrupted::goes_on_after_an_interruption;
 use crate::pages;
-use pushplan::watch::Unwatched;
+use crate::program::{run, stderr, succeed};
+
+/// The transcripts in `tests/cmd`, with what was printed and the exit codes.
+#[test]
+fn transcripts() {
+    trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan-learn");
+}
+
+#[test]
+fn the_commands_of_all_pages_are_taken() {
+    pages::are_taken(20);
+}
 
 #[cfg(unix)]
 #[test]
@@ -15,34 +28,25 @@ fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn the_commands_of_all_pages_are_taken() {
-    let commands = pages::commands();
-    let commands: Vec<&String> = commands.iter().filter(|command| pages::trains(command)).collect();
-    for command in &commands {
-        let help = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .args(command.split_whitespace())
-            .arg("--help")
-            .output()
-            .expect("the command runs");
-        assert!(help.status.success(), "{command}: {}", String::from_utf8_lossy(&help.stderr));
-    }
-    assert!(commands.len() > 4, "{commands:?}");
+fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let crowd = "--objects 6 --joints mixed --solids cylinders --speed 0.21";
+    succeed(&format!("generate {out} --episodes 3 --preset sparse-line {crowd}"));
+    assert_eq!(fs::read_dir(out).expect("a folder").count(), 2);
+    assert!(folder.path().join("records.bin").exists());
+    let manifest = fs::read(folder.path().join("manifest.json")).expect("a manifest");
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest).expect("JSON");
+    let settings = &manifest["settings"];
+    assert_eq!(settings["preset"], "sparse_line");
+    let wanted = r#"{"joints":"mixed","objects":6,"solids":"cylinders","speed":0.21}"#;
+    assert_eq!(settings["constraints"].to_string(), wanted);
 }
 
+#[cfg(unix)]
 #[test]
-fn a_training_never_writes_to_a_folder_that_another_command_writes_to() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let _lock =
-        pushplan::store::FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .arg("train")
-        .arg(folder.path())
-        .args(["--episodes", "1", "--held-out", "1", "--steps", "1"])
-        .output()
-        .expect("the command runs");
-    assert_eq!(output.status.code(), Some(1));
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.starts_with("error: another pushplan is writing to"), "{said}");
+fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
+    goes_on_after_an_interruption("generate", "--episodes 64");
 }
 
 #[test]
@@ -57,12 +61,9 @@ fn what_does_not_fit_together_in_training_of_lever_ups_is_refused() {
         ("--held-out b --model gears", "parts"),
     ];
     for (arguments, part) in wrong {
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .args(["train-lever", "runs/none", "--data", "a"])
-            .args(arguments.split_whitespace())
-            .output()
-            .expect("the command runs");
-        let said = String::from_utf8_lossy(&output.stderr);
+        let fixed = ["train-lever", "runs/none", "--data", "a"].into_iter();
+        let output = run(&fixed.chain(arguments.split_whitespace()).collect::<Vec<_>>());
+        let said = stderr(&output);
         assert!(output.status.code() == Some(2) && said.contains(part), "{arguments}: {said}");
     }
 }

@@ -4,13 +4,13 @@
 use pushplan::store::{Shard, StoreError};
 use pushplan::watch::Unwatched;
 use pushplan::{
-    dataset::{
-        Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, Preset,
-        Solids, TEST_SPEED, generate,
-    },
     geometry::{Footprint, Pose, Shape, clearance, contact_points},
     scene::{JOINABLE, Job, JointKind, Record, Trajectory},
     sim::Simulator,
+};
+use pushplan_learn::dataset::{
+    Constraints, Dataset, DatasetConfig, DatasetError, Episode, HAND_RADIUS, JointRule, Preset,
+    Solids, TEST_SPEED, generate,
 };
 
 const CROWDS: [Preset; 3] = [Preset::Sparse, Preset::SparseLine, Preset::Dense];

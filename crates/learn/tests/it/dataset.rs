@@ -14,9 +14,11 @@ use pushplan::store::{FolderLock, RunManifest, Shard, Store, StoreError};
 use pushplan::watch::{Unwatched, Watch};
 use pushplan::{
     asset::ToolLibrary,
-    dataset::{Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped},
     geometry::{Footprint, Pose, clearance},
     scene::{Job, Quantity, ToolMotion, Warning},
+};
+use pushplan_learn::dataset::{
+    Dataset, DatasetConfig, DatasetError, Episode, generate, is_shipped,
 };
 
 fn drawn(episodes: u64) -> Dataset {

@@ -6,14 +6,12 @@ use std::{
     sync::atomic::{AtomicU64, Ordering},
 };
 
+use pushplan::network::{Config, Weights};
 use pushplan::store::{FolderLock, StoreError};
 use pushplan::watch::{Unwatched, Watch};
-use pushplan::{
-    dataset::{Dataset, DatasetConfig},
-    network::{Config, Weights},
-    train::{
-        Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Settings, TrainError, train,
-    },
+use pushplan_learn::dataset::{Dataset, DatasetConfig};
+use pushplan_learn::train::{
+    Checkpoint, CheckpointError, Exposure, MetricLine, Noise, Settings, TrainError, train,
 };
 
 fn settings() -> Settings {

@@ -5,17 +5,18 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
-use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
 use pushplan::judge::lever_error;
 use pushplan::network::{
-    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverGraph, LeverSizes, LeverTensors,
-    LeverWeights, Parameters, Statistics, fresh_lever, lever_layout,
+    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters,
+    Statistics, fresh_lever, lever_layout,
 };
 use pushplan::scene::{LEVER_FRAMES, LeverFeatures, LeverJob};
 use pushplan::store::FolderLock;
-use pushplan::train::{LeverSettings, train_lever};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::network::{LeverGraph, LeverTensors};
+use pushplan_learn::train::{LeverSettings, train_lever};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

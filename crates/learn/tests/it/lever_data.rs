@@ -2,16 +2,17 @@
 //! seed alone.
 
 use std::fs;
-use std::process::Command;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use pushplan::dataset::{
-    Dataset, DatasetConfig, DatasetError, LEVERS_PER_SHAPE, LeverConfig, LeverDataset,
-    LeverEpisode, LeverPreset, generate_levers, lever_job,
-};
 use pushplan::scene::{LeverJob, LeverWarning};
 use pushplan::store::Shard;
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{
+    Dataset, DatasetConfig, DatasetError, LEVERS_PER_SHAPE, LeverConfig, LeverDataset,
+    LeverEpisode, LeverPreset, generate_levers, lever_job,
+};
+
+use crate::program;
 
 const FAMILIES: [LeverPreset; 6] = [
     LeverPreset::Fixed,
@@ -63,7 +64,7 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     // Another kind of data is told apart.
     assert!(matches!(Dataset::open(&whole), Err(DatasetError::Foreign { .. })));
     let pushes = DatasetConfig { episodes: 300, seed: 5, ..DatasetConfig::default() };
-    assert!(pushplan::dataset::generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
+    assert!(pushplan_learn::dataset::generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
 }
 
 #[test]
@@ -200,12 +201,9 @@ fn boxes_and_cylinders_look_alike_from_above() {
 fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let generate = |preset: &str| {
-        Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .args(["generate", "scenes", "--episodes", "3", "--seed", "5", "--format", "mjcf"])
-            .args(["--preset", preset])
-            .current_dir(folder.path())
-            .output()
-            .expect("the command runs")
+        let fixed = "generate scenes --episodes 3 --seed 5 --format mjcf --preset";
+        let mut command = program::command(&fixed.split(' ').chain([preset]).collect::<Vec<_>>());
+        command.current_dir(folder.path()).output().expect("the command runs")
     };
     assert_eq!(generate("dense").status.code(), Some(2));
     assert!(generate("hdd").status.success());

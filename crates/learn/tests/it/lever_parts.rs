@@ -4,19 +4,19 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use pushplan::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan::effect::{
     LeverCourse, LeverModel, LeverParts, LeverPrior, PartGraphs, PartState, load_lever,
 };
 use pushplan::judge::lever_error;
 use pushplan::network::{
-    Buffers, Config, Forward, Inputs, Normaliser, PARTS, Parameters, PartsCard, PartsWeights,
-    Predictor,
+    Buffers, Config, Forward, Normaliser, PARTS, Parameters, PartsCard, PartsWeights,
 };
 use pushplan::scene::LeverJob;
 use pushplan::store::FolderLock;
-use pushplan::train::{PartsSettings, train_parts};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::network::{Inputs, Predictor};
+use pushplan_learn::train::{PartsSettings, train_parts};
 
 const CONFIG: Config = Config { width: 32, steps: 2 };
 

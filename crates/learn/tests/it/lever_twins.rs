@@ -5,13 +5,13 @@
 use std::fs;
 use std::process::Command;
 
-use pushplan::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use pushplan::export::{LEVER_SCRIPT, lever_mjcf};
 use pushplan::geometry::{Pose3, Vector3};
 use pushplan::sim::LeverSimulator;
+use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
 use serde_json::Value as Json;
 
-use super::mujoco::python;
+use crate::mujoco_python::python;
 
 /// Lever-ups of each family.
 const CASES: u64 = 24;

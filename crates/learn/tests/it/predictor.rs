@@ -1,11 +1,12 @@
 //! The propagation network that candle differentiates is the one that plans use.
 
 use pushplan::contact::{Bodies, FrameProblem};
-use pushplan::dataset::{Dataset, DatasetConfig};
 use pushplan::graph::Batch;
-use pushplan::network::{Buffers, Forward, Inputs, Predictor};
+use pushplan::network::{Buffers, Forward};
 use pushplan::scene::Physics;
 use pushplan::watch::Unwatched;
+use pushplan_learn::dataset::{Dataset, DatasetConfig};
+use pushplan_learn::network::{Inputs, Predictor};
 
 use crate::random_network::{add_graph, weights};
 

@@ -8,7 +8,6 @@ use rand_pcg::Pcg64;
 
 use pushplan::watch::Unwatched;
 use pushplan::{
-    dataset::{Dataset, DatasetConfig, Preset},
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,
@@ -19,6 +18,7 @@ use pushplan::{
         Velocity,
     },
 };
+use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 
 /// Rolls out with and without pruning; the trajectories must be the same in every bit. One job
 /// at a time: in a batch, a matrix product rounds a row differently according to what stands
@@ -214,11 +214,11 @@ fn every_job_of_a_batch_has_its_own_tool_and_physics() {
         let mut slippery = plain.clone();
         let frictions = &mut Arc::make_mut(&mut slippery.physics).frictions;
         frictions.iter_mut().for_each(|friction| *friction *= 0.3);
-        let tool = Tool::clone(&plain.motion.tool);
+        let tool = Tool::clone(&plain.motion.slide().tool);
         let handle = tool.parts()[0].clone();
         let tool = tool.with_parts([handle]).expect("one piece");
         let mut short = plain.clone();
-        short.motion.tool = Arc::new(tool);
+        short.motion.slide_mut().tool = Arc::new(tool);
         let jobs = [plain.clone(), short, slippery.clone(), plain, slippery];
         let roll = |jobs: &[Job]| {
             Roller::new(ModelKind::PRIOR.into(), RollSettings::default()).roll(
@@ -250,7 +250,7 @@ fn candidates_end_alike_in_any_order_and_number() {
         scene.joints.clear();
         let middle = scene.objects[0].pose.position;
         let candidates = (0..13).map(|_| {
-            let mut motion = plain.motion.clone();
+            let mut motion = plain.motion.slide().clone();
             let reach = scene.objects[0].shape.footprint().bounding_radius() + 0.1;
             let way = Pose::new(0.0, 0.0, rng.random_range(-3.1..3.1)).vector(Vector::x());
             let aside =

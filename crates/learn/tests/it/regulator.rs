@@ -6,12 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
-use pushplan::dataset::{Lesson, lessons};
 use pushplan::effect::{EffectModels, Network};
-use pushplan::network::{Memory, Regulator, RegulatorGraph, RegulatorWeights, Unrolled};
+use pushplan::network::{Memory, Regulator, RegulatorWeights};
 use pushplan::store::FolderLock;
-use pushplan::train::{RegulatorSettings, score, train_regulator};
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{Lesson, lessons};
+use pushplan_learn::network::{RegulatorGraph, Unrolled};
+use pushplan_learn::train::{RegulatorSettings, score, train_regulator};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 

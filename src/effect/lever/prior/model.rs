@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::effect::{LeverModel, LeverTrust};
 use crate::geometry::Pose3;
-use crate::scene::{LeverJob, LeverTrajectory};
+use crate::scene::{LeverJob, LeverTrajectory, ModelKind, ModelSpec};
 
 use super::march::Marcher;
 use super::settings::PriorSettings;
@@ -42,6 +42,10 @@ impl LeverModel for LeverPrior {
             name += &format!(",sweeps={sweeps}");
         }
         name
+    }
+
+    fn spec(&self) -> ModelSpec {
+        ModelKind::PRIOR.into()
     }
 
     fn trust(&self, job: &LeverJob) -> LeverTrust {

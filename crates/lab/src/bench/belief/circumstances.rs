@@ -36,7 +36,7 @@ impl Circumstances {
         }
         let Episode { scene, motion, .. } = episode;
         let physics = Arc::new(Physics::stated(scene));
-        let job = Job { start: scene.start(), motion: motion.clone(), physics };
+        let job = Job { start: scene.start(), motion: motion.clone().into(), physics };
         let played = Simulator::new(self.engine, Rate::DEFAULT).run(scene, &job, Record::Frames);
         let set_down = played.warnings.iter().filter_map(|warning| match warning {
             Warning::SetDownOn { stroke, .. } => Some(*stroke),

@@ -261,7 +261,11 @@ impl Followed<'_> {
     /// Where the rest of the way takes all objects under some physics.
     fn rest(&self, count: usize, situation: &Situation, physics: Physics) -> Vec<Pose> {
         let motion = self.motion_after(count);
-        let job = Job { start: situation.start.clone(), motion, physics: Arc::new(physics) };
+        let job = Job {
+            start: situation.start.clone(),
+            motion: motion.into(),
+            physics: Arc::new(physics),
+        };
         let rolled = self.model.rollout(&situation.scene, &[job], Record::Outcome);
         let end = rolled.first().and_then(|trajectory| trajectory.frames.last());
         end.map_or_else(|| situation.start.poses.clone(), |frame| frame.state.poses.clone())

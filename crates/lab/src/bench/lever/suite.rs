@@ -1,17 +1,21 @@
 //! Generated tasks of levering: take the board out of the pocket of a drive.
 
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::geometry::Pose;
 use pushplan::internals::scene::{
-    Goal, LeverJob, LeverRules, LeverScene, Obstacle, Plate, PushRules, Robot, Scene, Task,
+    Goal, LeverJob, LeverMotion, LeverRules, Motion, Obstacle, Outcome, Plate, PushRules, Record,
+    Robot, Scene, Situation, Task, Tool,
 };
 use pushplan::internals::sim::LeverSimulator;
-use pushplan::internals::solve::lever::LeverPlanner;
-use pushplan::internals::solve::{PlanStatus, SolveError};
+use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
 use pushplan::internals::store::{Measured, Seconds};
-use pushplan::internals::verify::{LeverVerifier, VerifySettings};
+use pushplan::internals::verify::{Verifier, VerifySettings};
+use pushplan::internals::watch::Unwatched;
 use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
-use serde::{Deserialize, Serialize};
 
 /// The name of what must be left, and of the tool that does it.
 const POCKET: &str = "pocket";
@@ -82,7 +86,7 @@ impl LeverSuite {
     /// If the planner refuses it.
     pub fn measure(
         &self,
-        planner: &LeverPlanner,
+        planner: &Planner,
         library: &ToolLibrary,
         index: usize,
     ) -> Result<Measured<LeverRecord>, SolveError> {
@@ -94,16 +98,20 @@ impl LeverSuite {
         // The planner's own disturbances are of seed 0.
         let settings = VerifySettings { disturbed: FURTHER, seed: 1 + index as u64 };
         let further = best.filter(|_| works).and_then(|best| {
-            let verifier = LeverVerifier::new(settings);
-            verifier.verify(&task, &best.tool, &best.plan).robustness
+            let situation = Situation::stated(&task.scene);
+            let verifier = Verifier::new(settings);
+            verifier.verify(&task, &situation, &best.tools, &best.plan).robustness
         });
-        let random = self.drawn(index);
-        let moved = LeverSimulator::FINE.run(&random);
-        let scene = LeverScene::new(&task.scene, random.scene.blade);
+        let LeverJob { scene, lever } = self.drawn(index);
+        let tool = Arc::new(Tool::with_blade(TOOL, scene.blade));
+        let random = [Motion::Lever(LeverMotion::new(tool, lever, None))];
+        let watched = (Record::Outcome, &Unwatched as _);
+        let moved = LeverSimulator::FINE.run_all((&scene, &scene), None, &random, watched);
+        let LeverStatistics { search, .. } = solution.statistics.levers.clone().unwrap_or_default();
         let timing = &solution.statistics.timing;
         let seconds = [
             ("search", timing.search),
-            ("simulation", timing.simulation),
+            ("simulation", timing.refinement),
             ("verification", timing.verification),
             ("total", timing.total),
         ];
@@ -112,9 +120,9 @@ impl LeverSuite {
             works,
             robustness: verdict.and_then(|verdict| verdict.robustness),
             further: further.unwrap_or(0.0),
-            random: task.goal.judge_lever(&scene, &random.lever, &moved).reached,
-            candidates: solution.statistics.search.rollouts,
-            promising: solution.statistics.search.promising,
+            random: Outcome::judge(&task.scene, &task.goal, &moved).reached,
+            candidates: search.rollouts,
+            promising: search.promising,
         };
         let seconds: Seconds =
             seconds.into_iter().map(|(stage, time)| (stage.to_owned(), time)).collect();

@@ -170,7 +170,7 @@ impl Table {
     /// What a motion really does.
     fn play(&self, motion: &ToolMotion) -> Vec<Frame> {
         let physics = Physics::stated(&self.scene).into();
-        let job = Job { start: self.state.clone(), motion: motion.clone(), physics };
+        let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
         Simulator::planar().run(&self.scene, &job, Record::Frames).frames
     }
 
@@ -200,7 +200,7 @@ impl Table {
             let start = situation.start.clone();
             let jobs = [&situation.physics, &known].map(|physics| Job {
                 start: start.clone(),
-                motion: motion.clone(),
+                motion: motion.clone().into(),
                 physics: physics.clone(),
             });
             let rolled = model.rollout(&situation.scene, &jobs, Record::Outcome);

@@ -82,13 +82,8 @@ pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: 
 /// What a candidate's pushes are to a robot.
 pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Push>) -> Plan {
     let rules = &workspace.task.pushes;
-    Plan {
-        tool: workspace.tools[candidate.tool].name.clone(),
-        grip_yaw: candidate.grip_yaw,
-        form: rules.form,
-        lift: rules.lift,
-        pushes,
-    }
+    let tool = &workspace.tools[candidate.tool].name;
+    Plan::pushing(tool, candidate.grip_yaw, rules.form, rules.lift, pushes)
 }
 
 /// Any tool and grip, and pushes of any face, offset and length in the directions of `direct`,

@@ -76,8 +76,8 @@ impl RandomSuite {
         let made = self.task(index)?;
         let solution = planner.solve(&made.task, library)?;
         let maker = made.made.as_ref();
-        let maker =
-            maker.map(|(plan, _)| Maker { tool: plan.tool.clone(), pushes: plan.pushes.len() });
+        let maker = maker
+            .map(|(plan, _)| Maker { tool: plan.tool().to_owned(), pushes: plan.pushes().len() });
         let record = RandomRecord {
             kind: made.kind,
             maker,
@@ -91,14 +91,18 @@ impl RandomSuite {
     fn random_choice(&self, made: &SuiteTask, index: usize) -> Option<Choice> {
         let mut rng = generator(self.seed() ^ 0xC401CE, index as u64);
         let plan = random_plan(&mut rng, &made.task, self.tools())?;
-        let tool = self.tools().iter().find(|tool| tool.name == plan.tool)?;
+        let tool = self.tools().iter().find(|tool| tool.name == plan.tool())?;
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        let verdict =
-            verifier.nominal(&made.task, &Situation::stated(&made.task.scene), tool, &plan);
+        let verdict = verifier.nominal(
+            &made.task,
+            &Situation::stated(&made.task.scene),
+            std::slice::from_ref(tool),
+            &plan,
+        );
         let end =
             |engine: Engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
         Some(Choice {
-            tool: plan.tool,
+            tool: plan.tool().to_owned(),
             planar: end(Engine::Planar)?,
             spatial: end(Engine::Spatial)?,
         })
@@ -108,5 +112,5 @@ impl RandomSuite {
 fn nothing(made: &SuiteTask) -> End {
     let state = made.task.scene.start();
     let trajectory = Trajectory::standing(ModelKind::Still.into(), Pose::default(), state);
-    End::of(&Outcome::judge(&made.task.goal, &trajectory))
+    End::of(&Outcome::judge(&made.task.scene, &made.task.goal, &trajectory))
 }

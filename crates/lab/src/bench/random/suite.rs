@@ -111,7 +111,12 @@ impl RandomSuite {
         }
         let tool = Arc::clone(&self.tools[candidate.tool]);
         let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
-        let verdict = verifier.nominal(&task, &Situation::stated(&task.scene), &tool, &plan);
+        let verdict = verifier.nominal(
+            &task,
+            &Situation::stated(&task.scene),
+            std::slice::from_ref(&tool),
+            &plan,
+        );
         let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
         (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tool)) })
     }
@@ -151,7 +156,7 @@ impl RandomSuite {
             let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
             let before = task.clone();
             task.scene.obstacles.push(wall);
-            let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes);
+            let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
             let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
             // A wall that the object is pushed against would make another task than planned.
             let kept = (task.goal.position - straight.position).norm() < 1e-3;

@@ -173,6 +173,7 @@ fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> Plan
         ),
         model: model.clone(),
         settings: Settings {
+            levers: pushplan::internals::solve::LeverSettings::STANDARD,
             offsets,
             beam,
             search_rollouts,

@@ -226,7 +226,7 @@ fn replay(task: &Task, solution: &mut Solution) {
     let situation = Situation::stated(&task.scene);
     if let Some(best) = solution.plans.first_mut() {
         let verifier = Verifier::new(DISTURBED);
-        best.verdict = Some(verifier.verify(task, &situation, &best.tool, &best.plan));
+        best.verdict = Some(verifier.verify(task, &situation, &best.tools, &best.plan));
     }
 }
 

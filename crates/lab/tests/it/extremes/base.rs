@@ -6,11 +6,12 @@ use rand_pcg::Pcg64;
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::Case,
-    dataset::{Aim, aimed_stroke, generator, random_direction, random_heading},
     geometry::Vector,
     scene::{Object, Physics, Scene, Tool, ToolMotion},
+    seeded::generator,
 };
+use pushplan_lab::bench::Case;
+use pushplan_learn::dataset::{Aim, aimed_stroke, random_direction, random_heading};
 
 /// Tries to aim a push before a scene is given up: nearly all succeed within ten.
 const TRIES: usize = 1000;

@@ -1,6 +1,6 @@
 //! A cell of the grid: pushes that have one extreme in common.
 
-use pushplan::bench::Case;
+use pushplan_lab::bench::Case;
 
 /// Which ordinary pushes the errors of a cell are measured by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use rand::Rng;
 
 use pushplan::{
-    bench::Case,
-    dataset::{Crowd, Preset, Solids, random_scene},
     geometry::{Pose, Vector},
     scene::{JointKind, Object, Obstacle, Scene, Span},
 };
+use pushplan_lab::bench::Case;
+use pushplan_learn::dataset::{Crowd, Preset, Solids, random_scene};
 
 use super::{
     base::{Draw, Solid, Way, shifted, wound},

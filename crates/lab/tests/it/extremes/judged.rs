@@ -10,8 +10,6 @@
 use std::num::NonZeroU16;
 
 use pushplan::{
-    bench::{Case, DISTURBANCE},
-    dataset::generator,
     effect::{EffectModel, shifted_start},
     geometry::Pose,
     judge::{Comparison, Summary, Trial, object_errors},
@@ -19,8 +17,10 @@ use pushplan::{
         Body, COAST_FRAME, Engine, Job, MAX_COAST_FRAMES, Physics, Rate, Record, Scene, State,
         ToolMotion, Trajectory, Warning,
     },
+    seeded::generator,
     sim::Simulator,
 };
+use pushplan_lab::bench::{Case, DISTURBANCE};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 

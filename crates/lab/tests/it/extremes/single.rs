@@ -6,10 +6,10 @@ use std::sync::Arc;
 use rand::Rng;
 
 use pushplan::{
-    bench::Case,
     geometry::{Pose, Shape, Vector},
     scene::{Object, Part, Scene, Tool},
 };
+use pushplan_lab::bench::Case;
 
 use super::{
     base::{Draw, Solid, Way, shifted, wound},

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::ToolLibrary,
-    bench::random_task,
     effect::EffectModel,
     geometry::{Pose, Vector},
     scene::{Obstacle, Task},
     solve::{Effort, PlanStatus, Planner, Solution},
 };
+use pushplan_lab::bench::random_task;
 
 /// What should come of a task.
 #[derive(Clone, Copy)]
@@ -121,7 +121,7 @@ pub fn solved(model: &Arc<dyn EffectModel>, library: &ToolLibrary, seed: u64) ->
 fn judged(name: &'static str, expected: Expected, solution: Option<Solution>) -> TaskCell {
     let best = solution.as_ref().and_then(Solution::best);
     let status = solution.as_ref().map(|solution| solution.status);
-    let pushes = best.map(|plan| plan.plan.pushes.len());
+    let pushes = best.map(|plan| plan.plan.pushes().len());
     let finite =
         best.is_none_or(|plan| plan.outcome.error.is_finite() && plan.outcome.state.is_finite());
     let sound = match (expected, status) {

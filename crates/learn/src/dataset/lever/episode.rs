@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::internals::scene::{
-    LeverJob, LeverMotion, LeverScene, LeverTrajectory, LeverUp, LeverWarning,
+    LeverJob, LeverRecord, LeverScene, LeverTrajectory, LeverUp, LeverWarning,
 };
 use pushplan::internals::seeded::generator;
 use pushplan::internals::sim::LeverSimulator;
@@ -52,7 +52,7 @@ impl LeverEpisode {
     }
 
     /// Everything that moves, after every step of the engine: simulated again.
-    pub fn motion(&self) -> LeverMotion {
+    pub fn motion(&self) -> LeverRecord {
         LeverSimulator::FINE.record(&self.job(), 0.0).1
     }
 

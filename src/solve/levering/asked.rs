@@ -1,0 +1,97 @@
+//! A lever-up as a person asks for it. Nothing is searched.
+
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use crate::plan::lever::LeverRoom;
+use crate::scene::{LeverFault, LeverScene, LeverUp, Pivot, Place, Plan, Task, Tool};
+
+/// A lever-up as it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AskedLever {
+    /// Where the blade goes under.
+    pub place: AskedPlace,
+    /// How far the tip lies behind the edge, metres.
+    pub depth: f64,
+    /// Turn, radians.
+    pub angle: f64,
+    /// Where the axis lies.
+    pub pivot: Pivot,
+    /// Speed of the tip, m/s; the task's if not given.
+    pub speed: Option<f64>,
+}
+
+/// A place on the outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AskedPlace {
+    /// An edge, and how far along it, 0 to 1.
+    Edge(usize, f64),
+    /// So far along the outline from the first corner on, metres.
+    Along(f64),
+}
+
+/// Why no lever-up can be made of what is asked for.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum LeverActionError {
+    /// An edge that the outline does not have.
+    #[error("the object has {edges} edges, counted from 0; there is no edge {edge}")]
+    NoEdge {
+        /// Its number.
+        edge: usize,
+        /// How many there are.
+        edges: usize,
+    },
+    /// No axis follows from the plate.
+    #[error("no support line follows from this lever point; give the pivot as a number")]
+    NoSupport,
+}
+
+/// The plan of what is asked for, and a rule that it breaks. One that breaks a rule is made all the
+/// same: seeing what would happen is the point.
+///
+/// # Errors
+/// Why there is no such lever-up.
+pub fn asked_lever(
+    task: &Task,
+    tool: &Arc<Tool>,
+    asked: &AskedLever,
+) -> Result<(Plan, Option<LeverFault>), LeverActionError> {
+    let plate = task.plate();
+    let corners = plate.corners();
+    let edges = corners.len();
+    let side = |edge: usize| (corners[(edge + 1) % edges] - corners[edge]).norm();
+    let place = match asked.place {
+        AskedPlace::Edge(edge, _) if edge >= edges => {
+            return Err(LeverActionError::NoEdge { edge, edges });
+        }
+        AskedPlace::Edge(edge, fraction) => Place { edge, fraction },
+        AskedPlace::Along(way) => {
+            let around: f64 = (0..edges).map(side).sum();
+            let mut left = way.rem_euclid(around);
+            let mut edge = 0;
+            while edge + 1 < edges && left > side(edge) {
+                left -= side(edge);
+                edge += 1;
+            }
+            Place { edge, fraction: (left / side(edge)).clamp(0.0, 1.0) }
+        }
+    };
+    let pivot = match asked.pivot {
+        Pivot::Auto => plate.auto_pivot(place).ok_or(LeverActionError::NoSupport)?,
+        Pivot::At(distance) => distance,
+    };
+    let rules = &task.lever_rules();
+    let lever = LeverUp {
+        plate: task.goal.object,
+        place,
+        depth: asked.depth,
+        pivot,
+        angle: asked.angle,
+        speed: asked.speed.unwrap_or(rules.speed),
+        hold: rules.hold,
+        retreat: rules.retreat,
+    };
+    let broken = LeverRoom::new(task, &LeverScene::with(&task.scene, tool)).fault(&lever);
+    Ok((Plan::levering(&tool.name, lever), broken))
+}

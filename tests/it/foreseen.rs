@@ -1,0 +1,79 @@
+//! What is foreseen of joints: that they stop where they stopped before, and where they may lead.
+
+use pushplan::belief::{Belief, BeliefSettings, NO_STOP};
+use pushplan::effect::Prior;
+use pushplan::geometry::{Pose, Vector};
+use pushplan::scene::{Engine, JointKind, Noise, Push, Span, ToolMotion};
+
+use crate::belief::{cylinders, pair, recorded};
+use crate::believing::{EXACT, believed};
+
+/// Where a joint stopped it stops again; to the other side nothing is known.
+#[test]
+fn where_joints_stop_is_found_once_they_stopped_there() {
+    let hinge = JointKind::Revolute { at: Vector::new(0.5, 0.037), limits: None };
+    let slide = JointKind::Prismatic { axis: Vector::new(0.6, 0.8), limits: None };
+    let slight = Noise { position: 1e-3, heading: 0.5f64.to_radians() };
+    let cases = [
+        (cylinders(Some(hinge)), 0.2, NO_STOP[0], vec![EXACT, slight]),
+        // This one does not press hard against its stop, and has to be seen well.
+        (pair(Some(slide)), 0.03, NO_STOP[1], vec![EXACT]),
+    ];
+    // At the far end of the second, so that it turns about the hinge.
+    let push = Push { start: Vector::new(0.44, 0.086), direction: 0.0, length: 0.25, speed: 0.1 };
+    for ((scene, motion), most, free, noises) in cases {
+        let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[push], false);
+        let stops = |limits: Option<Span>, noise, engine| {
+            let mut scene = scene.clone();
+            match &mut scene.joints[0].kind {
+                JointKind::Revolute { limits: of, .. }
+                | JointKind::Prismatic { limits: of, .. } => *of = limits,
+                JointKind::Fixed => panic!("fixed"),
+            }
+            let recording = recorded(&scene, &motion, engine);
+            believed(&recording, noise, 3).map().joints[0].limits()
+        };
+        for (noise, engine) in noises.into_iter().flat_map(|n| Engine::ALL.map(|e| (n, e))) {
+            assert_eq!(stops(None, EXACT, engine), None);
+            let found = stops(Some(Span::new(-most, most)), noise, engine).expect("a stop");
+            let (near, far) = match found.low > -free {
+                true => (-found.low, found.high),
+                false => (found.high, -found.low),
+            };
+            assert_eq!(far, free, "{found:?}");
+            assert!(near < 0.1 * most + 5.0 * noise.position, "{noise:?}: {found:?}");
+        }
+    }
+}
+
+/// Half of near pairs are not joined, so before anything is known one is foreseen to stay where the tool
+/// pushes the other away; and once they are known to be one body, to go along.
+#[test]
+fn what_is_foreseen_is_in_the_middle_of_what_is_possible() {
+    let (scene, motion) = pair(Some(JointKind::Fixed));
+    let model = Prior::default();
+    let before = Belief::new(&scene, motion.tool.clone(), 0.0, BeliefSettings::new(EXACT));
+    let start = scene.start().poses;
+    let still = ToolMotion { strokes: Vec::new(), ..motion.clone() };
+    assert_eq!(before.foresee(&model, &still), start);
+    let away = Push { start: Vector::new(0.44, 0.01), direction: -0.6, length: 0.2, speed: 0.1 };
+    let away = ToolMotion::pushes(motion.tool.clone(), 0.0, 0.0, &[away], false);
+    let foreseen = before.foresee(&model, &away);
+    assert_eq!(foreseen, before.foresee(&model, &away));
+    assert!((foreseen[0].position - start[0].position).norm() > 0.05);
+    assert_eq!(foreseen[1].position, start[1].position);
+
+    let known = believed(&recorded(&scene, &motion, Engine::Planar), EXACT, 0);
+    let end = known.situation().start.poses;
+    let back = Push {
+        start: Vector::new(1.2, end[0].position.y),
+        direction: std::f64::consts::PI,
+        length: 0.7,
+        speed: 0.1,
+    };
+    let motion = ToolMotion::pushes(motion.tool, 0.0, 0.0, &[back], false);
+    let foreseen = known.foresee(&model, &motion);
+    let apart = |poses: &[Pose]| (poses[1].position - poses[0].position).norm();
+    assert!((foreseen[0].position - end[0].position).norm() > 0.1);
+    assert!((apart(&foreseen) - apart(&end)).abs() < 2e-3);
+}
