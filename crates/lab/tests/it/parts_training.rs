@@ -4,19 +4,19 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use pushplan::effect::{
-    LeverCourse, LeverModel, LeverParts, LeverPrior, PartGraphs, PartState, load_lever,
-};
-use pushplan::judge::lever_error;
-use pushplan::network::{
-    Buffers, Config, Forward, Normaliser, PARTS, Parameters, PartsCard, PartsWeights,
-};
+use pushplan::effect::{LeverModel, LeverPrior};
+use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
 use pushplan::scene::LeverJob;
 use pushplan::store::FolderLock;
 use pushplan::watch::{Unwatched, Watch};
+use pushplan_lab::bench::load_lever;
+use pushplan_lab::parts::{
+    LeverCourse, LeverParts, PARTS, PartGraphs, PartState, PartsCard, PartsSettings, PartsWeights,
+    train_parts,
+};
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::judge::lever_error;
 use pushplan_learn::network::{Inputs, Predictor};
-use pushplan_learn::train::{PartsSettings, train_parts};
 
 const CONFIG: Config = Config { width: 32, steps: 2 };
 
