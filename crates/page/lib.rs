@@ -1,4 +1,4 @@
-//! What [pushplan](https://crates.io/crates/pushplan) writes beside its results so that others can play them:
+//! What [pushplan](https://crates.io/crates/pushplan) writes next to its results so that others can play them:
 //! style and scripts of its pages, for plans, runs and recordings in a browser, and scripts that play exported
 //! scenes in MuJoCo.
 

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-/// Runs `work` and says how much processor time this thread spent on it, so that other work on
-/// the machine does not count. Where the system does not tell (outside Linux), wall-clock time.
+/// Runs `work` and says how much processor time this thread spent on it, so that other work on the
+/// machine does not count. Where the system does not say (outside Linux), wall-clock time.
 pub fn processor_time(work: impl FnOnce()) -> Duration {
     timed(work).1
 }

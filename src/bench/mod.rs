@@ -1,4 +1,4 @@
-//! What the product is for, measured: tool selection in batches, and suites of task files.
+//! Measures what the product is for: tool selection in batches, and suites of task files.
 //!
 //! Everything is seeded, takes any [`crate::effect::EffectModel`] and gives plain data that can
 //! be written as JSON; nothing is drawn here.

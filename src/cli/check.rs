@@ -9,7 +9,7 @@ use crate::asset::{self, Faults, recording_schema, task_schema, tool_schema, wor
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 
-/// Check files that you wrote: every fault with its place; or print their schema for editors
+/// Check your files: every fault with its place; or print their schema for editors
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan check tools/*.yaml tasks/*.yaml
@@ -17,7 +17,7 @@ use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
   # then, as the first line of a task file:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
-    /// Tool, task, plan, trajectory, recording and world files; their kind is seen from their content
+    /// Tool, task, plan, trajectory, recording and world files; content tells their kind
     #[arg(required_unless_present = "schema", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the JSON schema of this kind of file

@@ -17,7 +17,7 @@ macro_rules! help {
             "What predicts the effect of pushes: network; prior (the network's prior alone); \
              planar or 3d (simulations); projection, follow or still (without physics); or a file \
              of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
-             bar says who takes over: prior,up-to=2|planar",
+             bar says which model takes over: prior,up-to=2|planar",
             $end
         )
     };
@@ -42,7 +42,7 @@ pub const DEFAULT: &str = "network";
 /// The model that `spec` describes.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
+/// A weights file that is missing, damaged or not of pushplan.
 pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
     Ok(EffectModels::build(spec)?)
 }
@@ -50,7 +50,7 @@ pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
 /// The weights of a network; none for other models.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
+/// A weights file that is missing, damaged or not of pushplan.
 pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }

@@ -7,7 +7,7 @@ const MOVED: [(&[&str], &str); 9] = [
     (
         &["evaluate"],
         "`pushplan predict RECORDINGS` judges models on your own recordings, \
-      `pushplan-lab evaluate` on scenes that are drawn",
+      `pushplan-lab evaluate` on random scenes",
     ),
     (
         &["simulate"],

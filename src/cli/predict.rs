@@ -45,7 +45,7 @@ pub struct PredictArgs {
     model: Option<ModelSpec>,
     #[command(flatten)]
     pub outside: OutsideArgs,
-    /// The model alone, without those that it is compared with
+    /// Only this model, without those that it is compared with
     #[arg(long)]
     pub alone: bool,
     #[command(flatten)]
@@ -57,13 +57,13 @@ pub struct PredictArgs {
     /// Also write every frame that each model predicts as a trajectory file, with a picture
     #[arg(long, requires = "out")]
     trajectories: bool,
-    /// Pictures of trajectories that move as well
+    /// Also draw moving pictures of the trajectories
     #[arg(long, requires = "trajectories")]
     animate: bool,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
-    /// Of recordings only one table, a row for each folder
+    /// For recordings, one table only, with a row for each folder
     #[arg(long)]
     pub summary: bool,
     #[command(flatten)]
@@ -84,7 +84,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     match motion {
         Some((file, kind)) => predict(args, args.asked(file, kind, session)?, session),
         None if args.action.given() => Err(CliError::usage(
-            "recordings say themselves what was done",
+            "recordings already say what was done",
             "leave --tool and --push out, or name one task",
         )),
         None => recorded::run(args, session),

@@ -69,7 +69,7 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 /// The model that is asked for, the same under other assumptions about joints where there are
-/// some, and what stands beside it.
+/// some, and those that it is compared with.
 fn models(
     args: &PredictArgs,
     recordings: &[&Recording],

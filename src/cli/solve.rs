@@ -47,8 +47,8 @@ pub struct SolveArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Disturbed replays of the winning plan in each simulation [default: 4, 8 or 16 by effort]; more
-    /// tell its robustness in finer shares
+    /// Disturbed replays of the winning plan in each simulation; more of them measure its robustness
+    /// more finely [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
     pub disturbed: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
@@ -66,7 +66,7 @@ pub struct SolveArgs {
     page: PageView,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Draw a picture of the 3-D replay that moves as well
+    /// Also draw a moving picture of the 3-D replay
     #[arg(long)]
     animate: bool,
     #[command(flatten)]
@@ -128,7 +128,7 @@ pub fn time_limit(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "a time is a number of seconds".to_owned())?;
     let limit = Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())?;
     match limit.is_zero() {
-        true => Err("in no time nothing can be done; half a second is 0.5".to_owned()),
+        true => Err("a time limit must be above zero; half a second is 0.5".to_owned()),
         false => Ok(limit),
     }
 }

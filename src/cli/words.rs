@@ -16,7 +16,7 @@ pub type Words<T> = [(&'static str, T, &'static str)];
 pub static EFFORTS: [(&str, Effort, &str); 3] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    ("thorough", Effort::Thorough, "Longer, by simulation, robustness told by more replays"),
+    ("thorough", Effort::Thorough, "Longer: by simulation, with more replays to tell robustness"),
 ];
 
 /// What to do where a model should not be trusted.
@@ -39,17 +39,17 @@ pub static ENGINES: [(&str, Engine, &str); 3] = [
     (
         "3d-upright",
         Engine::Upright,
-        "3-D, but nothing tips: the physics of the plane by other code",
+        "3-D, but nothing tips: the physics of the plane in other code",
     ),
 ];
 
 /// Ways to choose a push that is made only to learn something.
 pub static PROBES: [(&str, ProbeRule, &str); 5] = [
     ("task", ProbeRule::Task, "Tells apart the samples in which different plans work"),
-    ("information", ProbeRule::Information, "Tells most, whatever the task is"),
+    ("information", ProbeRule::Information, "Tells the most, whatever the task"),
     ("random", ProbeRule::Random, "By chance"),
     ("uncertain", ProbeRule::Uncertain, "At the pair whose joint is least certain"),
-    ("motion", ProbeRule::Motion, "Moves things farthest"),
+    ("motion", ProbeRule::Motion, "Moves objects farthest"),
 ];
 
 /// Where the cylinder of the tool benchmark starts.

@@ -1,4 +1,4 @@
-//! From what a model is called to the model; the shipped weights, available from any directory.
+//! From the name of a model to the model; the shipped weights, available from any directory.
 
 use std::fmt;
 use std::path::Path;
@@ -23,7 +23,7 @@ pub enum ModelError {
     /// The library was built around a damaged weights file.
     #[error("the shipped weights are broken: {0}")]
     Shipped(#[source] WeightsError),
-    /// A weights file that is missing, damaged or of someone else.
+    /// A weights file that is missing, damaged or not of pushplan.
     #[error("{path}: {error}")]
     File {
         /// The file.

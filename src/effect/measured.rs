@@ -4,7 +4,7 @@
 use crate::scene::{Engine, ModelKind, Ranges, Rate, Span, TRAINED_SLIDE, TRAINED_TURN};
 
 /// Errors of final positions on held-out pushes, metres, against the planar engine at its default
-/// step; of an engine at its default step, which is a truth itself, none at all.
+/// step; none of an engine at its default step, which is itself a truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantiles {
     /// Median.
@@ -52,8 +52,8 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
     ),
 ];
 
-/// Errors of a model where `objects` come into play, if they were measured. More than three
-/// objects were not; they are taken for three.
+/// Errors of a model where `objects` come into play, if they were measured. More than three objects
+/// were not measured; they count as three.
 pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Option<Quantiles> {
     let errors = match *kind {
         ModelKind::PRIOR => &PRIOR,

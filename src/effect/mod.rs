@@ -1,8 +1,8 @@
-//! What a tool motion does to a scene, whoever computes it.
+//! What a tool motion does to a scene, whatever computes it.
 //!
 //! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior, the engines
-//! and models without physics stand behind it as levels of one ladder of speed and accuracy.
-//! Nothing is searched here.
+//! and models without physics implement it, as rungs of one ladder of speed and accuracy. Nothing
+//! is searched here.
 
 mod assuming;
 mod build;

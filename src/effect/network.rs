@@ -148,9 +148,9 @@ fn has_guesses(job: &Job) -> bool {
 
 /// The job with guessed anchors and axes taken for known ones.
 ///
-/// Told that a joint is a guess, neither prior nor projection pulls its objects together again, and
-/// the network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and
-/// 60.4 mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
+/// Where a joint is a guess, neither prior nor projection pulls its objects together again, and the
+/// network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and 60.4
+/// mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
 fn without_guesses(job: &Job) -> Job {
     let mut job = job.clone();
     if has_guesses(&job) {

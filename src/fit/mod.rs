@@ -2,8 +2,7 @@
 //!
 //! How far out an object rests, and how it rubs on the pusher. A grid of two
 //! numbers, the *spread* of the support and the coefficient of friction of pusher and object, and for
-//! every cell how far an effect model told these two ends from what was recorded: with a law of the
-//! noise that is a posterior. It draws nothing and reads no files.
+//! every cell how far an effect model told these two ends from what was recorded: with a law of the noise that gives a posterior. It draws nothing and reads no files.
 
 mod grid;
 mod likelihood;

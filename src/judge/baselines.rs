@@ -1,5 +1,5 @@
-//! What stands beside a model where its errors are measured: what it must beat, and what the planar
-//! engine makes of a scene that it is told something wrong of.
+//! What a model is compared with where its errors are measured: what it must beat, and what the
+//! planar engine predicts when it is told something wrong about a scene.
 
 use crate::scene::{Assumptions, JointBelief, ModelKind, ModelSpec};
 
@@ -34,8 +34,8 @@ pub fn assumed(spec: &ModelSpec) -> [ModelSpec; 3] {
     })
 }
 
-/// What stands beside `spec` on recordings. Of those the planar engine is no truth, so it is there
-/// as itself, and its own spread is no error that could stand in a row.
+/// What `spec` is compared with on recordings. There the planar engine is not the truth, so it is
+/// there as itself, and its own spread is no error that could stand in a row.
 pub fn recorded_baselines(spec: &ModelSpec) -> Vec<ModelSpec> {
     let planar = ModelSpec::of(ModelKind::PLANAR);
     let engine = (planar != *spec).then_some(planar);

@@ -1,11 +1,10 @@
-//! Judges predictions against the truth: what every published error is made of.
+//! Judges predictions against the truth: every published error comes from here.
 //!
-//! A [`Trial`] is a scene, a tool motion and what really happened; a [`Comparison`] puts a
-//! model's rollout beside it and says how far each object is off, how far joints drift and how
-//! deep bodies overlap; [`Summary`] and [`RelativeErrors`] turn many of these into numbers with
-//! intervals. Training's held-out criterion, benchmarks and robustness tests all judge here,
-//! which is why the room comes right after `effect`. It draws no scenes, makes no truth and
-//! prints nothing.
+//! A [`Trial`] is a scene, a tool motion and what really happened; a [`Comparison`] puts a model's
+//! rollout to it and says how far each object is off, how far joints drift and how deep bodies
+//! overlap; [`Summary`] and [`RelativeErrors`] turn many of these into numbers with intervals.
+//! Training's held-out criterion, benchmarks and robustness tests all judge here, which is why the
+//! module comes right after `effect`. It draws no scenes, makes no truth and prints nothing.
 
 mod baselines;
 mod comparison;

@@ -56,7 +56,7 @@ impl TrialErrors {
 pub struct RecordedErrors {
     /// Names of the recordings.
     pub names: Vec<String>,
-    /// How far the planar engine ends from itself when it starts 0.1 mm beside, mean over all
+    /// How far the planar engine ends from itself when it starts 0.1 mm off, mean over all
     /// objects, metres; `None` if it was not asked for.
     pub own_spread: Option<f64>,
     /// What was measured.
@@ -89,7 +89,7 @@ pub struct ModelErrors {
     pub overlap_mean: f64,
     /// Drift of fixed, revolute and prismatic joints.
     pub drift: [Drift; 3],
-    /// Trajectories in which the prediction left the finite numbers; judged by where it stopped.
+    /// Trajectories in which the prediction became NaN or infinite; judged by where it stopped.
     pub failed: usize,
 }
 
@@ -160,7 +160,7 @@ fn model_errors(model: &dyn EffectModel, trials: &[Trial], watch: &dyn Watch) ->
     }
 }
 
-/// How far the planar engine ends from itself when every object starts a little beside, metres:
+/// How far the planar engine ends from itself when every object starts a little off, metres:
 /// errors that no model can be expected to undercut. `None` without objects.
 pub fn own_spread(trials: &[Trial], watch: &dyn Watch) -> Option<f64> {
     let planar = Simulated::new(Simulator::planar());

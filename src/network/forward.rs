@@ -178,7 +178,7 @@ impl Forward {
         self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
-        // With a single object per graph nobody but kinematic bodies sends anything.
+        // With a single object per graph only kinematic bodies send anything.
         let objects_send = objects_send(batch.senders);
         w.to_sender.resize(2 * n * h, 0.0);
         for _ in 0..self.steps {
@@ -296,7 +296,7 @@ fn multiply(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [
     if m != 1 {
         return multiply_rows(x, matrix, m, k, n, out, add);
     }
-    // gemm takes another way for a single row, which rounds otherwise: give it a second one.
+    // gemm takes another path for a single row, which rounds differently: give it a second one.
     let mut rows = x.to_vec();
     rows.resize(2 * k, 0.0);
     let mut both = out.to_vec();

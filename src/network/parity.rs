@@ -27,7 +27,7 @@ struct Rows<'a> {
     bias: &'a [f32],
 }
 
-// On the widest vectors that the processor has, not only those that every one has; the same bits. A
+// On the widest vectors of the processor, not only those that all processors have; the same bits. A
 // closure would do, but is not always inlined, and then silently runs on the narrowest.
 impl WithSimd for Rows<'_> {
     type Output = ();

@@ -102,7 +102,7 @@ fn still<'a>(
 ) -> ScenePicture<'a> {
     let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
     let mut tracks = Vec::new();
-    // What does not move has no way to be drawn.
+    // An object that does not move has no path to draw.
     for evidence in nominal(replays).filter(|_| !motion.strokes.is_empty()) {
         let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
         errors.push(format!("{engine} {}", millimetres(error)));

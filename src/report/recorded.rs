@@ -120,7 +120,7 @@ fn each_table(names: &[String], each: &[OneError]) -> Table {
     )
 }
 
-/// One row a set of recordings: the first model beside the projection and the planar engine's own
+/// One row a set of recordings: the first model, the projection and the planar engine's own
 /// spread.
 fn recordings_table(reports: &[RecordedErrors]) -> Table {
     Table::of(

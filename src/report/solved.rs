@@ -124,7 +124,7 @@ pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<S
 
 /// Which share of tasks ends within which error, on a logarithmic axis.
 pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
-    /// Smaller errors are of no use to anybody and would only squeeze the rest, metres.
+    /// Smaller errors matter to nobody and would only squeeze the rest, metres.
     const SMALLEST: f64 = 1e-4;
     let series = errors.iter().map(|(name, errors)| {
         let mut sorted: Vec<f64> = errors.iter().map(|error| error.max(SMALLEST)).collect();
@@ -148,7 +148,7 @@ pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
     Figure::chart("errors", chart)
 }
 
-/// A finished task as one JSON object, its index and times beside the record's own keys.
+/// A finished task as one JSON object, its index and times next to the record's own keys.
 pub fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
     let mut value = json!(task.record);
     value["index"] = json!(task.index);

@@ -34,7 +34,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
     figures
 }
 
-/// Who says where the objects went.
+/// Which source says where the objects went.
 fn source(trajectory: &Trajectory) -> Source {
     match trajectory.by.first().kind {
         ModelKind::Simulated { engine, .. } => Source::Simulated(engine),

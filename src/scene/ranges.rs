@@ -8,7 +8,7 @@ use crate::geometry::{ConvexPolygon, Shape, Vector, centroid};
 use super::{GRAVITY, Job, Quantity, Scene, Stroke, Warning};
 
 /// Values within this relative distance of a bound still count as inside: the speed of a recorded
-/// push is known no better, and no model changes within a hundredth.
+/// push is known no better, and no model changes within one per cent.
 const SLACK: f64 = 1e-2;
 
 /// How far an object released at the speed of the push slides on in nearly all training pushes
@@ -36,7 +36,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The interval that holds nothing; its ends are finite, so that it can be written down.
+    /// The empty interval; its ends are finite, so that it can be written down.
     pub const NOTHING: Self = Self { low: f64::MAX, high: f64::MIN };
 
     /// The interval from `low` to `high`.
@@ -44,7 +44,7 @@ impl Span {
         Self { low, high }
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }

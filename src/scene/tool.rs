@@ -113,7 +113,7 @@ fn list(pieces: &[Vec<String>]) -> String {
 }
 
 impl Tool {
-    /// Friction value that most shipped tools have: painted wood or plastic.
+    /// Friction value of most shipped tools: painted wood or plastic.
     pub const FRICTION: f64 = 0.4;
 
     /// A tool of `parts`, those that touch joined into one rigid piece, held at the origin of its

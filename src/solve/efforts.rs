@@ -12,7 +12,7 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 use super::{Effort, LeverSettings, Settings};
 
 /// The planar engine that pushes into crowds are left to: among touching objects it is off by less
-/// in the plane than the prior, and costs a quarter of what the engine does at its default step.
+/// in the plane than the prior, and costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
 /// The most objects that a push can set in motion for which the prior is clearly cheaper than
@@ -20,7 +20,7 @@ const CROWD_ENGINE: ModelKind = planar(60);
 /// of objects that were measured, or the largest of these where they do not.
 const FEW_FOR_PRIOR: u16 = 9;
 
-/// The planar engine at so many steps a second, one at least.
+/// The planar engine at this many steps a second, at least one.
 const fn planar(rate: u16) -> ModelKind {
     let rate = Rate(NonZeroU16::MIN.saturating_add(rate.saturating_sub(1)));
     ModelKind::Simulated { engine: Engine::Planar, rate }
@@ -56,8 +56,8 @@ const MEDIUM: Settings = Settings {
 
 impl Effort {
     /// The model, the budgets, and the disturbed replays of the winning plan in each engine: what a
-    /// look, a usual answer, a careful one and a thorough study are worth. More replays than a
-    /// level was measured with make its plans no better, but tell their robustness in finer shares.
+    /// first look, a usual answer and a thorough one take. More replays than a level was measured
+    /// with do not make its plans better, but measure their robustness more finely.
     const fn level(self) -> (ModelKind, Settings, usize) {
         match self {
             Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
@@ -66,8 +66,7 @@ impl Effort {
         }
     }
 
-    /// What it means in numbers: the budgets of its level, and the replays that tell how robust
-    /// the plan is.
+    /// Its numbers: the budgets of its level, and the replays that tell how robust the plan is.
     pub fn settings(self) -> Settings {
         let (_, settings, disturbed) = self.level();
         let levers = match self {

@@ -20,7 +20,7 @@ pub enum Effort {
     #[default]
     Standard,
     /// Half as expensive again, by simulation: plans hold a little more often when the world is a
-    /// little different, which twice as many replays tell.
+    /// little different, and twice as many replays check it.
     Thorough,
 }
 
@@ -71,13 +71,13 @@ pub struct Settings {
     pub levers: LeverSettings,
 }
 
-/// A replay costs more the more objects there are, so at most so many, of all plans, are replayed together:
-/// with four on the table, eight plans.
+/// A replay costs more the more objects there are, so at most this many, of all plans, are replayed
+/// together: with four on the table, eight plans.
 const REPLAYED_AT_ONCE: usize = 32;
 
 impl Settings {
-    /// Plans verified together where so many objects are on the table: fewer in a crowd, where the first
-    /// ones are often good and their replays are most of the cost.
+    /// Plans verified together where this many objects are on the table: fewer in a crowd, where
+    /// the first ones are often good and their replays are most of the cost.
     pub(super) fn at_once(&self, objects: usize) -> usize {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }
@@ -96,7 +96,7 @@ impl Settings {
         levers: LeverSettings::DRAFT,
     };
 
-    /// The part that the search takes, with a model that is off by `model_error` metres at times.
+    /// The settings of the search, with a model that is off by `model_error` metres at times.
     pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,

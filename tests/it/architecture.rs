@@ -51,7 +51,7 @@ const ROOMS: [(&str, &str); 23] = [
     ("rollout", "geometry scene contact graph"),
     ("effect", "geometry scene sim graph network rollout"),
     ("judge", "geometry scene recording sim effect"),
-    ("fit", "geometry scene effect judge"),
+    ("fit", "scene effect judge"),
     ("belief", "geometry scene network effect"),
     ("plan", "geometry scene effect"),
     // Not `plan`: the check shares no code with what it checks.

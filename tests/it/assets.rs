@@ -72,7 +72,7 @@ fn the_reference_tools_have_the_reference_geometry() {
     }
 }
 
-/// Every task file; pictures stand beside some of them.
+/// Every task file; pictures lie next to some of them.
 pub fn shipped_tasks() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder("tasks")).unwrap();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();

@@ -30,7 +30,7 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
     there.sort();
     let mut pages: Vec<&String> = listed.iter().filter(|path| !path.contains('/')).collect();
     pages.sort();
-    assert_eq!(there.iter().collect::<Vec<_>>(), pages, "pages beside the summary's");
+    assert_eq!(there.iter().collect::<Vec<_>>(), pages, "other pages than the summary's");
 
     let mut wrong = Vec::new();
     for (path, text) in pages_of(&listed) {

@@ -81,7 +81,7 @@ fn tasks_that_say_so_need_a_probe() {
     }
 }
 
-/// Stops once so many steps are made.
+/// Stops after a number of steps.
 struct After(usize, std::sync::atomic::AtomicUsize);
 
 impl Watch for After {

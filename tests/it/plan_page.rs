@@ -360,5 +360,5 @@ fn error_at(goal: &Goal, trajectory: &Trajectory, time: f64) -> f64 {
 }
 
 fn number(value: &Json) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }

@@ -56,7 +56,7 @@ fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
-/// A narrow finger that pushes along x by 15 cm, `aside` metres beside the origin.
+/// A narrow finger that pushes along x by 15 cm, `aside` metres off the origin.
 fn finger(aside: f64) -> ToolMotion {
     let part = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
     let tool = Arc::new(Tool::new("finger", [part]).expect("one piece"));

@@ -33,7 +33,7 @@ fn its_commands_run() {
         assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
     }
     succeed(&format!("{act} --out {folder}"));
-    // The pictures beside the command are those that it makes.
+    // The pictures below the command are those that it makes.
     for name in ["coupled-or-not.run.svg", "coupled-or-not.belief.svg"] {
         let shown = Path::new(ROOT).join("tasks").join(name);
         let [made, shown] = [out.path().join(name), shown].map(std::fs::read);

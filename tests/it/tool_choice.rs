@@ -1,7 +1,7 @@
 //! The reference tool benchmark: the shipped goals can be made again, and what is chosen is what
 //! is scored.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use pushplan::bench::{
     GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
@@ -108,7 +108,7 @@ fn measure(threads: usize) -> ToolRecord {
     let index = goals.starts[..=START].iter().map(|start| start.goals.len()).sum::<usize>() - 1;
     let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("weights");
     let planner = Planner::for_effort(Effort::Draft).expect("weights").build();
-    let mut bench = ToolBench::new(setup, goals, &model, &planner, 7);
+    let mut bench = ToolBench::new(setup, goals, Arc::new(model), planner, 7);
     pool.install(|| bench.measure(index)).expect("a task").record
 }
 

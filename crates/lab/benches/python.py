@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What Python costs: solving through it beside the command, and rollouts beside MuJoCo's.
+"""What Python costs: solving through it compared with the command, and rollouts with MuJoCo's.
 
     crates/lab/benches/python.py solve       # asked: at most 1.05 times the command's time
     crates/lab/benches/python.py rollout     # asked: at least 20 times less processor time than MuJoCo
@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 import pushplan
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[3]
 COMMAND = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
 # Of one push and of two, with and without obstacles, alone and in a crowd.
 TASKS = ["pull-back", "pull-back-behind-wall", "pull-back-twice", "diagonal", "hinged-train", "crowd"]

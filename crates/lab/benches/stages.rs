@@ -1,4 +1,4 @@
-//! Times of every stage, one thread each: `cargo bench --bench stages`. What the numbers mean is
+//! Times of every stage, one thread each: `cargo bench -p pushplan-lab --bench stages`. What the numbers mean is
 //! in `crates/lab/benches/README.md`.
 
 use std::hint::black_box;

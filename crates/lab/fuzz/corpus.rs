@@ -111,7 +111,7 @@ fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
     let Ok(entries) = std::fs::read_dir(root.join(name)) else { return Vec::new() };
     let mut paths: Vec<PathBuf> =
         entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
-    // Pictures and sources stand beside some of them.
+    // Pictures and sources lie next to some of them.
     let is_data = |path: &PathBuf| {
         path.extension().is_some_and(|end| {
             ["yaml", "json", "safetensors", "xml", "urdf"].iter().any(|e| end == *e)

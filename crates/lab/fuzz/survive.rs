@@ -177,5 +177,5 @@ fn written<T: PartialEq>(
     let again = read(&path).unwrap_or_else(|faults| panic!("cannot be read again:\n{faults}"));
     assert!(again == *original, "written and read again it is another one");
     let left = std::fs::read_dir(folder.path()).expect("the folder").count();
-    assert_eq!(left, 1, "something was left beside the file");
+    assert_eq!(left, 1, "something was left next to the file");
 }

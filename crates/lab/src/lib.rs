@@ -1,8 +1,8 @@
 //! What pushplan's published numbers are measured with.
 //!
-//! `bench` measures, `report` says what came of it, and `cli` is the command `pushplan-lab`, whose
-//! answers stand below it in `results.md`. `parts` and `image` are networks of lever-ups that were tried and
-//! lost. Nothing in `pushplan` knows this crate.
+//! `bench` measures, `report` presents the results, and `cli` is the command `pushplan-lab`, whose
+//! answers are in `results.md`. `image` and `parts` are networks of lever-ups that were tried and lost.
+//! Nothing in `pushplan` knows this crate.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -124,7 +124,7 @@ def apart(one, other):
 parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
 parser.add_argument("scenes", nargs="*", metavar="SCENE")
 parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
-parser.add_argument("--against", metavar="FILE", help="what comes of them in pushplan")
+parser.add_argument("--against", metavar="FILE", help="their outcome in pushplan")
 arguments = parser.parse_args()
 ours = {}
 if arguments.against:

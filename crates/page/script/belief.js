@@ -14,7 +14,7 @@
   const until = (k) => (k + 1 < times.length ? x(times[k + 1]) : WIDTH);
   const place = (share) => +(HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)).toFixed(1);
 
-  /** A figure whose hand follows the clock; `words` says what is believed after so many pushes. */
+  /** A figure whose hand follows the clock; `words` says what is believed after a number of pushes. */
   function figure(name, words, ...drawn) {
     const hand = svg('line', { y1: TOP, y2: HEIGHT - BOTTOM, class: 'hand' });
     const output = html('output', { 'aria-label': name });
@@ -73,7 +73,7 @@
       svg('rect', { width: 20, height: 20, rx: 3, class: `type-${type}` })), name)) : [];
   byId('belief-legend').replaceChildren(...legend);
   byId('belief-words').textContent = run.words
-    + (run.numbers.some(({ really }) => really !== null) ? ' Dashed: what is really so.' : '');
+    + (run.numbers.some(({ really }) => really !== null) ? ' Dashed: the truth.' : '');
 
   let shows = [];
   whenPlanChanges.push(() => {

@@ -14,7 +14,7 @@
   byId('candidates-words').textContent = 'Rows: which way a push goes. Columns: which part of the tool makes '
     + 'contact, and how far the object lies to the left of its middle. Colour: the best predicted score, '
     + 'which is how far from the goal it ends, in tolerances; up to 1 the goal is reached.'
-    + (kept < considered ? ` Shown are ${kept} of ${considered}.` : '');
+    + (kept < considered ? ` ${kept} of ${considered} are shown.` : '');
 
   const unique = (list) => [...new Set(list)];
   const order = page.choice.map(({ tool }) => tool);
@@ -38,7 +38,7 @@
   function words(cell) {
     if (cell <= REFUSED) return candidates.reasons[REFUSED - cell];
     if (cell === BLOCKED) return 'something on the way does not give way';
-    if (cell === NOT_TRIED) return 'not tried: the same as another one, beyond the budget, or it came to no rest';
+    if (cell === NOT_TRIED) return 'not tried: the same as another one, beyond the budget, or it never came to rest';
     return `score ${(cell / 100).toFixed(2)}, ${cell <= 100 ? 'reaches' : 'misses'} the goal`;
   }
 
@@ -84,7 +84,7 @@
   function draw() {
     const wanted = candidates.grids.filter(({ tool, pushes }) => tool === tools.value && `${pushes}` === levels.value);
     byId('grids').replaceChildren(...wanted.map(grid));
-    byId('cell').textContent = 'Point at a cell for what it says.';
+    byId('cell').textContent = 'Point at a cell to see what it says.';
     const drawn = wanted.flatMap(({ cells }) => cells);
     const counts = candidates.reasons.map((_, k) => drawn.filter((cell) => cell === REFUSED - k).length);
     const key = (name, text, mark = '') => html('span', { class: 'key' },

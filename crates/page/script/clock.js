@@ -42,7 +42,7 @@ function play(playing) {
   keepLink();
 }
 
-/** Goes on by so many frames of the leading replay. */
+/** Goes on by a number of frames of the leading replay. */
 function step(frames) {
   play(false);
   const replay = leading();

@@ -32,7 +32,7 @@
       } catch {
         // A browser that refuses leaves the text marked, one key away.
         getSelection().selectAllChildren(source);
-        button.textContent = 'Marked: press Ctrl-C';
+        button.textContent = 'Selected: press Ctrl-C';
       }
       setTimeout(() => { button.textContent = 'Copy'; }, 2000);
     });

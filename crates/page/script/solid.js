@@ -266,10 +266,10 @@ const solid = (() => {
 
   async function begin() {
     if (!document.createElement('canvas').getContext('webgl2')) {
-      throw new Error('The 3-D view needs WebGL 2, which this browser does not offer here. It is drawn instead.');
+      throw new Error('The 3-D view needs WebGL 2, which this browser does not offer here. A drawing is shown instead.');
     }
     if (!('DecompressionStream' in window)) {
-      throw new Error('The 3-D view needs a browser of 2023 or later. It is drawn instead.');
+      throw new Error('The 3-D view needs a browser of 2023 or later. A drawing is shown instead.');
     }
     await unpack();
     renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });

@@ -178,7 +178,7 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         return Plan.of(self.task.at(self._poses), chosen, [push], grip_yaw=yaw)
 
     def _drawn(self) -> npt.NDArray[np.float64]:
-        """A start at which nothing overlaps; what hangs together is shifted together."""
+        """A start at which nothing overlaps; joined objects are shifted together."""
         start = self.task.start
         if self.spread <= 0.0:
             return start

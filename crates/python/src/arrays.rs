@@ -48,7 +48,7 @@ pub fn state(poses: ArrayViewD<'_, f64>) -> State {
     State::at_rest(poses.axis_iter(Axis(0)).map(pose).collect())
 }
 
-/// Refuses what is no finite number.
+/// Refuses numbers that are not finite.
 pub fn finite(what: &str, values: &ArrayViewD<'_, f64>) -> PyResult<()> {
     match values.iter().all(|value| value.is_finite()) {
         true => Ok(()),

@@ -1,4 +1,4 @@
-//! Recordings, and which objects hang together by what they show.
+//! Recordings, and the joints that they show.
 
 use std::path::PathBuf;
 
@@ -28,14 +28,16 @@ impl PyRecording {
         Recording::load(path).map(Self).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Reads the text of a recording; `name` names it in faults, and means JSON if it ends so.
+    /// Reads the text of a recording; `name` names it in faults, and means JSON if it ends in
+    /// `.json`.
     #[staticmethod]
     #[pyo3(signature = (text, name = "recording"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
         Recording::parse(text, name).map(Self).map_err(|faults| errors::files(py, &faults, None))
     }
 
-    /// Builds a recording of a mapping with the keys of a recording file; arrays are taken as lists.
+    /// Builds a recording from a mapping with the keys of a recording file; arrays are taken as
+    /// lists.
     #[staticmethod]
     fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         Text::of(mapping)?.read(py, "recording", Recording::parse).map(Self)
@@ -76,7 +78,7 @@ impl PyRecording {
     }
 }
 
-/// Which objects hang together by which joints, and how sure that is.
+/// Which objects are joined, by which joints, and how sure that is.
 #[pyclass(name = "Belief", module = "pushplan", frozen)]
 pub struct PyBelief {
     name: String,
@@ -109,7 +111,7 @@ impl PyBelief {
         arrays::array(py, rows.into_iter().flatten().collect(), shape)
     }
 
-    /// The scene as it is thought to stand at the end, with the likeliest joints: the keys of a task
+    /// The scene as it is believed to be at the end, with the likeliest joints: the keys of a task
     /// file's `scene`.
     fn scene<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let situation = self.belief.situation();
@@ -139,12 +141,12 @@ impl PyBelief {
     }
 }
 
-/// Infers from a recording which objects hang together by which joints.
+/// Infers from a recording which objects are joined, and by which joints.
 ///
 /// `model` rolls hypotheses out; `noise` (metres) and `heading_noise` (radians) are the standard
-/// deviations of what was recorded. Joints that the recording states are not read. With `mass_ranges`,
-/// pairs of kilograms, lightest first, it also tells which of them every mass is in, of objects that
-/// another object touched; what the recording says of masses is then not read.
+/// deviations of what was recorded. Joints that the recording states are ignored. With
+/// `mass_ranges`, pairs of kilograms, lightest first, it also tells which of them every mass is in,
+/// of objects that another object touched; masses that the recording states are then ignored.
 #[pyfunction]
 #[pyo3(signature = (
     recording, *, model = "prior", noise = 1e-3, heading_noise = 0.01, mass_ranges = None, threads = 0

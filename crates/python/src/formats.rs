@@ -24,8 +24,9 @@ const _: () = assert!(Wanted::FRICTION == 0.5);
 /// The tool in a file of MuJoCo (MJCF) or ROS (URDF): the body of that name, by default the only one,
 /// with all that is fixed to it.
 ///
-/// `friction` is the value of what states none. `pushplan import --help` says what becomes of what.
-/// Raises `FileError` for what pushplan has no word for; what is said a little otherwise is a warning.
+/// `friction` is the value of bodies that state none. `pushplan import --help` says what is
+/// imported as what. Raises `FileError` for anything that pushplan cannot express; slight
+/// differences are warnings.
 #[pyfunction]
 #[pyo3(signature = (path, *, body = None, name = None, friction = 0.5))]
 pub fn import_tool(
@@ -44,10 +45,10 @@ pub fn import_tool(
 /// A task with the objects and obstacles in a file of MuJoCo (MJCF) or ROS (URDF): all that stand
 /// freely, or the bodies of those names.
 ///
-/// Robot and tools stand for yours, and so does the goal, where the first object is, unless the file is
-/// one of `export_mjcf`. `friction` is the value of what states none, `shift` moves everything on the
-/// table (metres). Raises `FileError` for what pushplan has no word for; what is said a little
-/// otherwise is a warning.
+/// Robot and tools are placeholders for yours, and so is the goal, where the first object is,
+/// unless the file is one of `export_mjcf`. `friction` is the value of bodies that state none,
+/// `shift` moves everything on the table (metres). Raises `FileError` for anything that pushplan
+/// cannot express; slight differences are warnings.
 #[pyfunction]
 #[pyo3(signature = (path, *, bodies = None, name = None, friction = 0.5,
                     shift = (0.0, 0.0)))]

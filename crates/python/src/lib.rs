@@ -1,6 +1,6 @@
 //! The Python package `pushplan`: the library behind NumPy arrays, exceptions and notebooks.
 //!
-//! A thin layer. What is computed, decided or said stands in the library; here arguments become its
+//! A thin layer. Everything is computed, decided and said in the library; here arguments become its
 //! types (`mapping`, `words`, `push`, `arrays`), long work runs without the GIL and stops at Ctrl-C
 //! (`work`), and results become attributes with their units. The Python side, `python/pushplan`,
 //! holds what reads better in Python: exceptions, the types of files, the Gymnasium environment.

@@ -1,5 +1,5 @@
-//! A Python mapping as the text of a file, in which every line knows which key it is of: so what
-//! is built in code obeys the same rules as files, and faults name keys instead of lines.
+//! A Python mapping as the text of a file, in which every line knows its key: so tasks and tools
+//! built in code obey the same rules as files, and faults name keys instead of lines.
 
 use pushplan::asset::Faults;
 use pyo3::exceptions::{PyTypeError, PyValueError};

@@ -1,4 +1,4 @@
-//! Plans: a task, a tool and pushes, with what is known of them.
+//! Plans: a task, a tool and pushes, with what is known about them.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,9 +21,9 @@ use crate::trajectory::PyTrajectory;
 use crate::verdict::PyVerdict;
 use crate::{errors, json, page, work};
 
-/// A task, a tool and pushes, with what is known of their effect.
+/// A task, a tool and pushes, with what is known about their effect.
 ///
-/// A plan is complete: it can be predicted, verified, drawn and exported with nothing else at hand.
+/// A plan is complete: it can be predicted, verified, drawn and exported without any other file.
 #[pyclass(name = "Plan", module = "pushplan", frozen)]
 pub struct PyPlan {
     pub file: PlanFile,
@@ -198,8 +198,8 @@ impl PyPlan {
         mjcf(&self.file).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// The plan page: one HTML file that plays the replays, without server or network. Replays that
-    /// are not at hand are made now.
+    /// The plan page: one HTML file that plays the replays, without server or network. Missing
+    /// replays are made now.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let recorded = |verdict: &Verdict| {
             let replays: Vec<_> =

@@ -18,7 +18,7 @@ use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, tool};
 use crate::{words, work};
 
-/// Candidates rolled out between two looks whether to stop: tens of milliseconds in the prior.
+/// Candidates rolled out between two checks whether to stop: tens of milliseconds in the prior.
 const AT_ONCE: usize = 256;
 
 /// Columns of a push: x, y, direction, length, speed.

@@ -98,7 +98,7 @@ impl PyRun {
         made.map(|push| PyPush::from(&push)).collect()
     }
 
-    /// Where everything is thought to be in the end, `[objects, 3]`: x and y in metres, heading in
+    /// Where everything is believed to be in the end, `[objects, 3]`: x and y in metres, heading in
     /// radians.
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -145,14 +145,14 @@ impl PyRun {
     }
 }
 
-/// Carries a task out in a world that is not quite known: plans under samples of what is believed,
-/// pushes, looks, corrects the belief and plans again.
+/// Carries out a task in a world that is only partly known: plans under samples of what is
+/// believed, pushes, looks, corrects the belief and plans again.
 ///
-/// `world` is a number, from which the hidden truth is drawn, or an object with two methods. `look()`
-/// returns where the objects are seen at rest: `[objects, 3]`, x and y in metres, heading in radians,
-/// NaN where a number is not seen. `act(motion)` carries out a `Motion` and returns what was seen
-/// meanwhile and at rest: a list of pairs of a time since it began, seconds, and an array as that of
-/// `look`. What they raise ends the run.
+/// `world` is a seed, from which the hidden truth is drawn, or an object with two methods. `look()`
+/// returns where the objects are seen at rest: `[objects, 3]`, x and y in metres, heading in
+/// radians, NaN where a number is not seen. `act(motion)` carries out a `Motion` and returns what
+/// was seen meanwhile and at rest: a list of pairs of a time since it began, seconds, and an array
+/// as that of `look`. What they raise ends the run.
 ///
 /// `pushes` is the most that are made, `probes` the most of these only to learn something; plans are
 /// judged under `samples` samples and carried out without doubt if they reach the goal in the share

@@ -1,4 +1,4 @@
-//! What comes back from solving a task.
+//! The result of solving a task.
 
 use std::sync::Arc;
 

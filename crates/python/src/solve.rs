@@ -25,7 +25,7 @@ use crate::{errors, words, work};
 /// Chooses a tool and pushes for a task and verifies them.
 ///
 /// `tools` are those to choose from, by default the ones that come with the package; `effort` is
-/// "draft", "standard", "thorough" or "exhaustive"; `model` predicts effects, by default that of the
+/// "draft", "standard" or "thorough"; `model` predicts effects, by default that of the
 /// effort; `outside` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
 /// `seed` is that of refinement's samples and of the disturbances; `robustness` is the share of the
 /// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and

@@ -52,7 +52,7 @@ impl PyTask {
         Ok(Self { task: Arc::new(task), file: None })
     }
 
-    /// Builds a task of a mapping with the keys of a task file: lengths in metres, masses in
+    /// Builds a task from a mapping with the keys of a task file: lengths in metres, masses in
     /// kilograms, angles in degrees. See `pushplan.files.TaskFile`.
     #[staticmethod]
     fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
@@ -162,7 +162,7 @@ impl PyTask {
     }
 
     /// The task with its objects at these poses, `[objects, 3]` (x and y in metres, heading in
-    /// radians): to plan on from where things stand by now. Joints go along.
+    /// radians): to plan on from where they are by now. Joints move along.
     fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
         let poses = self.poses(&poses)?;
         Ok(Self { task: Arc::new(moved(&self.task, &poses)), file: self.file.clone() })

@@ -35,7 +35,7 @@ impl PyTool {
         read(py, Tool::parse(text, name))
     }
 
-    /// Builds a tool of a mapping with the keys of a tool file: lengths in metres, angles in
+    /// Builds a tool from a mapping with the keys of a tool file: lengths in metres, angles in
     /// degrees. See `pushplan.files.ToolFile`.
     #[staticmethod]
     fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {

@@ -1,4 +1,4 @@
-//! Verdicts and the replays that they rest on.
+//! Verdicts and the replays behind them.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ impl PyVerdict {
         self.verdict.passed
     }
 
-    /// Whether it works as written; too seldom under disturbances, perhaps.
+    /// Whether it works as written, though perhaps too seldom under disturbances.
     #[getter]
     fn works(&self) -> bool {
         self.verdict.works()
@@ -50,7 +50,7 @@ impl PyVerdict {
         json["reason"].as_str().unwrap_or_default().to_owned()
     }
 
-    /// What a reader should know of the replays as written.
+    /// What a reader should know about the replays as written.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         replay_warnings(&self.verdict)

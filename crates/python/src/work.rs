@@ -17,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(50);
 /// The pools of a process by their number of threads, 0 being one for each core.
 type Pools = HashMap<usize, Arc<ThreadPool>>;
 
-/// With the process that they are of: the child of a fork has none of its parent's threads.
+/// With the process that they belong to: the child of a fork has none of its parent's threads.
 static POOLS: Mutex<Option<(u32, Pools)>> = Mutex::new(None);
 
 /// Does `work` on `threads` threads, 0 being one for each core, while other Python threads run. On

@@ -81,7 +81,7 @@ def test_efforts_differ_and_unknown_words_are_refused(task: pushplan.Task) -> No
 
 def test_a_time_limit_returns_the_best_so_far(root: Path) -> None:
     task = pushplan.Task.load(root / "tasks/narrow-gap.yaml")
-    solution = pushplan.solve(task, effort="exhaustive", time_limit=0.05)
+    solution = pushplan.solve(task, effort="thorough", time_limit=0.05)
     assert solution.stopped and not solution.solved
 
 

@@ -66,8 +66,8 @@ pub(super) struct Shared {
 }
 
 impl ToolBench {
-    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner`
-    /// beside it; `seed` is of the random choices.
+    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner` as
+    /// well; `seed` is that of the random choices.
     pub fn new(
         setup: ReferenceSetup,
         goals: GoalSet,

@@ -32,7 +32,7 @@ pub struct MergeArgs {
     form: Form,
 }
 
-/// Show runs that are kept in folders, several of one suite side by side
+/// Show runs that are kept in folders; several of one suite side by side
 #[derive(Args, Debug)]
 pub struct ReportArgs {
     /// Folders of runs
@@ -134,14 +134,14 @@ fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
                 names[other],
                 runs[0].display()
             ),
-            "show suites one by one",
+            "show each suite by itself",
         ));
     }
     match known(suites, &runs[0])?.document {
         Some(document) => document(runs),
         None => Err(CliError::usage(
-            format!("the report of the suite `{suite}` needs more than what is kept"),
-            "give the command of the run again, with its --out: it measures only what is missing",
+            format!("the report of the suite `{suite}` needs more than is kept"),
+            "repeat the command of the run, with its --out: it measures only what is missing",
         )),
     }
 }

@@ -34,7 +34,7 @@ pub trait Suite: Args {
     /// The report of one run; of several side by side where the suite compares them.
     ///
     /// # Errors
-    /// Runs that cannot stand side by side.
+    /// Runs that cannot be compared.
     fn document(runs: &[Run<Self::Record>]) -> Result<Document, CliError>;
 
     /// The solved tasks of a run and the seed of their disturbed replays, where it has plans.

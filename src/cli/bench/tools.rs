@@ -49,7 +49,7 @@ pub struct ToolsArgs {
     /// Seed of the random choices, and of the tasks of single pushes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Make the goals of the layout again, write them to this file, and end
+    /// Make the goals of the layout again, write them to this file, and stop
     #[arg(long, value_name = "FILE")]
     make_goals: Option<PathBuf>,
 }
@@ -60,7 +60,7 @@ enum FormName {
     /// Three one after another from a fixed home
     #[default]
     Chained,
-    /// One, start and goal at random (the earlier form)
+    /// One, with start and goal at random (the earlier form)
     Single,
 }
 
@@ -83,7 +83,7 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
     }
     if args.keep.out.is_some() {
         return Err(CliError::usage(
-            "single pushes take seconds, and are neither kept nor split",
+            "single pushes take seconds; they are neither kept nor sharded",
             "leave --out out, or --form single",
         ));
     }

@@ -1,4 +1,4 @@
-//! Whether probabilities are as high as what they speak of is frequent.
+//! Whether events are as frequent as their probabilities say.
 
 /// Bins of probability.
 const BINS: usize = 10;
@@ -6,7 +6,8 @@ const BINS: usize = 10;
 /// Probabilities of several answers and which one was true, counted by how high they were.
 #[derive(Clone, Debug, Default)]
 pub struct Calibration {
-    /// Of every bin how many probabilities there were, their sum, and how many spoke of the truth.
+    /// Of every bin how many probabilities there were, their sum, and how many of them were of the
+    /// true answer.
     bins: [[f64; 3]; BINS],
 }
 

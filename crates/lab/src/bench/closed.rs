@@ -1,4 +1,4 @@
-//! What the closed loop brings on tasks that do not know their scene, beside planning once.
+//! What the closed loop brings on tasks that do not know their scene, compared with planning once.
 
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
 
-/// What came of a task that does not know its scene.
+/// The result of a task that does not know its scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedRecord {
     /// What kind of task.

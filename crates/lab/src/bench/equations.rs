@@ -19,7 +19,7 @@ use super::timing::push_seconds;
 /// Numbers of objects on the table.
 const COUNTS: [usize; 6] = [1, 2, 3, 6, 9, 12];
 
-/// Up to so many free objects touch each other from the start; more are scattered or dense in turn.
+/// Most free objects that touch each other from the start; more are scattered or dense in turn.
 const TOUCHING: usize = 3;
 
 /// Rounds, of which the fastest counts: other work on the machine can only lengthen one.
@@ -31,12 +31,12 @@ const ROUND: f64 = 0.1;
 /// The engine's rate that the prior is compared with, steps a second.
 const RIVAL: Rate = Rate(NonZeroU16::MIN.saturating_add(119));
 
-/// What pushes among so many objects cost the prior.
+/// What pushes among a number of objects cost the prior.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EquationCost {
     /// Objects on the table.
     pub objects: usize,
-    /// Whether some hang together by joints.
+    /// Whether some are joined.
     pub jointed: bool,
     /// Pushes that were counted.
     pub pushes: usize,

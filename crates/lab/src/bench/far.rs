@@ -1,4 +1,4 @@
-//! What objects cost that no push can touch: nothing, if a model computes only what the scene
+//! The cost of objects that no push can touch: nothing, if a model computes only what the scene
 //! needs.
 
 use pushplan::internals::effect::EffectModel;
@@ -26,7 +26,7 @@ const ROUNDS: usize = 5;
 /// Processor time of a round, at least, seconds; the kernel may count in ticks of 4 ms.
 const ROUND: f64 = 0.06;
 
-/// Cost of a push with so many far objects on the table.
+/// Cost of a push with a number of far objects on the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FarCost {
     /// Name of the model.
@@ -43,7 +43,7 @@ pub struct FarCost {
 }
 
 /// Times the pushes of `suite` with more and more far objects beside them by every model, on one
-/// thread; beside each model stands how many jobs it is given at a time.
+/// thread; each model comes with how many jobs it is given at a time.
 ///
 /// # Errors
 /// If the thread cannot be started.

@@ -59,7 +59,7 @@ pub struct ErrorRow {
     pub failed: usize,
 }
 
-/// Errors of several models on one suite, beside the truth's own spread.
+/// Errors of several models on one suite, and the truth's own spread.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldOutReport {
     /// Which pushes.

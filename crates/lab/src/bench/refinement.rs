@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::random::random_task;
 
-/// What became of the tasks with one planner; errors are of the plans to use, metres.
+/// The results of the tasks with one planner; errors are those of the plans to use, metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanErrors {
     /// As the effect model predicts them.
@@ -71,7 +71,7 @@ pub struct RefinedTask {
 /// A task solved, and whether its plan works on whatever the objects may rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tried {
-    /// The task and what became of it.
+    /// The task and its result.
     pub solved: SolvedTask,
     /// Whether the plan to use works in both engines on even pressure, corners and in between.
     pub on_all_supports: bool,

@@ -17,7 +17,7 @@ use super::{
     probes, random, refinement, rest_of_way, tradeoff, train,
 };
 
-/// Measures what pushplan publishes: errors, costs, success, beliefs, and what is traded for what.
+/// Measures what pushplan publishes: errors, costs, success, beliefs and trade-offs.
 #[derive(Debug, Parser)]
 #[command(name = "pushplan-lab", version, max_term_width = 100, after_help = exit_code::HELP)]
 struct Cli {

@@ -11,7 +11,7 @@ use pushplan_learn::dataset::LeverPreset;
 use crate::bench::convergence;
 use crate::report::convergence_document;
 
-/// Simulated lever-ups in coarser and finer steps, and with the start a little aside
+/// Compare simulated lever-ups in coarser and finer steps, and with the start a little off
 #[derive(Args, Debug)]
 pub struct ConvergenceArgs {
     /// Families of lever-ups [default: levers, levers-varied and hdd]

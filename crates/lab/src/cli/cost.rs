@@ -21,10 +21,10 @@ use crate::bench::{
 };
 use crate::report::{cost_document, crowd_cost_document, equation_document, far_document};
 
-/// Time of one push by every model, and of a search of one-push candidates
+/// Time one push by every model, and a search of one-push candidates
 #[derive(Args, Debug)]
 #[command(
-    after_help = "What is compared are times of one machine, so there are no shards; it takes minutes at most."
+    after_help = "Times of one machine are compared, so there are no shards; it takes minutes at most."
 )]
 pub struct CostArgs {
     #[command(flatten)]
@@ -38,7 +38,7 @@ pub struct CostArgs {
     #[arg(long, value_name = "OBJECTS", num_args = 0..=1, default_missing_value = "10",
           conflicts_with = "task", value_parser = clap::value_parser!(u16).range(2..=12))]
     crowd: Option<u16>,
-    /// Time pushes beside up to 100 objects that they cannot touch, and draw the curves
+    /// Time pushes with up to 100 objects that they cannot touch, and draw the curves
     #[arg(long, conflicts_with_all = ["task", "crowd"])]
     far: bool,
     /// Count and time what the prior's equations take, with 1 to 12 objects, free and jointed

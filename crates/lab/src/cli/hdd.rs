@@ -18,12 +18,12 @@ use crate::bench::{LeverBaseline, Neighbour, drive_report};
 use crate::cli::levers::Named;
 use crate::report::hdd_document;
 
-/// Models of boards levered out of drives against the 3-D engine, on drives that none has seen
+/// Compare models of boards levered out of drives with the 3-D engine, on drives that none has seen
 #[derive(Args, Debug)]
 #[command(after_help = "Networks learn of drives by
   pushplan-learn generate data/hdd --preset hdd --episodes 500 --seed 1
   pushplan-learn generate data/hdd-held-out --preset hdd --episodes 1000 --seed 3
-  pushplan-lab train memory runs/hdd --data data/hdd --held-out data/hdd-held-out --no-prior
+  pushplan-lab train memory runs/hdd --data data/hdd --held-out data/hdd-held-out
   pushplan-lab hdd --network runs/hdd/best.safetensors")]
 pub struct HddArgs {
     /// Number of lever-ups, four on a drive

@@ -58,7 +58,7 @@ pub struct JointsArgs {
     /// are, 0.6 kg for every mass
     #[arg(long)]
     misled: bool,
-    /// What rolls out hypotheses and the rest of the way
+    /// Effect model that rolls out hypotheses and the rest of the way
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
     /// Do not predict the rest of the way, which takes most of the time

@@ -42,7 +42,7 @@ pub struct LeversArgs {
     /// Their seed; must differ from that of the others
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
-    /// Weights of networks to measure beside the shipped one, see `pushplan-lab train`
+    /// Weights of networks to measure as well as the shipped one, see `pushplan-lab train`
     #[arg(long, value_name = "FILE", num_args = 1..)]
     network: Vec<PathBuf>,
     /// Only plates of this many corners, of all lever-ups

@@ -36,13 +36,13 @@ pub struct MassesArgs {
     #[arg(long, value_name = "N", num_args = 0..,
           value_parser = clap::value_parser!(u8).range(2..=12))]
     crowds: Vec<u8>,
-    /// Nine cylinders that always stand alike and are always pushed alike, only their masses differ
+    /// Nine cylinders that are always arranged and pushed alike; only their masses differ
     #[arg(long, num_args = 1.., value_parser = words(&CONTROLLED), value_name = "SETUP")]
     controlled: Vec<Controlled>,
     /// How things are seen; may be given several times [default: exact, fine and coarse]
     #[arg(long, num_args = 1.., value_parser = words(&SIGHTINGS), value_name = "HOW")]
     seen: Vec<Sighting>,
-    /// Friction values of the objects and the table are not known either
+    /// Friction values of the objects and the table are unknown, too
     #[arg(long)]
     frictions: bool,
     /// Trajectories of each
@@ -52,7 +52,7 @@ pub struct MassesArgs {
     /// Seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// What plays pushes again with other masses
+    /// Effect model that replays pushes with other masses
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
 }

@@ -18,7 +18,7 @@ use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};
 use crate::cli::kept::cases_of;
 use crate::report::probes_document;
 
-/// Choose pushes that tell how objects hang together, and see what they told
+/// Choose pushes that tell how objects are joined, and see what was learnt
 #[derive(Args, Debug)]
 #[command(after_help = format!("Three pushes of 10 cm are made into dense scenes of cylinders with all types of joints, each the best
 of sixteen at random by the rule; after each the belief is compared with the truth, and used to
@@ -44,7 +44,7 @@ pub struct ProbesArgs {
     /// Seed of the scenes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// What rolls out hypotheses and pushes
+    /// Effect model that rolls out hypotheses and pushes
     #[arg(long, value_name = "MODEL", default_value = "prior")]
     model: ModelSpec,
 }

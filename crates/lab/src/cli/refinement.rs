@@ -59,7 +59,7 @@ impl Suite for RefinementArgs {
         let without = planner(Settings { refine_rounds: 0, ..budget });
         let with = planner(budget);
         let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-        // Without a tool there is nothing to make a task with.
+        // Without a tool no task can be made.
         let count = if tools.is_empty() { 0 } else { self.tasks as usize };
         let mut settings =
             json!({ "effort": effort, "budget": with.settings(), "tools": value_digest(&tools)? });

@@ -24,13 +24,13 @@ use crate::report::recorded_joints_document;
 
 use super::words::TOLD;
 
-/// Predict the rest of the way of recordings with what is told of their joints
+/// Predict the rest of recordings under different beliefs about their joints
 #[derive(Args, Debug)]
 pub struct RestOfWayArgs {
     /// Recordings, trajectories and folders of them
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// What is told of the joints from first contact on
+    /// What the model is told about the joints from first contact on
     #[arg(long, required = true, num_args = 1.., value_parser = words(&TOLD), value_name = "HOW")]
     joints: Vec<JointMethod>,
     #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]

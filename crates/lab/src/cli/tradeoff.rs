@@ -27,14 +27,14 @@ tradeoff-push.svg and tradeoff-task.svg.
 --shard 2/3 measures every third unit, on another machine say; when `pushplan-lab merge OUT
 SHARD...` has put the parts together, the same command with --out OUT and without --shard finds
 nothing left to measure and writes the results. Errors and successes are the same as of one run.
-Costs are times: shards on processors that differ give costs that are of no machine.
+Costs are times: shards on different processors give costs of no real machine.
 
 Examples:
   pushplan-lab tradeoff --quick
   pushplan-lab tradeoff --out runs/tradeoff --weights runs/w64/best.safetensors"
 )]
 pub struct TradeOffArgs {
-    /// Other networks to measure beside the shipped one
+    /// Other networks to measure as well as the shipped one
     #[arg(long, value_name = "FILE", num_args = 1..)]
     weights: Vec<PathBuf>,
     /// Held-out pushes of each kind [default: 2000]

@@ -49,12 +49,12 @@ pub static KINDS: [(&str, TaskKind, &str); 8] = [
     (
         "gap",
         TaskKind::Gap,
-        "Behind a gap that is too narrow: no plan can be right (only if asked for)",
+        "Behind a gap that is too narrow: no plan can be right (only on request)",
     ),
     (
         "cluster",
         TaskKind::Cluster,
-        "One of four that stand close, some of them joined (only if asked for)",
+        "One of four close together, some of them joined (only on request)",
     ),
 ];
 

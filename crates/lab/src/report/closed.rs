@@ -10,7 +10,7 @@ use serde_json::json;
 
 use crate::bench::{ClosedRecord, Left, TaskKind};
 
-/// A run of the suite: what was measured and what came of it.
+/// A run of the suite: what was measured, and the results.
 pub type ClosedRun = (RunManifest, Vec<Finished<ClosedRecord>>);
 
 /// Runs of the suite in every form; of several on the same tasks, how their loops compare where one of

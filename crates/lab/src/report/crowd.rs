@@ -98,7 +98,7 @@ fn crowd_table(report: &CrowdReport) -> Table {
     )
 }
 
-/// One row a set of drawn scenes: the first model, and the mean error of those beside it.
+/// One row a set of drawn scenes: the first model, and the mean errors of the others.
 fn drawn_table(reports: &[CrowdReport]) -> Table {
     let ends = |report: &CrowdReport, end: &str| beside(&report.errors, |name| name.ends_with(end));
     Table::of(

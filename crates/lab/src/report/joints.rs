@@ -23,8 +23,8 @@ const RECORDED: &str = "Mean distance of predicted from recorded final positions
     what the tool still did is predicted from where everything was believed to be, so many observations \
     after the first that shows motion.";
 
-/// Accuracy over all ordered pairs of sparse scenes of nine objects with mixed joints after so many
-/// frames, read off figure 4 of Tekden et al. (ICRA 2020); a stroke has about 29 frames.
+/// Accuracy over all ordered pairs of sparse scenes of nine objects with mixed joints after a
+/// number of frames, read off figure 4 of Tekden et al. (ICRA 2020); a stroke has about 29 frames.
 const PUBLISHED: [[f64; 2]; 3] = [[50.0, 0.942], [100.0, 0.959], [240.0, 0.976]];
 const FRAMES_A_STROKE: f64 = 30.0;
 
@@ -293,7 +293,7 @@ fn time(step: &BeliefStep) -> Option<f64> {
     }
 }
 
-/// Accuracy over all ordered pairs in sparse scenes, beside the published one.
+/// Accuracy over all ordered pairs in sparse scenes, and the published one.
 fn chart(summaries: &[BeliefSummary]) -> Chart {
     let believers = believers(summaries);
     let mut series = Vec::new();

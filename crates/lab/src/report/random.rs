@@ -12,7 +12,7 @@ use serde_json::json;
 
 use crate::bench::{RandomRecord, TaskKind};
 
-/// A run of the suite: what was measured and what came of it.
+/// A run of the suite: what was measured, and the results.
 pub type RandomRun = (RunManifest, Vec<Finished<RandomRecord>>);
 
 /// Where the tasks of a method end.
@@ -30,8 +30,8 @@ struct Row<'a> {
     solved: Option<(&'a SolvedTask, &'a Seconds)>,
 }
 
-/// Runs of the suite with the same tasks side by side, each a method, beside doing nothing and
-/// a random plan of one push.
+/// Runs of the suite with the same tasks side by side, each a method, compared with doing nothing
+/// and a random plan of one push.
 pub fn random_document(runs: &[RandomRun]) -> Document {
     let mut methods: Vec<Method> = runs.iter().map(planner).collect();
     if let Some((_, tasks)) = runs.iter().max_by_key(|(_, tasks)| tasks.len()) {

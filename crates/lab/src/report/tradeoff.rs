@@ -90,7 +90,7 @@ fn predictor_table(report: &TradeOffReport) -> Table {
     )
 }
 
-/// Cost of a push by number of objects, beside the planar engine's.
+/// Cost of a push by number of objects, compared with the planar engine's.
 fn object_table(report: &TradeOffReport) -> Table {
     Table::of(
         &report.objects,

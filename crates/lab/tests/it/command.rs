@@ -51,7 +51,7 @@ fn random_tasks_are_measured_saved_and_compared() {
     }
     let output = run(&["report", &planar, &other]);
     assert_eq!(output.status.code(), Some(2), "other tasks side by side");
-    assert!(stderr(&output).contains("seed 7, 4 tasks beside seed 8"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("seed 7, 4 tasks and seed 8"), "{}", stderr(&output));
 
     let saved = [0, 1].map(|k| ["reach", "heading"].map(|kind| format!("{kind}-000{k}.yaml")));
     let library = ToolLibrary::embedded().expect("the shipped tools");

@@ -2,7 +2,7 @@
 //! the planar engine and by whether the model warns of it.
 //!
 //! A model may be wrong out there, but not silently: a cell whose answers are wrong and
-//! unflagged, not finite or not bounded is a defect. Beside rollouts stand whole tasks with
+//! unflagged, not finite or not bounded is a defect. Besides rollouts there are whole tasks with
 //! numbers that no sensible file holds.
 
 mod base;

@@ -1,4 +1,5 @@
-//! What a network must be good at to be shipped, beside its errors on the suites of pushes.
+//! What a network must be good at to be shipped, besides having small errors on the suites of
+//! pushes.
 
 use pushplan::asset::ToolLibrary;
 use pushplan::effect::{EffectModel, EffectModels, Job, Prior, Routed};

@@ -224,7 +224,7 @@ fn what_follows_a_damaged_or_cut_record_is_made_again_with_a_note() {
         generate(&small(), Shard::WHOLE, dir.path(), &script).unwrap();
         let notes = script.notes.into_inner().unwrap();
         assert_eq!(notes.len(), 1, "{notes:?}");
-        assert!(notes[0].contains("records.bin is not whole behind record "), "{notes:?}");
+        assert!(notes[0].contains("records.bin is incomplete after record "), "{notes:?}");
         assert!(files(dir.path()) == before, "the files differ");
     }
 }

@@ -65,7 +65,7 @@ fn wrong_shards_are_refused() {
     for (command, shard, words) in [
         (command, Some((2, 2)), "shard is 1/2 there, 2/2 was asked for"),
         (command, None, "shard is 1/2 there, nothing was asked for"),
-        (command, Some((3, 2)), "`3/2` is none"),
+        (command, Some((3, 2)), "`3/2` is not one"),
         ("generate --episodes 5", Some((1, 2)), "tasks is 4 there, 5 was asked for"),
     ] {
         let output = on(command, &folder, shard);

@@ -1,4 +1,4 @@
-//! What trajectories are made of, and what an observer is told of it.
+//! What trajectories are made of, and what an observer is told about that.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 /// Factors by which an observer is misled about friction values: of objects, of pairs and of the table.
 const FRICTIONS: [f64; 2] = [0.6, 1.3];
 
-/// What it takes every mass for, kg.
+/// The mass that it assumes for every object, kg.
 const MASS: f64 = 0.6;
 
-/// What trajectories are made of, and what an observer is told of it.
+/// What trajectories are made of, and what an observer is told about that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Circumstances {
     /// The engine that they are simulated in.
@@ -27,9 +27,9 @@ impl Circumstances {
     /// The planar engine, and true numbers.
     pub const USUAL: Self = Self { engine: Engine::Planar, misled: false };
 
-    /// An episode's frames in this engine. Episodes are drawn with the planar one, which has them; in
-    /// another one objects come to stand elsewhere, and the first stroke that begins inside one of them,
-    /// which would fling it away, ends it.
+    /// An episode's frames in this engine. Episodes are drawn with the planar one, which has them;
+    /// in another one objects end elsewhere, and the first stroke that begins inside one of them,
+    /// which would fling it away, ends the trajectory.
     pub(super) fn frames(&self, episode: &Episode) -> Vec<Frame> {
         if self.engine == Engine::Planar {
             return episode.frames.clone();
@@ -46,7 +46,7 @@ impl Circumstances {
         played.frames.into_iter().take_while(|frame| frame.stroke < strokes).collect()
     }
 
-    /// A scene as the observer is told of it.
+    /// A scene as it is told to the observer.
     pub(super) fn told(&self, mut scene: Scene) -> Scene {
         if self.misled {
             let [objects, table] = FRICTIONS;

@@ -19,12 +19,12 @@ use pushplan_learn::dataset::true_type;
 
 use super::record::{BeliefRecord, Checkpoint, JointMethod, Rest, When};
 
-/// When beliefs are asked, but at the end, where they always are.
+/// When beliefs are asked, apart from the end, where they always are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// After some observations of a single stroke, and after every one of several strokes.
     OnTheWay,
-    /// So many observations after anything first moved.
+    /// A number of observations after anything first moved.
     AfterContact,
 }
 
@@ -66,7 +66,7 @@ pub fn follow(
 ) -> (BeliefRecord, Vec<(JointMethod, Duration)>) {
     let settings = BeliefSettings::new(noise);
     let filter = Belief::new(seen, recording.tool.clone(), recording.lift, settings);
-    // Those that are near, whatever the noise says: whoever does not think of a pair takes it not to be
+    // Those that are near, whatever the noise says: a pair that is not considered counts as not
     // joined.
     let near = near_pairs(&recording.scene).into_iter();
     let pairs = near.map(|(between, _)| between).collect();

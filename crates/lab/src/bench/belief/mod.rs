@@ -1,9 +1,9 @@
 //! How well joints are inferred from what is seen, and what that is worth: right types over time, how
 //! sure beliefs are, and the error on the rest of the way under the belief at that moment.
 //!
-//! The sets are those of [`super::CrowdSet`], seen with several noises. Beside the belief stand what
-//! is known without looking (no joints, all contacts fixed), what the last window says alone, and
-//! geometric residual tests.
+//! The sets are those of [`super::CrowdSet`], seen with several noises. The belief is compared with
+//! what is known without looking (no joints, all contacts fixed), with the last window alone, and
+//! with geometric residual tests.
 
 mod circumstances;
 mod follow;

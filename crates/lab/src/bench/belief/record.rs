@@ -73,11 +73,11 @@ pub struct BeliefRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum When {
-    /// After so many observations of a single stroke.
+    /// After a number of observations of a single stroke.
     Observations(usize),
-    /// After so many strokes of several.
+    /// After a number of strokes of several.
     Strokes(usize),
-    /// So many observations after the first that shows motion.
+    /// A number of observations after the first that shows motion.
     AfterContact(usize),
     /// After everything.
     End,

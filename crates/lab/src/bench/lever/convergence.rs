@@ -23,7 +23,7 @@ const RATES: [u16; 4] = [60, 120, 240, 960];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Setting {
-    /// So many steps a second against [`LeverSimulator::TRUTH`].
+    /// A number of steps a second against [`LeverSimulator::TRUTH`].
     Steps(u16),
     /// The start 0.1 mm aside against the same lever-up without, both by [`LeverSimulator::FINE`].
     Aside,

@@ -36,7 +36,7 @@ pub struct DriveReport {
     pub seed: u64,
     /// Lever-ups.
     pub cases: usize,
-    /// On so many drives.
+    /// On this many drives.
     pub drives: usize,
     /// Boards that come to rest out of the pocket.
     pub outside: usize,

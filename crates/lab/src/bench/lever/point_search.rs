@@ -12,7 +12,7 @@ use pushplan::internals::scene::{LeverJob, LeverTrajectory, LeverUp, Place};
 /// Spacing of the first places, metres.
 const SPACING: f64 = 0.01;
 
-/// Each round tries so many places on either side of the best one, between its neighbours.
+/// Places that each round tries on either side of the best one, between its neighbours.
 const BESIDE: i32 = 3;
 
 /// Rounds after the first: places are then 0.16 mm apart.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::point_search::LeverSearch;
 
-/// What so many frames say.
+/// What a number of frames say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointRow {
     /// Frames that are seen, from the first on.

@@ -8,7 +8,7 @@ use crate::bench::Calibration;
 
 use super::suite::{MassCase, MassRecord, SeenMass, SeenRatio};
 
-/// Nine in ten normal numbers lie within so many standard deviations.
+/// Nine in ten normal numbers lie within this many standard deviations.
 const NINE_IN_TEN: f64 = 1.645;
 
 /// A case in numbers.

@@ -1,4 +1,5 @@
-//! How much pushes tell that were made to learn how objects hang together, by how they were chosen.
+//! How much is learnt from pushes that were made to learn how objects are joined, by how they were
+//! chosen.
 
 mod pushes;
 mod suite;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::suite::{Learnt, ProbeCase, ProbeRecord};
 
-/// A case after so many probes, in numbers.
+/// A case after a number of probes, in numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProbeSummary {
     /// The case.

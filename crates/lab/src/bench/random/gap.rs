@@ -1,4 +1,5 @@
-//! Tasks that nobody can solve: an object before a gap that is narrower than it, the goal behind.
+//! Tasks that cannot be solved: an object in front of a gap that is narrower than it, the goal
+//! behind.
 //!
 //! What a planner says about them shows whether rigid things stay rigid in its verdict.
 

@@ -1,4 +1,4 @@
-//! What is measured on a random task: our plan, beside doing nothing and a random choice.
+//! What is measured on a random task: our plan, doing nothing and a random choice.
 
 use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::bench::{End, SolvedTask};
@@ -15,12 +15,12 @@ use super::kind::TaskKind;
 use super::making::random_plan;
 use super::suite::{NoTask, RandomSuite, SuiteTask};
 
-/// What came of a random task.
+/// The result of a random task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RandomRecord {
     /// What kind of task.
     pub kind: TaskKind,
-    /// The plan that made the goal; nothing of a task that none can solve.
+    /// The plan that made the goal; `None` for a task that no plan can solve.
     pub maker: Option<Maker>,
     /// The planner's plan.
     pub solved: SolvedTask,
@@ -39,7 +39,7 @@ pub struct Maker {
     pub pushes: usize,
 }
 
-/// A plan that nobody thought about.
+/// A random plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     /// Name of its tool.

@@ -124,7 +124,7 @@ const USUAL: Refinement = ("usual", 8, 4, 2);
 const STRONG: Refinement = ("strong", 24, 8, 4);
 
 /// Plans verified at once, batches of them, and disturbed replays of those that work, in each
-/// engine. One plan at least: without any nobody knows whether it works.
+/// engine. One plan at least: without one it is unknown whether the plan works.
 type Verified = (usize, usize, usize);
 
 /// What the shipped network and its prior are planned with.

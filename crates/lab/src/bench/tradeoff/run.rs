@@ -46,7 +46,7 @@ pub struct TradeOffSettings {
     pub seed: u64,
 }
 
-/// What is kept of a unit; its times stand beside it.
+/// What is kept of a unit; its times are kept apart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Unit {

@@ -27,7 +27,7 @@ use crate::report::evaluation_document;
 
 With --out every finished part (a kind of pushes, a set of scenes) is kept at once: after an
 interruption (Ctrl-C) the same command goes on. --shard 2/3 measures every third part, on another
-machine say; `pushplan-lab merge OUT SHARD...` makes of all shards what one run would have left.
+machine say; `pushplan-lab merge OUT SHARD...` puts all shards together as one run would have left them.
 
 Examples:
   pushplan-lab evaluate --on single --pushes 2000

@@ -65,7 +65,7 @@ impl Crowds<'_> {
     }
 
     /// The model that is asked for, the same under other assumptions about joints, and what
-    /// stands beside it.
+    /// it is compared with.
     fn models(&self) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
         let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(self.outside.load(self.model)?)];
         if self.args.no_baselines {

@@ -28,7 +28,7 @@ impl FromStr for On {
             "dense" => On::Crowds(vec![Dense]),
             "all" => On::Crowds(vec![Sparse, Dense]),
             file if file.ends_with(".safetensors") => {
-                return Err("these are weights; name them before --on, or behind --model".into());
+                return Err("these are weights; name them before --on, or after --model".into());
             }
             file if file.contains(['.', '/']) => {
                 return Err("recordings are judged by `pushplan predict FILE...`".into());

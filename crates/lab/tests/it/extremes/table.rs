@@ -1,4 +1,4 @@
-//! The extremes as the Markdown page that stands beside the model card.
+//! The extremes as a Markdown page.
 
 use pushplan::judge::Summary;
 use pushplan::report::{Align, NONE, Table, millimetres};

@@ -97,9 +97,11 @@ const TASKS: [(&str, Expected, Change); 20] = [
         task.scene.table_friction = 0.0;
     }),
     ("mass 1e-6 kg", Expected::Anything, |task| task.scene.objects[0].mass = 1e-6),
-    ("goal that is no number", Expected::Refused, |task| task.goal.position.x = f64::NAN),
+    ("goal that is not a number", Expected::Refused, |task| task.goal.position.x = f64::NAN),
     ("infinite tolerance", Expected::Refused, |task| task.goal.tolerance = f64::INFINITY),
-    ("friction that is no number", Expected::Refused, |task| task.scene.table_friction = f64::NAN),
+    ("friction that is not a number", Expected::Refused, |task| {
+        task.scene.table_friction = f64::NAN
+    }),
     ("negative mass", Expected::Refused, |task| task.scene.objects[0].mass = -1.0),
 ];
 
