@@ -5,7 +5,10 @@ use std::sync::Arc;
 use pushplan::{
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
-    network::{Buffers, ErrorCard, Forward, PredictorWeights, WeightsError},
+    network::{
+        Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights,
+        RegulatorCard, RegulatorWeights, Weights, WeightsError,
+    },
     scene::{Job, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity},
 };
 
@@ -190,9 +193,23 @@ fn set(weights: &mut PredictorWeights, name: &str, value: f32) {
 
 #[test]
 fn the_shipped_weights_are_written_as_they_were_read() {
-    let shipped = include_bytes!("../../crates/models/brdpn.safetensors");
-    let weights = PredictorWeights::from_bytes(shipped).expect("the shipped weights");
-    assert!(weights.to_bytes().expect("encode") == shipped, "reading and writing changes the file");
+    fn same<C: Card>(shipped: &[u8]) {
+        let weights = Weights::<C>::from_bytes(shipped).expect("shipped weights");
+        let written = weights.to_bytes().expect("encode");
+        assert!(written == shipped, "reading and writing changes the file of {}", C::KEY);
+    }
+    same::<PredictorCard>(include_bytes!("../../crates/models/brdpn.safetensors"));
+    same::<RegulatorCard>(include_bytes!("../../crates/models/regulator.safetensors"));
+    same::<LeverCard>(include_bytes!("../../crates/models/lever.safetensors"));
+}
+
+#[test]
+fn a_file_of_one_network_is_none_of_another() {
+    let lever = include_bytes!("../../crates/models/lever.safetensors");
+    let error = PredictorWeights::from_bytes(lever).expect_err("another network").to_string();
+    assert!(error.contains("no `pushplan` entry"), "{error}");
+    let error = RegulatorWeights::from_bytes(lever).expect_err("another network").to_string();
+    assert!(error.contains("no `pushplan-regulator` entry"), "{error}");
 }
 
 #[test]

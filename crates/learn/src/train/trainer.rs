@@ -25,6 +25,12 @@ pub const REPLICAS: usize = 2;
 /// Steps after which a run looks whether it is to stop.
 const LOOK: u64 = 20;
 
+/// The file in a run's folder from which it goes on.
+const CHECKPOINT: &str = "checkpoint.safetensors";
+
+/// The file with the best weights.
+const BEST: &str = "best.safetensors";
+
 /// Why training stopped short.
 #[derive(Debug, Error)]
 pub enum TrainError {
@@ -198,12 +204,6 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         Ok(write_atomic(path, &bytes)?)
     }
 }
-
-/// The file in a run's folder from which it goes on.
-const CHECKPOINT: &str = "checkpoint.safetensors";
-
-/// The file with the best weights.
-const BEST: &str = "best.safetensors";
 
 impl Since {
     fn now() -> Self {
