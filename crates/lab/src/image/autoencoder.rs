@@ -97,14 +97,6 @@ impl Trainable for Task<'_> {
         self.settings.memory.descent
     }
 
-    fn evaluate_every(&self) -> u64 {
-        self.settings.memory.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.memory.batch
-    }
-
     fn is_empty(&self) -> bool {
         self.examples.is_empty()
     }
@@ -122,7 +114,8 @@ impl Trainable for Task<'_> {
         (step, replica): (u64, usize),
     ) -> CandleResult<(f64, Parameters)> {
         let (memory, image) = (&self.settings.memory, self.settings.image());
-        let drawn = drawn(self.examples, memory.batch, (memory.seed ^ IMAGES, step, replica));
+        let drawn =
+            drawn(self.examples, memory.descent.batch, (memory.seed ^ IMAGES, step, replica));
         let network = Autoencoder::new(&image, weights)?;
         gradients_of(&loss(&network, &images(&drawn, &image)?)?, network.variables())
     }

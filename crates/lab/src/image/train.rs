@@ -85,14 +85,6 @@ impl Trainable for Task<'_> {
         self.settings.memory.descent
     }
 
-    fn evaluate_every(&self) -> u64 {
-        self.settings.memory.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.memory.batch
-    }
-
     fn is_empty(&self) -> bool {
         self.examples.is_empty()
     }
@@ -120,7 +112,7 @@ impl Trainable for Task<'_> {
         (step, replica): (u64, usize),
     ) -> candle_core::Result<(f64, Parameters)> {
         let (memory, image) = (&self.settings.memory, self.settings.image());
-        let drawn = drawn(&self.examples, memory.batch, (memory.seed, step, replica));
+        let drawn = drawn(&self.examples, memory.descent.batch, (memory.seed, step, replica));
         let sizes = memory.sizes();
         let as_it_is = self.settings.features == ImageFeatures::ImageCode;
         let graph = ImageGraph::new((&sizes, &image), weights, as_it_is)?;

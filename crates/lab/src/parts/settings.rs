@@ -14,11 +14,6 @@ pub struct PartsSettings {
     pub prior: bool,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Graphs a step, B, an even number.
-    pub batch: usize,
-    /// Steps between held-out evaluations, checkpoints, and rollouts of the network that examples are
-    /// taken from.
-    pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
     /// The families that it is trained on.
@@ -31,10 +26,10 @@ impl Default for PartsSettings {
             config: Config { width: 64, steps: 2 },
             prior: false,
             seed: 1,
-            batch: 128,
-            evaluate_every: 1000,
             descent: Descent {
                 steps: 20_000,
+                batch: 128,
+                evaluate_every: 1000,
                 learning_rate: 3e-3,
                 warm_up: 200,
                 weight_decay: 0.02,

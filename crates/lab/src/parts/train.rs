@@ -58,14 +58,6 @@ impl Trainable for Task<'_> {
         self.settings.descent
     }
 
-    fn evaluate_every(&self) -> u64 {
-        self.settings.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.batch
-    }
-
     fn is_empty(&self) -> bool {
         self.examples.count() == 0
     }
@@ -85,8 +77,8 @@ impl Trainable for Task<'_> {
         scales: &Normaliser,
         (step, replica): (u64, usize),
     ) -> Result<(f64, Parameters)> {
-        let PartsSettings { config, seed, batch, .. } = *self.settings;
-        let drawn = self.examples.draw((seed, step, replica as u64), batch / REPLICAS);
+        let PartsSettings { config, seed, descent, .. } = *self.settings;
+        let drawn = self.examples.draw((seed, step, replica as u64), descent.batch / REPLICAS);
         let network = Predictor::of(&PARTS, config, weights)?;
         gradients_of(&loss(scales, &network, &drawn)?, network.variables())
     }
@@ -111,7 +103,7 @@ impl Trainable for Task<'_> {
 
     /// Before the first evaluation all examples begin at the truth.
     fn refreshes(&self, step: u64) -> bool {
-        step > 0 && step.is_multiple_of(self.settings.evaluate_every)
+        step > 0 && step.is_multiple_of(self.settings.descent.evaluate_every)
     }
 
     fn follow(&mut self, lead: &Parameters, scales: &Normaliser) {

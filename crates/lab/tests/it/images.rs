@@ -21,7 +21,7 @@ use pushplan_lab::image::{
 };
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan_learn::network::LeverTensors;
-use pushplan_learn::train::LeverSettings;
+use pushplan_learn::train::{Descent, LeverSettings};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -177,9 +177,7 @@ fn training_resumes_to_the_same_bits() {
             features: LeverFeatures::Nothing,
             prior: false,
             width: 8,
-            batch: 16,
-            evaluate_every: 20,
-            descent: default.descent.in_steps(60),
+            descent: Descent { batch: 16, evaluate_every: 20, ..default.descent.in_steps(60) },
             feedback,
             cut: feedback,
             ..default

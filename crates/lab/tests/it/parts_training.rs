@@ -72,14 +72,10 @@ fn what_is_wanted_of_a_step_leads_where_it_should() {
 }
 
 fn settings(prior: bool) -> PartsSettings {
-    let mut settings = PartsSettings {
-        config: CONFIG,
-        prior,
-        batch: 64,
-        evaluate_every: 100,
-        ..PartsSettings::default()
-    };
+    let mut settings = PartsSettings { config: CONFIG, prior, ..PartsSettings::default() };
     settings.descent.steps = 300;
+    settings.descent.batch = 64;
+    settings.descent.evaluate_every = 100;
     settings.descent.warm_up = 10;
     settings.descent.average = 0.9;
     settings

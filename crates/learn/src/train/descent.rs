@@ -12,6 +12,10 @@ const FLOOR: f64 = 0.005;
 pub struct Descent {
     /// Optimiser steps of the whole schedule.
     pub steps: u64,
+    /// Examples a step, of both replicas: an even number.
+    pub batch: usize,
+    /// Steps between held-out evaluations and checkpoints.
+    pub evaluate_every: u64,
     /// Highest learning rate, reached after the warm-up.
     pub learning_rate: f64,
     /// Steps until the highest learning rate.

@@ -30,12 +30,6 @@ pub trait Trainable: Sync + Sized {
     /// How weights follow gradients.
     fn descent(&self) -> Descent;
 
-    /// Steps between held-out evaluations and checkpoints.
-    fn evaluate_every(&self) -> u64;
-
-    /// Examples a step, of both replicas: an even number.
-    fn batch(&self) -> usize;
-
     /// Whether there is nothing to learn from.
     fn is_empty(&self) -> bool;
 

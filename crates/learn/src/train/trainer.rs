@@ -135,7 +135,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
             self.since = Since { at, steps: steps + 1.0, loss: losses + loss, norm: norms + norm };
             let step = self.run.optimiser.step;
             watch.progress(step, descent.steps);
-            if step.is_multiple_of(self.task.evaluate_every()) || step == descent.steps {
+            if step.is_multiple_of(descent.evaluate_every) || step == descent.steps {
                 watch.line(&self.evaluate()?);
             }
         }
@@ -165,7 +165,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
 
     /// Judges the averaged weights and saves everything; the line that says so.
     fn evaluate(&mut self) -> Result<String, TrainError> {
-        let step = self.run.optimiser.step;
+        let (step, descent) = (self.run.optimiser.step, self.task.descent());
         let score = self.task.score(&self.weights(None));
         let bytes = self.weights(Some(&score)).to_bytes()?;
         write_atomic(self.folder.join("last.safetensors"), &bytes)?;
@@ -178,8 +178,8 @@ impl<'a, T: Trainable> Trainer<'a, T> {
             step,
             loss: loss / steps,
             gradient: norm / steps,
-            learning_rate: self.task.descent().learning_rate(step),
-            examples_per_second: steps * self.task.batch() as f64 / at.elapsed().as_secs_f64(),
+            learning_rate: descent.learning_rate(step),
+            examples_per_second: steps * descent.batch as f64 / at.elapsed().as_secs_f64(),
             seconds: self.started.elapsed().as_secs_f64(),
             held_out: score,
         };

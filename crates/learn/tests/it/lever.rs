@@ -112,11 +112,11 @@ fn settings(prior: bool) -> LeverSettings {
         features: LeverFeatures::Support,
         prior,
         width: 8,
-        batch: 16,
-        evaluate_every: 40,
         ..LeverSettings::default()
     };
     settings.descent.steps = 120;
+    settings.descent.batch = 16;
+    settings.descent.evaluate_every = 40;
     settings.descent.warm_up = 10;
     settings
 }
@@ -179,10 +179,10 @@ fn what_is_fed_back_resumes_to_the_same_bits() {
         features: LeverFeatures::ShapeContext,
         feedback: true,
         cut: true,
-        evaluate_every: 20,
         ..settings(false)
     };
     settings.descent.steps = 60;
+    settings.descent.evaluate_every = 20;
     let train = |folder: &Path, watch: &dyn Watch| {
         let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
         let best = train_lever(&settings, &data, &held_out, &lock, watch).expect("training");

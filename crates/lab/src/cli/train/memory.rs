@@ -9,7 +9,7 @@ use pushplan::cli::words::words;
 use pushplan::internals::scene::LeverFeatures;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode, LeverPart};
-use pushplan_learn::train::{LeverSettings, train_lever};
+use pushplan_learn::train::{Descent, LeverSettings, train_lever};
 
 use super::RunArgs;
 use crate::cli::words::{LEVER_FEATURES, Told};
@@ -96,8 +96,10 @@ impl MemoryArgs {
             prior: !self.run.no_prior,
             width: self.width as usize,
             seed: self.run.seed,
-            evaluate_every: self.run.evaluate_every,
-            descent: default.descent.in_steps(self.steps),
+            descent: Descent {
+                evaluate_every: self.run.evaluate_every,
+                ..default.descent.in_steps(self.steps)
+            },
             data: data.iter().map(config).collect(),
             feedback: self.feedback,
             cut: self.cut,

@@ -8,6 +8,7 @@ use pushplan::cli::session::Session;
 use pushplan::internals::network::Config;
 use pushplan_learn::cli::train::{distinct, opened, take, weights};
 use pushplan_learn::dataset::{LeverDataset, LeverEpisode};
+use pushplan_learn::train::Descent;
 
 use super::RunArgs;
 use crate::parts::{PartsSettings, train_parts};
@@ -49,8 +50,10 @@ pub fn run(args: &PartsArgs, session: &Session) -> Result<u8, CliError> {
         config: Config { width: args.width as usize, ..default.config },
         prior: !args.run.no_prior,
         seed: args.run.seed,
-        evaluate_every: args.run.evaluate_every,
-        descent: default.descent.in_steps(args.steps),
+        descent: Descent {
+            evaluate_every: args.run.evaluate_every,
+            ..default.descent.in_steps(args.steps)
+        },
         data: data.iter().map(config).collect(),
         ..default
     };

@@ -11,7 +11,7 @@ use crate::cli::train::{data, take, weights};
 use crate::dataset::{
     DatasetError, LeverConfig, LeverDataset, LeverEpisode, LeverPreset, generate_levers,
 };
-use crate::train::{LeverSettings, train_lever};
+use crate::train::{Descent, LeverSettings, train_lever};
 
 /// What the shipped weights have learned from.
 const LEARNED: [LeverConfig; 4] = [
@@ -53,7 +53,7 @@ pub struct LeverArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Steps between held-out evaluations and checkpoints
-    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().evaluate_every,
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
     /// Width of the hidden state
@@ -77,8 +77,10 @@ pub fn run(args: &LeverArgs, session: &Session) -> Result<u8, CliError> {
     let settings = LeverSettings {
         width: args.width as usize,
         seed: args.seed,
-        evaluate_every: args.evaluate_every,
-        descent: default.descent.in_steps(args.steps),
+        descent: Descent {
+            evaluate_every: args.evaluate_every,
+            ..default.descent.in_steps(args.steps)
+        },
         data: learned.iter().map(|set| *set.config()).collect(),
         ..default
     };

@@ -63,11 +63,11 @@ pub struct PredictorArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Steps between held-out evaluations and checkpoints
-    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().evaluate_every,
+    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
     /// Graphs per step, an even number
-    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().batch as u32,
+    #[arg(long, value_name = "N", default_value_t = PredictorSettings::default().descent.batch as u32,
           value_parser = clap::value_parser!(u32).range(2..=65_536))]
     batch: u32,
     /// Hidden width, an even number
@@ -139,12 +139,12 @@ impl PredictorArgs {
         let mut settings = PredictorSettings {
             config: Config { width: self.width as usize, steps: self.propagation as usize },
             seed: self.seed,
-            batch: self.batch as usize,
             descent: Descent {
+                batch: self.batch as usize,
+                evaluate_every: self.evaluate_every,
                 learning_rate: self.learning_rate,
                 ..default.descent.in_steps(self.steps)
             },
-            evaluate_every: self.evaluate_every,
             ..default
         };
         settings.noise.shift = self.noise;

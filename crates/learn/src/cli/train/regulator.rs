@@ -12,7 +12,7 @@ use pushplan::internals::scene::{ModelKind, ModelSpec};
 
 use crate::cli::train::{data, take, weights};
 use crate::dataset::lessons;
-use crate::train::{RegulatorSettings, train_regulator};
+use crate::train::{Descent, RegulatorSettings, train_regulator};
 
 /// The belief regulator
 #[derive(Args, Debug)]
@@ -48,7 +48,7 @@ pub struct RegulatorArgs {
           value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
     /// Steps between held-out evaluations and checkpoints
-    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().evaluate_every,
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.evaluate_every,
           value_parser = clap::value_parser!(u64).range(1..))]
     evaluate_every: u64,
     /// Width of the hidden state
@@ -69,8 +69,10 @@ pub fn run(args: &RegulatorArgs, session: &Session) -> Result<u8, CliError> {
     let settings = RegulatorSettings {
         width: args.width as usize,
         seed: args.seed,
-        evaluate_every: args.evaluate_every,
-        descent: default.descent.in_steps(args.steps),
+        descent: Descent {
+            evaluate_every: args.evaluate_every,
+            ..default.descent.in_steps(args.steps)
+        },
         data_seed: args.data_seed,
         lessons: args.lessons,
         ..default

@@ -61,14 +61,6 @@ impl Trainable for Task<'_> {
         self.settings.descent
     }
 
-    fn evaluate_every(&self) -> u64 {
-        self.settings.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.batch
-    }
-
     fn is_empty(&self) -> bool {
         self.examples.is_empty()
     }
@@ -87,8 +79,8 @@ impl Trainable for Task<'_> {
         scales: &[Statistics; 2],
         (step, replica): (u64, usize),
     ) -> candle_core::Result<(f64, Parameters)> {
-        let LeverSettings { seed, batch, .. } = *self.settings;
-        let drawn = drawn(&self.examples, batch, (seed, step, replica));
+        let LeverSettings { seed, descent, .. } = *self.settings;
+        let drawn = drawn(&self.examples, descent.batch, (seed, step, replica));
         let sizes = self.settings.sizes();
         let network = LeverGraph::new(&sizes, weights)?;
         let loss = LeverBatch::new(&drawn, scales, &sizes)?.loss(&network, None)?;

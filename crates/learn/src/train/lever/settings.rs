@@ -21,10 +21,6 @@ pub struct LeverSettings {
     pub width: usize,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Lever-ups a step, B.
-    pub batch: usize,
-    /// Steps between held-out evaluations and checkpoints.
-    pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
     /// Whether it is told the pose of the frame before: the true one when it learns, its own when it
@@ -63,10 +59,10 @@ impl Default for LeverSettings {
             prior: true,
             width: 56,
             seed: 1,
-            batch: 64,
-            evaluate_every: 1000,
             descent: Descent {
                 steps: 8000,
+                batch: 64,
+                evaluate_every: 1000,
                 learning_rate: 3e-3,
                 warm_up: 200,
                 weight_decay: 0.02,

@@ -72,14 +72,6 @@ impl Trainable for Task<'_> {
         self.settings.descent
     }
 
-    fn evaluate_every(&self) -> u64 {
-        self.settings.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.batch
-    }
-
     fn is_empty(&self) -> bool {
         self.examples.count() == 0
     }
@@ -101,9 +93,9 @@ impl Trainable for Task<'_> {
         scales: &Normaliser,
         (step, replica): (u64, usize),
     ) -> candle_core::Result<(f64, Parameters)> {
-        let PredictorSettings { config, seed, batch, ref noise, descent, .. } = *self.settings;
+        let PredictorSettings { config, seed, ref noise, descent, .. } = *self.settings;
         let (key, progress) = ((seed, step, replica as u64), step as f64 / descent.steps as f64);
-        let count = batch / REPLICAS;
+        let count = descent.batch / REPLICAS;
         let drawn = self.examples.draw(noise, key, progress, count, self.lead.as_ref());
         let network = Predictor::new(config, weights)?;
         let predicted = network.forward(&Inputs::new(&drawn.batch, scales)?)?;

@@ -14,15 +14,10 @@ pub struct PredictorSettings {
     pub config: Config,
     /// Seed of first weights, batches and noise.
     pub seed: u64,
-    /// Graphs a step, an even number. Large enough that two cores' halves keep the matrix products
-    /// busy.
-    pub batch: usize,
     /// How weights follow gradients.
     pub descent: Descent,
     /// Disturbance of input states.
     pub noise: Noise,
-    /// Steps between held-out evaluations and checkpoints.
-    pub evaluate_every: u64,
 }
 
 impl Default for PredictorSettings {
@@ -30,9 +25,11 @@ impl Default for PredictorSettings {
         Self {
             config: Config::default(),
             seed: 1,
-            batch: 256,
             descent: Descent {
                 steps: 24_000,
+                // Large enough that two cores' halves keep the matrix products busy.
+                batch: 256,
+                evaluate_every: 2000,
                 learning_rate: 2e-3,
                 warm_up: 500,
                 weight_decay: 1e-4,
@@ -40,7 +37,6 @@ impl Default for PredictorSettings {
                 average: 0.999,
             },
             noise: Noise::default(),
-            evaluate_every: 2000,
         }
     }
 }

@@ -62,7 +62,7 @@ impl Task<'_> {
                 (drafts > 0 && rng.random_bool(DRAFTS)).then(|| rng.random_range(0..drafts));
             (lesson, lesson.windows(draft))
         };
-        (0..self.settings.batch).map(&mut draw).collect()
+        (0..self.settings.descent.batch).map(&mut draw).collect()
     }
 }
 
@@ -79,14 +79,6 @@ impl Trainable for Task<'_> {
 
     fn descent(&self) -> Descent {
         self.settings.descent
-    }
-
-    fn evaluate_every(&self) -> u64 {
-        self.settings.evaluate_every
-    }
-
-    fn batch(&self) -> usize {
-        self.settings.batch
     }
 
     fn is_empty(&self) -> bool {

@@ -11,10 +11,6 @@ pub struct RegulatorSettings {
     pub width: usize,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Lessons a step, an even number.
-    pub batch: usize,
-    /// Steps between held-out evaluations and checkpoints.
-    pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
     /// Seed of the lessons.
@@ -28,10 +24,10 @@ impl Default for RegulatorSettings {
         Self {
             width: 64,
             seed: 1,
-            batch: 16,
-            evaluate_every: 250,
             descent: Descent {
                 steps: 3000,
+                batch: 16,
+                evaluate_every: 250,
                 learning_rate: 2e-3,
                 warm_up: 200,
                 // Some thousands of lessons are few for the regulator's parameters.
