@@ -80,8 +80,10 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let effort = args.effort;
     let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
     output::prepare(&args.out)?;
-    let mut settings = effort.settings();
-    settings.disturbed = args.disturbed.map_or(settings.disturbed, usize::from);
+    let settings = match args.disturbed {
+        Some(count) => effort.settings().replaying(count.into()),
+        None => effort.settings(),
+    };
     let planner = Planner::builder(effects)
         .settings(settings)
         .seed(args.seed)

@@ -82,6 +82,12 @@ impl Settings {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
     }
 
+    /// The same with this many disturbed replays of the winning plan, in each engine.
+    #[must_use]
+    pub fn replaying(self, disturbed: usize) -> Self {
+        Self { disturbed, levers: LeverSettings { disturbed, ..self.levers }, ..self }
+    }
+
     /// The least that still searches, refines and verifies.
     pub const FIRST_LOOK: Settings = Settings {
         offsets: 3,

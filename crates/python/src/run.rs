@@ -178,7 +178,8 @@ pub fn run(
     noise: Option<(f64, f64)>,
     threads: usize,
 ) -> PyResult<PyRun> {
-    let planner = Asked { effort, model, outside, seed, time_limit: None }.planner(py)?;
+    let planner =
+        Asked { effort, model, outside, seed, disturbed: None, time_limit: None }.planner(py)?;
     let library = given(py, tools.as_ref())?;
     if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
         let message = "`enough` is a share from 0 to 1, `samples` 1 to 1000, `pushes` at most 1000";

@@ -27,13 +27,14 @@ use crate::{errors, words, work};
 /// `tools` are those to choose from, by default the ones that come with the package; `effort` is
 /// "draft", "standard" or "thorough"; `model` predicts effects, by default that of the
 /// effort; `outside` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
-/// `seed` is that of refinement's samples and of the disturbances; `robustness` is the share of the
+/// `seed` is that of refinement's samples and of the disturbances; `disturbed` is the number of
+/// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
 /// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
 /// the best plan so far is returned then; `threads` is a number of worker threads, 0 one for each
 /// core, and changes no result.
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, robustness = None, time_limit = None, threads = 0))]
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
     py: Python<'_>,
@@ -43,11 +44,12 @@ pub fn solve(
     model: Option<&str>,
     outside: &str,
     seed: u64,
+    disturbed: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     threads: usize,
 ) -> PyResult<PySolution> {
-    let asked = Asked { effort, model, outside, seed, time_limit };
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated = task.robust(robustness)?;
@@ -60,7 +62,7 @@ pub fn solve(
 /// first task that cannot be tried.
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, robustness = None, time_limit = None, threads = 0))]
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
     py: Python<'_>,
@@ -70,11 +72,12 @@ pub fn solve_all(
     model: Option<&str>,
     outside: &str,
     seed: u64,
+    disturbed: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
     threads: usize,
 ) -> PyResult<Vec<PySolution>> {
-    let asked = Asked { effort, model, outside, seed, time_limit };
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated: PyResult<Vec<Arc<Task>>> =
@@ -103,6 +106,7 @@ pub struct Asked<'a> {
     pub model: Option<&'a str>,
     pub outside: &'a str,
     pub seed: u64,
+    pub disturbed: Option<usize>,
     pub time_limit: Option<f64>,
 }
 
@@ -115,7 +119,11 @@ impl Asked<'_> {
         };
         let model = EffectModels::build(&spec).map_err(|error| errors::model(py, &error))?;
         let outside = words::outside(self.outside)?;
-        let builder = Planner::builder(model).effort(effort).seed(self.seed).outside(outside);
+        let settings = match self.disturbed {
+            Some(count) => effort.settings().replaying(count),
+            None => effort.settings(),
+        };
+        let builder = Planner::builder(model).settings(settings).seed(self.seed).outside(outside);
         Ok(match words::limit(self.time_limit)? {
             Some(limit) => builder.time_limit(limit).build(),
             None => builder.build(),
