@@ -1,6 +1,6 @@
 //! Fused inference: the predictor on preallocated buffers, its kernels of `gemm` called directly.
 //!
-//! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
+//! Computes the same as the graph that training differentiates (a test holds the two together), without
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 

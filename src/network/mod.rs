@@ -1,10 +1,10 @@
 //! The networks: configuration, parameters, physics predictor and weights file.
 //!
 //! The physics predictor of the Belief Regulated Dual Propagation Network (Tekden, Erdem,
-//! Erdem, Imre, Seker and Ugur, ICRA 2020) stands here twice: as the candle graph that
-//! training differentiates and that is the reference, and as a fused forward pass on preallocated
-//! buffers that planning runs and that needs no candle. Both take feature tables of any widths. The belief regulator reads its effects. Loops over time are not here but in
-//! `rollout`.
+//! Erdem, Imre, Seker and Ugur, ICRA 2020) is a fused forward pass on preallocated buffers, on
+//! feature tables of any widths; a test holds it to the graph that training differentiates. The
+//! belief regulator reads its effects. Every network's weights are a file of one form, and a
+//! [`Card`] that says which. Loops over time are not here but in `rollout`.
 
 mod config;
 mod forward;
