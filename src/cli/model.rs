@@ -1,14 +1,11 @@
 //! Effect models on the command line.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use clap::Args;
 
-use crate::effect::{
-    EffectModel, EffectModels, LeverModel, LeverNetwork, ModelError, Outside, Routed, load_lever,
-};
-use crate::network::Weights;
+use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
+use crate::network::PredictorWeights;
 use crate::scene::ModelSpec;
 
 use super::error::CliError;
@@ -50,24 +47,11 @@ pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
     Ok(EffectModels::build(spec)?)
 }
 
-/// The network of lever-ups with these weights, a memory or one of parts, or else the shipped one.
-///
-/// # Errors
-/// [`CliError::File`] for weights that cannot be used.
-pub fn lever_network(weights: Option<&Path>) -> Result<Arc<dyn LeverModel>, CliError> {
-    match weights {
-        Some(path) => load_lever(path).map_err(|error| CliError::File(error.to_string())),
-        None => LeverNetwork::shipped()
-            .map(|network| Arc::new(network) as _)
-            .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error)),
-    }
-}
-
 /// The weights of a network; none for other models.
 ///
 /// # Errors
 /// A weights file that is missing, damaged or not of pushplan.
-pub fn weights(spec: &ModelSpec) -> Result<Option<Weights>, CliError> {
+pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }
 

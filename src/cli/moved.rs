@@ -3,7 +3,7 @@
 use clap::error::{ContextKind, ContextValue, Error};
 
 /// Words, and what does the same now.
-const MOVED: [(&[&str], &str); 6] = [
+const MOVED: [(&[&str], &str); 9] = [
     (
         &["evaluate"],
         "`pushplan predict RECORDINGS` judges models on your own recordings, \
@@ -17,9 +17,25 @@ const MOVED: [(&[&str], &str); 6] = [
     (&["schema"], "`pushplan check --schema tool|task|recording|world` prints it"),
     (&["exhaustive"], "`--effort thorough --disturbed 64` does the same"),
     (
-        &["generate", "train", "train-regulator", "train-lever"],
-        "`pushplan-learn` makes data and \
-      trains, with the same words (in a checkout: cargo run --release -p pushplan-learn -- ...)",
+        &["generate"],
+        "`pushplan-learn generate` makes data, with the same words \
+      (in a checkout: cargo run --release -p pushplan-learn -- ...)",
+    ),
+    (
+        &["train"],
+        "`pushplan-learn train predictor DIR` makes data and weights \
+      (in a checkout: cargo run --release -p pushplan-learn -- ...)",
+    ),
+    (
+        &["train-regulator"],
+        "`pushplan-learn train regulator DIR` makes lessons and weights \
+      (in a checkout: cargo run --release -p pushplan-learn -- ...)",
+    ),
+    (
+        &["train-lever"],
+        "`pushplan-learn train lever DIR` makes data and the shipped weights, \
+      `pushplan-lab train memory|parts` other networks \
+      (in a checkout: cargo run --release -p pushplan-learn -- ...)",
     ),
     (
         &[

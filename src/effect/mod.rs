@@ -21,9 +21,8 @@ pub use crate::scene::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{
-    LeverCourse, LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverParts, LeverPrior,
-    LeverTrust, LeverView, Levering, PartGraphs, PartState, PriorSettings, SimulatedLevers, Walk,
-    Walker, lever_action, lever_features, lever_inputs, load_lever,
+    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
+    Levering, PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     graph::Batch,
-    network::{Buffers, Forward, Weights},
+    network::{Buffers, Forward, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
@@ -28,14 +28,14 @@ const CORRECTED: usize = 5;
 pub struct Network {
     spec: ModelSpec,
     forward: Forward,
-    weights: Weights,
+    weights: PredictorWeights,
     settings: RollSettings,
     error: Option<Quantiles>,
 }
 
 impl Network {
     /// A model of these weights, which [`EffectModel::spec`] takes for the shipped ones.
-    pub fn new(weights: Weights) -> Self {
+    pub fn new(weights: PredictorWeights) -> Self {
         let errors = weights.card.errors.as_ref();
         Self {
             spec: ModelKind::NETWORK.into(),
@@ -49,7 +49,12 @@ impl Network {
     /// A model of weights from a file; with `steps` propagation steps instead of those that it was
     /// trained with, and `stride` frames predicted as one. Measured errors are those of the
     /// weights as trained, frame by frame.
-    pub fn with(weights: Weights, file: Option<String>, steps: Option<u8>, stride: Stride) -> Self {
+    pub fn with(
+        weights: PredictorWeights,
+        file: Option<String>,
+        steps: Option<u8>,
+        stride: Stride,
+    ) -> Self {
         let mut model = Self::new(weights);
         if steps.is_some() || stride != Stride::ONE {
             model.error = None;
@@ -63,7 +68,7 @@ impl Network {
     }
 
     /// What the weights are.
-    pub fn weights(&self) -> &Weights {
+    pub fn weights(&self) -> &PredictorWeights {
         &self.weights
     }
 }

@@ -1,13 +1,13 @@
 //! Fused inference: the predictor on preallocated buffers, its kernels of `gemm` called directly.
 //!
-//! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
+//! Computes the same as the graph that training differentiates (a test holds the two together), without
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 
 use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Normaliser, Parameters, Rows, Statistics, Weights,
+    Config, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -58,7 +58,7 @@ pub struct Buffers {
 
 impl Forward {
     /// Takes the weights apart into the layout of the fused pass.
-    pub fn new(weights: &Weights) -> Self {
+    pub fn new(weights: &PredictorWeights) -> Self {
         Self::of(&weights.card.config, &weights.card.normaliser, &weights.parameters)
     }
 

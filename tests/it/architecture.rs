@@ -25,7 +25,17 @@ const HOUSES: [(&str, &str, Rooms); 3] = [
             ("cli", "dataset train report"),
         ],
     ),
-    ("crates/lab/src", "lab/", &[("bench", ""), ("report", "bench"), ("cli", "bench report")]),
+    (
+        "crates/lab/src",
+        "lab/",
+        &[
+            ("image", ""),
+            ("parts", ""),
+            ("bench", "image parts"),
+            ("report", "bench"),
+            ("cli", "image parts bench report"),
+        ],
+    ),
 ];
 
 const ROOMS: [(&str, &str); 23] = [
@@ -67,7 +77,7 @@ const DOORS: [(&str, &str); 28] = [
     ("pushplan_models", "effect belief"),
     ("pushplan_page", "export report"),
     ("pushplan_three", "report"),
-    ("pushplan_learn", "lab/bench lab/cli"),
+    ("pushplan_learn", "lab/bench lab/cli lab/image lab/parts"),
     ("pushplan_lab", ""),
     ("serde_yaml", "asset"),
     ("rapier2d", "sim"),
@@ -76,7 +86,7 @@ const DOORS: [(&str, &str); 28] = [
     ("roxmltree", "import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),
-    ("candle_core", "learn/network learn/train"),
+    ("candle_core", "learn/network learn/train lab/image lab/parts"),
     ("safetensors", "network learn/train"),
     ("gemm", "learn/train"),
     ("gemm_common", "network"),
@@ -85,12 +95,12 @@ const DOORS: [(&str, &str); 28] = [
     ("clarabel", "plan"),
     (
         "rand",
-        "network effect judge belief plan verify act bench lab/bench learn/dataset \
-         learn/network learn/train",
+        "network effect judge belief plan verify act bench lab/bench lab/image lab/parts \
+         learn/dataset learn/train",
     ),
     (
         "rand_pcg",
-        "network effect judge belief plan verify lab/bench learn/dataset learn/network \
+        "network effect judge belief plan verify lab/bench lab/image lab/parts learn/dataset \
          learn/train",
     ),
     ("postcard", "learn/dataset"),

@@ -20,8 +20,10 @@ pub fn goes_on_after_an_interruption(command: &str, options: &str) {
     succeed(&line(&broken));
     let read = |dir: &Path| -> Vec<(String, Vec<u8>)> {
         let entries = fs::read_dir(dir).expect("a folder");
-        let names = entries.map(|entry| entry.expect("an entry").file_name());
-        let names = names.map(|name| name.into_string().expect("UTF-8"));
+        let files = entries.map(|entry| entry.expect("an entry"));
+        // Data that a run makes for itself lie in folders of their own.
+        let files = files.filter(|entry| entry.path().is_file());
+        let names = files.map(|entry| entry.file_name().into_string().expect("UTF-8"));
         // Metrics hold wall times, which no two runs share.
         let names = names.filter(|name| name != "metrics.jsonl");
         let file = |name: String| (name.clone(), fs::read(dir.join(name)).expect("a file"));

@@ -6,12 +6,12 @@ use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::graph::Batch;
-use pushplan::network::{Card, Config, Normaliser, Parameters, Tables, Weights};
+use pushplan::network::{Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Tables};
 use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
 
 /// Random weights whose last layer is not zero, so that the network matters, nor large, so
 /// that a rollout stays near a push and does not amplify rounding.
-pub fn weights(width: usize) -> Weights {
+pub fn weights(width: usize) -> PredictorWeights {
     let config = Config { width, steps: 2 };
     let mut parameters = Parameters::fresh(&config, 3);
     let like = parameters.values["motion.hidden"].clone();
@@ -22,8 +22,8 @@ pub fn weights(width: usize) -> Weights {
         }
     }
     let batch = batch(&scene(), &scene().start(), &stroke());
-    Weights {
-        card: Card {
+    PredictorWeights {
+        card: PredictorCard {
             config,
             normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
             ranges: PRIOR_RANGES,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::asset::{PlanFile, ToolLibrary, TrajectoryFile};
 use pushplan::effect::{EffectModel, EffectModels, Prior};
 use pushplan::geometry::Vector;
-use pushplan::network::{Config, Parameters, Weights};
+use pushplan::network::{Config, Parameters, PredictorWeights};
 use pushplan::scene::{Job, Outcome, Plan, Push, Record, Task};
 use serde_json::Value as Json;
 
@@ -178,5 +178,5 @@ fn weights() -> Vec<u8> {
     let config = Config { width: 4, steps: 1 };
     let parameters = Parameters::fresh(&config, 1);
     let card = pushplan::network::Card { config, ..shipped.card };
-    Weights { card, parameters }.to_bytes().expect("a small network")
+    PredictorWeights { card, parameters }.to_bytes().expect("a small network")
 }

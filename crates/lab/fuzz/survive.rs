@@ -10,7 +10,7 @@ use std::sync::Arc;
 use pushplan::asset::{Faults, PlanFile, ToolLibrary, TrajectoryFile};
 use pushplan::effect::{EffectModel, Network, Prior};
 use pushplan::geometry::Vector;
-use pushplan::network::Weights;
+use pushplan::network::PredictorWeights;
 use pushplan::recording::Recording;
 use pushplan::report::{ScenePicture, Source, Track};
 use pushplan::scene::{
@@ -114,7 +114,7 @@ pub fn recording(recording: Recording) {
     assert_eq!(read.frames.len(), recording.frames.len());
 }
 
-pub fn weights(weights: Weights) {
+pub fn weights(weights: PredictorWeights) {
     if weights.card.config.width > 512 {
         return;
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use pushplan::asset::{Faults, PlanFile, TrajectoryFile, check};
 use pushplan::import::{Wanted, objects, parse, tool};
-use pushplan::network::{Weights, WeightsError};
+use pushplan::network::{PredictorWeights, WeightsError};
 use pushplan::recording::Recording;
 use pushplan::scene::{Task, Tool};
 
@@ -120,15 +120,15 @@ fn foreign(text: &str, file: &str) -> bool {
 }
 
 /// Weights from `input`, with a checksum that fits: damage must not hide behind it.
-fn sealed(input: &[u8]) -> Result<Weights, WeightsError> {
-    let result = Weights::from_bytes(input);
+fn sealed(input: &[u8]) -> Result<PredictorWeights, WeightsError> {
+    let result = PredictorWeights::from_bytes(input);
     let Err(WeightsError::Checksum { written, found }) = &result else { return result };
     let at = input.windows(written.len().max(1)).position(|bytes| bytes == written.as_bytes());
     match at {
         Some(at) if written.len() == found.len() => {
             let mut input = input.to_vec();
             input[at..at + found.len()].copy_from_slice(found.as_bytes());
-            Weights::from_bytes(&input)
+            PredictorWeights::from_bytes(&input)
         }
         _ => result,
     }

@@ -3,10 +3,10 @@
 use pushplan::internals::report::{Axis, Chart, Document, Figure, Mark, Section, Series};
 use serde_json::json;
 
-use crate::train::MetricLine;
+use crate::train::{HeldOutError, Line};
 
 /// A run of training so far, as curves.
-pub fn training_document(lines: &[MetricLine]) -> Document {
+pub fn training_document(lines: &[Line<HeldOutError>]) -> Document {
     let section =
         Section { figures: vec![Figure::chart("curves", chart(lines))], ..Section::default() };
     Document {
@@ -21,8 +21,8 @@ pub fn training_document(lines: &[MetricLine]) -> Document {
 const TITLE: &str = "Held-out final position error during training";
 
 /// Held-out errors over the steps.
-fn chart(lines: &[MetricLine]) -> Chart {
-    let series = |name: &str, value: &dyn Fn(&MetricLine) -> f64| Series {
+fn chart(lines: &[Line<HeldOutError>]) -> Chart {
+    let series = |name: &str, value: &dyn Fn(&Line<HeldOutError>) -> f64| Series {
         name: name.to_owned(),
         points: lines.iter().map(|line| [line.step as f64, 1e3 * value(line)]).collect(),
         mark: Mark::Line,

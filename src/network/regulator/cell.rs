@@ -3,8 +3,8 @@
 use crate::network::{Parameters, Statistics};
 
 use super::{
+    card::RegulatorWeights,
     layout::{OUTPUTS, TYPES},
-    weights::RegulatorWeights,
 };
 
 /// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any

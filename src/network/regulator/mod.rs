@@ -16,10 +16,10 @@
 //! logarithms times 2 sigmoid(t), which starts at one: a filter that is too sure of itself should
 //! not be outweighed, but believed less.
 
+mod card;
 mod cell;
 mod layout;
-mod weights;
 
+pub use card::{RegulatorCard, RegulatorWeights};
 pub use cell::{LEAST, Memory, Regulator};
 pub use layout::{TYPES, fresh_regulator, regulator_layout};
-pub use weights::{RegulatorCard, RegulatorWeights};

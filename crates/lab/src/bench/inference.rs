@@ -6,7 +6,7 @@ use std::time::Duration;
 use pushplan::internals::bench::processor_time;
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::internals::graph::Batch;
-use pushplan::internals::network::{Buffers, Forward, Weights, matrix_product};
+use pushplan::internals::network::{Buffers, Forward, PredictorWeights, matrix_product};
 use pushplan::internals::scene::{Job, Record};
 use pushplan::internals::sim::Simulator;
 use pushplan_learn::network::{Inputs, Predictor};
@@ -49,7 +49,11 @@ pub struct InferenceCost {
 
 /// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the
 /// tool is near an object.
-pub fn inference_costs(weights: &Weights, cases: &[Case], sizes: &[usize]) -> Vec<InferenceCost> {
+pub fn inference_costs(
+    weights: &PredictorWeights,
+    cases: &[Case],
+    sizes: &[usize],
+) -> Vec<InferenceCost> {
     let forward = Forward::new(weights);
     let peak = peak();
     sizes
@@ -76,7 +80,7 @@ pub fn inference_costs(weights: &Weights, cases: &[Case], sizes: &[usize]) -> Ve
 }
 
 /// Seconds of one forward pass of the candle graph over `batch`.
-fn candle(weights: &Weights, batch: &Batch) -> Option<f64> {
+fn candle(weights: &PredictorWeights, batch: &Batch) -> Option<f64> {
     // candle refuses no graph with parameters that were read from a weights file.
     let network = Predictor::new(weights.card.config, &weights.parameters).ok()?;
     let inputs = Inputs::new(batch, &weights.card.normaliser).ok()?;

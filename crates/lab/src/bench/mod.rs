@@ -39,7 +39,7 @@ pub use inference::{InferenceCost, inference_costs};
 pub use lever::{
     ConvergenceReport, ConvergenceRow, DriveReport, DriveRow, LeverBaseline, LeverRecord,
     LeverReport, LeverRow, LeverSuite, Neighbour, PointReport, PointRow, Setting, SupportRow,
-    convergence, drive_report, lever_report, point_report, support_rows,
+    convergence, drive_report, lever_report, load_lever, point_report, support_rows,
 };
 pub use masses::{
     MassCase, MassRecord, MassSuite, MassSummary, SeenMass, SeenRatio, summarise_masses,

@@ -14,7 +14,7 @@ use pushplan::cli::{exit_code, start};
 
 use super::{
     convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers, masses,
-    probes, random, refinement, rest_of_way, tradeoff,
+    probes, random, refinement, rest_of_way, tradeoff, train,
 };
 
 /// Measures what pushplan publishes: errors, costs, success, beliefs and trade-offs.
@@ -44,6 +44,7 @@ enum Command {
     Hdd(hdd::HddArgs),
     LeverTasks(SuiteArgs<lever_tasks::LeverTasksArgs>),
     LeverPoints(lever_points::LeverPointsArgs),
+    Train(train::TrainArgs),
     Merge(MergeArgs),
     Status(StatusArgs),
     Report(ReportArgs),
@@ -54,7 +55,7 @@ const GROUPS: Groups = &[
     ("Prediction", &["evaluate", "cost"]),
     ("Planning", &["random", "run", "refinement", "tradeoff"]),
     ("Belief", &["joints", "rest-of-way", "masses", "probes"]),
-    ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence"]),
+    ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence", "train"]),
     ("Runs that are kept", &["merge", "status", "report"]),
 ];
 
@@ -80,6 +81,7 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Hdd(args) => hdd::run(args, session)?,
         Command::LeverTasks(args) => args.run(session)?,
         Command::LeverPoints(args) => lever_points::run(args, session)?,
+        Command::Train(args) => return train::run(args, session),
         Command::Merge(args) => saved::merge(args, &kept::SUITES, session)?,
         Command::Status(args) => status::run(args, session)?,
         Command::Report(args) => saved::report(args, &kept::SUITES, session)?,

@@ -23,7 +23,7 @@ use crate::report::hdd_document;
 #[command(after_help = "Networks learn of drives by
   pushplan-learn generate data/hdd --preset hdd --episodes 500 --seed 1
   pushplan-learn generate data/hdd-held-out --preset hdd --episodes 1000 --seed 3
-  pushplan-learn train-lever runs/hdd --data data/hdd --held-out data/hdd-held-out --features support
+  pushplan-lab train memory runs/hdd --data data/hdd --held-out data/hdd-held-out
   pushplan-lab hdd --network runs/hdd/best.safetensors")]
 pub struct HddArgs {
     /// Number of lever-ups, four on a drive

@@ -8,11 +8,10 @@ use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::form::Form;
 use pushplan::cli::interrupt;
-use pushplan::cli::model::lever_network;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::words;
 use pushplan::internals::effect::{
-    LeverModel, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
+    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
 };
 use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 use pushplan::internals::sim::LeverSimulator;
@@ -20,7 +19,7 @@ use pushplan_learn::cli::generate::data_error;
 use pushplan_learn::cli::words::LEVER_PRESETS;
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
 
-use crate::bench::{LeverBaseline, Neighbour, lever_report};
+use crate::bench::{LeverBaseline, Neighbour, lever_report, load_lever};
 use crate::report::levers_document;
 
 /// Models of lever-ups against the 3-D engine, on plates that none has seen
@@ -43,13 +42,13 @@ pub struct LeversArgs {
     /// Their seed; must differ from that of the others
     #[arg(long, value_name = "N", default_value_t = 1)]
     known_seed: u64,
-    /// Weights of networks to measure as well as the shipped one, see `pushplan-learn train-lever`
+    /// Weights of networks to measure as well as the shipped one, see `pushplan-lab train`
     #[arg(long, value_name = "FILE", num_args = 1..)]
     network: Vec<PathBuf>,
     /// Only plates of this many corners, of all lever-ups
     #[arg(long, value_name = "N")]
     corners: Option<usize>,
-    /// As in the thesis, ask the lever-ups of --seed that `train-lever --random-split` leaves; those
+    /// As in the thesis, ask the lever-ups of --seed that `train memory --random-split` leaves; those
     /// that it learns from are remembered
     #[arg(long, conflicts_with_all = ["known", "known_seed"])]
     random_split: bool,
@@ -67,7 +66,8 @@ pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
     }
     let others =
         args.network.iter().map(|path| Named::load(path, false)).collect::<Result<Vec<_>, _>>()?;
-    let shipped = lever_network(None)?;
+    let shipped = LeverNetwork::shipped()
+        .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error))?;
     interrupt::watch();
     let usual = [LeverPreset::Fixed, LeverPreset::Varied];
     let families = if args.families.is_empty() { &usual[..] } else { &args.families };
@@ -152,7 +152,7 @@ impl Named {
     /// # Errors
     /// [`CliError::File`] for weights that cannot be used.
     pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
-        let network = lever_network(Some(path))?;
+        let network = load_lever(path).map_err(|error| CliError::File(error.to_string()))?;
         Ok(Self { network, path: path.display().to_string(), among_blocks })
     }
 }

@@ -17,6 +17,7 @@ mod refinement;
 mod rest_of_way;
 mod run;
 mod tradeoff;
+mod train;
 mod words;
 
 pub use app::run;

@@ -1,8 +1,10 @@
 //! Words for what is measured, each with its line in `--help`.
 
+use pushplan::internals::scene::LeverFeatures;
 use pushplan_learn::dataset::Controlled;
 
 use crate::bench::{CrowdFamily, JointMethod, Sighting, TaskKind};
+use crate::image::ImageFeatures;
 
 /// What the rest of the way is told of joints.
 pub static TOLD: [(&str, JointMethod, &str); 7] = [
@@ -54,4 +56,34 @@ pub static KINDS: [(&str, TaskKind, &str); 8] = [
         TaskKind::Cluster,
         "One of four close together, some of them joined (only on request)",
     ),
+];
+
+/// What a network of lever-ups is told of the shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Numbers of a fixed count.
+    Numbers(LeverFeatures),
+    /// An image, by convolutions.
+    Image(ImageFeatures),
+}
+
+/// All of it.
+pub static LEVER_FEATURES: [(&str, Told, &str); 9] = [
+    ("nothing", Told::Numbers(LeverFeatures::Nothing), "Nothing"),
+    (
+        "shape-context",
+        Told::Numbers(LeverFeatures::ShapeContext),
+        "Counts of outline points in rings and wedges",
+    ),
+    ("corners", Told::Numbers(LeverFeatures::Corners), "Corners and centre of mass"),
+    ("support", Told::Numbers(LeverFeatures::Support), "The support edge and the centre of mass"),
+    ("shape", Told::Numbers(LeverFeatures::Shape), "All of the last two"),
+    ("image", Told::Image(ImageFeatures::Image), "A mask from above, by convolutions"),
+    ("image-code", Told::Image(ImageFeatures::ImageCode), "The same in the code of an autoencoder"),
+    (
+        "context-image",
+        Told::Image(ImageFeatures::ContextImage),
+        "The shape context, by convolutions",
+    ),
+    ("depth", Told::Image(ImageFeatures::Depth), "Heights from above, by convolutions"),
 ];

@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use pushplan::effect::{
-    LeverInputs, LeverModel, LeverNetwork, LeverPrior, LeverTrust, SimulatedLevers, lever_inputs,
+    LeverInputs, LeverModel, LeverNetwork, LeverPrior, LeverTrust, SimulatedLevers,
 };
 use pushplan::geometry::{Pose, Pose3, Vector};
-use pushplan::network::{
-    LeverCard, LeverWeights, Parameters, Statistics, WeightsError, lever_layout,
-};
+use pushplan::network::{LeverCard, LeverWeights, Parameters, Statistics, lever_layout};
 use pushplan::scene::{LeverFeatures, LeverJob, LeverScene, Place};
 use pushplan::sim::LeverSimulator;
 use pushplan::watch::Unwatched;
@@ -82,21 +80,16 @@ fn mirrored_and_moved_lever_ups_have_mirrored_and_moved_predictions() {
     let network = |features, prior| {
         LeverNetwork::new(&random(features, prior)).expect("weights that fit their card")
     };
-    let models: [(Box<dyn LeverModel>, f64); 7] = [
+    let models: [(Box<dyn LeverModel>, f64); 4] = [
         (Box::new(LeverPrior::default()), 1e-6),
         // Features are single precision.
         (Box::new(network(LeverFeatures::Shape, true)), 1e-5),
         (Box::new(network(LeverFeatures::Support, false)), 1e-5),
         (Box::new(network(LeverFeatures::ShapeContext, false)), 1e-5),
-        // Images are drawn from where plates are levered, so their pixels do not show in this.
-        (Box::new(network(LeverFeatures::Image, false)), 1e-5),
-        (Box::new(network(LeverFeatures::ContextImage, true)), 1e-5),
-        (Box::new(network(LeverFeatures::Depth, false)), 1e-5),
     ];
     for (model, most) in &models {
         is_symmetric(&**model, LeverPreset::Varied, *most);
     }
-    is_symmetric(&network(LeverFeatures::Depth, false), LeverPreset::Lying, 1e-5);
     // Boards in drives rattle, which multiplies roundings: of contacts that are equally near
     // another one comes first.
     is_symmetric(&LeverPrior::default(), LeverPreset::Drive, 1e-4);
@@ -154,33 +147,6 @@ fn the_prior_knows_the_pocket_of_a_drive_and_its_limits() {
 }
 
 #[test]
-fn only_a_depth_image_tells_boxes_from_lying_cylinders() {
-    let drawn = episodes(LeverPreset::Lying, 4, 32);
-    let jobs: Vec<LeverJob> = drawn.episodes().iter().map(LeverEpisode::job).collect();
-    let round = |job: &LeverJob| job.scene.plates[0].slabs.len() > 1;
-    // Each with a box of the extents that this cylinder has.
-    for cylinder in jobs.iter().filter(|job| round(job)) {
-        let mut scene = LeverScene::clone(&cylinder.scene);
-        let plate = &mut scene.plates[0];
-        plate.slabs.truncate(1);
-        plate.slabs[0].bottom = 0.0;
-        plate.slabs[0].height = cylinder.lever.pivot - plate.clearance;
-        let like = LeverJob { scene: Arc::new(scene), lever: cylinder.lever };
-        let seen = |features, job| lever_inputs(features, job, None);
-        for features in
-            [LeverFeatures::Image, LeverFeatures::ImageCode, LeverFeatures::ContextImage]
-        {
-            assert_eq!(seen(features, cylinder), seen(features, &like));
-        }
-        let depth = |job| seen(LeverFeatures::Depth, job).image;
-        let pixels = depth(cylinder).into_iter().zip(depth(&like));
-        let apart = pixels.filter(|(a, b)| (a - b).abs() > 0.1);
-        assert!(apart.count() > 100);
-    }
-    assert!(jobs.iter().any(round) && !jobs.iter().all(round));
-}
-
-#[test]
 fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     let weights = random(LeverFeatures::Shape, true);
     let bytes = weights.to_bytes().expect("bytes");
@@ -193,18 +159,9 @@ fn a_networks_file_is_read_back_and_a_damaged_one_refused() {
     }
     assert!(LeverWeights::from_bytes(&bytes[..bytes.len() - 4]).is_err());
 
-    let seeing = random(LeverFeatures::Image, false);
-    let bytes = seeing.to_bytes().expect("bytes");
-    assert_eq!(LeverWeights::from_bytes(&bytes).expect("weights"), seeing);
-    // Sound, but not of what it says that it sees.
-    let card = LeverCard { features: LeverFeatures::ContextImage, ..seeing.card.clone() };
-    assert!(LeverNetwork::new(&LeverWeights { card, ..seeing.clone() }).is_err());
-    // Images that no convolutions are there for.
-    let (from, to) = (br#"rows\":64"#, br#"rows\":99"#);
-    let at = bytes.windows(from.len()).position(|window| window == from).expect("a card");
-    let mut larger = bytes;
-    larger[at..][..to.len()].copy_from_slice(to);
-    assert!(matches!(LeverWeights::from_bytes(&larger), Err(WeightsError::Size { .. })));
+    // Sound, but not of what it says that it is told.
+    let card = LeverCard { features: LeverFeatures::Corners, ..weights.card.clone() };
+    assert!(LeverNetwork::new(&LeverWeights { card, ..weights }).is_err());
 }
 
 /// On other lever-ups than those that the page of results shows.

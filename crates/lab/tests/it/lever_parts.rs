@@ -1,12 +1,13 @@
 //! The network of parts: symmetry, threads, and what its file must be.
 
-use pushplan::effect::{LeverCourse, LeverModel, LeverParts, LeverTrust, PartGraphs, load_lever};
+use pushplan::effect::{LeverModel, LeverTrust};
 use pushplan::network::{
-    Config, LeverWeights, Normaliser, PARTS, Parameters, PartsCard, PartsWeights, Weights,
-    WeightsError,
+    Config, LeverWeights, Normaliser, Parameters, PredictorWeights, WeightsError,
 };
 use pushplan::scene::LeverJob;
 use pushplan::watch::Unwatched;
+use pushplan_lab::bench::load_lever;
+use pushplan_lab::parts::{LeverCourse, LeverParts, PARTS, PartGraphs, PartsCard, PartsWeights};
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 
 use super::lever_models::is_symmetric;
@@ -83,11 +84,11 @@ fn its_file_is_read_back_and_a_damaged_or_another_one_refused() {
     }
     std::fs::write(&path, &bytes).expect("written");
     assert_eq!(load_lever(&path).expect("a model").name(), "prior + propagation network, parts");
-    assert!(matches!(LeverWeights::from_bytes(&bytes), Err(WeightsError::Foreign)));
-    assert!(matches!(Weights::from_bytes(&bytes), Err(WeightsError::Foreign)));
+    assert!(matches!(LeverWeights::from_bytes(&bytes), Err(WeightsError::Foreign { .. })));
+    assert!(matches!(PredictorWeights::from_bytes(&bytes), Err(WeightsError::Foreign { .. })));
     let other = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../models/lever.safetensors"));
     let other = other.expect("the shipped memory");
-    assert!(matches!(PartsWeights::from_bytes(&other), Err(WeightsError::Foreign)));
+    assert!(matches!(PartsWeights::from_bytes(&other), Err(WeightsError::Foreign { .. })));
     std::fs::write(&path, &other).expect("written");
     assert!(load_lever(&path).expect("a model").name().contains("LSTM"));
 }

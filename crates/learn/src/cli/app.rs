@@ -10,7 +10,7 @@ use pushplan::cli::groups::Groups;
 use pushplan::cli::session::{GlobalArgs, Session};
 use pushplan::cli::{exit_code, start};
 
-use super::{generate, merge, train, train_lever, train_regulator};
+use super::{generate, merge, train};
 
 /// Makes training data by simulation and trains the networks of pushplan on them.
 #[derive(Debug, Parser)]
@@ -28,15 +28,10 @@ enum Command {
     Merge(merge::MergeArgs),
     Status(StatusArgs),
     Train(train::TrainArgs),
-    TrainRegulator(train_regulator::TrainRegulatorArgs),
-    TrainLever(train_lever::TrainLeverArgs),
 }
 
 /// What the commands are for, in the order of `--help`.
-const GROUPS: Groups = &[
-    ("Data", &["generate", "merge", "status"]),
-    ("Weights", &["train", "train-regulator", "train-lever"]),
-];
+const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train"])];
 
 /// Runs the command with the given arguments, the program's name first, and gives its exit code.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
@@ -49,7 +44,5 @@ fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
         Command::Merge(args) => merge::run(args, session),
         Command::Status(args) => status::run(args, session).map(|()| exit_code::DONE),
         Command::Train(args) => train::run(args, session),
-        Command::TrainRegulator(args) => train_regulator::run(args, session),
-        Command::TrainLever(args) => train_lever::run(args, session),
     }
 }

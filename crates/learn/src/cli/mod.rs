@@ -3,9 +3,7 @@
 mod app;
 pub mod generate;
 mod merge;
-mod train;
-mod train_lever;
-mod train_regulator;
+pub mod train;
 pub mod words;
 
 pub use app::run;

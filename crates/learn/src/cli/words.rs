@@ -1,7 +1,5 @@
 //! Words for data and networks, each with its line in `--help`.
 
-use pushplan::internals::scene::LeverFeatures;
-
 use crate::dataset::{JointRule, LeverPreset, Preset, Solids};
 use crate::train::Exposure;
 
@@ -22,34 +20,6 @@ pub static LEVER_PRESETS: [(&str, LeverPreset, &str); 6] = [
     ("pcb", LeverPreset::Board, "A circuit board's outline levered up at any place"),
     ("hdd", LeverPreset::Drive, "Boards lifted or pried out of drives built of cuboids"),
     ("lying", LeverPreset::Lying, "Boxes and lying cylinders, alike from above"),
-];
-
-/// What a network of lever-ups is told of the shape.
-pub static LEVER_FEATURES: [(&str, LeverFeatures, &str); 9] = [
-    ("nothing", LeverFeatures::Nothing, "Nothing"),
-    ("shape-context", LeverFeatures::ShapeContext, "Counts of outline points in rings and wedges"),
-    ("corners", LeverFeatures::Corners, "Corners and centre of mass"),
-    ("support", LeverFeatures::Support, "The support edge and the centre of mass"),
-    ("shape", LeverFeatures::Shape, "All of the last two"),
-    ("image", LeverFeatures::Image, "A mask from above, by convolutions"),
-    ("image-code", LeverFeatures::ImageCode, "The same in the code of an autoencoder"),
-    ("context-image", LeverFeatures::ContextImage, "The shape context, by convolutions"),
-    ("depth", LeverFeatures::Depth, "Heights from above, by convolutions"),
-];
-
-/// What a network of lever-ups is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LeverForm {
-    /// A long short-term memory, told the whole at once.
-    Memory,
-    /// Propagation between the cuboids of body and drive, step by step.
-    Parts,
-}
-
-/// Both.
-pub static LEVER_FORMS: [(&str, LeverForm, &str); 2] = [
-    ("memory", LeverForm::Memory, "A long short-term memory that is told the whole at once"),
-    ("parts", LeverForm::Parts, "Propagation between cuboids that are near, step by step"),
 ];
 
 /// What data can be made of.

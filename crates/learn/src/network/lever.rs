@@ -3,16 +3,14 @@
 use std::collections::BTreeMap;
 
 use candle_core::{DType, Device, Result, Tensor, Var};
-use pushplan::internals::network::{LeverSizes, Parameters, image_layout, lever_layout};
+use pushplan::internals::network::{LeverSizes, Parameters, lever_layout};
 
-use crate::network::image::{image_codes, variables};
+use crate::network::variables::variables;
 
 /// Lever-ups side by side.
 pub struct LeverTensors {
     /// Normalised features [B, S].
     pub still: Tensor,
-    /// Images [B, rows, columns, 1], if they are seen.
-    pub image: Option<Tensor>,
     /// Of every frame normalised features [B, M].
     pub moving: Vec<Tensor>,
     /// Of every frame the pose before it [B, 9], if that is told.
@@ -22,7 +20,6 @@ pub struct LeverTensors {
 /// The network with its variables.
 pub struct LeverGraph {
     sizes: LeverSizes,
-    values: BTreeMap<String, Tensor>,
     variables: BTreeMap<String, Var>,
 }
 
@@ -32,22 +29,7 @@ impl LeverGraph {
     /// # Errors
     /// If a parameter is missing or has another shape than [`lever_layout`] says.
     pub fn new(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
-        let (values, variables) = variables(&lever_layout(sizes), parameters)?;
-        Ok(Self { sizes: *sizes, values, variables })
-    }
-
-    /// The same, what sees images left as it is.
-    ///
-    /// # Errors
-    /// As those of [`LeverGraph::new`].
-    pub fn with_image_as_it_is(sizes: &LeverSizes, parameters: &Parameters) -> Result<Self> {
-        let mut graph = Self::new(sizes, parameters)?;
-        for (name, _) in sizes.image.iter().flat_map(image_layout) {
-            if let Some(variable) = graph.variables.remove(name) {
-                graph.values.insert(name.to_owned(), variable.as_detached_tensor());
-            }
-        }
-        Ok(graph)
+        Ok(Self { sizes: *sizes, variables: variables(lever_layout(sizes), parameters)? })
     }
 
     /// The variables by name.
@@ -55,17 +37,21 @@ impl LeverGraph {
         &self.variables
     }
 
-    /// Poses [B, 9] of every frame, and the ends [B, 13].
+    /// Poses [B, 9] of every frame, and the ends [B, 13]. The gates may be told something `beside`
+    /// features, [B, 4 H].
     ///
     /// # Errors
     /// Those of candle.
-    pub fn forward(&self, of: &LeverTensors) -> Result<(Vec<Tensor>, Tensor)> {
+    pub fn forward(
+        &self,
+        of: &LeverTensors,
+        beside: Option<&Tensor>,
+    ) -> Result<(Vec<Tensor>, Tensor)> {
         let (batch, h) = (of.still.dims2()?.0, self.sizes.width);
         let mut told =
             of.still.matmul(self.get("gates.still"))?.broadcast_add(self.get("gates.bias"))?;
-        if let (Some(sizes), Some(image)) = (&self.sizes.image, &of.image) {
-            let code = image_codes(sizes, &self.values, image)?;
-            told = (told + code.matmul(self.get("gates.image"))?)?;
+        if let Some(beside) = beside {
+            told = (told + beside)?;
         }
         let mut hidden = Tensor::zeros((batch, h), DType::F32, &Device::Cpu)?;
         let mut memory = hidden.clone();
@@ -94,7 +80,7 @@ impl LeverGraph {
 
     /// A variable that the constructor put there.
     fn get(&self, name: &str) -> &Tensor {
-        &self.values[name]
+        self.variables[name].as_tensor()
     }
 }
 

@@ -4,13 +4,14 @@
 //! The physics predictor and the belief regulator are those of the Belief Regulated Dual Propagation
 //! Network (Tekden, Erdem, Erdem, Imre, Seker and Ugur, ICRA 2020).
 
-mod image;
 mod lever;
-pub(crate) mod operations;
+mod operations;
 mod predictor;
 mod regulator;
+mod variables;
 
-pub use image::{Autoencoder, autoencoder_layout, fresh_autoencoder};
 pub use lever::{LeverGraph, LeverTensors};
+pub use operations::{floats, with_floats};
 pub use predictor::{Inputs, Predictor};
 pub use regulator::{RegulatorGraph, Unrolled};
+pub use variables::variables;

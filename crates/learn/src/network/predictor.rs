@@ -15,12 +15,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use candle_core::{Device, Result, Tensor, Var, bail};
+use candle_core::{Device, Result, Tensor, Var};
 use pushplan::internals::network::{
     Config, Normaliser, Parameters, Rows, Statistics, Tables, layout_of,
 };
 
 use crate::network::operations::{BiasRectify, Messages};
+use crate::network::variables::variables;
 
 /// A batch as normalised tensors.
 pub struct Inputs {
@@ -75,14 +76,7 @@ impl Predictor {
     /// # Errors
     /// If a parameter is missing or has another shape than [`layout_of`] says.
     pub fn of(tables: &Tables, config: Config, parameters: &Parameters) -> Result<Self> {
-        let mut variables = BTreeMap::new();
-        for (name, shape) in layout_of(tables, &config) {
-            let Some(values) = parameters.values.get(name) else {
-                bail!("the parameter {name} is missing")
-            };
-            let tensor = Tensor::from_slice(values, shape.as_slice(), &Device::Cpu)?;
-            variables.insert(name.to_owned(), Var::from_tensor(&tensor)?);
-        }
+        let variables = variables(layout_of(tables, &config), parameters)?;
         Ok(Self { config, variables })
     }
 

@@ -3,8 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use candle_core::{DType, Device, Result, Tensor, Var, bail};
+use candle_core::{DType, Device, Result, Tensor, Var};
 use pushplan::internals::network::{Parameters, TYPES, regulator_layout};
+
+use crate::network::variables::variables;
 
 /// Pairs of several episodes side by side, window by window.
 pub struct Unrolled {
@@ -30,14 +32,7 @@ impl RegulatorGraph {
     /// # Errors
     /// If a parameter is missing or has another shape than [`regulator_layout`] says.
     pub fn new(features: usize, width: usize, parameters: &Parameters) -> Result<Self> {
-        let mut variables = BTreeMap::new();
-        for (name, shape) in regulator_layout(features, width) {
-            let Some(values) = parameters.values.get(name) else {
-                bail!("the parameter {name} is missing")
-            };
-            let tensor = Tensor::from_slice(values, shape.as_slice(), &Device::Cpu)?;
-            variables.insert(name.to_owned(), Var::from_tensor(&tensor)?);
-        }
+        let variables = variables(regulator_layout(features, width), parameters)?;
         Ok(Self { width, variables })
     }
 

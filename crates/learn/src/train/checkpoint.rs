@@ -1,18 +1,13 @@
 //! Everything that a run needs to resume bit-exactly, in one safetensors file.
 
 use pushplan::internals::network::{
-    Normaliser, ParameterError, decode_parameters, encode_parameters, file_metadata, layout,
+    Card, Layout, ParameterError, Parameters, decode_parameters, encode_parameters, file_metadata,
 };
 use safetensors::SafeTensors;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::dataset::DatasetConfig;
-
-use super::{AdamW, HeldOutError, Settings};
-
-/// Key of the header in the file's metadata.
-const KEY: &str = "pushplan-checkpoint";
+use super::{AdamW, Trainable};
 
 /// Why a checkpoint cannot be used.
 #[derive(Debug, Error)]
@@ -24,105 +19,93 @@ pub enum CheckpointError {
     #[error("the checkpoint's header is damaged: {0}")]
     Header(#[from] serde_json::Error),
     /// No header.
-    #[error("a safetensors file, but not a checkpoint of pushplan")]
+    #[error("a safetensors file, but not a checkpoint of this network")]
     Foreign,
     /// A tensor is missing, of a wrong shape or not finite.
     #[error("the checkpoint is damaged: {0}")]
     Tensor(#[from] ParameterError),
-    /// Resuming would mix two runs.
-    #[error("the checkpoint belongs to a run with other {0}; choose another folder")]
-    Other(&'static str),
+    /// Resuming would mix two runs. A longer schedule is another run, too: its learning rates would
+    /// have differed from the start.
+    #[error("the checkpoint belongs to a run with other settings or data; choose another folder")]
+    Other,
 }
 
 /// The state of a run after some step. Batches and noise are functions of (seed, step), so
 /// there is no generator to save.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Checkpoint {
-    /// What decides the run.
-    pub settings: Settings,
-    /// What decides its data.
-    pub data: DatasetConfig,
+pub struct Checkpoint<T: Trainable> {
     /// Feature scales.
-    pub normaliser: Normaliser,
+    pub scales: T::Scales,
     /// Weights, moments and average.
     pub optimiser: AdamW,
-    /// Lowest held-out error so far.
-    pub best: Option<HeldOutError>,
+    /// The weights whose rollouts examples are taken from, if they are.
+    pub lead: Option<Parameters>,
+    /// The best held-out score so far.
+    pub best: Option<T::Score>,
 }
 
+/// The text of the metadata.
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct Header<Settings, Scales, Score> {
     settings: Settings,
-    data: DatasetConfig,
-    normaliser: Normaliser,
+    scales: Scales,
     step: u64,
-    best: Option<HeldOutError>,
+    lead: bool,
+    best: Option<Score>,
 }
 
-impl Checkpoint {
+impl<T: Trainable> Checkpoint<T> {
+    /// That of a run that begins.
+    pub fn fresh(task: &T) -> Self {
+        let scales = task.scales();
+        let optimiser = AdamW::new(task.fresh(&scales));
+        Self { scales, optimiser, lead: None, best: None }
+    }
+
     /// The file's bytes.
     ///
     /// # Errors
     /// If a tensor does not fit its shape.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, CheckpointError> {
-        let header = Header {
-            settings: self.settings.clone(),
-            data: self.data.clone(),
-            normaliser: self.normaliser.clone(),
-            step: self.optimiser.step,
-            best: self.best.clone(),
-        };
-        let header = serde_json::to_string(&header)?;
-        let groups = [
-            ("weights/", &self.optimiser.weights),
-            ("first/", &self.optimiser.first),
-            ("second/", &self.optimiser.second),
-            ("average/", &self.optimiser.average),
+    pub fn to_bytes(&self, task: &T) -> Result<Vec<u8>, CheckpointError> {
+        let Self { scales, optimiser, lead, best } = self;
+        let (step, best) = (optimiser.step, best.as_ref());
+        let header = Header { settings: task.settings(), scales, step, lead: lead.is_some(), best };
+        let mut groups = vec![
+            ("weights/", &optimiser.weights),
+            ("first/", &optimiser.first),
+            ("second/", &optimiser.second),
+            ("average/", &optimiser.average),
         ];
-        Ok(encode_parameters(&layout(&self.settings.config), &groups, (KEY, header))?)
+        groups.extend(lead.iter().map(|lead| ("lead/", lead)));
+        let text = serde_json::to_string(&header)?;
+        Ok(encode_parameters(&layout(task, scales), &groups, (T::KEY, text))?)
     }
 
     /// Reads a file's bytes.
     ///
     /// # Errors
-    /// [`CheckpointError`] if they are not a complete checkpoint.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        let text = file_metadata(bytes, KEY)?.ok_or(CheckpointError::Foreign)?;
-        let header: Header = serde_json::from_str(&text)?;
+    /// [`CheckpointError`] if they are not a complete checkpoint, or that of another run.
+    pub fn from_bytes(task: &T, bytes: &[u8]) -> Result<Self, CheckpointError> {
+        let text = file_metadata(bytes, T::KEY)?.ok_or(CheckpointError::Foreign)?;
+        let header: Header<T::Settings, T::Scales, T::Score> = serde_json::from_str(&text)?;
+        if header.settings != task.settings() {
+            return Err(CheckpointError::Other);
+        }
+        let Header { scales, step, lead, best, .. } = header;
         let file = SafeTensors::deserialize(bytes)?;
-        let group =
-            |prefix: &str| decode_parameters(&file, &layout(&header.settings.config), prefix);
+        let layout = layout(task, &scales);
+        let group = |prefix: &str| decode_parameters(&file, &layout, prefix);
         let optimiser = AdamW {
             weights: group("weights/")?,
             first: group("first/")?,
             second: group("second/")?,
             average: group("average/")?,
-            step: header.step,
+            step,
         };
-        Ok(Self {
-            settings: header.settings,
-            data: header.data,
-            normaliser: header.normaliser,
-            optimiser,
-            best: header.best,
-        })
+        let lead = lead.then(|| group("lead/")).transpose()?;
+        Ok(Self { scales, optimiser, lead, best })
     }
+}
 
-    /// Refuses to go on under other settings or data than those the run began with. A longer
-    /// schedule is another run, too: its learning rates would have differed from the start.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Other`].
-    pub fn fits(&self, settings: &Settings, data: &DatasetConfig) -> Result<(), CheckpointError> {
-        if self.settings != *settings {
-            return Err(CheckpointError::Other("settings"));
-        }
-        if self.data.split(0, data.episodes) != data.split(0, data.episodes)
-            || self.data.seed != data.seed
-            || self.data.episodes != data.episodes
-        {
-            return Err(CheckpointError::Other("data"));
-        }
-        Ok(())
-    }
+fn layout<T: Trainable>(task: &T, scales: &T::Scales) -> Layout {
+    task.card(scales, 0, None).layout()
 }

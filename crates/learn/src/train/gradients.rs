@@ -7,10 +7,7 @@ use pushplan::internals::network::Parameters;
 
 /// The value of a scalar `loss` and its gradient by `variables`, zero for those that it does not depend
 /// on.
-pub(super) fn gradients_of(
-    loss: &Tensor,
-    variables: &BTreeMap<String, Var>,
-) -> Result<(f64, Parameters)> {
+pub fn gradients_of(loss: &Tensor, variables: &BTreeMap<String, Var>) -> Result<(f64, Parameters)> {
     let store = loss.backward()?;
     let mut gradients = Parameters::default();
     for (name, variable) in variables {

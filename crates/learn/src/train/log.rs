@@ -1,19 +1,47 @@
-//! `metrics.jsonl`, without lines past the checkpoint that a run goes on from.
+//! What a run reports, one JSON line at a time: `metrics.jsonl`.
 
-use std::{
-    fs,
-    io::Write,
-    path::{Path, PathBuf},
-};
-
-use serde::Serialize;
-use serde_json::Value as Json;
+use std::fmt::{self, Display};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use pushplan::internals::asset::write_atomic;
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 
 use super::TrainError;
 
-/// The open file.
+/// One line of `metrics.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Line<Score> {
+    /// Steps taken.
+    pub step: u64,
+    /// Mean loss since the last line.
+    pub loss: f64,
+    /// Mean gradient norm before clipping since the last line.
+    pub gradient: f64,
+    /// Learning rate.
+    pub learning_rate: f64,
+    /// Examples learned from per second since the last line.
+    pub examples_per_second: f64,
+    /// Wall time of this process so far, seconds.
+    pub seconds: f64,
+    /// Of the averaged weights on what was not learned from.
+    pub held_out: Score,
+}
+
+/// What a person wants to follow.
+impl<Score: Display> Display for Line<Score> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { step, loss, examples_per_second, held_out, .. } = self;
+        write!(
+            f,
+            "step {step:>7}  loss {loss:.4}  held out: {held_out}  {examples_per_second:.0} examples/s"
+        )
+    }
+}
+
+/// The open file, without lines past the checkpoint that a run goes on from.
 pub(super) struct Log {
     path: PathBuf,
     file: fs::File,
@@ -42,7 +70,7 @@ impl Log {
     }
 
     pub fn write(&mut self, line: &impl Serialize) -> Result<(), TrainError> {
-        // A metric line holds only finite numbers and text, which always encode.
+        // A line holds only finite numbers and text, which always encode.
         let text = serde_json::to_string(line).unwrap_or_default();
         writeln!(self.file, "{text}").map_err(|e| TrainError::File(self.path.clone(), e))
     }

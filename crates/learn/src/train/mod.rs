@@ -1,37 +1,33 @@
-//! Training: examples with noise, loss, optimiser, schedule, checkpoints and resumption.
+//! Training: one loop, optimiser, schedule, checkpoint and log for every network.
 //!
 //! A run is a folder: `checkpoint.safetensors` (everything needed to resume bit-exactly),
-//! `metrics.jsonl`, `best.safetensors`, the weights with the lowest held-out rollout error, and
-//! `last.safetensors`, those of the last evaluation. Data come from `dataset`; nothing is
+//! `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
+//! `last.safetensors`, those of the last evaluation. A network is what [`Trainable`] asks: its
+//! examples, loss and score stand in a folder of its own. Data come from `dataset`; nothing is
 //! generated or drawn here.
 
 mod checkpoint;
 mod descent;
-mod example;
 mod gradients;
 mod lever;
 mod log;
-mod loss;
-mod metrics;
 mod optimiser;
+mod predictor;
 mod regulator;
-mod rollout_error;
-mod schedule;
-mod settings;
+mod trainable;
 mod trainer;
 
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use descent::Descent;
-pub use example::{Examples, Exposure, Noise};
+pub use gradients::gradients_of;
 pub use lever::{
-    LeverCheckpoint, LeverLine, LeverScore, LeverSettings, PartsSettings, train_lever, train_parts,
+    LeverBatch, LeverExample, LeverScore, LeverSettings, drawn, score as lever_score, train_lever,
 };
-pub use metrics::{HeldOutError, MetricLine};
+pub use log::Line;
 pub use optimiser::AdamW;
-pub use regulator::{
-    RegulatorCheckpoint, RegulatorLine, RegulatorScore, RegulatorSettings, score, train_regulator,
+pub use predictor::{
+    Examples, Exposure, HeldOutError, Noise, PredictorSettings, rollout_error, train_predictor,
 };
-pub use rollout_error::rollout_error;
-pub use schedule::learning_rate;
-pub use settings::Settings;
-pub use trainer::{TrainError, train};
+pub use regulator::{RegulatorScore, RegulatorSettings, score, train_regulator};
+pub use trainable::Trainable;
+pub use trainer::{REPLICAS, TrainError, Trainer};

@@ -5,7 +5,7 @@
 
 use pushplan::internals::network::Parameters;
 
-use super::{Descent, learning_rate};
+use super::Descent;
 
 const BETA1: f32 = 0.9;
 /// Shorter memory than the usual 0.999: runs are short, and gradients change quickly early on.
@@ -47,7 +47,7 @@ impl AdamW {
             return norm;
         }
         let shorten = (descent.clip / norm.max(1e-12)).min(1.0) as f32;
-        let rate = learning_rate(descent, self.step) as f32;
+        let rate = descent.learning_rate(self.step) as f32;
         self.step += 1;
         let t = self.step as i32;
         let (bias1, bias2) = (1.0 - BETA1.powi(t), 1.0 - BETA2.powi(t));
@@ -80,7 +80,7 @@ impl AdamW {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::train::Settings;
+    use crate::train::PredictorSettings;
 
     fn one(value: f32) -> Parameters {
         Parameters { values: [("x".to_owned(), vec![value])].into() }
@@ -89,7 +89,8 @@ mod tests {
     #[test]
     fn the_first_step_has_the_length_of_the_learning_rate() {
         // With both moments corrected, Adam's first change is the sign of the gradient.
-        let descent = Descent { weight_decay: 0.0, warm_up: 0, ..Settings::default().descent() };
+        let descent =
+            Descent { weight_decay: 0.0, warm_up: 0, ..PredictorSettings::default().descent };
         let mut adam = AdamW::new(one(1.0));
         let norm = adam.update(&descent, &one(0.25));
         assert!((norm - 0.25).abs() < 1e-12);
@@ -101,7 +102,7 @@ mod tests {
     fn a_gradient_that_is_not_finite_changes_nothing() {
         let mut adam = AdamW::new(one(1.0));
         let before = adam.clone();
-        assert!(adam.update(&Settings::default().descent(), &one(f32::NAN)).is_nan());
+        assert!(adam.update(&PredictorSettings::default().descent, &one(f32::NAN)).is_nan());
         assert_eq!(adam, before);
     }
 }

@@ -24,7 +24,7 @@ fn the_commands_of_all_pages_are_taken() {
 #[test]
 fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
     let run = "--episodes 40 --held-out 6 --steps 60 --evaluate-every 5 --width 8 --batch 32";
-    goes_on_after_an_interruption("train", run);
+    goes_on_after_an_interruption("train predictor", run);
 }
 
 #[test]
@@ -50,19 +50,17 @@ fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
 }
 
 #[test]
-fn what_does_not_fit_together_in_training_of_lever_ups_is_refused() {
+fn what_does_not_fit_together_in_training_is_refused() {
     let wrong = [
-        ("--held-out b --feedback", "--no-prior"),
-        ("--held-out b --random-split", "cannot be used with"),
-        ("--held-out b --features picture", "image-code"),
-        ("--no-prior", "--held-out"),
-        ("--held-out b --model parts --features corners", "parts know no features"),
-        ("--held-out b --model parts --width 7", "odd widths"),
-        ("--held-out b --model gears", "parts"),
+        ("predictor runs/none --width 7", "--width must be even, not 7"),
+        ("predictor runs/none --learning-rate 2", "--learning-rate must be above 0"),
+        ("regulator runs/none --held-out-seed 1", "the seed of the others"),
+        ("lever runs/none --data a", "--held-out"),
+        ("gears runs/none", "unrecognized subcommand"),
     ];
     for (arguments, part) in wrong {
-        let fixed = ["train-lever", "runs/none", "--data", "a"].into_iter();
-        let output = run(&fixed.chain(arguments.split_whitespace()).collect::<Vec<_>>());
+        let output =
+            run(&["train"].into_iter().chain(arguments.split_whitespace()).collect::<Vec<_>>());
         let said = stderr(&output);
         assert!(output.status.code() == Some(2) && said.contains(part), "{arguments}: {said}");
     }

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use candle_core::{Device, Tensor};
 use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
 use pushplan::network::{
-    ImageSizes, LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters,
-    Statistics, fresh_lever, lever_layout,
+    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters, Statistics,
+    fresh_lever, lever_layout,
 };
 use pushplan::scene::{LEVER_FRAMES, LeverFeatures, LeverJob};
 use pushplan::store::FolderLock;
@@ -40,10 +40,8 @@ fn weights(features: LeverFeatures, sizes: LeverSizes, parameters: Parameters) -
 
 #[test]
 fn the_cell_computes_what_training_differentiates() {
-    let image = ImageSizes { rows: 10, columns: 11, code: 6 };
     let plain = LeverSizes { still: 7, moving: 4, width: 11, ..LeverSizes::default() };
-    let seeing = LeverSizes { image: Some(image), feedback: true, ..plain };
-    for sizes in [plain, seeing] {
+    for sizes in [plain, LeverSizes { feedback: true, ..plain }] {
         computes_what_training_differentiates(sizes);
     }
 }
@@ -58,18 +56,13 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
     let parameters = Parameters { values: values.collect() };
     let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
     let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
-    let image = sizes.image.map(|image| draw(image.rows * image.columns)).unwrap_or_default();
-    let told = cell.predict(&still, &image, &moving);
+    let told = cell.predict(&still, &moving);
 
     let tensor = |values: &[f32]| {
         Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
     };
     let tensors = LeverTensors {
         still: tensor(&still),
-        image: sizes.image.map(|sizes| {
-            let shape = (1, sizes.rows, sizes.columns, 1);
-            Tensor::from_slice(&image, shape, &Device::Cpu).expect("an image")
-        }),
         moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
         // What the cell feeds back to itself.
         before: if sizes.feedback {
@@ -80,7 +73,7 @@ fn computes_what_training_differentiates(sizes: LeverSizes) {
         },
     };
     let graph = LeverGraph::new(&sizes, &parameters).expect("a graph");
-    let (poses, end) = graph.forward(&tensors).expect("predictions");
+    let (poses, end) = graph.forward(&tensors, None).expect("predictions");
     let mut wanted: Vec<f32> =
         poses.iter().flat_map(|pose| pose.to_vec2::<f32>().expect("a row").concat()).collect();
     assert_eq!([wanted.len(), told.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
@@ -119,11 +112,11 @@ fn settings(prior: bool) -> LeverSettings {
         features: LeverFeatures::Support,
         prior,
         width: 8,
-        batch: 16,
-        evaluate_every: 40,
         ..LeverSettings::default()
     };
     settings.descent.steps = 120;
+    settings.descent.batch = 16;
+    settings.descent.evaluate_every = 40;
     settings.descent.warm_up = 10;
     settings
 }
@@ -178,43 +171,29 @@ fn training_learns_and_resumes_to_the_same_bits() {
     assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
 }
 
-/// What sees images resumes too, stopped before and after its autoencoder is done; so does what is fed
-/// with its own predictions.
+/// As in the thesis: fed with its own predictions, up to the first slip.
 #[test]
-fn networks_of_the_thesis_resume_to_the_same_bits() {
+fn what_is_fed_back_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 48), episodes(2, 12));
-    let with = |features, feedback| {
-        let mut settings = LeverSettings {
-            features,
-            feedback,
-            cut: feedback,
-            evaluate_every: 20,
-            ..settings(false)
-        };
-        settings.descent.steps = 60;
-        settings
+    let mut settings = LeverSettings {
+        features: LeverFeatures::ShapeContext,
+        feedback: true,
+        cut: true,
+        ..settings(false)
     };
-    let of = [
-        (with(LeverFeatures::ImageCode, false), "LSTM, image autoencoder"),
-        (with(LeverFeatures::ContextImage, true), "LSTM, shape context CNN, fed back"),
-    ];
-    for (settings, name) in of {
-        let train = |folder: &Path, watch: &dyn Watch| {
-            let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
-            train_lever(&settings, &data, &held_out, &lock, watch).expect("training")
-        };
-        let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
-        let best = train(whole.path(), &Unwatched).expect("weights");
-        // The autoencoder counts its own steps.
-        train(parts.path(), &Until(40, AtomicU64::new(0)));
-        train(parts.path(), &Until(20, AtomicU64::new(0)));
-        train(parts.path(), &Unwatched);
-        let checkpoint = |folder: &tempfile::TempDir| {
-            fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")
-        };
-        assert!(checkpoint(&whole) == checkpoint(&parts), "{name}");
-        assert_eq!(LeverNetwork::load(&best).expect("weights").name(), name);
-    }
+    settings.descent.steps = 60;
+    settings.descent.evaluate_every = 20;
+    let train = |folder: &Path, watch: &dyn Watch| {
+        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
+        let best = train_lever(&settings, &data, &held_out, &lock, watch).expect("training");
+        (best, fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint"))
+    };
+    let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let (best, wanted) = train(whole.path(), &Unwatched);
+    train(parts.path(), &Until(40, AtomicU64::new(0)));
+    assert!(train(parts.path(), &Unwatched).1 == wanted);
+    let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
+    assert_eq!(network.name(), "LSTM, shape context, fed back");
 }
 
 #[test]

@@ -40,6 +40,18 @@ impl Watch for After {
     }
 }
 
+/// Those of a drive stand at different heights, which once were lost on the way to the disk.
+#[test]
+fn what_is_read_is_what_was_drawn() {
+    for preset in FAMILIES {
+        let config = config(preset, 8);
+        let folder = tempfile::tempdir().expect("a folder");
+        generate_levers(&config, Shard::WHOLE, folder.path(), &Unwatched).expect("data");
+        let drawn = LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups");
+        assert!(LeverDataset::open(folder.path()).expect("data") == drawn, "{preset}");
+    }
+}
+
 #[test]
 fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     let config = config(LeverPreset::Varied, 300);

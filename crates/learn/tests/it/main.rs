@@ -8,7 +8,6 @@ mod dataset;
 mod descent;
 mod lever;
 mod lever_data;
-mod lever_parts;
 mod lever_twins;
 mod predictor;
 mod pruning;

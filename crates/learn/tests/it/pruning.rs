@@ -11,7 +11,7 @@ use pushplan::{
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
     graph::Batch,
-    network::{Buffers, Forward, Weights},
+    network::{Buffers, Forward, PredictorWeights},
     rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
         Job, ModelKind, Object, Obstacle, Part, Physics, Record, Scene, Stroke, Tool, ToolMotion,
@@ -52,12 +52,12 @@ fn compare(forward: &Forward, scene: &Scene, job: &Job, stride: usize) -> (Work,
     (work, all)
 }
 
-fn shipped() -> Weights {
+fn shipped() -> PredictorWeights {
     EffectModels::weights().expect("the shipped weights")
 }
 
 /// Weights whose corrections are far too large: nothing here may rest on a good network.
-fn wild() -> Weights {
+fn wild() -> PredictorWeights {
     let mut weights = shipped();
     for name in ["motion.even", "motion.odd"] {
         let values = weights.parameters.values.get_mut(name).expect("the last layer");

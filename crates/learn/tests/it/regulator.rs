@@ -23,14 +23,10 @@ fn network() -> Arc<Network> {
 }
 
 fn settings() -> RegulatorSettings {
-    let mut settings = RegulatorSettings {
-        width: 8,
-        batch: 4,
-        evaluate_every: 20,
-        lessons: 16,
-        ..RegulatorSettings::default()
-    };
+    let mut settings = RegulatorSettings { width: 8, lessons: 16, ..RegulatorSettings::default() };
     settings.descent.steps = 60;
+    settings.descent.batch = 4;
+    settings.descent.evaluate_every = 20;
     settings.descent.warm_up = 5;
     settings
 }

@@ -125,13 +125,19 @@ fn draw(
     indices.par_iter().map(draw).collect()
 }
 
+/// An episode, and the heights of its blocks: obstacles keep theirs only in files that people read.
 fn encode(episode: &LeverEpisode) -> Result<Vec<u8>, StoreError> {
-    postcard::to_allocvec(episode).map_err(|error| StoreError::Record {
+    let heights: Vec<f64> = episode.scene.blocks.iter().map(|block| block.z).collect();
+    postcard::to_allocvec(&(episode, heights)).map_err(|error| StoreError::Record {
         index: episode.index as usize,
         why: error.to_string(),
     })
 }
 
 fn decode(record: &[u8]) -> Result<LeverEpisode, String> {
-    postcard::from_bytes(record).map_err(|error| error.to_string())
+    let read = postcard::from_bytes(record).map_err(|error| error.to_string());
+    let (mut episode, heights): (LeverEpisode, Vec<f64>) = read?;
+    let blocks = episode.scene.blocks.iter_mut();
+    blocks.zip(heights).for_each(|(block, height)| block.z = height);
+    Ok(episode)
 }

@@ -2,13 +2,14 @@
 
 use candle_core::{Device, Result, Tensor};
 use pushplan::internals::effect::{LeverInputs, LeverModel, LeverNetwork, LeverView, lever_inputs};
-use pushplan::internals::network::{ImageSizes, LEVER_POSE, LeverSizes, Statistics};
+use pushplan::internals::network::{LEVER_POSE, LeverSizes, Statistics};
 use pushplan::internals::scene::{Ending, LEVER_FRAMES};
 use rayon::prelude::*;
 
 use crate::dataset::LeverEpisode;
 use crate::network::{LeverGraph, LeverTensors};
-use crate::train::lever::settings::LeverSettings;
+
+use super::LeverSettings;
 
 /// Normalised features beyond this are cut off, as the cell does.
 const BOUND: f32 = 10.0;
@@ -22,7 +23,8 @@ const WEIGHTS: [f64; 4] = [0.3, 0.1, 0.1, 0.1];
 
 /// A lever-up with its answer.
 #[derive(Clone, Debug)]
-pub(super) struct Example {
+pub struct LeverExample {
+    /// What the network is told.
     pub inputs: LeverInputs,
     /// What is to be added to the base: [T, 9] and at rest [9].
     wanted: Vec<f32>,
@@ -32,14 +34,33 @@ pub(super) struct Example {
     frames: usize,
 }
 
-/// The examples of `episodes` that came to rest without a jam, and have frames that count.
-pub(super) fn examples(settings: &LeverSettings, episodes: &[LeverEpisode]) -> Vec<Example> {
-    let sound: Vec<&LeverEpisode> = episodes.iter().filter(|episode| episode.is_sound()).collect();
-    let examples = sound.par_iter().map(|episode| example(settings, episode));
-    examples.filter(|example| example.frames > 0).collect()
+impl LeverExample {
+    /// That of an episode, if it came to rest without a jam and has frames that count.
+    pub fn new(settings: &LeverSettings, episode: &LeverEpisode) -> Option<Self> {
+        let example = episode.is_sound().then(|| example(settings, episode));
+        example.filter(|example| example.frames > 0)
+    }
+
+    /// Those of `episodes`.
+    pub fn all(settings: &LeverSettings, episodes: &[LeverEpisode]) -> Vec<Self> {
+        episodes.par_iter().filter_map(|episode| Self::new(settings, episode)).collect()
+    }
+
+    /// Scales of features of a lever-up, and of a frame.
+    pub fn scales<'a>(
+        examples: impl Iterator<Item = &'a Self> + Clone,
+        sizes: &LeverSizes,
+    ) -> [Statistics; 2] {
+        let table = |of: fn(&Self) -> &[f32]| -> Vec<f32> {
+            examples.clone().flat_map(of).copied().collect()
+        };
+        let still = Statistics::measure(&table(|e| &e.inputs.still), sizes.still, true);
+        let moving = Statistics::measure(&table(|e| &e.inputs.moving), sizes.moving, true);
+        [still, moving]
+    }
 }
 
-fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
+fn example(settings: &LeverSettings, episode: &LeverEpisode) -> LeverExample {
     let job = episode.job();
     let prior = settings
         .prior
@@ -58,11 +79,11 @@ fn example(settings: &LeverSettings, episode: &LeverEpisode) -> Example {
     };
     let slip = f32::from(u8::from(truth.slipped()));
     let frames = if settings.cut { truth.before_slip() } else { LEVER_FRAMES };
-    Example { inputs, wanted, slip, ending, frames }
+    LeverExample { inputs, wanted, slip, ending, frames }
 }
 
 /// A batch as tensors.
-pub(super) struct Batch {
+pub struct LeverBatch {
     tensors: LeverTensors,
     /// Of every frame: [B, T, 9].
     wanted: Tensor,
@@ -76,9 +97,13 @@ pub(super) struct Batch {
     shares: Tensor,
 }
 
-impl Batch {
+impl LeverBatch {
+    /// Examples side by side.
+    ///
+    /// # Errors
+    /// Those of candle, which examples of these sizes do not cause.
     pub fn new(
-        examples: &[&Example],
+        examples: &[&LeverExample],
         scales: &[Statistics; 2],
         sizes: &LeverSizes,
     ) -> Result<Self> {
@@ -91,7 +116,7 @@ impl Batch {
         };
         let [still, moving] = scales;
         let columns = moving.mean.len();
-        let gather = |of: &dyn Fn(&Example) -> Vec<f32>| -> Vec<f32> {
+        let gather = |of: &dyn Fn(&LeverExample) -> Vec<f32>| -> Vec<f32> {
             examples.iter().flat_map(|example| of(example)).collect()
         };
         let frames = (0..LEVER_FRAMES).map(|t| {
@@ -103,24 +128,24 @@ impl Batch {
             Tensor::from_vec(values, (count, frames, LEVER_POSE), &Device::Cpu)
         };
         // Where a plate was a frame before: at first it has not moved.
-        let before = |e: &Example, t: usize| match t.checked_sub(1) {
+        let before = |e: &LeverExample, t: usize| match t.checked_sub(1) {
             Some(last) => e.wanted[last * LEVER_POSE..][..LEVER_POSE].to_vec(),
             None => vec![0.0; LEVER_POSE],
         };
         let told = if sizes.feedback { LEVER_FRAMES } else { 0 };
         let before = (0..told).map(|t| tensor(gather(&|e| before(e, t)), LEVER_POSE));
-        let share = |e: &Example| {
+        let share = |e: &LeverExample| {
             let share = |t: usize| if t < e.frames { 1.0 / e.frames as f32 } else { 0.0 };
             (0..LEVER_FRAMES).map(share).collect()
         };
-        let one_of = |e: &Example| (0..3).map(|k| f32::from(u8::from(k == e.ending))).collect();
+        let one_of =
+            |e: &LeverExample| (0..3).map(|k| f32::from(u8::from(k == e.ending))).collect();
         Ok(Self {
             tensors: LeverTensors {
                 still: tensor(
                     scaled(gather(&|e| e.inputs.still.clone()), still),
                     still.mean.len(),
                 )?,
-                image: sizes.image.map(|sizes| images(examples, &sizes)).transpose()?,
                 moving: frames.collect::<Result<_>>()?,
                 before: before.collect::<Result<_>>()?,
             },
@@ -133,9 +158,13 @@ impl Batch {
     }
 
     /// Distances of ways and axes, their root mean square over the frames, and at rest, and cross
-    /// entropies of slip and ending; means over lever-ups.
-    pub fn loss(&self, network: &LeverGraph) -> Result<Tensor> {
-        let (poses, end) = network.forward(&self.tensors)?;
+    /// entropies of slip and ending; means over lever-ups. The network may be told something `beside`
+    /// features, see [`LeverGraph::forward`].
+    ///
+    /// # Errors
+    /// Those of candle.
+    pub fn loss(&self, network: &LeverGraph, beside: Option<&Tensor>) -> Result<Tensor> {
+        let (poses, end) = network.forward(&self.tensors, beside)?;
         let [axes, rest, slip, ending] = WEIGHTS;
         let told = Tensor::stack(&poses, 1)?;
         // Not the mean distance: what is published is the root mean square over the frames.
@@ -158,10 +187,4 @@ impl Batch {
         let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
         loss - ((shares * &self.endings)?.sum(1)?.mean_all()? * ending)?
     }
-}
-
-/// Images side by side: [B, rows, columns, 1].
-pub(super) fn images(examples: &[&Example], sizes: &ImageSizes) -> Result<Tensor> {
-    let all: Vec<f32> = examples.iter().flat_map(|e| e.inputs.image.iter().copied()).collect();
-    Tensor::from_vec(all, (examples.len(), sizes.rows, sizes.columns, 1), &Device::Cpu)
 }

@@ -7,10 +7,10 @@ use pushplan::internals::network::LeverSizes;
 use pushplan::internals::scene::LeverFeatures;
 use serde::{Deserialize, Serialize};
 
-use crate::dataset::LeverConfig;
+use crate::dataset::{LeverConfig, LeverEpisode};
 use crate::train::Descent;
 
-/// Settings of a run; a checkpoint resumes only under the same ones.
+/// Settings of a run; the defaults are those of the shipped weights, but for the data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeverSettings {
     /// What the network is told of the shape.
@@ -21,21 +21,14 @@ pub struct LeverSettings {
     pub width: usize,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Lever-ups a step, B.
-    pub batch: usize,
-    /// Steps between held-out evaluations and checkpoints.
-    pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
     /// Whether it is told the pose of the frame before: the true one when it learns, its own when it
     /// predicts.
-    #[serde(default)]
     pub feedback: bool,
     /// Whether the frames from a slip on are left out.
-    #[serde(default)]
     pub cut: bool,
     /// Whether the data are one part of a random split over lever-ups.
-    #[serde(default)]
     pub split: bool,
     /// The families that it is trained on.
     pub data: Vec<LeverConfig>,
@@ -45,9 +38,17 @@ pub struct LeverSettings {
 
 impl LeverSettings {
     /// Widths of the network.
-    pub(super) fn sizes(&self) -> LeverSizes {
+    pub fn sizes(&self) -> LeverSizes {
         let sizes = LeverInputs::sizes(self.features, self.prior, self.width);
         LeverSizes { feedback: self.feedback, ..sizes }
+    }
+
+    /// Those of `held_out` that came to rest without a jam, as far as their frames count.
+    pub fn judged_on(&self, held_out: &[LeverEpisode]) -> Vec<LeverEpisode> {
+        let sound = held_out.iter().filter(|episode| episode.is_sound());
+        sound
+            .filter_map(|one| if self.cut { one.before_slip() } else { Some(one.clone()) })
+            .collect()
     }
 }
 
@@ -58,10 +59,10 @@ impl Default for LeverSettings {
             prior: true,
             width: 56,
             seed: 1,
-            batch: 64,
-            evaluate_every: 1000,
             descent: Descent {
                 steps: 8000,
+                batch: 64,
+                evaluate_every: 1000,
                 learning_rate: 3e-3,
                 warm_up: 200,
                 weight_decay: 0.02,
@@ -77,23 +78,6 @@ impl Default for LeverSettings {
     }
 }
 
-/// One line of `metrics.jsonl`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeverLine {
-    /// Steps taken.
-    pub step: u64,
-    /// Mean loss since the last line.
-    pub loss: f64,
-    /// Mean gradient norm before clipping since the last line.
-    pub gradient: f64,
-    /// Learning rate.
-    pub learning_rate: f64,
-    /// Wall time of this process so far, seconds.
-    pub seconds: f64,
-    /// Of the averaged weights on held-out lever-ups.
-    pub held_out: LeverScore,
-}
-
 /// Errors on lever-ups that were not learned from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LeverScore {
@@ -107,19 +91,11 @@ pub struct LeverScore {
     pub endings: f64,
 }
 
-impl fmt::Display for LeverLine {
-    /// What a person wants to follow.
+/// What a person wants to follow.
+impl fmt::Display for LeverScore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let LeverScore { lift, last, slips, endings } = self.held_out;
-        write!(
-            f,
-            "step {:>6}  loss {:.4}  held out: lift {:.2} mm, end {:.2} mm, slips {:.1} %, endings {:.1} %",
-            self.step,
-            self.loss,
-            1e3 * lift,
-            1e3 * last,
-            1e2 * slips,
-            1e2 * endings
-        )
+        let [lift, last] = [self.lift, self.last].map(|metres| 1e3 * metres);
+        let [slips, endings] = [self.slips, self.endings].map(|share| 1e2 * share);
+        write!(f, "lift {lift:.2} mm, end {last:.2} mm, slips {slips:.1} %, endings {endings:.1} %")
     }
 }

@@ -18,37 +18,11 @@ pub struct RegulatorScore {
     pub nll: [f64; 2],
 }
 
-/// One line of `metrics.jsonl`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RegulatorLine {
-    /// Steps taken.
-    pub step: u64,
-    /// Mean loss since the last line.
-    pub loss: f64,
-    /// Mean gradient norm before clipping since the last line.
-    pub gradient: f64,
-    /// Learning rate.
-    pub learning_rate: f64,
-    /// Wall time of this process so far, seconds.
-    pub seconds: f64,
-    /// Of the averaged weights on held-out lessons.
-    pub held_out: RegulatorScore,
-}
-
-impl fmt::Display for RegulatorLine {
-    /// What a person wants to follow.
+/// What a person wants to follow.
+impl fmt::Display for RegulatorScore {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RegulatorScore { right, nll, .. } = self.held_out;
-        write!(
-            f,
-            "step {:>6}  loss {:.4}  held out: right {:.1} % (filter {:.1} %), nll {:.3} ({:.3})",
-            self.step,
-            self.loss,
-            1e2 * right[1],
-            1e2 * right[0],
-            nll[1],
-            nll[0]
-        )
+        let ([filter, right], [of_filter, nll]) = (self.right.map(|share| 1e2 * share), self.nll);
+        write!(f, "right {right:.1} % (filter {filter:.1} %), nll {nll:.3} ({of_filter:.3})")
     }
 }
 

@@ -4,17 +4,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::train::Descent;
 
-/// Settings of a run; a checkpoint resumes only under the same ones.
+/// Settings of a run; the defaults are those of the shipped weights.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RegulatorSettings {
     /// Width of the hidden state, H.
     pub width: usize,
     /// Seed of first weights and batches.
     pub seed: u64,
-    /// Lessons a step, an even number.
-    pub batch: usize,
-    /// Steps between held-out evaluations and checkpoints.
-    pub evaluate_every: u64,
     /// How weights follow gradients.
     pub descent: Descent,
     /// Seed of the lessons.
@@ -26,12 +22,12 @@ pub struct RegulatorSettings {
 impl Default for RegulatorSettings {
     fn default() -> Self {
         Self {
-            width: 48,
+            width: 64,
             seed: 1,
-            batch: 16,
-            evaluate_every: 250,
             descent: Descent {
-                steps: 4000,
+                steps: 3000,
+                batch: 16,
+                evaluate_every: 250,
                 learning_rate: 2e-3,
                 warm_up: 200,
                 // Some thousands of lessons are few for the regulator's parameters.
@@ -40,7 +36,7 @@ impl Default for RegulatorSettings {
                 average: 0.995,
             },
             data_seed: 1,
-            lessons: 3000,
+            lessons: 6000,
         }
     }
 }
