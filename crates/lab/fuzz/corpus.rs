@@ -177,6 +177,6 @@ fn weights() -> Vec<u8> {
     let shipped = EffectModels::weights().expect("the shipped weights are sound");
     let config = Config { width: 4, steps: 1 };
     let parameters = Parameters::fresh(&config, 1);
-    let card = pushplan::network::Card { config, ..shipped.card };
+    let card = pushplan::network::PredictorCard { config, ..shipped.card };
     PredictorWeights { card, parameters }.to_bytes().expect("a small network")
 }
