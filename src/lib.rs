@@ -18,6 +18,9 @@
 //! to rest after the pushes `u`, each a start, a direction, a length and a speed. Of plans of
 //! different length the shortest that passes is taken.
 //!
+//! Where a [`Task`] allows it a flat object is levered up, turned over or taken out of where it lies: a
+//! lever-up is a [`Step`] of a [`Plan`] like a push, and a plan may push, lever and push again.
+//!
 //! `f` is an [`EffectModel`]: a closed-form model of contacts (the *prior*), that prior corrected
 //! by a trained network, or a physics engine, each slower and more exact than the one before. A
 //! [`Planner`] searches candidates with it, refines the best of them by small quadratic programmes
@@ -132,8 +135,9 @@ pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use scene::{
-    Goal, Job, Joint, JointKind, ModelSpec, Noise, Object, Obstacle, Outcome, Part, Physics, Plan,
-    Push, PushRules, Record, Robot, Scene, Sight, Situation, State, Task, Tool, ToolMotion,
+    Blade, Goal, Job, Joint, JointKind, LeverRules, LeverStep, LeverUp, ModelSpec, Motion, Noise,
+    Object, Obstacle, Outcome, Part, Physics, Pivot, Place, Plan, Push, PushForm, PushRules,
+    PushStep, Record, Robot, Scene, Sight, Situation, State, Step, Task, Tool, ToolMotion,
     Trajectory, Truth, Unknowns, Verdict, Warning,
 };
 pub use sim::Simulator;

@@ -10,7 +10,7 @@ use crate::scene::{
     Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, Tool,
     Trajectory,
 };
-use crate::solve::Planner;
+use crate::solve::{Planner, SolveError};
 use crate::watch::Watch;
 
 use super::decide::Decision;
@@ -106,6 +106,10 @@ impl<'a> Runner<'a> {
     /// What is believed after the first look.
     fn begin(&self, trace: &Trace) -> Result<Belief, ActError> {
         let Trace { task, settings, first, .. } = trace;
+        if task.in_space() {
+            let what = "what leaves the plane is planned, and run by nobody who looks".to_owned();
+            return Err(SolveError::BadTask { task: task.name.clone(), what }.into());
+        }
         let stated = task.scene.start();
         let mut gatherer = Gatherer::new(&stated, &stated);
         let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
@@ -119,7 +123,7 @@ impl<'a> Runner<'a> {
         });
         let start = State::at_rest(poses.collect());
         let scene = seen_at(&task.scene, &start);
-        let tools = task.tools(self.library).map_err(crate::solve::SolveError::from)?;
+        let tools = task.tools(self.library).map_err(SolveError::from)?;
         let tool = tools.first().ok_or_else(|| ActError::Trace("its task has no tool".into()))?;
         let belief_settings = BeliefSettings::new(settings.noise);
         let held = (Arc::clone(tool), task.pushes.lift);

@@ -163,6 +163,7 @@ fn refused(error: &ActionError, task: &Task) -> CliError {
         ActionError::CannotPush { .. } => {
             "try another direction, offset or grip yaw, or give the start".to_owned()
         }
+        ActionError::Blade { .. } => "name a tool that pushes".to_owned(),
         ActionError::NoYaw => "add one".to_owned(),
     };
     CliError::usage(error.to_string(), advice)

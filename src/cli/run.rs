@@ -97,6 +97,12 @@ pub struct RunArgs {
 pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let task = load_task(&args.task, &library)?;
+    if task.in_space() {
+        return Err(CliError::usage(
+            "what leaves the plane cannot be run: after a lever-up nobody looks",
+            "`pushplan solve` plans it and verifies it as a whole",
+        ));
+    }
     let truth = world(&args.world, &task, &library)?;
     let spec = args.model.clone().unwrap_or_else(|| args.effort.spec());
     let planner = Planner::builder(model::load(&spec)?)

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::SCHEMA_VERSION;
+use crate::asset::PLAN_VERSION;
 
 use super::bars::BarChart;
 use super::chart::Chart;
@@ -83,7 +83,7 @@ impl Document {
     /// Everything, for programs.
     pub fn to_json(&self) -> String {
         let mut report = self.json.clone();
-        report["schema_version"] = json!(SCHEMA_VERSION);
+        report["schema_version"] = json!(PLAN_VERSION);
         format!("{report:#}\n")
     }
 

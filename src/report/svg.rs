@@ -265,28 +265,18 @@ impl Svg {
         self.points("polygon", points, style);
     }
 
-    /// A polygon that has these outlines one after another, each for as long, in `seconds`, and the
-    /// last one for so many times as long; where nothing moves it has the last one.
-    pub fn moving_polygon(
-        &mut self,
-        ways: &[Vec<Vector>],
-        (seconds, pause): (f64, usize),
-        style: Style,
-    ) {
-        let list = |points: &Vec<Vector>| {
-            points.iter().map(|p| format!("{},{}", px(p.x), px(p.y))).collect::<Vec<_>>().join(" ")
-        };
-        let Some(last) = ways.last() else { return };
-        let mut values: Vec<String> = ways.iter().map(list).collect();
-        values.extend(std::iter::repeat_n(list(last), pause));
-        let _ = write!(self.body, "<polygon points=\"{}\" stroke-linejoin=\"round\"", list(last));
+    /// A polygon that has these outlines one after another in an endless loop of so many seconds;
+    /// where nothing moves it has the last one.
+    pub fn moving_polygon(&mut self, ways: &[Vec<Vector>], seconds: f64, style: Style) {
+        let point = |p: &Vector| format!("{},{}", px(p.x), px(p.y));
+        let list = |way: &Vec<Vector>| way.iter().map(point).collect::<Vec<_>>().join(" ");
+        let values: Vec<String> = ways.iter().map(list).collect();
+        let last = values.last().map_or("", String::as_str);
+        let _ = write!(self.body, "<polygon points=\"{last}\"");
         style.write(&mut self.body);
-        let _ = writeln!(
-            self.body,
-            "><animate attributeName=\"points\" calcMode=\"discrete\" repeatCount=\"indefinite\" \
-             dur=\"{seconds:.2}s\" values=\"{}\"/></polygon>",
-            values.join(";")
-        );
+        let (how, values) = ("calcMode=\"discrete\" repeatCount=\"indefinite\"", values.join(";"));
+        let _ = write!(self.body, "><animate attributeName=\"points\" {how} dur=\"{seconds:.2}s\"");
+        let _ = writeln!(self.body, " values=\"{values}\"/></polygon>");
     }
 
     /// A straight arrow with a filled head of `head` pixels.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector, contact_points};
 
-use super::{LeverUp, Part, Scene, State, TOUCHING, Tool};
+use super::{LeverUp, Part, Plate, Scene, State, TOUCHING, Tool};
 
 /// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
 /// this travel, so a slow and a fast push cost the same number of frames.
@@ -172,6 +172,14 @@ impl Motion {
     /// The tool that moves.
     pub fn tool(&self) -> &Arc<Tool> {
         &self.slide().tool
+    }
+
+    /// Whether what it levers is in `scene`, and its tool has a blade; of strokes nothing is asked.
+    pub fn fits(&self, scene: &Scene) -> bool {
+        let Motion::Lever(motion) = self else { return true };
+        let object = scene.objects.get(motion.lever.plate);
+        let edges = object.map_or(0, |object| Plate::of(object).corners().len());
+        motion.lever.place.edge < edges && motion.tool().blade().is_some()
     }
 
     /// Whether it leaves the plane.

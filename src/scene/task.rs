@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Shape, Vector, wrap_angle};
+use crate::geometry::Vector;
 
-use super::{LeverRules, Plate, Scene, State, Unknowns};
+use super::{Goal, LeverRules, Plate, Scene, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -140,160 +140,6 @@ impl Default for PushRules {
     }
 }
 
-/// Where an object must come to rest, and how; every stated demand counts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Goal {
-    /// Index into [`Scene::objects`].
-    pub object: usize,
-    /// Wanted position of its centre, metres.
-    pub position: Vector,
-    /// Largest distance that still counts as success, metres; infinite where it may lie anywhere.
-    #[serde(with = "anywhere")]
-    pub tolerance: f64,
-    /// Wanted heading and its tolerance, radians, where one is asked for.
-    pub heading: Option<(f64, f64)>,
-    /// The number of equal turns in a full turn after each of which the object looks the same,
-    /// where such headings count as the wanted one; else 1.
-    #[serde(default = "one")]
-    pub alike: usize,
-    /// Index into [`Scene::obstacles`]: the object's centre lies outside of it, seen from above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub outside: Option<usize>,
-    /// At the end of a lever-up's turn the edge lies on the blade, this much higher than at its
-    /// start, metres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub raised: Option<f64>,
-    /// It lies upside down, or on its underside.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub flipped: Option<bool>,
-}
-
-fn one() -> usize {
-    1
-}
-
-/// JSON has no infinity.
-mod anywhere {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(tolerance: &f64, serializer: S) -> Result<S::Ok, S::Error> {
-        tolerance.is_finite().then_some(*tolerance).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
-    }
-}
-
-impl Goal {
-    /// The centre of object `object` (an index into [`Scene::objects`]) at (`x`, `y`), off by at
-    /// most `tolerance`; all metres.
-    pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
-        Self { position: Vector::new(x, y), tolerance, ..Self::of(object) }
-    }
-
-    /// A goal of object `object` without any demand yet.
-    ///
-    /// ```
-    /// use pushplan::Goal;
-    ///
-    /// let turned = Goal { flipped: Some(true), ..Goal::of(0) };
-    /// assert!(turned.in_space() && !turned.has_place());
-    /// ```
-    pub fn of(object: usize) -> Self {
-        Self {
-            object,
-            position: Vector::zeros(),
-            tolerance: f64::INFINITY,
-            heading: None,
-            alike: 1,
-            outside: None,
-            raised: None,
-            flipped: None,
-        }
-    }
-
-    /// Whether the object must come to a place.
-    pub fn has_place(&self) -> bool {
-        self.tolerance != f64::INFINITY
-    }
-
-    /// Whether it speaks of more than where the object lies in the plane.
-    pub fn in_space(&self) -> bool {
-        self.outside.is_some() || self.raised.is_some() || self.flipped.is_some()
-    }
-
-    /// Whether it speaks of how the object comes to lie.
-    pub fn turns(&self) -> bool {
-        self.flipped.is_some() || self.has_place()
-    }
-
-    /// The goal with a heading that may be off by at most `tolerance`, radians.
-    pub fn facing(self, heading: f64, tolerance: f64) -> Self {
-        Self { heading: Some((heading, tolerance)), ..self }
-    }
-
-    /// The goal at which every heading counts as the wanted one that looks the same on an object of
-    /// this `shape`, as in task files: any quarter turn of a square, any half turn of a rectangle.
-    ///
-    /// ```
-    /// use pushplan::{Goal, Pose, Shape, State};
-    ///
-    /// let square = Shape::Cuboid { size: [0.08, 0.08, 0.05] };
-    /// let goal = Goal::new(0, [0.5, 0.0], 0.02).facing(0.1, 0.05);
-    /// let turned = State::at_rest(vec![Pose::new(0.5, 0.0, 0.1 + std::f64::consts::FRAC_PI_2)]);
-    /// assert!(!goal.reached(&turned) && goal.looking_like(&square).reached(&turned));
-    /// ```
-    pub fn looking_like(self, shape: &Shape) -> Self {
-        Self { alike: shape.footprint().symmetry().unwrap_or(1), ..self }
-    }
-
-    /// `turn` without the turns after which the object looks the same, radians: the smallest left.
-    pub fn least_turn(&self, turn: f64) -> f64 {
-        let alike = self.alike as f64;
-        wrap_angle(turn * alike) / alike
-    }
-
-    /// Distance of the object's centre from the goal, metres; 0 where it may lie anywhere.
-    pub fn error(&self, state: &State) -> f64 {
-        if !self.has_place() {
-            return 0.0;
-        }
-        (state.poses[self.object].position - self.position).norm()
-    }
-
-    /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object,
-    /// radians to the left, where a heading is asked for.
-    pub fn turned(&self, state: &State) -> Option<f64> {
-        let (wanted, _) = self.heading?;
-        Some(self.least_turn(state.poses[self.object].heading - wanted))
-    }
-
-    /// Absolute heading error, radians, where a heading is asked for.
-    pub fn heading_error(&self, state: &State) -> Option<f64> {
-        self.turned(state).map(f64::abs)
-    }
-
-    /// Whether position (and heading, where asked for) are within tolerance.
-    pub fn reached(&self, state: &State) -> bool {
-        let turned = match (self.heading, self.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => error <= tolerance,
-            _ => true,
-        };
-        self.error(state) <= self.tolerance && turned
-    }
-
-    /// Error in units of the tolerance, the larger of position and heading: at most 1 is
-    /// success. This is what the search minimises, so that both demands count alike.
-    pub fn score(&self, state: &State) -> f64 {
-        let position = self.error(state) / self.tolerance;
-        match (self.heading, self.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => position.max(error / tolerance),
-            _ => position,
-        }
-    }
-}
-
 /// Everything that a planner needs to know besides the tools themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Task {
@@ -324,9 +170,7 @@ pub struct Task {
 impl Task {
     /// The robustness of a task that does not state one.
     pub const ROBUSTNESS: f64 = 0.75;
-}
 
-impl Task {
     /// A task that allows every tool of the library and one push, see [`PushRules::default`].
     ///
     /// ```

@@ -122,7 +122,7 @@ impl Simulator {
 
     /// Plays a job that leaves the plane, or begins out of it.
     fn in_space(&self, scene: &Scene, job: &Job, record: Record, watch: &dyn Watch) -> Trajectory {
-        if !self.takes(job) {
+        if !self.takes(job) || !job.motion.fits(scene) {
             let tool = Pose::default();
             let mut declined = Trajectory::standing(self.spec(), tool, job.start.clone());
             declined.warnings.push(Warning::Declined { model: self.spec() });

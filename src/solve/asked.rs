@@ -73,6 +73,12 @@ pub enum ActionError {
         /// Why the tool's last part cannot.
         why: Infeasible,
     },
+    /// A tool with a blade.
+    #[error("`{tool}` has a blade, so it cannot push")]
+    Blade {
+        /// The tool's name.
+        tool: String,
+    },
     /// A list of grip yaws without an entry.
     #[error("the task has no grip yaw")]
     NoYaw,
@@ -99,6 +105,9 @@ pub fn asked_plan(
     grip_yaws: &[f64],
     pushes: &[AskedPush],
 ) -> Result<Asked, ActionError> {
+    if !tool.pushes() {
+        return Err(ActionError::Blade { tool: tool.name.clone() });
+    }
     let mut refused = ActionError::NoYaw;
     for (k, &grip_yaw) in grip_yaws.iter().enumerate() {
         match with_yaw(task, situation, tool, grip_yaw, pushes) {

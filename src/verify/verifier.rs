@@ -83,7 +83,7 @@ impl<'a> Verifier<'a> {
             let evidence = self.replay_in_space(task, situation, (tools, plan), None);
             return Verdict::judge(forbidden, vec![evidence], task.robustness);
         }
-        let Some(tool) = tools.first() else {
+        let Some(tool) = tools.first().filter(|tool| tool.pushes()) else {
             let missing = Warning::ForbiddenTool { tool: plan.tool().to_owned() };
             return Verdict::judge(vec![missing], Vec::new(), task.robustness);
         };

@@ -44,7 +44,7 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
     };
     let json = timeless(&printed);
     assert_eq!(json, timeless(&output.stdout));
-    assert_eq!(json["schema_version"], 1);
+    assert_eq!(json["schema_version"], 2);
     let status: Vec<&str> =
         (0..TASKS.len()).filter_map(|k| json["tasks"][k]["status"].as_str()).collect();
     assert_eq!(status, ["solved", "solved", "no_plan", "solved"]);

@@ -40,7 +40,7 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
         json
     };
     let one = run("1");
-    assert_eq!(one["schema_version"], 1);
+    assert_eq!(one["schema_version"], 2);
     assert_eq!(one, run("3"));
 }
 
@@ -207,8 +207,8 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     // The same plan without its last centimetres misses the goal.
     let text = String::from_utf8(one.0).expect("UTF-8");
     let mut json: Json = serde_json::from_str(&text).expect("JSON");
-    let length = json["plan"]["pushes"][0]["length"].as_f64().expect("a length");
-    json["plan"]["pushes"][0]["length"] = (0.5 * length).into();
+    let length = json["plan"]["steps"][0]["push"]["length"].as_f64().expect("a length");
+    json["plan"]["steps"][0]["push"]["length"] = (0.5 * length).into();
     let short = folder.path().join("short.plan.json");
     std::fs::write(&short, json.to_string()).expect("a file");
     let output = run(&["verify", short.to_str().expect("UTF-8"), "--json"]);

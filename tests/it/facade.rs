@@ -2,8 +2,9 @@
 //! that can be written.
 
 use pushplan::{
-    Effort, Error, Part, Planner, Pose, Simulated, Simulator, Solution, SolveError, Task, Tool,
-    ToolLibrary,
+    EffectModel, Effort, Error, Goal, Job, LeverRules, Object, Outcome, Part, Pivot, PlanStatus,
+    Planner, Pose, PushRules, Record, Robot, Scene, Simulated, Simulator, Solution, SolveError,
+    Step, Task, Tool, ToolLibrary, Trust,
 };
 use rayon::ThreadPoolBuilder;
 
@@ -50,6 +51,37 @@ fn an_error_that_leaves_main_is_printed_as_text() {
     });
     let error = Error::from(Tool::new("pieces", apart).unwrap_err());
     assert_eq!(format!("{error:?}"), "the parts form 2 separate pieces: left | right");
+}
+
+#[test]
+fn a_lever_up_is_planned_verified_and_written_like_a_push() {
+    let library = ToolLibrary::embedded().unwrap();
+    let plate = Object::cuboid("plate", [0.12, 0.08, 0.008]).mass(0.1).on_feet(0.006);
+    let goal = Goal { flipped: Some(true), ..Goal::of(0) };
+    let scene = Scene::new([plate.at(0.5, 0.0, 0.0)]);
+    let task = Task::new("turn", scene, Robot::reaching(0.1, 0.9), goal)
+        .choosing(["screwdriver"])
+        .levering(LeverRules { pivots: vec![Pivot::Auto], ..LeverRules::default() })
+        .pushing(PushRules::none());
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    let solution = planner.solve(&task, &library).unwrap();
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().unwrap();
+    let [Step::LeverUp(step)] = &best.plan.steps[..] else { panic!("{:?}", best.plan) };
+    assert_eq!(step.tool, "screwdriver");
+    // The model predicts it like any motion, and who does not know it declines.
+    let motions = best.plan.motions(&best.tools).unwrap();
+    let job = Job::stated(&task.scene, motions[0].clone());
+    assert_ne!(planner.model().trust(&task.scene, &job), Trust::NotMine);
+    let planar = Simulated::new(Simulator::planar());
+    assert_eq!(planar.trust(&task.scene, &job), Trust::NotMine);
+    let found = planner.model().rollout(&task.scene, &[job], Record::Outcome).remove(0);
+    assert_eq!(found.by.to_string(), "prior");
+    assert!(Outcome::judge(&task.scene, &task.goal, &found).reached);
+    let again = Task::parse(&task.to_yaml().unwrap(), "turn.yaml").unwrap();
+    assert_eq!(again, task);
+    let replay = best.verdict.as_ref().and_then(|verdict| verdict.evidence[0].trajectory.clone());
+    assert!(replay.unwrap().outcome().space.is_some());
 }
 
 #[test]

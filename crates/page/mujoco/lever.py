@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Plays lever-ups of pushplan in MuJoCo and says where the plates come to.
+"""Plays lever-ups and plans in space of pushplan in MuJoCo and says what comes of them.
 
     python3 lever.py SCENE.xml ... > results.jsonl
     python3 lever.py --against ours.jsonl --played results.jsonl
 
 Needs Python 3.11 and `pip install mujoco`. A line of JSON for each scene: `lift`, the levered plate at
-the end of each of equal times of the turn, and `rest`, as x, y, z and the quaternion w, x, y, z. With
+the end of each of equal times of the last turn, and `rest`, as x, y, z and the quaternion w, x, y, z; of a
+plan with a goal `reached`, too. With
 `--against` (what `pushplan-learn generate --format mjcf` says of the same scenes) it ends with how far both are
 from each other, on standard error; `--played` takes lines that were written before.
 """
@@ -38,8 +39,36 @@ def rotated(vector, quaternion):
     return found
 
 
-class Lever:
-    """One scene."""
+class Hand:
+    """A body that goes where it is told: a blade, or a tool that pushes."""
+
+    def __init__(self, scene, name):
+        self.scene = scene
+        joint = scene.model.body(name).jntadr[0]
+        self.position = scene.model.jnt_qposadr[joint]
+        self.velocity = scene.model.jnt_dofadr[joint]
+
+    def put(self, at, turn, speed=(0, 0, 0), spin=(0, 0, 0)):
+        data = self.scene.data
+        data.qpos[self.position : self.position + 7] = [*at, *turn]
+        data.qvel[self.velocity : self.velocity + 6] = [*speed, *spin]
+
+    def away(self):
+        """Laid aside, where it meets nothing."""
+        self.put([50 + self.position, 0, 0], [1, 0, 0, 0])
+
+    def go(self, pose, time, dt):
+        """Before a step from `time`, along `pose` (a time to a position and a turn)."""
+        (at, turn), (later, after) = pose(time), pose(time + dt)
+        if np.dot(turn, after) < 0:
+            after = -after
+        spin = np.zeros(3)
+        mujoco.mju_subQuat(spin, np.array(after), np.array(turn))
+        self.put(at, turn, (np.array(later) - np.array(at)) / dt, spin / dt)
+
+
+class Scene:
+    """One scene and what is done in it."""
 
     def __init__(self, path):
         self.model = mujoco.MjModel.from_xml_path(path)
@@ -50,69 +79,143 @@ class Lever:
             self.numbers[numeric.name] = numeric.data
         plate = next(n.removeprefix("levered ") for n in self.numbers if n.startswith("levered "))
         self.plate = self.model.body(plate).id
-        joint = self.model.body("blade").jntadr[0]
-        self.position = self.model.jnt_qposadr[joint]
-        self.velocity = self.model.jnt_dofadr[joint]
+        self.plates = [
+            k for k in range(self.model.nbody) if self.model.body(k).name.startswith("plate/")
+        ]
+        steps = [n.split() for n in self.numbers if n.startswith(("lever ", "pushes "))]
+        self.steps = sorted((int(k), kind) for kind, k in steps)
+        self.step = STEP
+        self.time = 0.0
+        self.hand = None
+        self.way = None
+
+    def blade(self, k):
+        """Position and turn of a blade's centre over time."""
         keys = "depth pivot angle turn hold retreat speed frames".split()
-        self.lever = dict(zip(keys, self.numbers["lever"]))
+        lever = dict(zip(keys, self.numbers[f"lever {k}"]))
+        length, thickness = self.numbers[f"blade {k}"]
+        frame, frame_turn = self.numbers[f"frame {k}"][:3], self.numbers[f"frame {k}"][3:]
 
-    def blade(self, time):
-        """Position and turn of the blade's centre."""
-        lever, (length, thickness) = self.lever, self.numbers["blade"]
-        angle = lever["angle"] * min(max(time / lever["turn"], 0), 1)
-        way = (time - lever["turn"] - lever["hold"]) * lever["speed"]
-        way = min(max(way, 0), lever["retreat"])
-        angle = math.copysign(angle, lever["pivot"])
-        turn = [math.cos(angle / 2), 0, math.sin(angle / 2), 0]
-        pivot = np.array([lever["pivot"], 0, 0])
-        middle = np.array([lever["depth"] - length / 2, 0, -thickness / 2])
-        at = pivot + rotated(middle - pivot, turn) - rotated([way, 0, 0], turn)
-        frame, frame_turn = self.numbers["frame"][:3], self.numbers["frame"][3:]
-        return frame + rotated(at, frame_turn), turned(frame_turn, turn)
+        def pose(time):
+            angle = lever["angle"] * min(max(time / lever["turn"], 0), 1)
+            way = (time - lever["turn"] - lever["hold"]) * lever["speed"]
+            way = min(max(way, 0), lever["retreat"])
+            angle = math.copysign(angle, lever["pivot"])
+            turn = [math.cos(angle / 2), 0, math.sin(angle / 2), 0]
+            pivot = np.array([lever["pivot"], 0, 0])
+            middle = np.array([lever["depth"] - length / 2, 0, -thickness / 2])
+            at = pivot + rotated(middle - pivot, turn) - rotated([way, 0, 0], turn)
+            return frame + rotated(at, frame_turn), turned(frame_turn, turn)
 
-    def step(self, time, dt):
-        """One step from `time`."""
-        (at, turn), (later, after) = self.blade(time), self.blade(time + dt)
-        if np.dot(turn, after) < 0:
-            after = -after
-        spin = np.zeros(3)
-        mujoco.mju_subQuat(spin, after, turn)
-        self.data.qpos[self.position : self.position + 7] = [*at, *turn]
-        self.data.qvel[self.velocity : self.velocity + 6] = [*((later - at) / dt), *(spin / dt)]
-        mujoco.mj_step(self.model, self.data)
+        return lever, pose
 
     def pose(self):
         return [*self.data.xpos[self.plate].tolist(), *self.data.xquat[self.plate].tolist()]
 
     def speed(self):
-        found = np.zeros(6)
-        mujoco.mj_objectVelocity(
-            self.model, self.data, mujoco.mjtObj.mjOBJ_BODY, self.plate, found, 0
-        )
-        return np.linalg.norm(found[3:]) + 0.1 * np.linalg.norm(found[:3])
+        fastest = 0.0
+        for plate in self.plates:
+            found = np.zeros(6)
+            mujoco.mj_objectVelocity(
+                self.model, self.data, mujoco.mjtObj.mjOBJ_BODY, plate, found, 0
+            )
+            speed = np.linalg.norm(found[3:]) + 0.1 * np.linalg.norm(found[:3])
+            fastest = max(fastest, speed)
+        return fastest
 
-    def until(self, time, end):
-        steps = max(1, math.ceil((end - time) / STEP - 1e-9))
-        dt = (end - time) / steps
+    def until(self, end):
+        steps = max(1, math.ceil((end - self.time) / self.step - 1e-9))
+        began, dt = self.time, (end - self.time) / steps
         self.model.opt.timestep = dt
         for k in range(steps):
-            self.step(time + k * dt, dt)
+            if self.hand:
+                self.hand.go(self.way, began + k * dt, dt)
+            mujoco.mj_step(self.model, self.data)
         mujoco.mj_forward(self.model, self.data)
-        return end
+        self.time = end
+
+    def rest(self):
+        began = moved = self.time
+        while self.time - moved < STILL and self.time - began < PATIENCE:
+            self.until(self.time + 0.01)
+            if self.speed() > REST:
+                moved = self.time
+
+    def lever(self, k):
+        lever, pose = self.blade(k)
+        began, lift = self.time, []
+        before = self.edge(k)
+        self.hand = Hand(self, f"blade/{k}")
+        self.way = lambda time: pose(time - began)
+        count = round(lever["frames"])
+        for frame in range(1, count + 1):
+            self.until(began + lever["turn"] * frame / count)
+            lift.append(self.pose())
+        self.raised = self.edge(k, before[0])[1][2] - before[1][2]
+        self.until(began + lever["turn"] + lever["hold"] + lever["retreat"] / lever["speed"])
+        self.rest()
+        self.hand.away()
+        self.hand = None
+        return lift
+
+    def edge(self, k, local=None):
+        """The lever point in the plate's frame and in the world."""
+        mujoco.mj_forward(self.model, self.data)
+        at, turn = self.data.xpos[self.plate].copy(), self.data.xquat[self.plate].copy()
+        if local is None:
+            back = turn * np.array([1, -1, -1, -1])
+            local = rotated(np.array(self.numbers[f"frame {k}"][:3]) - at, back)
+        return local, at + rotated(local, turn)
+
+    def pushes(self, k):
+        lift, *strokes = self.numbers[f"pushes {k}"]
+        for first in range(0, len(strokes), 8):
+            start, end = np.array(strokes[first : first + 3]), np.array(strokes[first + 3 : first + 6])
+            duration, settle = strokes[first + 6 : first + 8]
+            began = self.time
+
+            def pose(time):
+                x, y, heading = start + (end - start) * min((time - began) / duration, 1)
+                return [x, y, lift], [math.cos(heading / 2), 0, 0, math.sin(heading / 2)]
+
+            self.hand, self.way = Hand(self, f"tool/{k}"), pose
+            self.until(began + duration)
+            if settle:
+                self.hand.away()
+                self.hand = None
+                self.rest()
 
     def run(self):
-        lever, time, lift = self.lever, 0.0, []
-        count = round(lever["frames"])
-        for k in range(1, count + 1):
-            time = self.until(time, lever["turn"] * k / count)
-            lift.append(self.pose())
-        time = self.until(time, lever["turn"] + lever["hold"] + lever["retreat"] / lever["speed"])
-        began, moved = time, time
-        while time - moved < STILL and time - began < PATIENCE:
-            time = self.until(time, time + 0.01)
-            if self.speed() > REST:
-                moved = time
-        return {"lift": lift, "rest": self.pose()}
+        lift = []
+        for k, kind in self.steps:
+            if kind == "lever":
+                lift = self.lever(k)
+            else:
+                self.pushes(k)
+        found = {"lift": lift, "rest": self.pose()}
+        if any(name.startswith("goal ") for name in self.numbers):
+            found["reached"] = bool(self.reached(found["rest"]))
+        return found
+
+    def reached(self, rest):
+        """Whether all of the goal is met; that the edge lies on the blade is not looked at."""
+        goal = {n.removeprefix("goal "): v for n, v in self.numbers.items() if n.startswith("goal ")}
+        up = rotated([0, 0, 1], rest[3:])[2]
+        if "place" in goal and math.dist(rest[:2], goal["place"][:2]) > goal["place"][2]:
+            return False
+        if "outside" in goal:
+            x, y, heading, length, width = goal["outside"]
+            dx, dy = rest[0] - x, rest[1] - y
+            along = dx * math.cos(heading) + dy * math.sin(heading)
+            across = dy * math.cos(heading) - dx * math.sin(heading)
+            if abs(along) <= length / 2 and abs(across) <= width / 2:
+                return False
+        if "raised" in goal and self.raised < goal["raised"][0]:
+            return False
+        if "flipped" in goal:
+            # 15 degrees off its underside, 45 off upside down.
+            return up < -math.cos(math.pi / 4) if goal["flipped"][0] else up > math.cos(math.pi / 12)
+        return True
 
 
 def apart(one, other):
@@ -135,8 +238,8 @@ if arguments.played:
     with open(arguments.played) as lines:
         played = [json.loads(line) for line in lines]
 for path in arguments.scenes:
-    scene = Lever(path)
-    STEP = scene.model.opt.timestep
+    STEP = mujoco.MjModel.from_xml_path(path).opt.timestep
+    scene = Scene(path)
     played.append({"scene": path, **scene.run()})
     print(json.dumps(played[-1]), flush=True)
 differences = []

@@ -2,8 +2,7 @@
 
 ``Task.of`` and ``Tool.of`` take such mappings and check them as strictly as files; a type checker
 finds misspelled keys before. ``pushplan.task_schema()`` says what every key means, its range and its
-default. Tasks of levering and tools with blades have files too (``pushplan.lever_task_schema()``), for
-the command ``pushplan``. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
+default. Lengths are metres, masses kilograms, angles (keys that end in ``_deg``) degrees.
 """
 
 import sys
@@ -19,29 +18,19 @@ else:
     from typing_extensions import NotRequired
 
 __all__ = [
-    "BladeFile",
     "BladeKeys",
     "CuboidKeys",
     "CylinderKeys",
+    "FixedKeys",
     "FrictionKeys",
     "GoalKeys",
     "GripKeys",
     "JointKeys",
-    "LeverGoalKeys",
-    "LeverObjectKeys",
-    "LeverObstacleKeys",
-    "LeverPartKeys",
-    "LeverRobotKeys",
-    "LeverSceneKeys",
-    "LeverTableKeys",
-    "LeverTaskFile",
     "LeversKeys",
     "Numbers",
     "ObjectKeys",
     "ObstacleKeys",
     "PartKeys",
-    "PlatePrismKeys",
-    "PlateShapeKeys",
     "PrismKeys",
     "PushKeys",
     "ReachKeys",
@@ -77,6 +66,7 @@ class PrismKeys(TypedDict):
     corners: Sequence[Numbers]
     height: float
     centre_of_mass: NotRequired[Numbers]
+    origin: NotRequired[Numbers]
 
 
 class ShapeKeys(TypedDict, total=False):
@@ -102,8 +92,16 @@ class TableKeys(TypedDict, total=False):
     position: Numbers
 
 
+class FixedKeys(TypedDict):
+    """What is fixed on an object; position [x, y] or [x, y, z] in metres."""
+
+    shape: ShapeKeys
+    position: Numbers
+    yaw_deg: NotRequired[float]
+
+
 class ObjectKeys(TypedDict):
-    """A movable object; mass in kilograms, position [x, y] in metres."""
+    """A movable object; mass in kilograms, position [x, y] and heights in metres."""
 
     name: str
     shape: ShapeKeys
@@ -112,6 +110,9 @@ class ObjectKeys(TypedDict):
     position: Numbers
     yaw_deg: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
+    parts: NotRequired[Sequence[FixedKeys]]
+    clearance: NotRequired[float]
+    z: NotRequired[float]
 
 
 class ObstacleKeys(TypedDict):
@@ -183,14 +184,28 @@ class PushKeys(TypedDict, total=False):
 
 
 class GoalKeys(TypedDict):
-    """Where an object must come to rest; position [x, y] and tolerance in metres."""
+    """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
     object: str
-    position: Numbers
-    tolerance: float
+    position: NotRequired[Numbers]
+    tolerance: NotRequired[float]
+    outside: NotRequired[str]
+    raised: NotRequired[float]
+    flipped: NotRequired[bool]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]
+
+
+class LeversKeys(TypedDict, total=False):
+    """The lever-ups that a plan may contain; metres, m/s and seconds."""
+
+    depth: Numbers
+    angle_deg: Numbers
+    pivot: Union[Literal["auto"], float, Sequence[Union[Literal["auto"], float]]]
+    speed: float
+    hold: float
+    retreat: float
 
 
 class TaskFile(TypedDict):
@@ -205,6 +220,7 @@ class TaskFile(TypedDict):
     pushes: NotRequired[PushKeys]
     robustness: NotRequired[float]
     unknown: NotRequired[Sequence[Literal["joints", "masses", "frictions", "support"]]]
+    levers: NotRequired[LeversKeys]
 
 
 class GripKeys(TypedDict):
@@ -224,120 +240,6 @@ class PartKeys(TypedDict):
     yaw_deg: NotRequired[float]
 
 
-class ToolFile(TypedDict):
-    """The keys of a tool file."""
-
-    name: str
-    friction: float
-    parts: Sequence[PartKeys]
-    description: NotRequired[str]
-    grip: NotRequired[GripKeys]
-    joints: NotRequired[Sequence[Sequence[str]]]
-
-
-class PlatePrismKeys(TypedDict):
-    """An upright prism on a convex polygon, metres."""
-
-    corners: Sequence[Numbers]
-    height: float
-    origin: NotRequired[Numbers]
-
-
-class PlateShapeKeys(TypedDict, total=False):
-    """One flat solid: exactly one of the keys."""
-
-    cuboid: CuboidKeys
-    prism: PlatePrismKeys
-
-
-class LeverPartKeys(TypedDict):
-    """What is fixed on a plate; position [x, y] or [x, y, z] in metres."""
-
-    shape: PlateShapeKeys
-    position: Numbers
-    yaw_deg: NotRequired[float]
-
-
-class LeverObjectKeys(TypedDict):
-    """A plate; mass in kilograms, position [x, y] and heights in metres."""
-
-    name: str
-    shape: PlateShapeKeys
-    mass: float
-    friction: float
-    position: Numbers
-    parts: NotRequired[Sequence[LeverPartKeys]]
-    clearance: NotRequired[float]
-    z: NotRequired[float]
-    yaw_deg: NotRequired[float]
-
-
-class LeverObstacleKeys(TypedDict):
-    """A fixed cuboid; extents [x, y, z] and position [x, y] or [x, y, z] in metres."""
-
-    name: str
-    size: Numbers
-    position: Numbers
-    yaw_deg: NotRequired[float]
-    friction: NotRequired[float]
-
-
-class LeverTableKeys(TypedDict, total=False):
-    """The table."""
-
-    friction: float
-
-
-class LeverSceneKeys(TypedDict):
-    """What lies on the table."""
-
-    objects: Sequence[LeverObjectKeys]
-    table: NotRequired[LeverTableKeys]
-    obstacles: NotRequired[Sequence[LeverObstacleKeys]]
-
-
-class LeverRobotKeys(TypedDict):
-    """Where the end effector can be, metres."""
-
-    reach: ReachKeys
-
-
-class LeversKeys(TypedDict, total=False):
-    """The lever-ups that a plan may contain; metres, m/s and seconds."""
-
-    depth: Numbers
-    angle_deg: Numbers
-    pivot: Union[Literal["auto"], float, Sequence[Union[Literal["auto"], float]]]
-    speed: float
-    hold: float
-    retreat: float
-
-
-class LeverGoalKeys(TypedDict):
-    """What must come of it; metres."""
-
-    object: str
-    outside: NotRequired[str]
-    raised: NotRequired[float]
-    flipped: NotRequired[bool]
-    position: NotRequired[Numbers]
-    tolerance: NotRequired[float]
-
-
-class LeverTaskFile(TypedDict):
-    """The keys of a task file of levering."""
-
-    scene: LeverSceneKeys
-    robot: LeverRobotKeys
-    tools: Union[Literal["all"], Sequence[str]]
-    goal: LeverGoalKeys
-    name: NotRequired[str]
-    description: NotRequired[str]
-    levers: NotRequired[LeversKeys]
-    pushes: NotRequired[PushKeys]
-    robustness: NotRequired[float]
-
-
 class BladeKeys(TypedDict):
     """What goes under an edge, metres."""
 
@@ -346,10 +248,13 @@ class BladeKeys(TypedDict):
     thickness: float
 
 
-class BladeFile(TypedDict):
-    """The keys of a file of a tool with a blade."""
+class ToolFile(TypedDict):
+    """The keys of a tool file."""
 
     name: str
-    blade: BladeKeys
-    description: NotRequired[str]
     friction: NotRequired[float]
+    parts: NotRequired[Sequence[PartKeys]]
+    blade: NotRequired[BladeKeys]
+    description: NotRequired[str]
+    grip: NotRequired[GripKeys]
+    joints: NotRequired[Sequence[Sequence[str]]]

@@ -131,3 +131,46 @@ def test_a_forked_process_has_threads_of_its_own(task: pushplan.Task) -> None:
     assert solved_draft(task) == "solved"
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map_async(solved_draft, [task] * 4).get(timeout=120) == ["solved"] * 4
+
+
+def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -> None:
+    task = pushplan.Task.of(
+        {
+            "name": "turn",
+            "scene": {
+                "objects": [
+                    {
+                        "name": "plate",
+                        "shape": {"cuboid": {"size": [0.12, 0.08, 0.008]}},
+                        "mass": 0.1,
+                        "friction": 0.4,
+                        "clearance": 0.006,
+                        "position": [0.5, 0],
+                    }
+                ]
+            },
+            "robot": {"reach": {"min": 0.1, "max": 0.9}},
+            "tools": ["screwdriver"],
+            "levers": {"pivot": "auto"},
+            "goal": {"object": "plate", "flipped": True},
+        }
+    )
+    solution = pushplan.solve(task, effort="draft")
+    assert solution.solved
+    best = solution.best
+    assert best is not None and best.levers
+    assert [list(step) for step in best.steps] == [["lever_up"]]
+    verdict = pushplan.verify(best, disturbed=2)
+    assert verdict.passed
+    [replay, *_] = verdict.replays
+    trajectory = replay.trajectory
+    assert trajectory is not None and trajectory.space is not None
+    assert trajectory.space.shape[1:] == (1, 7)
+    assert trajectory.raised[0] > 0.02
+    predicted = pushplan.predict(best)
+    assert predicted.reached and predicted.model == "prior"
+    path = tmp_path / "turn.plan.json"
+    best.save(path)
+    assert pushplan.Plan.load(path).to_dict() == best.to_dict()
+    assert "lever 0" in best.to_mjcf()
+    assert "<svg" not in solution.page() and "Edge raised" in solution.page()

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use crate::asset::node::Node;
 use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
-use crate::asset::task::{named_tools, pushes_of, reach_of};
+use crate::asset::task::{named_tools, pushes_of, reach_of, unknown_of};
 use crate::asset::text::named_after;
 use crate::geometry::{Pose, Vector, centroid, cross};
 use crate::scene::{
-    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Scene, Slab, Task, Unknowns,
+    Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Scene, Slab, Task,
 };
 
 /// A centre of mass that is nearer to the origin of its frame is there, metres: sums of corners
@@ -33,7 +33,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         goal: goal(root.get("goal")?, &scene)?,
         scene,
-        unknown: Unknowns::NONE,
+        unknown: unknown_of(root)?,
         robot: reach_of(root.get("robot")?)?,
         tools: named_tools(root.get("tools")?),
         levers: Some(match root.get("levers") {

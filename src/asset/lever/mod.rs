@@ -3,12 +3,10 @@
 
 mod blade;
 mod build;
-mod emit;
 mod load;
 mod rules;
 mod spec;
 
 pub(super) use blade::{BLADE_TOOL, BLADE_TOOL_KEYS, blade_tool_of, is_blade_tool};
-pub(super) use emit::{blade_tool, lever_task};
 pub(super) use load::{check_blades, is_lever_task, lever_task_of, unknown_blade};
 pub(super) use spec::{LEVER_TASK, LEVER_TASK_KEYS};

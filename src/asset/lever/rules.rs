@@ -30,6 +30,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
         }
         heights(object, ledger);
     }
+    task::check_unknown(section("unknown"), scene, ledger);
     task::check_robot(section("robot"), &empty, ledger);
     task::check_tools(section("tools"), ledger);
     ranges(section("levers"), ledger);

@@ -3,7 +3,9 @@
 use crate::asset::spec::{
     ANGLE, COORDINATE, CUBOID, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SIZE, Value,
 };
-use crate::asset::task::{OBJECT_NAME, PUSHES, REACH_KEY, ROBUSTNESS, TOOLS};
+use crate::asset::task::{
+    MAX_FORCE, OBJECT_NAME, PUSHES, REACH_KEY, ROBUSTNESS, TOOLS, UNKNOWN_KEY,
+};
 use crate::geometry::MAX_CORNERS;
 
 /// What a task of levering may hold.
@@ -14,7 +16,8 @@ pub(in crate::asset) const LEVER_TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::required("scene", SCENE, "What lies on the table."),
-    Key::required("robot", Value::Map(&[REACH_KEY]), "Where the end effector can be."),
+    UNKNOWN_KEY,
+    Key::required("robot", Value::Map(&[REACH_KEY, MAX_FORCE]), "Where the end effector can be."),
     TOOLS,
     Key::optional(
         "levers",

@@ -2,39 +2,47 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::asset::lever::{blade_tool, lever_task};
 use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Directions, Goal, Joint, JointKind, Object, Obstacle, Offsets, PairFriction, PushForm,
-    PushRules, Scene, Span, Support, TableTop, Task, Tool, ToolChoice,
+    Blade, Directions, Goal, Joint, JointKind, LeverRules, Object, Obstacle, Offsets, PairFriction,
+    Pivot, Plate, PushForm, PushRules, Scene, Slab, Span, Support, TableTop, Task, Tool,
+    ToolChoice,
 };
 
 /// A task as in a task file.
 pub(in crate::asset) fn task(task: &Task) -> Json {
-    if let Some(rules) = &task.levers {
-        return lever_task(task, rules);
-    }
     let mut robot = json!({
-        "home": vector(task.robot.home),
         "reach": {"min": task.robot.reach_min, "max": task.robot.reach_max},
     });
+    // Chained pushes alone begin at home.
+    if task.levers.is_none() {
+        robot["home"] = json!(vector(task.robot.home));
+    }
     if let Some(force) = task.robot.max_force {
         robot["max_force"] = json!(force);
     }
     let mut fields = json!({
         "name": task.name,
         "description": task.description,
-        "scene": scene(&task.scene),
+        "scene": match task.levers {
+            Some(_) => scene_in_space(&task.scene),
+            None => scene(&task.scene),
+        },
         "robot": robot,
         "tools": match &task.tools {
             ToolChoice::All => json!("all"),
             ToolChoice::Named(names) => json!(names),
         },
-        "pushes": pushes(&task.pushes),
         "goal": goal(&task.goal, &task.scene),
         "robustness": task.robustness,
     });
+    if task.pushes.max_count > 0 {
+        fields["pushes"] = pushes(&task.pushes);
+    }
+    if let Some(rules) = &task.levers {
+        fields["levers"] = levers(rules);
+    }
     if task.unknown.any() {
         let unknown = task.unknown.words().into_iter().filter(|(_, unknown)| *unknown);
         fields["unknown"] = unknown.map(|(word, _)| word).collect();
@@ -44,8 +52,13 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
 
 /// A tool as in a tool file.
 pub(in crate::asset) fn tool(tool: &Tool) -> Json {
-    if let Some(blade) = tool.blade() {
-        return blade_tool(tool, &blade);
+    if let Some(Blade { length, width, thickness, .. }) = tool.blade() {
+        return json!({
+            "name": tool.name,
+            "description": tool.description,
+            "friction": tool.friction,
+            "blade": {"length": length, "width": width, "thickness": thickness},
+        });
     }
     let parts: Vec<Json> = tool
         .parts()
@@ -162,6 +175,57 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     fields
 }
 
+/// The scene of a task of levering: its objects with all their solids, in corners about the origins of
+/// their own frames, so that nothing is shifted when they are read back.
+fn scene_in_space(scene: &Scene) -> Json {
+    let solid = |slab: &Slab| {
+        let corners: Vec<_> = slab.corners.iter().map(|corner| vector(*corner)).collect();
+        json!({"prism": {"corners": corners, "height": slab.height, "origin": [0.0, 0.0]}})
+    };
+    let part = |slab: &Slab| json!({"shape": solid(slab), "position": [0.0, 0.0, slab.bottom]});
+    let object = |object: &Object| {
+        let fields = json!({
+            "name": object.name,
+            "shape": solid(&Plate::of(object).slabs[0]),
+            "parts": object.parts.iter().map(part).collect::<Vec<_>>(),
+            "mass": object.mass,
+            "friction": object.friction,
+            "clearance": object.clearance,
+            "z": object.z,
+        });
+        posed(fields, &object.pose)
+    };
+    let obstacle = |obstacle: &Obstacle| {
+        let Obstacle { name, size, friction, .. } = obstacle;
+        let fields = json!({"name": name, "size": size, "friction": friction});
+        let mut fields = posed(fields, &obstacle.pose);
+        let [x, y] = vector(obstacle.pose.position);
+        fields["position"] = json!([x, y, obstacle.z]);
+        fields
+    };
+    json!({
+        "table": {"friction": scene.table_friction},
+        "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
+        "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
+    })
+}
+
+/// Allowed lever-ups as in a task file.
+fn levers(rules: &LeverRules) -> Json {
+    let pivot = |pivot: &Pivot| match pivot {
+        Pivot::Auto => json!("auto"),
+        Pivot::At(distance) => json!(distance),
+    };
+    json!({
+        "depth": rules.depth,
+        "angle_deg": rules.angle.map(degrees),
+        "pivot": rules.pivots.iter().map(pivot).collect::<Vec<_>>(),
+        "speed": rules.speed,
+        "hold": rules.hold,
+        "retreat": rules.retreat,
+    })
+}
+
 /// Allowed pushes as in a task file.
 pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
     let angles = |list: &[f64]| list.iter().map(|angle| degrees(*angle)).collect::<Vec<_>>();
@@ -188,11 +252,20 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
 }
 
 fn goal(goal: &Goal, scene: &Scene) -> Json {
-    let mut json = json!({
-        "object": scene.objects[goal.object].name,
-        "position": vector(goal.position),
-        "tolerance": goal.tolerance,
-    });
+    let mut json = json!({"object": scene.objects[goal.object].name});
+    if goal.has_place() {
+        json["position"] = json!(vector(goal.position));
+        json["tolerance"] = json!(goal.tolerance);
+    }
+    if let Some(obstacle) = goal.outside {
+        json["outside"] = json!(scene.obstacles[obstacle].name);
+    }
+    if let Some(height) = goal.raised {
+        json["raised"] = json!(height);
+    }
+    if let Some(flipped) = goal.flipped {
+        json["flipped"] = json!(flipped);
+    }
     if let Some((heading, tolerance)) = goal.heading {
         json["heading_deg"] = json!(degrees(heading));
         json["heading_tolerance_deg"] = json!(degrees(tolerance));

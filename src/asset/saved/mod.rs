@@ -7,6 +7,7 @@ pub(super) mod emit;
 mod plan;
 mod read;
 mod spec;
+mod steps;
 mod trajectory;
 
 pub use plan::PlanFile;

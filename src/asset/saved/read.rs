@@ -12,7 +12,7 @@ use crate::asset::spec::Value;
 use crate::asset::strict::{Ledger, check};
 use crate::asset::text::Source;
 use crate::asset::{task, tool, write_atomic};
-use crate::scene::{Outcome, Plan, Plate, State, Task, Tool};
+use crate::scene::{Outcome, Plan, Plate, State, Step, Task, Tool};
 
 /// A file that has passed the strict check, open for the rules that span several keys.
 pub(super) struct Opened<'a> {
@@ -72,6 +72,18 @@ impl<'a> Opened<'a> {
                     format!("the plan uses `{tool}`, the file holds `{}`", tools.join("`, `"));
                 self.ledger.fault(node.get("tool").unwrap_or(node), message, mixed);
                 break;
+            }
+        }
+        for step in &plan.steps {
+            let Some(tool) = self.tools.iter().find(|tool| tool.name == step.tool()) else {
+                continue;
+            };
+            let (able, what) = match step {
+                Step::Push(_) => (tool.pushes(), "has a blade, so it cannot push"),
+                Step::LeverUp(_) => (tool.blade().is_some(), "has no blade, so it cannot lever"),
+            };
+            if !able {
+                self.ledger.fault(node, format!("`{}` {what}", tool.name), mixed);
             }
         }
         let Some(task) = &self.task else { return };

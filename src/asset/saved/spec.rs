@@ -5,6 +5,8 @@ use crate::asset::spec::{Key, Range, Value, numbers};
 use crate::asset::task::TASK_FILE;
 use crate::asset::tool::TOOL_FILE;
 
+use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, SCORE, STEPS};
+
 /// Version of recordings and of what commands print; raised when a reader of this version could not
 /// read the new form.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -173,7 +175,7 @@ const PLAN_FILE_VERSION: Value = Value::Count(Range {
 pub(super) const REAL: Value =
     Value::Number(Range { what: "a number", low: -1e6, high: 1e6, advice: "is the file damaged?" });
 
-const POSITIVE: Value = Value::Number(Range {
+pub(super) const POSITIVE: Value = Value::Number(Range {
     what: "a positive number",
     low: 1e-4,
     high: 100.0,
@@ -202,109 +204,7 @@ pub(super) const SHARE: Value =
 
 pub(super) const VECTOR: Value = numbers(&REAL, 2);
 
-/// The steps of a plan.
-const STEPS: Value = Value::Map(&[Key::required(
-    "steps",
-    Value::List { of: &STEP, items: "steps", min: 0, max: 64 },
-    "In order; none if nothing is to be done.",
-)]);
-
-const STEP: Value = Value::Variant(&[
-    Key::optional("push", PUSH_STEP, "A push; no default."),
-    Key::optional("lever_up", LEVER_STEP, "A lever-up; no default."),
-]);
-
-const PUSH_STEP: Value = Value::Map(&[
-    Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
-    Key::required("form", Value::Word(&["placed", "chained"]), "How the push starts."),
-    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
-    Key::required("start", VECTOR, "End-effector position at the start, metres."),
-    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
-    Key::required("length", POSITIVE, "Travel, metres."),
-    Key::required("speed", POSITIVE, "Speed, m/s."),
-]);
-
-const LEVER_STEP: Value = Value::Map(&[
-    Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("object", INDEX, "Index of the object that is levered."),
-    PLACE,
-    DEPTH,
-    PIVOT,
-    ANGLE,
-    SPEED,
-    HOLD,
-    RETREAT,
-    Key::optional(
-        "expected",
-        POSE,
-        "Where the object is expected by then; by default where the task has it.",
-    ),
-]);
-
-const OLD_LEVER_KEYS: &[Key] = &[
-    Key::required("plate", INDEX, "Index of the object that is levered."),
-    PLACE,
-    DEPTH,
-    PIVOT,
-    ANGLE,
-    SPEED,
-    HOLD,
-    RETREAT,
-];
-
-const PLACE: Key = Key::required(
-    "place",
-    Value::Map(&[
-        Key::required("edge", INDEX, "The edge from this corner to the next."),
-        Key::required("fraction", SHARE, "How far along it."),
-    ]),
-    "Where the blade goes under its outline.",
-);
-const DEPTH: Key = Key::required("depth", LEVER, "How far the tip lies behind the edge, metres.");
-const PIVOT: Key =
-    Key::required("pivot", REAL, "Distance of the axis from the edge, inward, metres.");
-const ANGLE: Key = Key::required("angle", TURN, "Turn of the blade, radians.");
-const SPEED: Key = Key::required("speed", LEVER, "Speed of the tip, m/s.");
-const HOLD: Key = Key::required("hold", UNSIGNED, "How long the blade then stands still, seconds.");
-const RETREAT: Key = Key::required("retreat", UNSIGNED, "How far it is then drawn back, metres.");
-
-/// Large enough for any lever, small enough that none takes hours.
-const LEVER: Value = Value::Number(Range {
-    what: "a positive number",
-    low: 1e-4,
-    high: 10.0,
-    advice: "lengths are in metres, speeds in m/s",
-});
-
-const TURN: Value = Value::Number(Range {
-    what: "a turn in radians",
-    low: 0.0,
-    high: 3.2,
-    advice: "half a turn is 3.14",
-});
-
-/// The pushes of a plan of the first version.
-const PUSHES: Value = Value::Map(&[
-    Key::required("tool", Value::Name, "Name of the tool."),
-    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
-    Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),
-    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
-    Key::required(
-        "pushes",
-        Value::List { of: &PUSH, items: "pushes", min: 0, max: 64 },
-        "The pushes, in order; none if nothing is to be done.",
-    ),
-]);
-
-const PUSH: Value = Value::Map(&[
-    Key::required("start", VECTOR, "End-effector position at the start, metres."),
-    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
-    Key::required("length", POSITIVE, "Travel, metres."),
-    Key::required("speed", POSITIVE, "Speed, m/s."),
-]);
-
-const POSE: Value = Value::Map(&[
+pub(super) const POSE: Value = Value::Map(&[
     Key::required("position", VECTOR, "Position of the centre, metres."),
     Key::required("heading", REAL, "Turn about the vertical, radians."),
 ]);
@@ -330,11 +230,6 @@ const STATE: Value = Value::Map(&[
         Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: 64 },
         "Poses in space, once something has left the plane; by default nothing has.",
     ),
-]);
-
-const POSE_IN_SPACE: Value = Value::Map(&[
-    Key::required("position", numbers(&REAL, 3), "Metres."),
-    Key::required("rotation", numbers(&REAL, 4), "A quaternion: x, y, z, w."),
 ]);
 
 const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
@@ -364,13 +259,6 @@ const OUTCOME: Value = Value::Map(&[
         "How the goal object lies in space; by default nothing left the plane.",
     ),
 ]);
-
-const SCORE: Value = Value::Number(Range {
-    what: "a score",
-    low: 0.0,
-    high: f64::MAX,
-    advice: "is the file damaged?",
-});
 
 const WARNINGS: Value = Value::List { of: &Value::Anything, items: "warnings", min: 0, max: 1000 };
 
@@ -472,13 +360,6 @@ const TRAJECTORY: Value = Value::Map(&[
         Value::List { of: &LIFT, items: "lever-ups", min: 0, max: 64 },
         "What each lever-up has come to; by default there is none.",
     ),
-]);
-
-const LIFT: Value = Value::Map(&[
-    Key::required("object", INDEX, "Index of the object that is levered."),
-    Key::required("raised", REAL, "How much higher its edge lies at the end of the turn, metres."),
-    Key::required("held", Value::Switch, "Whether it lies on the blade then."),
-    Key::required("tilt", REAL, "How far it is tilted, radians."),
 ]);
 
 const FORCE: Value = Value::Map(&[

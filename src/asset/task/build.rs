@@ -38,7 +38,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
 }
 
 /// What is unknown.
-fn unknown(root: &Node) -> Option<Unknowns> {
+pub(in crate::asset) fn unknown(root: &Node) -> Option<Unknowns> {
     let words = root.get("unknown").map(Node::items).unwrap_or_default();
     words.iter().try_fold(Unknowns::NONE, |so_far, word| so_far.with(word.text()?))
 }

@@ -44,7 +44,8 @@ impl Task {
             let message = "all tools are allowed, but the library has none";
             return Err(Fault::of_file(&self.name, message, advice).into());
         }
-        self.chosen(library, library.iter(), |tool| tool.pushes())
+        // Where levering is allowed, tools may be named that do only that.
+        self.chosen(library, library.iter(), self.levers.is_some(), |tool| tool.pushes())
     }
 
     /// The tools with blades among those that the task allows, in its order (all: in the library's
@@ -58,7 +59,8 @@ impl Task {
             let advice = "add a tool file with a `blade` to the folder";
             return Err(Fault::of_file(&self.name, message, advice).into());
         }
-        self.chosen(library, library.blades().iter(), |tool| tool.blade().is_some())
+        let mixed = self.pushes.max_count > 0;
+        self.chosen(library, library.blades().iter(), mixed, |tool| tool.blade().is_some())
     }
 
     /// The tools that it allows for pushes that follow lever-ups: those without blades.
@@ -72,15 +74,16 @@ impl Task {
         }
     }
 
-    /// The allowed tools that are `wanted`; `all` of them where the task names none.
+    /// The allowed tools that are `wanted`; `all` of them where the task names none. Others are no fault
+    /// in a `mixed` choice.
     fn chosen<'a>(
         &self,
         library: &'a ToolLibrary,
         all: impl Iterator<Item = &'a Arc<Tool>>,
+        mixed: bool,
         wanted: impl Fn(&Tool) -> bool,
     ) -> Result<Vec<Arc<Tool>>, Faults> {
         let ToolChoice::Named(names) = &self.tools else { return Ok(all.cloned().collect()) };
-        let mixed = self.levers.is_some() && self.pushes.max_count > 0;
         let (mut faults, mut tools) = (Vec::new(), Vec::new());
         for name in names {
             match library.get(name) {
@@ -119,10 +122,10 @@ pub(in crate::asset) fn parse_with(
     let mut root = Node::parse(source)?;
     let mut ledger = Ledger::new(source);
     check(&mut root, &TASK_FILE, &mut ledger);
+    let task = task_of(&root, file, &mut ledger);
     if let Some(library) = library {
         check_tools(&root, library, &mut ledger);
     }
-    let task = task_of(&root, file, &mut ledger);
     ledger.finish(task)
 }
 

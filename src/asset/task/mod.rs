@@ -10,13 +10,17 @@ mod spec;
 
 pub(super) use build::{
     pushes as pushes_of, robot as reach_of, support as support_of, tools as named_tools,
+    unknown as unknown_of,
 };
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use joints::joint as joint_of;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
-pub(super) use rules::{push_rules as check_pushes, robot as check_robot, tools as check_tools};
+pub(super) use rules::{
+    push_rules as check_pushes, robot as check_robot, tools as check_tools,
+    unknown as check_unknown,
+};
 pub(super) use spec::{
-    JOINTS, LIFT, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT, PUSHES,
-    REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS,
+    JOINTS, LIFT, MAX_FORCE, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
+    PUSHES, REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS, UNKNOWN_KEY,
 };

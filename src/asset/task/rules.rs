@@ -39,7 +39,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
 }
 
 /// What is unknown is named once, and joints are not stated where they are unknown.
-fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
+pub(in crate::asset) fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledger) {
     let words = unknown.items();
     for (k, word) in words.iter().enumerate().filter(|(_, word)| word.text().is_some()) {
         if words[..k].iter().any(|before| before.text() == word.text()) {

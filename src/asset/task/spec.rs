@@ -30,7 +30,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::optional("name", Value::Name, "The task's name; by default the file's."),
     Key::optional("description", Value::Text, "One line for people; by default empty."),
     Key::required("scene", SCENE, "What stands on the table."),
-    Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING),
+    UNKNOWN_KEY,
     Key::required("robot", ROBOT, "Where the end effector can be."),
     TOOLS,
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
@@ -62,6 +62,8 @@ pub(in crate::asset) const ROBUSTNESS: Key = Key::optional(
 );
 
 /// What of a scene may be unknown.
+pub(in crate::asset) const UNKNOWN_KEY: Key = Key::optional("unknown", UNKNOWN, UNKNOWN_MEANING);
+
 const UNKNOWN: Value = Value::List {
     of: &Value::Word(&["joints", "masses", "frictions", "support"]),
     items: "words",
@@ -198,17 +200,20 @@ const ROBOT: Value = Value::Map(&[
          in front of the base.",
     ),
     REACH_KEY,
-    Key::optional(
-        "max_force",
-        Value::Number(Range {
-            what: "a force in newtons",
-            low: 0.1,
-            high: 1e6,
-            advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
-        }),
-        "Largest force in newtons that the arm can press with; by default any.",
-    ),
+    MAX_FORCE,
 ]);
+
+/// How hard the arm can press.
+pub(in crate::asset) const MAX_FORCE: Key = Key::optional(
+    "max_force",
+    Value::Number(Range {
+        what: "a force in newtons",
+        low: 0.1,
+        high: 1e6,
+        advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
+    }),
+    "Largest force in newtons that the arm can press with; by default any.",
+);
 
 /// Where the end effector can be.
 pub(in crate::asset) const REACH_KEY: Key = Key::required(

@@ -22,9 +22,7 @@ pub struct Levering {
 /// elsewhere than in the scene, or with a tool without a blade.
 fn lever_job(scene: &Scene, job: &Job) -> Option<LeverJob> {
     let Motion::Lever(LeverMotion { lever, expected: None, .. }) = &job.motion else { return None };
-    job.motion.tool().blade()?;
-    scene.objects.get(lever.plate)?;
-    if job.start.space.is_some() {
+    if job.start.space.is_some() || !job.motion.fits(scene) {
         return None;
     }
     let scene = Arc::new(LeverScene::with(scene, job.motion.tool()));
@@ -138,7 +136,7 @@ fn trajectory(
     found.warnings.extend(course.warnings.iter().map(|warning| match warning {
         LeverWarning::Slipped => Warning::Slipped { object: plate.name.clone() },
         LeverWarning::Moving => Warning::NotAtRest { waited: 0.0 },
-        LeverWarning::Jammed | LeverWarning::SetDown => Warning::Strained,
+        LeverWarning::Jammed => Warning::Strained,
     }));
     found
 }

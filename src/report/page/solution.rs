@@ -51,7 +51,10 @@ pub fn solution_page(
         plan.replays = list;
     }
     making.data.columns = COLUMNS.to_vec();
-    making.data.choice = choice(solution);
+    // Of lever-ups nothing but the plans is kept.
+    if solution.statistics.levers.is_none() {
+        making.data.choice = choice(solution);
+    }
     making.data.candidates = candidates(solution);
     making.data.warnings = solution.warnings.iter().map(ToString::to_string).collect();
     html::page(&making.data, view)

@@ -16,7 +16,8 @@ pub fn stage(task: &Task) -> Stage {
         goal: Some(Goal {
             object: goal.object,
             at: point(goal.position),
-            tolerance: if goal.has_place() { length(goal.tolerance) } else { 0 },
+            // In space something else is measured than the distance.
+            tolerance: if task.in_space() { 0 } else { length(goal.tolerance) },
             heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
             alike: goal.alike,
             words: goal_line(task),

@@ -71,9 +71,10 @@ impl SpacePicture<'_> {
         let frames: Vec<&Frame> = self.trajectory.frames.iter().collect();
         let step = frames.len().div_ceil(PICTURES).max(1);
         let mut shown: Vec<&Frame> = frames.iter().copied().step_by(step).collect();
-        shown.extend(frames.last().copied());
+        shown.extend(std::iter::repeat_n(frames.last().copied(), PAUSE).flatten());
         let time = shown.last().map_or(1.0, |last| last.time.max(0.1));
-        let seconds = time * (shown.len() + PAUSE) as f64 / shown.len().max(1) as f64;
+        let moving = shown.len().saturating_sub(PAUSE).max(1);
+        let seconds = time * shown.len() as f64 / moving as f64;
         self.drawn(&shown, Some(seconds))
     }
 
@@ -209,14 +210,14 @@ impl SpacePicture<'_> {
                     .iter()
                     .map(|frame| self.tool(frame).get(part).map(outline).unwrap_or_default())
                     .collect();
-                svg.moving_polygon(&ways, (seconds, PAUSE), tool_style.opacity(0.8));
+                svg.moving_polygon(&ways, seconds, tool_style.opacity(0.8));
             }
             for object in 0..self.scene.objects.len() {
                 let slabs = 1 + self.scene.objects[object].parts.len();
                 for slab in 0..slabs {
                     let ways: Vec<Vec<Vector>> =
                         frames.iter().map(|f| outline(&self.slabs(object, f)[slab])).collect();
-                    svg.moving_polygon(&ways, (seconds, PAUSE), style(object).opacity(0.9));
+                    svg.moving_polygon(&ways, seconds, style(object).opacity(0.9));
                 }
             }
             view.scale_bar(svg);

@@ -60,8 +60,6 @@ pub enum LeverWarning {
     Jammed,
     /// It did not come to rest in time.
     Moving,
-    /// The tool of a push that follows would come down on a plate.
-    SetDown,
 }
 
 impl fmt::Display for LeverWarning {
@@ -70,7 +68,6 @@ impl fmt::Display for LeverWarning {
             Self::Slipped => "the plate slipped off the blade",
             Self::Jammed => "something is jammed",
             Self::Moving => "the plate did not come to rest",
-            Self::SetDown => "the tool of the push that follows comes down on a plate",
         })
     }
 }

@@ -24,6 +24,9 @@ use super::search::rank;
 const AWAY: [f64; 3] = [0.08, 0.14, 0.2];
 const WAYS: usize = 8;
 
+/// At most this many plans come back: what a reader looks at.
+const REPORTED: usize = 8;
+
 /// How near it must come to there, metres: the blade goes where the replay as written has it then.
 const NEAR: f64 = 0.01;
 
@@ -100,6 +103,7 @@ impl<'a> Steps<'a> {
             plans.extend(found);
             rank(&mut plans);
         }
+        plans.truncate(REPORTED);
         self.timing.total = began.elapsed().as_secs_f64();
         let tools = self.blades.iter().map(|tool| Tool::clone(tool)).collect();
         Ok(Solution {

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 use pushplan::asset::{
-    Kind, PlanFile, SCHEMA_VERSION, ToolLibrary, TrajectoryFile, check, write_atomic,
+    Kind, PLAN_VERSION, PlanFile, ToolLibrary, TrajectoryFile, check, write_atomic,
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
@@ -96,41 +96,41 @@ fn damaged(old: &str, new: &str) -> String {
 
 #[test]
 fn damaged_plan_files_are_refused() {
-    let version = format!("\"schema_version\":{SCHEMA_VERSION}");
+    let version = format!("\"schema_version\":{PLAN_VERSION}");
     assert_snapshot!(damaged(&version, "\"schema_version\":7"), @r#"
-    p.json:1:19: error: expected the schema version 1, found the number 7
+    p.json:1:19: error: expected the schema version from 1 to 2, found the number 7
       help: the file is of another version of pushplan; make it again with this one
     "#);
     assert_snapshot!(damaged("\"grip_yaw\"", "\"gripyaw\""), @r#"
-    p.json:1:66: error: unknown key `gripyaw`
+    p.json:1:84: error: unknown key `gripyaw`
       help: did you mean `grip_yaw`?
     "#);
     assert_snapshot!(damaged("\"length\":0.2", "\"length\":-0.2"), @r#"
-    p.json:1:190: error: expected a positive number from 0.0001 to 100, found the number -0.2
+    p.json:1:197: error: expected a positive number from 0.0001 to 100, found the number -0.2
       help: lengths are in metres, speeds in m/s
     "#);
     assert_snapshot!(damaged("\"length\":0.2", "\"length\":null"), @r#"
-    p.json:1:190: error: expected a positive number from 0.0001 to 100, found nothing
+    p.json:1:197: error: expected a positive number from 0.0001 to 100, found nothing
       help: remove the key, or write its value after it
     "#);
     assert_snapshot!(damaged("\"length\":0.2", "\"length\":1e999"), @r#"
-    p.json:1:191: error: not valid JSON: number out of range
+    p.json:1:198: error: not valid JSON: number out of range
       help: write a number that is smaller than 1e308
     "#);
     assert_snapshot!(damaged("\"mass\":0.4", "\"mass\":-1"), @r#"
-    p.json:1:2158: error: expected a mass in kg from 0.001 to 1000, found the number -1
+    p.json:1:2252: error: expected a mass in kg from 0.001 to 1000, found the number -1
       help: masses are in kilograms: 250 g is 0.25
     "#);
-    assert_snapshot!(damaged("\"plan\":{\"tool\":\"stick\"", "\"plan\":{\"tool\":\"rake\""), @r#"
-    p.json:1:55: error: the plan uses `rake`, the file holds `stick`
+    assert_snapshot!(damaged("\"push\":{\"tool\":\"stick\"", "\"push\":{\"tool\":\"rake\""), @r#"
+    p.json:1:42: error: the plan uses `rake`, the file holds `stick`
       help: the file mixes two; make it again
     "#);
     assert_snapshot!(damaged("\"velocities\":[", "\"velocities\":[{\"linear\":[0,0],\"angular\":0},"), @r#"
-    p.json:1:321: error: expected 1 velocities, one per object, found 2
+    p.json:1:412: error: expected 1 velocities, one per object, found 2
       help: the file is damaged; make it again
     "#);
     assert_snapshot!(damaged("\"not_at_rest\"", "\"not_at_all\""), @r#"
-    p.json:1:559: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `too_much_force`, `out_of_reach`, `through_obstacle`, `forbidden_tool`, `forbidden_yaw`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`, `guessed`
+    p.json:1:650: error: unknown variant `not_at_all`, expected one of `outside_range`, `declined`, `not_at_rest`, `not_finite`, `stopped`, `toppled`, `jammed`, `off_table`, `too_much_force`, `out_of_reach`, `through_obstacle`, `forbidden_tool`, `forbidden_yaw`, `too_many_pushes`, `cannot_lever`, `slipped`, `strained`, `set_down_on`, `pressed`, `overlap`, `loose_joint`, `differs`, `simulated`, `refused`, `guessed`
       help: the file is damaged or of another version; make it again
     "#);
     assert_snapshot!(damaged("\"kind\":\"plan\"", "\"kind\":\"trajectory\""), @r#"

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
+use pushplan::asset::{PlanFile, ToolLibrary, load_task};
+use pushplan::export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use pushplan::scene::{GRAVITY, PushForm, Task};
 use pushplan::solve::{Effort, Planner};
 use serde_json::Value as Json;
@@ -15,6 +15,7 @@ use tempfile::TempDir;
 
 use super::{BAR, plan};
 use crate::ROOT;
+use crate::levers::plan_file;
 use crate::mujoco_python::python;
 
 /// Where the box of [`pushed`] stands at the start, metres.
@@ -23,6 +24,30 @@ const START: f64 = 0.50;
 /// Coefficients of friction of that box: with the table, and with the bar.
 const TABLE: f64 = 0.45;
 const BAR_FRICTION: f64 = 0.4;
+
+/// A lever-up that turns a plate over, and one with pushes that follow, as the planner found them.
+#[test]
+fn shipped_plans_in_space_work_in_mujoco() {
+    let Some(python) = python() else { return };
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let planner = Planner::for_effort(Effort::Draft).expect("the shipped weights").build();
+    let root = Path::new(ROOT).join("tasks/levers");
+    let folder = TempDir::new().expect("a folder");
+    let script = folder.path().join("lever.py");
+    fs::write(&script, LEVER_SCRIPT).expect("written");
+    for name in ["flip-plate", "turn-and-push"] {
+        let task = load_task(root.join(format!("{name}.yaml")), &library).expect("sound");
+        let solution = planner.solve(&task, &library).expect("sound");
+        let best = solution.best().expect("a plan");
+        let scene = folder.path().join(format!("{name}.xml"));
+        let text = mjcf(&plan_file(&task, best)).expect("no loops");
+        fs::write(&scene, text).expect("written");
+        let output = Command::new(&python).arg(&script).arg(&scene).output().expect("Python runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: Json = serde_json::from_slice(&output.stdout).expect("a line of JSON");
+        assert_eq!(found["reached"], true, "{name}: {}", found["rest"]);
+    }
+}
 
 #[test]
 fn a_box_pushed_flush_slides_on_by_v2_over_2_mu_g() {

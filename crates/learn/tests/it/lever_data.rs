@@ -230,7 +230,7 @@ fn lever_ups_are_written_as_scenes_with_what_comes_of_them() {
         let scene = read(line["scene"].as_str().expect("a name")).expect("a scene");
         assert_eq!(scene, pushplan::export::lever_mjcf(&episode.job()));
         // The solver must not see the blade fall with the plate.
-        assert!(scene.contains(r#"<body name="blade" gravcomp="1""#));
+        assert!(scene.contains(r#"<body name="blade/0" gravcomp="1""#));
         let (rest, told) = (episode.trajectory.rest, &line["rest"]);
         let [x, y, z, w] = rest.quaternion();
         let at = rest.position;

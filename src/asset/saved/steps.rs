@@ -1,0 +1,126 @@
+//! What steps and what comes of them may hold, and plans of the first version.
+
+use crate::asset::spec::{Key, Range, Value, numbers};
+
+use super::spec::{INDEX, POSE, POSITIVE, REAL, SHARE, UNSIGNED, VECTOR};
+
+/// The steps of a plan.
+pub(super) const STEPS: Value = Value::Map(&[Key::required(
+    "steps",
+    Value::List { of: &STEP, items: "steps", min: 0, max: 64 },
+    "In order; none if nothing is to be done.",
+)]);
+
+const STEP: Value = Value::Variant(&[
+    Key::optional("push", PUSH_STEP, "A push; no default."),
+    Key::optional("lever_up", LEVER_STEP, "A lever-up; no default."),
+]);
+
+const PUSH_STEP: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
+    Key::required("form", Value::Word(&["placed", "chained"]), "How the push starts."),
+    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
+    Key::required("start", VECTOR, "End-effector position at the start, metres."),
+    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
+    Key::required("length", POSITIVE, "Travel, metres."),
+    Key::required("speed", POSITIVE, "Speed, m/s."),
+]);
+
+const LEVER_STEP: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("object", INDEX, "Index of the object that is levered."),
+    PLACE,
+    DEPTH,
+    PIVOT,
+    ANGLE,
+    SPEED,
+    HOLD,
+    RETREAT,
+    Key::optional(
+        "expected",
+        POSE,
+        "Where the object is expected by then; by default where the task has it.",
+    ),
+]);
+
+pub(super) const OLD_LEVER_KEYS: &[Key] = &[
+    Key::required("plate", INDEX, "Index of the object that is levered."),
+    PLACE,
+    DEPTH,
+    PIVOT,
+    ANGLE,
+    SPEED,
+    HOLD,
+    RETREAT,
+];
+
+const PLACE: Key = Key::required(
+    "place",
+    Value::Map(&[
+        Key::required("edge", INDEX, "The edge from this corner to the next."),
+        Key::required("fraction", SHARE, "How far along it."),
+    ]),
+    "Where the blade goes under its outline.",
+);
+const DEPTH: Key = Key::required("depth", LEVER, "How far the tip lies behind the edge, metres.");
+const PIVOT: Key =
+    Key::required("pivot", REAL, "Distance of the axis from the edge, inward, metres.");
+const ANGLE: Key = Key::required("angle", TURN, "Turn of the blade, radians.");
+const SPEED: Key = Key::required("speed", LEVER, "Speed of the tip, m/s.");
+const HOLD: Key = Key::required("hold", UNSIGNED, "How long the blade then stands still, seconds.");
+const RETREAT: Key = Key::required("retreat", UNSIGNED, "How far it is then drawn back, metres.");
+
+/// Large enough for any lever, small enough that none takes hours.
+const LEVER: Value = Value::Number(Range {
+    what: "a positive number",
+    low: 1e-4,
+    high: 10.0,
+    advice: "lengths are in metres, speeds in m/s",
+});
+
+const TURN: Value = Value::Number(Range {
+    what: "a turn in radians",
+    low: 0.0,
+    high: 3.2,
+    advice: "half a turn is 3.14",
+});
+
+/// The pushes of a plan of the first version.
+pub(super) const PUSHES: Value = Value::Map(&[
+    Key::required("tool", Value::Name, "Name of the tool."),
+    Key::required("grip_yaw", REAL, "Turn of the end effector against world +x, radians."),
+    Key::required("form", Value::Word(&["placed", "chained"]), "How the pushes start."),
+    Key::required("lift", UNSIGNED, "Height of the tool's underside above the table, metres."),
+    Key::required(
+        "pushes",
+        Value::List { of: &PUSH, items: "pushes", min: 0, max: 64 },
+        "The pushes, in order; none if nothing is to be done.",
+    ),
+]);
+
+const PUSH: Value = Value::Map(&[
+    Key::required("start", VECTOR, "End-effector position at the start, metres."),
+    Key::required("direction", REAL, "Heading of the motion, radians from world +x."),
+    Key::required("length", POSITIVE, "Travel, metres."),
+    Key::required("speed", POSITIVE, "Speed, m/s."),
+]);
+
+pub(super) const POSE_IN_SPACE: Value = Value::Map(&[
+    Key::required("position", numbers(&REAL, 3), "Metres."),
+    Key::required("rotation", numbers(&REAL, 4), "A quaternion: x, y, z, w."),
+]);
+
+pub(super) const LIFT: Value = Value::Map(&[
+    Key::required("object", INDEX, "Index of the object that is levered."),
+    Key::required("raised", REAL, "How much higher its edge lies at the end of the turn, metres."),
+    Key::required("held", Value::Switch, "Whether it lies on the blade then."),
+    Key::required("tilt", REAL, "How far it is tilted, radians."),
+]);
+
+pub(super) const SCORE: Value = Value::Number(Range {
+    what: "a score",
+    low: 0.0,
+    high: f64::MAX,
+    advice: "is the file damaged?",
+});
