@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # A benchmark or training data as a Slurm array with a dependent merge: the same bytes as one run.
 #
-#   cluster/slurm.sh SHARDS OUT COMMAND...
+#   cluster/slurm.sh SHARDS OUT PROGRAM COMMAND...
 #
-#   cluster/slurm.sh 16 runs/random bench random --count 1000
-#   cluster/slurm.sh 64 data/train generate --preset mixed --episodes 60000 --seed 1
-#   cluster/slurm.sh 16 runs/crowds evaluate --on sparse dense
+#   cluster/slurm.sh 16 runs/tasks pushplan bench tasks tasks/*.yaml
+#   cluster/slurm.sh 64 data/train pushplan-learn generate --preset mixed --episodes 60000 --seed 1
+#   cluster/slurm.sh 16 runs/crowds pushplan-lab evaluate --on sparse dense
 #
 # Every element measures its shard into a folder of its own below OUT.shards, and when all are done
 # the last job merges them into OUT. Run the same command again, from the same folder, after
@@ -14,8 +14,7 @@
 #
 # What the cluster wants to know is said as for any sbatch, in the environment or here:
 #   SBATCH_PARTITION, SBATCH_ACCOUNT, SBATCH_TIMELIMIT, SBATCH_MEM_PER_CPU, ...
-#   CPUS        processors of an element, by default 4; pushplan uses as many threads
-#   PUSHPLAN    the program, by default the `pushplan` on the PATH
+#   CPUS        processors of an element, by default 4; programs use as many threads
 #
 # Exit codes: `pushplan solve`, `run` and `verify` tell answers by theirs. 4 (no plan), 5 (fails in
 # simulation) and 7 (works too seldom) are answers, but to Slurm they are failures, for which
@@ -26,32 +25,39 @@
 # The commands of this script exit with 0 if and only if the shard is whole. 130 means that a signal
 # ended it in between; what was finished is kept.
 set -euo pipefail
-pushplan=${PUSHPLAN:-pushplan}
 
 # What a job does is its first word, and not in the environment, which some clusters do not hand on.
 step=submit
 case ${1:-} in --shard | --merge) step=${1#--} && shift ;; esac
 
-if [ $# -lt 3 ]; then
+if [ $# -lt 4 ]; then
   sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' "$0"
   exit 2
 fi
-shards=$1 out=$2
-shift 2
+shards=$1 out=$2 program=$3
+shift 3
 
-# Where the command takes the folder: data are named, everything else is put `--out`. (The lists are
-# written so that an empty one is no error to an old bash.)
-place=(--out)
-[ "$1" = generate ] && place=()
+# Where the command takes the folder: data are named, everything else is put `--out`; and what the
+# program calls what is done with its runs. (Lists that may be empty are no error to an old bash so.)
+place=(--out) kept=()
+case $(basename "$program") in
+pushplan) kept=(bench) ;;
+pushplan-learn) [ "$1" != generate ] || place=() ;;
+pushplan-lab) ;;
+*)
+  echo "$program is none of pushplan, pushplan-learn and pushplan-lab" >&2
+  exit 2
+  ;;
+esac
 
 case $step in
 shard)
   number=$SLURM_ARRAY_TASK_ID
   # Instead of this shell, so that signals reach it.
-  exec "$pushplan" "$@" ${place[@]+"${place[@]}"} "$out.shards/$number" --shard "$number/$shards"
+  exec "$program" "$@" ${place[@]+"${place[@]}"} "$out.shards/$number" --shard "$number/$shards"
   ;;
 merge)
-  exec "$pushplan" bench merge "$out" "$out".shards/[0-9]*
+  exec "$program" ${kept[@]+"${kept[@]}"} merge "$out" "$out".shards/[0-9]*
   ;;
 esac
 
@@ -63,17 +69,17 @@ mkdir -p "$out.shards/log"
 missing=1-$shards
 # `log` is no shard; what was begun is.
 if compgen -G "$out.shards/[0-9]*" >/dev/null; then
-  missing=$("$pushplan" bench status "$out".shards/[0-9]*)
+  missing=$("$program" ${kept[@]+"${kept[@]}"} status "$out".shards/[0-9]*)
 fi
 after=()
 if [ -n "$missing" ]; then
   job=$(sbatch --parsable --job-name=pushplan --array="$missing" --cpus-per-task="${CPUS:-4}" \
     --requeue --open-mode=append --output="$out.shards/log/%a.txt" \
-    "$0" --shard "$shards" "$out" "$@")
+    "$0" --shard "$shards" "$out" "$program" "$@")
   job=${job%%;*}
   echo "array $job: shards $missing"
   after=(--dependency="afterok:$job" --kill-on-invalid-dep=yes)
 fi
 job=$(sbatch --parsable --job-name=pushplan-merge ${after[@]+"${after[@]}"} \
-  --output="$out.shards/log/merge.txt" "$0" --merge "$shards" "$out" "$@")
+  --output="$out.shards/log/merge.txt" "$0" --merge "$shards" "$out" "$program" "$@")
 echo "job ${job%%;*}: merge into $out"

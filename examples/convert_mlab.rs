@@ -4,7 +4,7 @@
 //! into that form.
 //!
 //! The fingertip is a point, known to about 1 mm. Here it is a cylinder of 2 mm radius, thin enough
-//! that its place on an edge is the point's, and beside the given path by its radius, away from the
+//! that its place on an edge is the point's, and off the given path by its radius, away from the
 //! edge that the point comes to, so that the surfaces meet where the point would. The object stands
 //! where its centre of mass is. Frictions are not given: 0.5 between tip and plate, which `pushplan
 //! fit` finds in every file (0.46 to 0.54), and 0.3 between plate and table, which slow pushes do not

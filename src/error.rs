@@ -18,19 +18,19 @@ use crate::solve::SolveError;
 #[derive(Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Files, or tools of one name.
+    /// Files with faults, or two tools of one name.
     #[error(transparent)]
     Files(#[from] Faults),
     /// Parts that do not make a tool.
     #[error(transparent)]
     Tool(#[from] ToolError),
-    /// Corners that make no convex polygon.
+    /// Corners that do not make a convex polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
     /// An effect model that cannot be made, for its weights.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A text that names no effect model.
+    /// A text that does not name an effect model.
     #[error(transparent)]
     Spec(#[from] SpecError),
     /// A task that cannot even be tried.

@@ -3,18 +3,14 @@
 //! Each imports only from rooms before it, in this order:
 //!
 //! geometry, scene, recording, asset, store, sim, contact, graph, network, rollout, effect, judge,
-//! fit, belief, plan, verify, solve, act, dataset, train, bench, report, export, import, cli
+//! fit, belief, plan, verify, solve, act, bench, report, export, import, cli
 
 #[doc(inline)]
 pub use crate::{
-    act, asset, belief, bench, contact, dataset, effect, export, fit, geometry, graph, judge,
-    network, plan, recording, report, rollout, scene, sim, solve, store, verify, watch,
+    act, asset, belief, bench, contact, effect, export, fit, geometry, graph, judge, network, plan,
+    recording, report, rollout, scene, seeded, sim, solve, store, verify, watch,
 };
 
 #[cfg(feature = "formats")]
 #[doc(inline)]
 pub use crate::import;
-
-#[cfg(feature = "train")]
-#[doc(inline)]
-pub use crate::train;

@@ -53,15 +53,14 @@
 //!
 //! # Features
 //!
-//! All but `train` are on by default; a library needs none of them, and then no C compiler either. CI counts
+//! All are on by default; a library needs none of them, and then no C compiler either. CI counts
 //! the crates that are left, at most 120, with `cargo tree -e normal,build --no-default-features
 //! --prefix none --no-dedupe | sort -u | wc -l`.
 //!
 //! | feature | what it adds |
 //! |---|---|
 //! | `cli` | the command `pushplan` |
-//! | `formats` | MJCF and URDF in, MCAP and NPZ out |
-//! | `train` | training of the networks, on candle, whose crates double the time of the first build |
+//! | `formats` | MJCF and URDF in, MCAP out |
 //! | `mimalloc` | a faster allocator for the command, written in C |
 //!
 //! # Internals
@@ -88,8 +87,6 @@ mod checksum;
 pub mod cli;
 #[doc(hidden)]
 pub mod contact;
-#[doc(hidden)]
-pub mod dataset;
 #[doc(hidden)]
 pub mod effect;
 #[doc(hidden)]
@@ -118,14 +115,13 @@ pub mod rollout;
 #[doc(hidden)]
 pub mod scene;
 #[doc(hidden)]
+pub mod seeded;
+#[doc(hidden)]
 pub mod sim;
 #[doc(hidden)]
 pub mod solve;
 #[doc(hidden)]
 pub mod store;
-#[cfg(feature = "train")]
-#[doc(hidden)]
-pub mod train;
 #[doc(hidden)]
 pub mod verify;
 #[doc(hidden)]

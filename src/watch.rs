@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Follows a long job and stops it. The one trait for everything that takes a while: solving,
-/// benchmarks, data, training. Called from many threads; whoever does not care about something
-/// leaves it out.
+/// benchmarks, data, training. Called from many threads; a method that is not needed can be left
+/// out.
 pub trait Watch: Sync {
     /// What is being done now, such as a stage of solving or a task of a benchmark.
     fn stage(&self, what: &str) {
@@ -23,7 +23,7 @@ pub trait Watch: Sync {
         let _ = text;
     }
 
-    /// Something a person should know, such as a damaged record that is made again.
+    /// Something that people should know, such as a damaged record that is made again.
     fn note(&self, message: &str) {
         let _ = message;
     }
@@ -96,7 +96,7 @@ pub struct Until<'a> {
 impl<'a> Until<'a> {
     /// Like `watch`, for at most `limit` from now.
     pub fn new(watch: &'a dyn Watch, limit: Option<Duration>) -> Self {
-        // A limit beyond what the clock can say is none.
+        // A limit beyond the range of the clock is no limit.
         Self { watch, end: limit.and_then(|limit| Instant::now().checked_add(limit)) }
     }
 }

@@ -28,7 +28,7 @@ pub(super) enum Decision {
     Nothing,
 }
 
-/// Plans with what comes of each.
+/// Plans with their expected outcomes.
 struct Judged {
     plans: Vec<(Plan, Arc<Tool>)>,
     reach: Vec<Vec<Reach>>,
@@ -72,7 +72,7 @@ impl Runner<'_> {
         let sure = |judged: &Judged| {
             judged.best().is_some_and(|(_, chance)| chance.share >= settings.enough)
         };
-        // Where no plan does in enough samples, one is made for those in which none does at all.
+        // Where no plan works in enough samples, one is made for those in which none works at all.
         let mut tried = Vec::new();
         while tried.len() < settings.others && !sure(&judged) && !watch.cancelled() {
             let missed = |s: &usize| judged.reach.iter().all(|plan| !plan[*s].reached);
@@ -130,7 +130,7 @@ impl Runner<'_> {
     }
 }
 
-/// Stops as another does, but tells it nothing: what a plan takes is no progress of a run.
+/// Stops as another does, but tells it nothing: progress of planning is not progress of the run.
 struct Quiet<'a>(&'a dyn Watch);
 
 impl Watch for Quiet<'_> {
@@ -144,7 +144,7 @@ fn probes(steps: &[Step]) -> usize {
     steps.iter().filter(|step| step.why == Why::Probe).count()
 }
 
-/// What is left of a plan after a step, moved by as much as the object stands beside where it was
+/// What is left of a plan after a step, moved by as much as the object is off from where it was
 /// expected; `None` if that breaks a rule of the task or no push is left.
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let made = last.plan.pushes();

@@ -13,10 +13,10 @@ pub enum ActError {
     /// The task cannot be tried.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// The world cannot be acted in any more.
+    /// It is no longer possible to act in the world.
     #[error(transparent)]
     World(#[from] WorldError),
-    /// What is seen is of another table.
+    /// Another table is seen.
     #[error("{found} objects are reported where the task has {expected}")]
     Objects {
         /// Objects of the task.
@@ -24,7 +24,7 @@ pub enum ActError {
         /// Objects that were reported.
         found: usize,
     },
-    /// The object that matters is not seen any more.
+    /// The goal's object is no longer seen.
     #[error("`{object}` is not seen, though the tool is lifted and {looks} looks were taken")]
     Lost {
         /// Its name.

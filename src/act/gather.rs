@@ -15,25 +15,25 @@ use super::world::Look;
 const APART: f64 = 0.04;
 const THERE: f64 = 0.02;
 
-/// What a tool pushes goes at most so many times as far as the tool, and as much farther, metres: it
-/// may swing about a joint and slide on.
+/// What a tool pushes goes at most this many times as far as the tool, and this much farther,
+/// metres: it may swing about a joint and slide on.
 const SWING: f64 = 2.0;
 const SLIDE: f64 = 0.10;
 
-/// What was wrong with what was seen, and ridden out.
+/// Something that was wrong with what was seen, and was put right.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Note {
     /// Looks came late and were put in order.
     OutOfOrder,
-    /// Looks of no time of this motion were left out.
+    /// Looks from other times than those of this motion were left out.
     Untimely,
-    /// A sight that is no place was left out.
+    /// A sight without a finite place was left out.
     Unreadable {
         /// Index of the object.
         object: usize,
     },
-    /// Two objects were taken for each other.
+    /// Two objects were mistaken for each other.
     Swapped {
         /// Their indices.
         between: [usize; 2],
@@ -59,12 +59,12 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Note::OutOfOrder => write!(f, "looks came late and were put in order"),
-            Note::Untimely => write!(f, "looks of another time were left out"),
+            Note::Untimely => write!(f, "looks from another time were left out"),
             Note::Unreadable { object } => {
-                write!(f, "object {object} was seen at no place; left out")
+                write!(f, "object {object} was seen without a finite place; left out")
             }
             Note::Swapped { between: [a, b] } => {
-                write!(f, "objects {a} and {b} were taken for each other; changed back")
+                write!(f, "objects {a} and {b} were mistaken for each other; swapped back")
             }
             Note::Jumped { object } => {
                 write!(f, "object {object} was seen where it cannot be; left out")
@@ -80,7 +80,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// What is seen, one after another, with what was wrong with it.
+/// Observations, one after another, with notes on what was wrong with them.
 #[derive(Clone, Debug)]
 pub(super) struct Gatherer {
     /// Where every object was seen last, or else is thought to be.
@@ -104,8 +104,8 @@ impl Gatherer {
         }
     }
 
-    /// What was seen while a motion went on, and at rest after it; `None` for the latter where no
-    /// look is of then.
+    /// What was seen while a motion went on, and at rest after it; `None` for the latter where
+    /// there is no look at rest.
     ///
     /// # Errors
     /// [`ActError::Objects`] if the looks are of another table.
@@ -198,7 +198,7 @@ impl Gatherer {
         }
     }
 
-    /// Changes objects back that were taken for each other.
+    /// Swaps back objects that were mistaken for each other.
     fn change_back(&mut self, seen: &mut [Option<Sight>]) {
         for a in 0..seen.len() {
             for b in a + 1..seen.len() {

@@ -9,8 +9,8 @@ use crate::scene::{
     Job, Outcome, Physics, Plan, Record, Situation, Task, Tool, ToolMotion, Trajectory,
 };
 
-/// A miss by more tolerances than this is no worse: one sample in which all goes wrong must not
-/// outweigh the others.
+/// A miss by more tolerances than this is no worse: one sample in which everything goes wrong must
+/// not outweigh the others.
 const WORST: f64 = 10.0;
 
 /// What is expected of a plan.
@@ -23,7 +23,7 @@ pub struct Chance {
     pub score: f64,
 }
 
-/// The situation under every sample: where things are is the same, what they are like is not.
+/// The situation under every sample: objects are at the same places, but have other physics.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
     pub now: Situation,
@@ -41,7 +41,7 @@ impl Samples {
         self.physics.iter().map(job).collect()
     }
 
-    /// What comes of plans with at least one push each, in every sample.
+    /// The outcome of plans with at least one push each, in every sample.
     pub fn reach(
         &self,
         model: &dyn EffectModel,
@@ -62,7 +62,7 @@ impl Samples {
     }
 }
 
-/// What comes of a plan in a sample.
+/// The outcome of a plan in a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// Whether it reaches the goal.

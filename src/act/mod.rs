@@ -25,22 +25,21 @@
 //!
 //! # What is seen
 //!
-//! Whoever watches a table reports what happens to be seen, not what a filter would like:
+//! A camera reports what it happens to see, not what a filter would like:
 //!
-//! | what comes | what is done |
+//! | what is reported | what is done |
 //! |---|---|
 //! | an object is not seen | the others tell what they can; at rest the table is looked at again, up to three times |
 //! | still not seen at rest | taken to be where it was predicted; of the goal's object [`ActError::Lost`] |
 //! | an instant is missing | the next one tells of the motion since the last |
 //! | late, out of order | put in order by its time, within one motion |
-//! | of before the motion, at no time | left out |
-//! | a number that is none | that object was not seen |
-//! | two objects in each other's places | changed back |
+//! | from before the motion, or without a finite time | left out |
+//! | NaN or infinity | that object was not seen |
+//! | two objects in each other's places | swapped back |
 //! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
 //! | another number of objects | [`ActError::Objects`]: this is another table |
 //!
-//! All that is ridden out, but objects that are not seen for a while and instants that are missing,
-//! leaves a [`Note`] in the trace.
+//! All of this, except objects that are not seen for a while and missing instants, leaves a [`Note`] in the trace.
 
 mod decide;
 mod error;

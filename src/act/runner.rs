@@ -20,7 +20,7 @@ use super::judge::{Chance, Samples};
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
-/// The table is looked at so often where something is not seen at rest.
+/// How often the table is looked at where something is not seen at rest.
 const LOOKS: usize = 3;
 
 /// Two looks at rest agree within this distance beyond the noise, metres.
@@ -82,7 +82,7 @@ impl<'a> Runner<'a> {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
             let decision = self.next(trace, &belief, watch)?;
-            // What was decided under pressure of time would not be decided again.
+            // A decision under a time limit would not be made again.
             if watch.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
@@ -199,16 +199,17 @@ impl<'a> Runner<'a> {
         let unfit = |why: &str| ActError::Trace(why.to_owned());
         let made = step.plan.pushes();
         let pushes = made.get(..step.pushes).filter(|pushes| !pushes.is_empty());
-        let pushes = pushes.ok_or_else(|| unfit("a step makes pushes that its plan has not"))?;
+        let pushes =
+            pushes.ok_or_else(|| unfit("a step makes pushes that its plan does not have"))?;
         let count = trace.task.scene.objects.len();
         let world = step.world.as_ref().map_or(count, |world| world.state.poses.len());
         let before = trace.before.as_ref().map_or(count, |world| world.state.poses.len());
         if [step.state.poses.len(), world, before] != [count; 3] {
-            return Err(unfit("a step is of another number of objects"));
+            return Err(unfit("a step has another number of objects"));
         }
         let can_be = |push: &Push| push.speed > 0.0 && (0.0..=10.0).contains(&push.length);
         if !pushes.iter().all(can_be) {
-            return Err(unfit("a step makes a push that none can make"));
+            return Err(unfit("a step makes a push that cannot be made"));
         }
         let done = step.plan.first(pushes.len());
         let tool = Arc::new(step.tool.clone());
@@ -237,7 +238,7 @@ impl<'a> Runner<'a> {
         belief.settle(&self.model);
     }
 
-    /// What a plan does to everything, as far as is believed; nothing if no model says.
+    /// What a plan is believed to do to all objects; `None` if no model says.
     fn predicted(
         &self,
         now: &Situation,
@@ -258,7 +259,7 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// Looks again at what was not seen at rest, and gives the observations with what is then seen.
+/// Looks again at what was not seen at rest, and returns the observations with what is then seen.
 fn rests(
     trace: &Trace,
     gatherer: &mut Gatherer,
@@ -298,7 +299,7 @@ fn rests(
     Ok(observations)
 }
 
-/// Whether the goal is reached whatever the doubt about where the object is: metres and radians.
+/// Whether the goal is reached despite the doubt about where the object is: metres and radians.
 fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
     let less = |tolerance: f64, doubt: f64| (tolerance - SURE * doubt).max(0.5 * tolerance);
     let heading = goal.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));

@@ -6,7 +6,7 @@ use crate::scene::{Noise, Truth};
 
 use super::probe::ProbeRule;
 
-/// What a run may cost, and when it is content. All budgets are counts.
+/// What a run may cost, and when it is satisfied. All budgets are counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RunSettings {

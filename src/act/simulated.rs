@@ -80,7 +80,7 @@ impl World for SimulatedWorld {
 }
 
 /// What really happened in every step of a run in a simulated world, frame by frame: an engine that
-/// begins where it began comes to the same bits again. Nothing where the world was not simulated.
+/// begins at the same start computes the same bits again. `None` where the world was not simulated.
 pub fn really(trace: &Trace) -> Vec<Trajectory> {
     let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
     let physics = Arc::new(Physics::stated(&truth.scene));

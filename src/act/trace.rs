@@ -16,7 +16,7 @@ use super::judge::Chance;
 use super::settings::RunSettings;
 use super::world::{Look, WorldState};
 
-/// Version of the format; another one cannot be gone on with.
+/// Version of the format; runs of another one cannot be continued.
 pub const TRACE_VERSION: u32 = 2;
 
 /// A run from its beginning to where it is.
@@ -47,7 +47,7 @@ pub struct Trace {
     pub prior_numbers: Numbers,
     /// What was done, in order.
     pub steps: Vec<Step>,
-    /// How it ended; nothing as long as it goes on.
+    /// How it ended; `None` as long as it goes on.
     pub end: Option<End>,
 }
 
@@ -79,7 +79,7 @@ pub enum Why {
 pub struct Step {
     /// Why it was made.
     pub why: Why,
-    /// What was meant to be done from here on.
+    /// The plan from here on.
     pub plan: Plan,
     /// With which tool.
     pub tool: Tool,

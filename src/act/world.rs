@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::scene::{Sight, State, ToolMotion};
 
-/// A table on which something can be pushed and looked at: behind this a robot can stand.
+/// A table on which objects can be pushed and looked at; a robot can implement it.
 pub trait World {
     /// Looks at the table at rest.
     ///
@@ -22,8 +22,7 @@ pub trait World {
     /// If the motion was not carried out as it is.
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
 
-    /// What an interrupted run needs to go on in a world that does not outlive it; `None` for a
-    /// real one.
+    /// What an interrupted run needs to go on in a world that ends with it; `None` for a real one.
     fn save(&self) -> Option<WorldState> {
         None
     }
@@ -54,7 +53,7 @@ pub struct WorldState {
     pub looks: u64,
 }
 
-/// Why a world cannot be acted in any more.
+/// Why it is no longer possible to act in a world.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("{0}")]
 pub struct WorldError(pub String);

@@ -45,8 +45,8 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Recognises the file at `path` by what it holds and checks all of it; the tools that a task
-/// names must be in `library`, if one is given.
+/// Recognises the file at `path` by its content and checks all of it; the tools that a task names
+/// must be in `library`, if one is given.
 ///
 /// # Errors
 /// All faults of the file, each with its place.
@@ -59,7 +59,7 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Plan => PlanFile::parse(&text, &file).map(|_| kind),
         Kind::Trajectory => TrajectoryFile::parse(&text, &file).map(|_| kind),
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
-        // What it says of a task's objects can be checked beside the task alone.
+        // What it says about a task's objects can be checked only together with the task.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
     }
 }
@@ -86,7 +86,7 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         (Some(kind), None) => Ok(kind),
         _ => {
             let message = "this is not a tool, task, plan, trajectory, recording or world file";
-            let advice = "`pushplan schema` shows what belongs into such files";
+            let advice = "`pushplan check --schema KIND` shows what belongs in such files";
             Err(Fault::of_file(file, message, advice).into())
         }
     }

@@ -28,8 +28,8 @@ const MAX_YAML_NODES: usize = 100_000;
 /// Lists and maps within each other: a trajectory file, the deepest there is, has nine.
 const MAX_DEPTH: usize = 32;
 
-/// So many brackets, dashes and colons of a YAML text are read before their depth is checked. The
-/// parser's time grows with the square of the depth: so many levels take it some 30 ms.
+/// Brackets, dashes and colons of a YAML text that are read before their depth is checked. The
+/// parser's time grows with the square of the depth: this many levels take it some 30 ms.
 const OPENERS_AT_ONCE: usize = 2000;
 
 const TAGS: &str = "tags such as `!name` have no meaning here";
@@ -77,7 +77,7 @@ impl Failure {
         } else if message.contains("number out of range") {
             "write a number that is smaller than 1e308"
         } else if text.trim().is_empty() {
-            "the file is empty; `pushplan schema` shows what belongs into it"
+            "the file is empty; `pushplan check --schema KIND` shows what belongs in it"
         } else if language == Language::Yaml && text.contains('\t') {
             "YAML indents with spaces; tabs are not allowed"
         } else if language == Language::Json && names_no_number(text) {
@@ -107,7 +107,7 @@ fn check_depth(source: Source) -> Result<(), Failure> {
         let part = Source { text: &source.text[..cut], ..source };
         let Err(failure) = read(part, usize::MAX) else { continue };
         // A text that is cut off fails in the parser itself. What is refused for what it says
-        // (nesting, tags, a second document) no longer text could mend.
+        // (nesting, tags, a second document) more text could not mend.
         let parsed = serde_yaml::from_str::<IgnoredAny>(part.text);
         let cut_off = parsed.is_err_and(|error| error.to_string() == failure.message);
         if !cut_off || failure.place.is_none() {

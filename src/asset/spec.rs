@@ -27,7 +27,7 @@ impl Key {
 
 /// A kind of value.
 pub(super) enum Value {
-    /// Anything; what it must be is told by the type that it is read into.
+    /// Anything; the type that it is read into decides what it must be.
     Anything,
     /// No value, where that has a meaning.
     Nothing,
@@ -51,7 +51,7 @@ pub(super) enum Value {
     Variant(&'static [Key]),
     /// The first that fits the kind of the value.
     Either(&'static [Value]),
-    /// One of these: which one is told by what the value begins to say.
+    /// One of these: the beginning of the value tells which.
     Told { by: fn(&Node) -> &'static Value, of: &'static [&'static Value] },
 }
 
@@ -123,7 +123,7 @@ pub(super) const SHIFT_LIMIT: Value =
     Value::Number(Range { what: "a limit in metres", low: -10.0, high: 10.0, advice: METRES });
 
 /// A friction value. Below 0.05 a body would slide on for seconds after a push, and without
-/// friction it never stops; above 2 no dry pair of materials lies.
+/// friction it never stops; no dry pair of materials is above 2.
 pub(super) const FRICTION: Value = Value::Number(Range {
     what: "a friction value",
     low: 0.05,

@@ -42,7 +42,7 @@ impl<'a> Ledger<'a> {
             return Ok(value);
         }
         if self.found.is_empty() {
-            // Whatever makes a value missing notes a fault; this is for a rule that forgot.
+            // Whatever leaves a value missing notes a fault; this is for a rule that forgot to.
             return Err(Fault::of_file(self.source.file, "the file is incomplete", "").into());
         }
         self.found.sort_by_key(|(id, ..)| *id);
@@ -166,7 +166,7 @@ fn check_word(node: &mut Node, words: &[&str], ledger: &mut Ledger) {
 }
 
 fn check_range(node: &mut Node, range: &Range, ledger: &mut Ledger) {
-    // A NaN is in no range.
+    // NaN is in no range.
     if !node.number().is_some_and(|x| (range.low..=range.high).contains(&x)) {
         let message = format!("expected {}, found {}", in_range(range), node.content);
         ledger.fault(node, message, range.advice);
@@ -179,7 +179,7 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
     let numeric = matches!(value, Value::Number(_) | Value::Count(_));
     let number = node.text().filter(|_| numeric).and_then(|text| text.trim().parse::<f64>().ok());
     let found = match (&node.content, number) {
-        // YAML reads what no number can hold, such as 1e999, as text.
+        // YAML reads numbers that are too large, such as 1e999, as text.
         (_, Some(x)) if x.is_infinite() => "a number beyond 1e308".into(),
         (content, _) => content.to_string(),
     };
@@ -200,7 +200,7 @@ fn reject(node: &mut Node, value: &Value, ledger: &mut Ledger) {
         (_, Value::Name) => "use letters, digits, `-` and `_`, at most 64".into(),
         (Content::Number(_), Value::Count(_)) => "write a whole number".into(),
         (Content::Text(text), Value::Either(values)) => either_advice(text, values),
-        (Content::Nothing, _) => "remove the key, or write its value behind it".into(),
+        (Content::Nothing, _) => "remove the key, or write its value after it".into(),
         _ => String::new(),
     };
     ledger.fault(node, message, advice);

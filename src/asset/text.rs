@@ -38,7 +38,7 @@ impl<'a> Source<'a> {
         Self { file, text, language: Language::Yaml }
     }
 
-    /// JSON if the file's name ends so, else YAML.
+    /// JSON if the file's name ends in `.json`, else YAML.
     pub fn of(file: &'a str, text: &'a str) -> Self {
         let json = Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("json"));
         if json { Self::json(file, text) } else { Self::yaml(file, text) }

@@ -1,4 +1,4 @@
-//! Writing files so that a partial one never stands under the final name.
+//! Writing files so that a partial one never appears under the final name.
 
 use std::io::Write;
 use std::path::Path;

@@ -24,7 +24,7 @@ const KEPT: usize = 81;
 const FEW: f64 = 4.0;
 
 /// Where not all assignments are kept, the probability that the right one is lost, so that any range is as
-/// likely as another. Of rows and wedges of seed 5 (`bench masses --touching --controlled rows wedges
+/// likely as another. Of rows and wedges of seed 5 (`pushplan-lab masses --touching --controlled rows wedges
 /// --count 20 --seed 5`) 62 to 71 % of the masses were right and nearly all taken for certain; of 0 to 0.3 in steps
 /// of 0.05 this was nearest to calibrated over these and 225 masses in crowds of nine.
 const LOST: f64 = 0.2;

@@ -31,7 +31,7 @@ const ASTRAY: [f64; 2] = [4e-4, 0.03];
 const TEMPERING: f64 = 0.5;
 
 /// Share of that which counts for masses, whose evidence comes at a few instants of a push and stays
-/// with everything after them: nearest to calibrated on 300 pushes of seed 5, `bench masses`.
+/// with everything after them: nearest to calibrated on 300 pushes of seed 5, `pushplan-lab masses`.
 const OF_MASSES: f64 = 0.6;
 
 /// States that the start of a push may have been when masses are weighed. With 16 and masses

@@ -2,14 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-/// Runs `work` and says how much processor time this thread spent on it, so that other work on
-/// the machine does not count. Where the system does not tell (outside Linux), wall-clock time.
-pub(super) fn processor_time(work: impl FnOnce()) -> Duration {
+/// Runs `work` and says how much processor time this thread spent on it, so that other work on the
+/// machine does not count. Where the system does not say (outside Linux), wall-clock time.
+pub fn processor_time(work: impl FnOnce()) -> Duration {
     timed(work).1
 }
 
 /// The same with what the work gives.
-pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+pub fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let (before, began) = (thread_time(), Instant::now());
     let done = work();
     let wall = began.elapsed();
@@ -23,7 +23,7 @@ pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 /// Time that this thread has spent on a processor so far, where the system tells.
 ///
 /// The first number of the kernel's `schedstat`, nanoseconds.
-pub(super) fn thread_time() -> Option<Duration> {
+pub fn thread_time() -> Option<Duration> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }

@@ -1,4 +1,4 @@
-//! What came of solving a task, as benchmarks keep it.
+//! The result of solving a task, as benchmarks keep it.
 
 use serde::{Deserialize, Serialize};
 

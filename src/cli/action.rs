@@ -64,7 +64,7 @@ pub struct ActionArgs {
     #[arg(long, value_name = "LEVER", conflicts_with_all = ["pushes", "grip_yaw_deg"],
           allow_hyphen_values = true, value_parser = lever_argument, group = "moves")]
     lever: Option<AskedLever>,
-    /// Turn of the end effector against +x; by default the first of the task's that fits
+    /// Turn of the end effector against +x [default: the first of the task's that fits]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true)]
     grip_yaw_deg: Option<f64>,
 }

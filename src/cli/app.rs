@@ -2,23 +2,20 @@
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
-use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 #[cfg(feature = "formats")]
 use super::import;
-#[cfg(not(feature = "train"))]
-use super::untrained;
 use super::{
     bench, check, completions,
     error::CliError,
-    evaluate, exit_code, export, fit, generate, infer, interrupt, predict, schema,
+    exit_code, export, fit,
+    groups::{Groups, grouped},
+    infer, interrupt, moved, predict,
     session::{GlobalArgs, Session, shown},
-    simulate, solve, tradeoff, verify,
+    solve, verify,
 };
-#[cfg(feature = "train")]
-use super::{train, train_lever, train_regulator};
 
 /// Chooses a tool and pushes that bring objects on a table to goals, and shows that the plan
 /// works.
@@ -37,87 +34,83 @@ enum Command {
     Run(super::run::RunArgs),
     Verify(verify::VerifyArgs),
     Predict(predict::PredictArgs),
-    Simulate(simulate::SimulateArgs),
-    Export(export::ExportArgs),
+    Check(check::CheckArgs),
     #[cfg(feature = "formats")]
     Import(import::ImportArgs),
-    Check(check::CheckArgs),
-    Generate(generate::GenerateArgs),
-    #[cfg(feature = "train")]
-    Train(train::TrainArgs),
-    #[cfg(feature = "train")]
-    TrainRegulator(train_regulator::TrainRegulatorArgs),
-    #[cfg(feature = "train")]
-    TrainLever(train_lever::TrainLeverArgs),
-    /// Train the network, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    Train(untrained::UntrainedArgs),
-    /// Train the belief regulator, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    TrainRegulator(untrained::UntrainedArgs),
-    /// Train a network of lever-ups, in a build with the feature `train`
-    #[cfg(not(feature = "train"))]
-    TrainLever(untrained::UntrainedArgs),
-    Evaluate(evaluate::EvaluateArgs),
+    Export(export::ExportArgs),
     Fit(fit::FitArgs),
     Infer(infer::InferArgs),
     Bench(bench::BenchArgs),
-    Tradeoff(tradeoff::TradeOffArgs),
-    Schema(schema::SchemaArgs),
+    #[command(hide = true)]
     Completions(completions::CompletionsArgs),
 }
 
-/// Runs the command with the given arguments, the program's name first.
-pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(args) {
+/// What the commands are for, in the order of `--help`.
+const GROUPS: Groups = &[
+    ("Plan and carry out", &["solve", "run", "verify", "predict"]),
+    ("Files", &["check", "import", "export"]),
+    ("Learn from what was recorded", &["fit", "infer"]),
+    ("Measure", &["bench"]),
+];
+
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
+    start(args, GROUPS, |cli: &Cli| &cli.global, execute)
+}
+
+/// The command with its help.
+pub fn command() -> clap::Command {
+    grouped(Cli::command(), GROUPS)
+}
+
+/// Runs a command of this family: parses its arguments, starts a session, has `execute` do what
+/// they ask for, reports what goes wrong, and gives the exit code.
+pub fn start<C: Parser>(
+    args: impl IntoIterator<Item = OsString>,
+    groups: Groups,
+    global: impl FnOnce(&C) -> &GlobalArgs,
+    execute: impl FnOnce(&C, &Session) -> Result<u8, CliError>,
+) -> u8 {
+    let parsed = grouped(C::command(), groups).try_get_matches_from(args);
+    let cli = match parsed.and_then(|mut matches| C::from_arg_matches_mut(&mut matches)) {
         Ok(cli) => cli,
         Err(message) => {
+            if let Some(said) = moved::now(&message) {
+                let _ = writeln!(std::io::stderr(), "{said}");
+                return exit_code::USAGE;
+            }
             // Help and version come here too, for stdout and with code 0.
             let _ = message.print();
             let wrong = message.use_stderr();
-            return if wrong { exit_code::USAGE } else { exit_code::DONE }.into();
+            return if wrong { exit_code::USAGE } else { exit_code::DONE };
         }
     };
-    match execute(&cli) {
-        Ok(code) => code.into(),
+    let done = interrupt::install()
+        .and_then(|()| Session::start(global(&cli)))
+        .and_then(|session| execute(&cli, &session));
+    match done {
+        Ok(code) => code,
         Err(error) => {
             report(&error);
-            error.exit_code().into()
+            error.exit_code()
         }
     }
 }
 
-fn execute(cli: &Cli) -> Result<u8, CliError> {
-    interrupt::install()?;
-    let session = Session::start(&cli.global)?;
+fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
-        Command::Solve(args) => solve::run(args, &session),
-        Command::Run(args) => super::run::run(args, &session),
-        Command::Verify(args) => verify::run(args, &session),
-        Command::Predict(args) => predict::run(args, &session),
-        Command::Simulate(args) => simulate::run(args, &session),
-        Command::Export(args) => export::run(args, &session),
+        Command::Solve(args) => solve::run(args, session),
+        Command::Run(args) => super::run::run(args, session),
+        Command::Verify(args) => verify::run(args, session),
+        Command::Predict(args) => predict::run(args, session),
+        Command::Export(args) => export::run(args, session),
         #[cfg(feature = "formats")]
-        Command::Import(args) => import::run(args, &session),
-        Command::Check(args) => check::run(args, &session),
-        Command::Generate(args) => generate::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::Train(args) => train::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::TrainRegulator(args) => train_regulator::run(args, &session),
-        #[cfg(feature = "train")]
-        Command::TrainLever(args) => train_lever::run(args, &session),
-        #[cfg(not(feature = "train"))]
-        Command::Train(_) | Command::TrainRegulator(_) | Command::TrainLever(_) => {
-            Err(untrained::run())
-        }
-        Command::Evaluate(args) => evaluate::run(args, &session),
-        Command::Fit(args) => fit::run(args, &session),
-        Command::Infer(args) => infer::run(args, &session),
-        Command::Bench(args) => bench::run(args, &session),
-        Command::Tradeoff(args) => tradeoff::run(args, &session),
-        Command::Schema(args) => schema::run(args, &session),
-        Command::Completions(args) => completions::run(args, &session),
+        Command::Import(args) => import::run(args, session),
+        Command::Check(args) => check::run(args, session),
+        Command::Fit(args) => fit::run(args, session),
+        Command::Infer(args) => infer::run(args, session),
+        Command::Bench(args) => bench::run(args, session),
+        Command::Completions(args) => completions::run(args, session),
     }
 }
 

@@ -1,25 +1,52 @@
-//! `pushplan check`: reads files and says everything that is wrong with them.
+//! `pushplan check`: reads files and says everything that is wrong with them; JSON schemas of files
+//! that people write.
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
-use crate::asset::{self, Faults};
+use crate::asset::{self, Faults, recording_schema, task_schema, tool_schema, world_schema};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 
-/// Check tool, task, plan, trajectory and recording files: every fault with its place
+/// Check your files: every fault with its place; or print their schema for editors
 #[derive(Args, Debug)]
-#[command(after_help = "Example:\n  pushplan check tools/*.yaml tasks/*.yaml")]
+#[command(after_help = "Examples:
+  pushplan check tools/*.yaml tasks/*.yaml
+  pushplan check --schema task > task.schema.json
+  # then, as the first line of a task file:
+  # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
-    /// Files to check; their kind is seen from their content
-    #[arg(required = true, value_name = "FILE")]
+    /// Tool, task, plan, trajectory, recording and world files; content tells their kind
+    #[arg(required_unless_present = "schema", value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Print the JSON schema of this kind of file
+    #[arg(long, value_name = "KIND", conflicts_with = "files")]
+    schema: Option<Schema>,
     #[command(flatten)]
     library: LibraryArgs,
 }
 
+/// Files that people write.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Schema {
+    Tool,
+    Task,
+    Recording,
+    World,
+}
+
 pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
+    if let Some(kind) = args.schema {
+        let schema = match kind {
+            Schema::Tool => tool_schema(),
+            Schema::Task => task_schema(),
+            Schema::Recording => recording_schema(),
+            Schema::World => world_schema(),
+        };
+        session.print(&format!("{schema:#}\n"))?;
+        return Ok(exit_code::DONE);
+    }
     let library = args.library.load()?;
     let mut faults = Vec::new();
     for file in &args.files {

@@ -1,9 +1,9 @@
 //! `pushplan completions`: completion scripts for shells.
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 
-use super::{app::Cli, error::CliError, exit_code, session::Session};
+use super::{app, error::CliError, exit_code, session::Session};
 
 /// Print a completion script for a shell
 #[derive(Args, Debug)]
@@ -17,7 +17,7 @@ pub struct CompletionsArgs {
 
 pub fn run(args: &CompletionsArgs, session: &Session) -> Result<u8, CliError> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "pushplan", &mut script);
+    clap_complete::generate(args.shell, &mut app::command(), "pushplan", &mut script);
     session.print(&String::from_utf8_lossy(&script))?;
     Ok(exit_code::DONE)
 }

@@ -11,21 +11,21 @@ use crate::scene::{ModelSpec, Trajectory};
 
 use super::{error::CliError, exit_code, model, output, session::Session};
 
-/// Write plans for other programs: scenes of MuJoCo, recordings for Foxglove and Rerun
+/// Write plans for other programs: MuJoCo scenes, recordings for Foxglove and Rerun
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
   pushplan export plans/pull-back.plan.json --out mjcf
   pip install mujoco && python3 mjcf/replay.py mjcf/pull-back.xml
   pushplan export plans/pull-back.plan.json --format mcap --model planar
 
-mjcf writes <out>/<plan>.xml, a scene of MuJoCo with the plan's pushes and goal in it, and
+mjcf writes <out>/<plan>.xml, a MuJoCo scene with the plan's pushes and goal in it, and
 <out>/replay.py, which plays such scenes and says for each whether the plan works there; of a plan with
 lever-ups <out>/lever.py does.
 
 mcap writes <out>/<plan>.mcap: how tool and objects move, as foxglove.SceneUpdate (/scene) and
 foxglove.FrameTransforms (/tf) that viewers such as Foxglove and Rerun play, the same as plain numbers
 (/state, metres and radians), all in JSON, and the plan as an attachment. A plan is carried out by
---model; a trajectory file (`pushplan simulate`) is written as it is.")]
+--model; a trajectory file (`pushplan predict --trajectories`) is written as it is.")]
 pub struct ExportArgs {
     /// Plan or trajectory files; each holds the task and the tool as well
     #[arg(required = true, value_name = "PLAN")]
@@ -135,8 +135,9 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
             Ok((plan, Some(trajectory)))
         }
         kind => {
-            let message = format!("this is a {kind} file, and plans are exported");
-            let advice = "`pushplan solve` writes plans, `pushplan simulate` trajectories";
+            let message = format!("this is a {kind} file; plans and trajectories are exported");
+            let advice =
+                "`pushplan solve` writes plans, `pushplan predict --trajectories` trajectories";
             Err(Fault::of_file(&path.display().to_string(), message, advice).into())
         }
     }

@@ -21,9 +21,9 @@ use super::{
     after_help = "Finds the spread of the support, the share of the corners' distance (or of \
 the radius) at which
 objects rest, and the coefficient of friction of pusher and objects, the same for all recordings.
-Give recordings of one object, or of alike ones, one push each; fifty pushes of a centimetre are
-enough. Of each the final poses are compared, errors follow Student's law. The prior is for slow
-pushes, up to 0.02 m/s; for faster ones take --model planar.
+Give recordings of one object, or of similar ones, one push each; fifty pushes of a centimetre are
+enough. The final poses of each are compared; errors follow Student's law. The prior is for slow
+pushes, up to 0.02 m/s; for faster ones use --model planar.
 
 Examples:
   pushplan fit pushes/ --out plans
@@ -35,8 +35,8 @@ pub struct FitArgs {
     recordings: Vec<PathBuf>,
     #[arg(long, value_name = "MODEL", default_value = "prior", help = model::HELP)]
     model: ModelSpec,
-    /// Width of what no model can know, metres in x, in y and in the turn at the radius of
-    /// gyration; by default it is found as well
+    /// Width of the error that no model can avoid, metres in x, in y and in the turn at the radius of
+    /// gyration [default: it is fitted as well]
     #[arg(long, value_name = "METRES", value_parser = noise)]
     noise: Option<f64>,
     /// Take errors for normally distributed: no push ends far off by chance
@@ -70,7 +70,8 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
     let found = session.compute(|| fit(&model, &trials, &settings, &following));
     following.finish()?;
     let Some(found) = found else {
-        let advice = "record pushes in which the pusher moves an object by millimetres at least";
+        let advice =
+            "record pushes in which the pusher moves an object by at least some millimetres";
         return Err(CliError::usage("nothing moves in these recordings", advice));
     };
     let mut objects: Vec<&str> = recordings

@@ -10,15 +10,15 @@ use crate::import::{Imported, ImportedScene, Language, Wanted, objects, read, to
 
 use super::{error::CliError, exit_code, session::Session};
 
-/// Read a tool or objects out of a file of MuJoCo (MJCF) or ROS (URDF)
+/// Import a tool or objects from a file of MuJoCo (MJCF) or ROS (URDF)
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples:
   pushplan import gripper.urdf --as tool --out tools/gripper.yaml
   pushplan import scene.xml --as objects --body can --body box --out tasks/mine.yaml
 
-Without --out the file is printed. `pushplan import --help` says what becomes of what.",
-    after_long_help = "What becomes of what:
+Without --out the file is printed. `pushplan import --help` says what is imported as what.",
+    after_long_help = "What is imported as what:
 
   objects    Bodies that stand freely (<freejoint/>; in URDF a link without a parent, or on a floating
              joint of `world`) on one plane or box, the table. Boxes on any face, upright cylinders,
@@ -35,13 +35,13 @@ Without --out the file is printed. `pushplan import --help` says what becomes of
              <mu1>, else --friction. MuJoCo takes the larger value of a pair, or that of a <pair>,
              where pushplan takes the mean: pairs that differ are listed under `frictions`. Of a tool
              and an object it is the mean.
-  shapes that only are seen (contype and conaffinity 0, <visual>) weigh, but are left out.
+  shapes that are only seen (contype and conaffinity 0, <visual>) weigh, but are left out.
 
-What pushplan has no word for is an error that says where and what to do. What is said a little
-otherwise, such as damping of joints, is a warning."
+What pushplan cannot express is an error that says where and what to do. What it expresses only
+roughly, such as damping of joints, is a warning."
 )]
 pub struct ImportArgs {
-    /// A file of MJCF or URDF
+    /// An MJCF or URDF file
     file: PathBuf,
     /// What to make of it
     #[arg(long = "as", value_enum, value_name = "WHAT")]
@@ -52,10 +52,10 @@ pub struct ImportArgs {
     /// Name of the tool or task; by default that of the model, or of the file
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Friction value of what states none
+    /// Friction value of bodies that state none
     #[arg(long, value_name = "VALUE", default_value_t = Wanted::FRICTION)]
     friction: f64,
-    /// Shift all objects on the table by so many metres
+    /// Shift all objects on the table by this, metres
     #[arg(long, value_name = "X,Y", value_parser = shift, allow_hyphen_values = true,
           default_value = "0,0")]
     shift: Vector,

@@ -1,4 +1,4 @@
-//! `pushplan infer`: which objects hang together, from recorded pushes.
+//! `pushplan infer`: which objects are joined, from recorded pushes.
 
 use std::path::PathBuf;
 
@@ -27,20 +27,19 @@ use super::{
 /// What usually rolls hypotheses out.
 const MODEL: &str = "prior";
 
-/// Infer from a recording which objects hang together by which joints
+/// Infer from a recording which objects are joined, and by which joints
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Tells for every two objects that stand within 3 cm of each other at the start \
-whether they are
-free, fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how
-sure that is, and where the point or line is. Joints that the recording states are not read. Five
-recorded instants are looked at together; the rest of what the recording says of the scene, masses
-and frictions, is taken for true but hardly matters. Headings that are not recorded are estimated:
-where objects are pushed about one by one nearly as many joints are found as with headings, in a
-tight crowd about a fifth of the pairs are mistaken.
+    after_help = "Tells for every two objects within 3 cm of each other at the start whether they are free,
+fixed to each other, turn about a point (revolute) or slide along a line (prismatic), how sure that
+is, and where the point or line is. Joints that the recording states are ignored. Five recorded
+instants are looked at together; what else the recording says about the scene, masses and frictions,
+is taken as true but hardly matters. Headings that are not recorded are estimated: where objects are
+pushed one by one, nearly as many joints are found as with headings; in a tight crowd about a fifth
+of the pairs are mistaken.
 
-Masses can only be told of objects that another object touched: without a force that is measured
-motion shows their ratios, and which range each is in as far as ratios tell it (--mass-ranges).
+Masses can only be told of objects that another object touched: unless forces are measured, motion
+shows only their ratios, and which range each is in as far as ratios tell it (--mass-ranges).
 
 Examples:
   pushplan infer pushes.recording.json
@@ -51,13 +50,13 @@ pub struct InferArgs {
     /// A recording, or a trajectory file
     #[arg(value_name = "FILE")]
     recording: PathBuf,
-    /// What rolls hypotheses out
+    /// Effect model that rolls hypotheses out
     #[arg(long, value_name = "MODEL", default_value = MODEL)]
     model: ModelSpec,
     #[command(flatten)]
     noise: NoiseArgs,
-    /// Also tell which of these ranges every mass is in, lightest first, kg; what the recording says
-    /// of masses is then not read
+    /// Also tell which of these ranges every mass is in, lightest first, kg; masses that the
+    /// recording states are then ignored
     #[arg(long, value_name = "LOW-HIGH", num_args = 2.., value_parser = mass_range)]
     mass_ranges: Vec<Span>,
     /// Folder for belief.json, belief.svg and belief.html, a page that plays what was seen
@@ -76,7 +75,7 @@ pub fn run(args: &InferArgs, session: &Session) -> Result<u8, CliError> {
     let sets = load_recordings(std::slice::from_ref(&args.recording))?;
     let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
     let [recording] = recordings[..] else {
-        let advice = "name one of them; beliefs about several tables do not mix";
+        let advice = "name one of them; beliefs about several tables cannot be mixed";
         return Err(CliError::usage("this folder holds several recordings", advice));
     };
     let model = model::load(&args.model)?;
@@ -134,5 +133,7 @@ fn mass_range(text: &str) -> Result<Span, String> {
     });
     let range = range.ok_or_else(|| "200 to 500 g is 0.2-0.5".to_owned())?;
     let sound = 1e-3 <= range.low && range.low < range.high && range.high <= 1e3;
-    sound.then_some(range).ok_or_else(|| "it must rise, from 0.001 kg to 1000 kg".to_owned())
+    sound
+        .then_some(range)
+        .ok_or_else(|| "it must go from low to high, within 0.001 kg to 1000 kg".to_owned())
 }

@@ -2,48 +2,38 @@
 //!
 //! Results go to stdout; progress, warnings and errors to stderr. No logic lives here.
 
-mod action;
-mod app;
-mod bench;
-mod check;
-mod completions;
-mod error;
-mod evaluate;
+pub mod action;
+pub mod app;
+pub mod bench;
+pub mod check;
+pub mod completions;
+pub mod error;
 pub mod exit_code;
-mod export;
-mod fit;
-mod follow;
-mod form;
-mod generate;
+pub mod export;
+pub mod fit;
+pub mod follow;
+pub mod form;
+pub mod groups;
 #[cfg(feature = "formats")]
-mod import;
-mod infer;
-mod interrupt;
-mod lever_argument;
-mod model;
-mod noise;
-mod output;
-mod page;
-mod poses;
-mod predict;
-mod push_argument;
-mod recordings;
-mod regulator;
-mod run;
-mod schema;
-mod session;
-mod simulate;
-mod solve;
-mod tradeoff;
-#[cfg(feature = "train")]
-mod train;
-#[cfg(feature = "train")]
-mod train_lever;
-#[cfg(feature = "train")]
-mod train_regulator;
-#[cfg(not(feature = "train"))]
-mod untrained;
-mod verify;
-mod words;
+pub mod import;
+pub mod infer;
+pub mod interrupt;
+pub mod lever_argument;
+pub mod model;
+pub mod moved;
+pub mod noise;
+pub mod output;
+pub mod page;
+pub mod poses;
+pub mod predict;
+pub mod push_argument;
+pub mod recorded;
+pub mod recordings;
+pub mod regulator;
+pub mod run;
+pub mod session;
+pub mod solve;
+pub mod verify;
+pub mod words;
 
-pub use app::run;
+pub use app::{command, run, start};

@@ -1,14 +1,11 @@
 //! Effect models on the command line.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use clap::Args;
 
-use crate::effect::{
-    EffectModel, EffectModels, LeverModel, LeverNetwork, ModelError, Outside, Routed, load_lever,
-};
-use crate::network::Weights;
+use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
+use crate::network::PredictorWeights;
 use crate::scene::ModelSpec;
 
 use super::error::CliError;
@@ -20,7 +17,7 @@ macro_rules! help {
             "What predicts the effect of pushes: network; prior (the network's prior alone); \
              planar or 3d (simulations); projection, follow or still (without physics); or a file \
              of weights. Settings stand behind commas: prior,frame=20mm or planar,step=1/120; a \
-             bar says who takes over: prior,up-to=2|planar",
+             bar says which model takes over: prior,up-to=2|planar",
             $end
         )
     };
@@ -45,29 +42,16 @@ pub const DEFAULT: &str = "network";
 /// The model that `spec` describes.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
+/// A weights file that is missing, damaged or not of pushplan.
 pub fn load(spec: &ModelSpec) -> Result<Routed, CliError> {
     Ok(EffectModels::build(spec)?)
-}
-
-/// The network of lever-ups with these weights, a memory or one of parts, or else the shipped one.
-///
-/// # Errors
-/// [`CliError::File`] for weights that cannot be used.
-pub fn lever_network(weights: Option<&Path>) -> Result<Arc<dyn LeverModel>, CliError> {
-    match weights {
-        Some(path) => load_lever(path).map_err(|error| CliError::File(error.to_string())),
-        None => LeverNetwork::shipped()
-            .map(|network| Arc::new(network) as _)
-            .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error)),
-    }
 }
 
 /// The weights of a network; none for other models.
 ///
 /// # Errors
-/// A weights file that is missing, damaged or of someone else.
-pub fn weights(spec: &ModelSpec) -> Result<Option<Weights>, CliError> {
+/// A weights file that is missing, damaged or not of pushplan.
+pub fn weights(spec: &ModelSpec) -> Result<Option<PredictorWeights>, CliError> {
     Ok(EffectModels::weights_of(spec)?)
 }
 

@@ -9,7 +9,7 @@ use crate::scene::{Job, ModelSpec, Record, Trajectory, Verdict};
 
 use super::{error::CliError, model, output, session::Session};
 
-/// Writes the page `<task>.html` with what the plan's effect model says beside the replays, and
+/// Writes the page `<task>.html` with what the plan's effect model says next to the replays, and
 /// gives its path; `recipe` makes the replays
 /// again.
 ///

@@ -1,15 +1,17 @@
-//! `pushplan predict`: one action's effect, predicted beside simulated.
+//! `pushplan predict`: what one motion does by several models, or how well models predict recordings.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 
+use crate::asset::{self, Kind, PlanFile, TrajectoryFile};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::report::{PageView, PoseRow, prediction_document, prediction_page};
+use crate::report::{PageView, PoseRow, prediction_document, prediction_page, trajectory_figures};
 use crate::scene::{
-    Engine, Frame, Job, ModelKind, ModelSpec, Object, Record, Task, Trajectory, Warning,
+    Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, Task, Tool, Trajectory, Warning,
 };
 use crate::sim::LeverSimulator;
 
@@ -22,16 +24,19 @@ use super::{
     output,
     poses::PosesArgs,
     push_argument::forms,
+    recorded,
     session::Session,
     words::{VIEWS, words},
 };
 
-/// Predict what pushes do: the network beside both simulations
+/// Predict what a motion does, or how well your recordings are predicted
 #[derive(Args, Debug)]
 #[command(after_help = forms(), after_long_help = forms())]
 pub struct PredictArgs {
-    /// The task whose scene is pushed
-    task: PathBuf,
+    /// A task, with --tool and --push or with --lever; a plan; or recordings, trajectories and
+    /// folders of them, which every model is compared with
+    #[arg(required = true, value_name = "TASK|PLAN|RECORDING")]
+    pub files: Vec<PathBuf>,
     #[command(flatten)]
     action: ActionArgs,
     #[command(flatten)]
@@ -39,41 +44,112 @@ pub struct PredictArgs {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
     model: Option<ModelSpec>,
     #[command(flatten)]
-    outside: OutsideArgs,
+    pub outside: OutsideArgs,
+    /// Only this model, without those that it is compared with
+    #[arg(long)]
+    pub alone: bool,
     #[command(flatten)]
-    poses: PosesArgs,
-    /// Folder for a page that plays what every model says, named after the task
+    pub poses: PosesArgs,
+    /// Folder for a page that plays what every model says, named after the task; for recordings,
+    /// errors.json and their curves by horizon
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
+    /// Also write every frame that each model predicts as a trajectory file, with a picture
+    #[arg(long, requires = "out")]
+    trajectories: bool,
+    /// Also draw moving pictures of the trajectories
+    #[arg(long, requires = "trajectories")]
+    animate: bool,
     /// What the page shows
     #[arg(long, value_parser = words(&VIEWS), value_name = "VIEW", default_value = "2d", requires = "out")]
     page: PageView,
+    /// For recordings, one table only, with a row for each folder
+    #[arg(long)]
+    pub summary: bool,
     #[command(flatten)]
-    form: Form,
+    pub form: Form,
+}
+
+/// What is predicted.
+struct Asked<'a> {
+    file: &'a Path,
+    task: Task,
+    tools: Vec<Arc<Tool>>,
+    plan: Plan,
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
-    let library = args.library.load()?;
+    let motion = args.motion()?;
     args.out.as_deref().map(output::prepare).transpose()?;
-    let task = Task::load(&args.task)?;
-    let asked = args.model.clone().unwrap_or(match task.levers {
+    match motion {
+        Some((file, kind)) => predict(args, args.asked(file, kind, session)?, session),
+        None if args.action.given() => Err(CliError::usage(
+            "recordings already say what was done",
+            "leave --tool and --push out, or name one task",
+        )),
+        None => recorded::run(args, session),
+    }
+}
+
+impl PredictArgs {
+    /// The model that is asked for, or else the network.
+    pub fn spec(&self) -> ModelSpec {
+        self.model.clone().unwrap_or(ModelKind::NETWORK.into())
+    }
+
+    /// The task or plan; none where recordings are named.
+    fn motion(&self) -> Result<Option<(&Path, Kind)>, CliError> {
+        let [file] = &self.files[..] else { return Ok(None) };
+        if file.is_dir() {
+            return Ok(None);
+        }
+        let kind = asset::check(file, None)?;
+        Ok((!matches!(kind, Kind::Recording | Kind::Trajectory)).then_some((&**file, kind)))
+    }
+
+    /// The plan of a plan file, or the action in a task.
+    fn asked<'a>(
+        &self,
+        file: &'a Path,
+        kind: Kind,
+        session: &Session,
+    ) -> Result<Asked<'a>, CliError> {
+        if kind == Kind::Plan {
+            let PlanFile { task, tools, plan, .. } = PlanFile::load(file)?;
+            return Ok(Asked { file, task, tools, plan });
+        }
+        let library = self.library.load()?;
+        let task = Task::load(file)?;
+        let (plan, tool) = self.action.plan(&task, &library, session)?;
+        Ok(Asked { file, task, tools: vec![tool], plan })
+    }
+}
+
+fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, CliError> {
+    let Asked { file, task, tools, plan } = asked;
+    let motions = plan.motions(&tools).unwrap_or_default();
+    let [motion] = &motions[..] else {
+        return Err(CliError::usage(
+            "models predict one motion, and this plan has another number of them",
+            "`pushplan verify` plays all of it",
+        ));
+    };
+    let in_space = motion.is_lever() || task.in_space();
+    let spec = args.model.clone().unwrap_or(match task.levers {
         // Among other things than a plain table the network of lever-ups knows nothing.
         Some(_) => ModelKind::PRIOR.into(),
         None => ModelKind::NETWORK.into(),
     });
-    let (plan, tool) = args.action.plan(&task, &library, session)?;
-    let tools = [tool];
-    let motion = plan.motions(&tools).and_then(|motions| motions.into_iter().next());
-    let motion = motion.ok_or_else(|| CliError::usage("nothing moves", "add a push"))?;
-    let in_space = motion.is_lever() || task.in_space();
-    let job = Job::stated(&task.scene, motion);
-    let mut specs = vec![asked.clone()];
-    // What leaves the plane is simulated coarsely, as planning does, and finely.
-    let coarse =
-        ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
-    let beside = if in_space { coarse } else { ModelKind::PLANAR };
-    let simulated = [beside, ModelKind::SPATIAL].map(ModelSpec::of);
-    specs.extend(simulated.into_iter().filter(|spec| *spec != asked));
+    let job = Job::stated(&task.scene, motion.clone());
+    let mut specs = vec![spec.clone()];
+    if !args.alone {
+        // What leaves the plane is simulated coarsely, as planning does, and finely.
+        let coarse =
+            ModelKind::Simulated { engine: Engine::Spatial, rate: LeverSimulator::COARSE.rate };
+        let next = if in_space { coarse } else { ModelKind::PLANAR };
+        let simulated = [next, ModelKind::SPATIAL].map(ModelSpec::of);
+        specs.extend(simulated.into_iter().filter(|other| *other != spec));
+    }
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
         let model = args.outside.load(&spec)?;
@@ -97,13 +173,42 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(&args.task, Some(asked.clone())).plan(&plan);
+        let recipe = args.library.origin(file, Some(spec)).plan(&plan);
         let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
-        let path = output::write(out, &format!("{}.html", task.name), page.as_bytes())?;
-        document.wrote(&[path]);
+        let mut written =
+            vec![output::write(out, &format!("{}.html", task.name), page.as_bytes())?];
+        if args.trajectories {
+            let planned = (&task, &tools[..], &plan);
+            written.extend(write_trajectories(planned, trajectories, args.animate, out)?);
+        }
+        document.wrote(&written);
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)
+}
+
+/// Writes every trajectory with its pictures, and gives their paths.
+fn write_trajectories(
+    (task, tools, plan): (&Task, &[Arc<Tool>], &Plan),
+    trajectories: Vec<Trajectory>,
+    animate: bool,
+    out: &Path,
+) -> Result<Vec<PathBuf>, CliError> {
+    let mut written = Vec::new();
+    for trajectory in trajectories {
+        // `3d,step=1/60` is no name of a file everywhere.
+        let by: String = trajectory.by.to_string();
+        let by: String =
+            by.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+        let name = format!("{}.{by}", task.name);
+        let (task, tools, plan) = (task.clone(), tools.to_vec(), plan.clone());
+        let file = TrajectoryFile { task, tools, plan, trajectory };
+        let path = out.join(format!("{name}.trajectory.json"));
+        file.write(&path).map_err(CliError::Output)?;
+        written.push(path);
+        written.extend(output::write_figures(out, &trajectory_figures(&file, &name, animate))?);
+    }
+    Ok(written)
 }
 
 /// Every object in every frame.

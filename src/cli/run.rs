@@ -27,16 +27,16 @@ use super::{
     words::{EFFORTS, PROBES, VIEWS, words},
 };
 
-/// Carry a task out in a world that is not quite known: push, look, learn, plan again
+/// Carry out a task in a world that is only partly known: push, look, learn, plan again
 #[derive(Args, Debug)]
 #[command(
-    after_help = "The task's `unknown` says what nobody knows of its scene: joints, masses, frictions, support. What
-they really are is hidden in the world, a file (`pushplan schema world`) or a number, from which it is
-drawn. Every plan is judged under samples of what is believed; after every push its rest is judged
-again, and something else is planned where too few samples reach the goal.
+    after_help = "The task's `unknown` says what is not known of its scene: joints, masses, frictions, support. What
+they really are is hidden in the world: a file (`pushplan check --schema world`), or a seed from which
+it is drawn. Every plan is judged under samples of what is believed; after every push the rest of the
+plan is judged again, and another one is made where too few samples reach the goal.
 
 Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
-goes on from there, and the file is then the same bytes as without. <task>.html plays the run: what
+goes on from there, and the file ends up the same to the byte. <task>.html plays the run: what
 was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
 <task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
 5: all pushes are used up.

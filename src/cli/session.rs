@@ -91,7 +91,7 @@ impl Session {
         self.say(&format!("warning: {text}"));
     }
 
-    /// Writes a line beside the results to stderr.
+    /// Writes a line to stderr, apart from the results.
     pub fn say(&self, text: &str) {
         if !self.quiet {
             // Were stderr gone, there would be nobody left to tell.
@@ -116,7 +116,7 @@ impl Session {
         self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}")
     }
 
-    /// The same for work in stages, each of so many units.
+    /// The same for work in stages, each of a number of units.
     pub fn staged(&self, what: &str) -> ProgressBar {
         self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}")
     }

@@ -22,15 +22,15 @@ use super::{
     words::{VIEWS, words},
 };
 
-/// What takes longer is announced, seconds.
+/// Replays that take longer are announced, seconds.
 const LONG: f64 = 20.0;
 
 /// Replay a plan in both simulations, as written and disturbed
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit code 0: passes; that is, it keeps the rules of its task, its replays as written reach the goal
-in both simulations, and so does the share of the disturbed ones that the task asks for. 7: only the
-disturbed ones fail. 5: it does not work.
+    after_help = "Exit code 0: it passes; that is, it keeps the rules of its task, its replays as written reach
+the goal in both simulations, and so does the share of disturbed ones that the task asks for. 7: only
+the disturbed ones fail. 5: it does not work.
 
 Example:
   pushplan verify plans/pull-back.plan.json --disturbed 64"
@@ -46,7 +46,7 @@ pub struct VerifyArgs {
     /// says]
     #[arg(long, value_name = "SHARE", value_parser = share)]
     robustness: Option<f64>,
-    /// Stop after this time, whatever is done by then
+    /// Stop after this time, with whatever is done by then
     #[arg(long, value_name = "SECONDS", value_parser = time_limit)]
     time_limit: Option<Duration>,
     /// Seed of the disturbances

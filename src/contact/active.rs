@@ -1,10 +1,10 @@
 //! The forces of a frame's contacts at fixed weights, found exactly.
 //!
-//! Where it is known which contacts stick, slide and stay open, what they ask for are linear
-//! equations; where these are solved, it is known from their answer. Taken in turn that
-//! is Newton's method on a semismooth equation (Alart and Curnier 1991,
-//! doi:10.1016/0045-7825(91)90022-X), and in the plane it nearly always ends after one or two
-//! rounds. Where it does not, [`super::approach`] answers.
+//! If it is known which contacts stick, slide and stay open, they ask for linear equations; once
+//! these are solved, their answer tells which contacts do. Alternating the two is Newton's method
+//! on a semismooth equation (Alart and Curnier 1991, doi:10.1016/0045-7825(91)90022-X), and in the
+//! plane it nearly always ends after one or two rounds. Where it does not, [`super::approach`]
+//! answers.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -18,14 +18,13 @@ use super::{
     unknown::Unknown,
 };
 
-/// Most rounds in which all constraints may do something else than before. After these, and as soon as a
-/// set comes again, only the one may that is farthest from what it should do: all at once go in circles
-/// where things jam.
+/// Most rounds in which all constraints may change what they do. After these, and as soon as a set
+/// comes again, only the one that is farthest off may: all at once go in circles where objects jam.
 pub(super) const TOGETHER: usize = 6;
 
-/// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in crowds
-/// with joints what 12 do not find 24 do not either. A tenth of the time there went into looking, before
-/// circles were noticed.
+/// Most rounds. Of 100 drawn sets in a jam 74 are found with 12, 82 with 16 and 87 with 24; in
+/// crowds with joints 24 do not find more than 12. A tenth of the time there went into looking,
+/// before circles were noticed.
 pub(super) const ROUNDS: usize = 16;
 
 /// Most equations at once: what many objects that jam would need is cheaper by iteration.
@@ -56,7 +55,7 @@ struct Row {
     equation: usize,
     /// The groups that it is about; [`NOBODY`] is the second where the other body's motion is given.
     groups: [GroupIndex; 2],
-    /// What a unit of the force is along normal and tangent.
+    /// A unit of the force along normal and tangent.
     along: Vector2<f64>,
     /// The force and torque that it puts on the groups.
     press: [Vector3<f64>; 2],
@@ -93,9 +92,9 @@ impl ActiveSet {
         let mut together = TOGETHER;
         self.seen.clear();
         for round in 0..ROUNDS {
-            // What a set leads to depends on the set alone, so one that comes again goes on in a circle.
-            // Looked for after two rounds, which nearly always are enough, and not for one group, whose
-            // bits are those of its lane.
+            // What a set leads to depends on the set alone, so one that comes again means a circle.
+            // Looked for after two rounds, which nearly always are enough, and not for one group,
+            // whose bits are those of its lane.
             if several && round > 1 {
                 let set = number(constraints);
                 if self.seen.contains(&set) {
@@ -155,7 +154,7 @@ impl ActiveSet {
     }
 
     /// Fills in the equations of `count` groups and solves them; whether they have an answer.
-    /// What stands apart is solved apart.
+    /// Groups that stand apart are solved apart.
     fn eliminate(
         &mut self,
         count: usize,
@@ -175,7 +174,7 @@ impl ActiveSet {
             for row in block.iter().map(|&(_, row)| &rows[row]) {
                 let others = block.iter().map(|&(_, other)| &rows[other]);
                 if joints.is_empty() {
-                    // Nobody but the two groups feels it.
+                    // Only the two groups feel it.
                     let [a, b] = row.groups;
                     matrix.extend(others.map(|other| {
                         let felt = |k: usize| match other.groups[k] {
@@ -261,7 +260,7 @@ fn agreed(
     false
 }
 
-/// A number for what all constraints do, the same for the same.
+/// A number for what all constraints do, the same for the same set.
 fn number(constraints: &[Constraint]) -> u64 {
     constraints.iter().fold(0, |number: u64, constraint| {
         let does = match constraint.status {

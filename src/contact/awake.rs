@@ -15,8 +15,8 @@ use super::{
 
 /// The objects that are awake in a frame, and memory to look at them by themselves.
 ///
-/// Nothing else enters the equations, so that a prediction cannot depend, not even in its last
-/// bit, on what stands elsewhere.
+/// Nothing else enters the equations, so that a prediction cannot depend, not even in its last bit,
+/// on objects elsewhere.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Awake {
     flags: Vec<bool>,
@@ -82,7 +82,7 @@ impl Awake {
                 awake[object] |= moving(object);
             }
         }
-        // What wakes one wakes all that it hangs together with.
+        // Whatever wakes one also wakes all that it is joined to.
         let lowest = sets.names();
         for object in 0..awake.len() {
             awake[lowest[object]] |= awake[object];

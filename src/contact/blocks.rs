@@ -1,4 +1,4 @@
-//! Which groups are solved together, and which apart.
+//! Which groups are solved together, and which separately.
 
 use super::{eliminated::Eliminated, index::GroupIndex};
 
@@ -8,12 +8,12 @@ pub(super) const NOBODY: GroupIndex = GroupIndex(usize::MAX);
 /// Which groups feel each other's forces, through contacts that press or through joints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
-    /// For every group one of those that it is together with, itself if it is the first.
+    /// For every group one of those solved with it, itself if it is the first.
     first: Vec<usize>,
 }
 
 impl Blocks {
-    /// Of so many groups, of which these `pairs` press on each other.
+    /// Of a number of groups, of which these `pairs` press on each other.
     pub fn find(
         &mut self,
         count: usize,

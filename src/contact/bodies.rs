@@ -1,4 +1,4 @@
-//! What a frame's equations need to know of every body, computed once per rollout.
+//! What a frame's equations need to know about every body, computed once per rollout.
 
 use std::sync::Arc;
 
@@ -150,7 +150,7 @@ pub struct Bodies {
     pub groups: Groups,
     /// For every object the lowest one that joints of any kind connect it with.
     pub mechanisms: Vec<usize>,
-    /// All pairs of the scene and the tool, here or not.
+    /// All pairs of the scene and the tool, whether here or not.
     pub pairs: Pairs,
     /// Those whose friction is not the mean of the two values, by the scene's numbers.
     pub frictions: Arc<[PairFriction]>,

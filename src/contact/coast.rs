@@ -1,12 +1,12 @@
-//! Free sliding: what an object does that nothing touches.
+//! Free sliding: the motion of an object that nothing touches.
 //!
-//! The support is the ellipsoidal limit surface with even pressure (Goyal, Ruina and
-//! Papadopoulos 1991; Lynch and Howe 1992): dv/dt = -mu g v / s and
-//! d(c omega)/dt = -mu g (c / rho)^2 c omega / s with s^2 = |v|^2 + (c omega)^2. Without spin
-//! that is v^2 / (2 mu g) of travel in a straight line. With spin the two speeds fall together: by
-//! d(ln c omega) = k d(ln v) with k = (c / rho)^2 they are v = v0 u and c omega = c omega0 u^k, where
-//! u falls from one to zero and mu g dt = -s du / u. What comes to rest within the frame has then
-//! gone through integrals over all of u; what does not is followed piece by piece.
+//! The support is the ellipsoidal limit surface with even pressure (Goyal, Ruina and Papadopoulos
+//! 1991; Lynch and Howe 1992): dv/dt = -mu g v / s and d(c omega)/dt = -mu g (c / rho)^2 c omega /
+//! s with s^2 = |v|^2 + (c omega)^2. Without spin that is v^2 / (2 mu g) of travel in a straight
+//! line. With spin the two speeds fall together: by d(ln c omega) = k d(ln v) with k = (c / rho)^2
+//! they are v = v0 u and c omega = c omega0 u^k, where u falls from one to zero and mu g dt = -s du
+//! / u. An object that comes to rest within the frame goes through integrals over all of u; any
+//! other is followed piece by piece.
 
 use crate::scene::Velocity;
 

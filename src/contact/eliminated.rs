@@ -1,7 +1,7 @@
-//! Joints eliminated: how groups that hang together answer forces at fixed weights.
+//! Joints eliminated: how joined groups respond to forces at fixed weights.
 //!
-//! Joints close no loop, so every mechanism is a tree of groups, and a group that nothing hangs from
-//! can be eliminated by what its parent feels of it (as articulated bodies are: Featherstone 1983,
+//! Joints close no loop, so every mechanism is a tree of groups, and a group without children can
+//! be eliminated by what its parent feels of it (as articulated bodies are: Featherstone 1983,
 //! doi:10.1177/027836498300200102, here of first order). With the resistance A of the child, its
 //! rows C of the joint and those P of its parent,
 //!
@@ -29,11 +29,11 @@ pub(super) struct Eliminated {
     /// The ties, each with the groups that it joins, from the roots of all mechanisms to their
     /// leaves.
     limbs: Vec<Limb>,
-    /// Which groups are roots, or hang from one, as far as the tree has grown.
+    /// Which groups are roots, or connected to one, as far as the tree has grown.
     reached: Vec<bool>,
-    /// Which groups hang together by ties: the root of the mechanism of each.
+    /// Which groups are connected by ties: the root of the mechanism of each.
     mechanism: Vec<usize>,
-    /// Of every group with all that hangs from it: the resistance, and what presses.
+    /// For every group with its descendants: the resistance, and what presses.
     resistance: Vec<Matrix3<f64>>,
     load: Vec<Vector3<f64>>,
     /// How the groups' twists differ from those without what presses.
@@ -44,7 +44,7 @@ pub(super) struct Eliminated {
 
 impl Eliminated {
     /// Finds which of the groups `ties` join. One that closed a loop would be left out; nothing
-    /// makes such.
+    /// makes such ties.
     pub fn hang(&mut self, groups: usize, ties: &[Tie]) {
         let Self { limbs, reached, mechanism, .. } = self;
         limbs.clear();
@@ -99,7 +99,7 @@ impl Eliminated {
         for (k, limb) in limbs.iter().enumerate() {
             let Limb { parent, child, carried, held, .. } = limb;
             let root = mechanism[*child];
-            // All that hang from the same root stand together, those above the child before it.
+            // All groups of the same root stand together, parents before children.
             let above = limbs[..k].iter().rev().take_while(|other| mechanism[other.child] == root);
             for other in above.map(|other| other.child).chain([root]) {
                 let block = carried * blocks[parent * count + other];
@@ -117,7 +117,7 @@ impl Eliminated {
         self.mechanism[group.0]
     }
 
-    /// Whether the joints make anything of forces on one of two groups that the other feels.
+    /// Whether joints let one of two groups feel forces on the other.
     #[inline]
     fn couples(&self, one: GroupIndex, other: GroupIndex) -> bool {
         !self.is_empty() && self.mechanism[one.0] == self.mechanism[other.0]

@@ -144,7 +144,7 @@ mod tests {
         let mut solved = 0;
         for round in 0..100 {
             let mut matrix: Vec<f64> = (0..N * (N + 1)).map(|_| noise(&mut seed)).collect();
-            // Every other time some is zero, as where groups do not touch.
+            // Every other time some are zero, as where groups do not touch.
             let zeros = if round % 2 == 0 { 0 } else { matrix.len() };
             matrix.iter_mut().skip(1).step_by(5).take(zeros).for_each(|entry| *entry = 0.0);
             let lines = || matrix.chunks_exact(N + 1);

@@ -38,8 +38,8 @@ impl Fall {
         Self(NODES.map(|(u, _)| u.powf(spin)))
     }
 
-    /// What becomes of an object left alone with this speed and `spin`, c times the angular
-    /// velocity, both in m/s; `deceleration`, mu g, in m/s^2.
+    /// The motion of an object left alone with this speed and `spin`, c times the angular velocity,
+    /// both in m/s; `deceleration`, mu g, in m/s^2.
     pub fn come_to_rest(&self, deceleration: f64, speed: f64, spin: f64) -> Rest {
         let mut rest = Rest { time: 0.0, travel: 0.0, turn: 0.0 };
         for ((u, weight), power) in NODES.into_iter().zip(self.0) {

@@ -1,4 +1,4 @@
-//! The forces of a frame taken as a whole, and what each of them alone does.
+//! The forces of a frame as a whole, and the effect of each alone.
 
 use nalgebra::Vector3;
 

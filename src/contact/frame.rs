@@ -1,4 +1,4 @@
-//! One frame: what is awake in it, and what becomes of it.
+//! One frame: what is awake in it, and how that moves.
 
 use crate::{
     geometry::{Pose, Turn, Vector},
@@ -38,12 +38,12 @@ pub struct Frame {
     awake: Awake,
     /// Of the objects that are awake.
     pub(super) motions: Vec<Motion>,
-    /// What became of it as one of a lone object.
+    /// Its solution, if it is a frame of a lone object.
     pub(super) lone: Option<LoneSolution>,
 }
 
-/// A solved frame. Only what may do anything but coast enters its equations; all that is public
-/// here is about those objects, under their numbers in `bodies`.
+/// A solved frame. Only objects that may do anything but coast enter its equations; everything
+/// public here is about those objects, under their numbers in `bodies`.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameSolution<'a> {
     /// The objects that are awake, the tool's parts and the obstacles.

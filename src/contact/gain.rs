@@ -1,4 +1,4 @@
-//! How a group moves on from frame to frame, by which the next one's equations are begun.
+//! How a group moves on from frame to frame, which is where the next frame's equations begin.
 //!
 //! Where the same things press, a group gains about as much speed in a frame as in the one before.
 //! With that as a first guess the equations of several objects take 1.8 updates; with the

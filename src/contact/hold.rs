@@ -1,5 +1,5 @@
-//! Joints hold exactly: what a network's corrections leave of their errors is projected out
-//! after every frame.
+//! Joints hold exactly: the errors that a network's corrections leave are projected out after every
+//! frame.
 //!
 //! Members of a fixed group get the rigid motion nearest to theirs; groups are then moved
 //! against each other until every revolute and prismatic joint, and every limit, is met: the

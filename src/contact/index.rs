@@ -1,8 +1,8 @@
-//! Whose numbers: the same object has one in its scene, one on the list of what matters now and
+//! Numberings: the same object has a number in its scene, one on the list of what matters now and
 //! one among those awake in a frame.
 //!
-//! Inside this room a bare `usize` numbers what stands in the [`super::Bodies`] at hand; where
-//! two numberings meet, these types keep them apart.
+//! Inside this module a bare `usize` is a number in the [`super::Bodies`] at hand; where two
+//! numberings meet, these types keep them apart.
 
 /// A number that an object has in one numbering.
 pub trait Index: Copy + Eq {

@@ -65,7 +65,7 @@ pub(super) fn rows(
         return;
     }
     let (start, slides) = joint.separation_turned(&state.poses, turns);
-    // What has opened at a guessed joint is no error of the objects but of the guess.
+    // A gap at a guessed joint is an error of the guess, not of the objects.
     let (apart, turned) =
         if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
     let groups = between.map(|group| &unknowns[group.0]);

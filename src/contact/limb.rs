@@ -1,4 +1,4 @@
-//! A joint by which a group hangs from another, and what the two feel of each other through it; see
+//! A joint between a group and its parent, and what the two feel of each other through it; see
 //! [`super::eliminated`] for the letters.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
@@ -8,7 +8,7 @@ use super::{
     unknown::Unknown,
 };
 
-/// A tie, and how the group that hangs from it answers.
+/// A tie, and how the child group responds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limb {
     pub tie: usize,
@@ -29,7 +29,7 @@ pub(super) struct Limb {
     pub held: Matrix3<f64>,
     /// G: the child's twist by its parent's.
     pub carried: Matrix3<f64>,
-    /// What is left to ask of the joint where all groups move freely, metres.
+    /// What the joint still asks for where all groups move freely, metres.
     pub left: Vector2<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Limb {
         }
     }
 
-    /// Takes how the child answers, whose resistance with all that hangs from it has this inverse;
+    /// Takes how the child responds, whose resistance with its descendants has this inverse;
     /// returns what the parent feels of that as a resistance of its own.
     #[inline]
     pub fn weigh(&mut self, tie: &Tie, inverse: &Matrix3<f64>) -> Matrix3<f64> {
@@ -70,7 +70,7 @@ impl Limb {
         outer(&times(&self.on_parent, &self.stiffness), &self.on_parent)
     }
 
-    /// Takes what is left to ask of its tie where all groups move freely.
+    /// Takes what its tie still asks for where all groups move freely.
     #[inline]
     pub fn ask(&mut self, tie: &Tie, unknowns: &[Unknown]) {
         let target = Vector2::from(tie.target) * if self.turned { -1.0 } else { 1.0 };

@@ -16,8 +16,8 @@ use super::{
 };
 
 /// Contacts count in a piece when their gap is at most this beyond what both could travel in it,
-/// metres; see [`super::MARGIN`]. The least that is enough for pushed bodies that turn: with 8 mm no
-/// end of 60 pushes of 1 to 10 objects is another by 0.01 mm.
+/// metres; see [`super::MARGIN`]. The least that is enough for pushed bodies that turn: with 8 mm
+/// none of 60 pushes of 1 to 10 objects ends elsewhere by 0.01 mm.
 const MARGIN: f64 = 1e-3;
 
 /// Memory that marching reuses.
@@ -37,7 +37,7 @@ impl March {
     /// The `motions` of all objects in the frame, by `pieces` smaller steps.
     ///
     /// Only pairs that have one of the frame's `known` contacts can touch. So nothing can enter
-    /// that the frame as a whole does not know of, however fast a thing becomes within it.
+    /// that the frame as a whole does not know of, however fast a body becomes within it.
     pub fn run(
         &mut self,
         Scenery { bodies, state, step, turns: turns_before, .. }: Scenery,

@@ -1,7 +1,7 @@
 //! Lasting names of pairs of bodies.
 //!
 //! What is on a list, awake or in touch changes from frame to frame, and so do all numbers that
-//! follow from it. Whoever keeps something about a pair over time keeps it under its id.
+//! follow from it. Anything kept about a pair over time is kept under its id.
 
 use crate::scene::Body;
 
@@ -20,7 +20,8 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Of a scene with so many objects and obstacles, and a tool with so many parts.
+    /// Of a scene with these numbers of objects and obstacles, and a tool with this number of
+    /// parts.
     pub fn new(objects: usize, obstacles: usize, parts: usize) -> Self {
         Self { objects, obstacles, parts }
     }

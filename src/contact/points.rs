@@ -53,7 +53,7 @@ pub(super) struct Scenery<'a> {
     pub coasts: &'a [Motion],
     /// By the objects' headings.
     pub turns: &'a [Turn],
-    /// How much farther off than both could travel what still counts may be, metres.
+    /// How much farther off than both could travel a point may be and still count, metres.
     pub margin: f64,
 }
 

@@ -1,5 +1,5 @@
-//! The prior of every object in a frame: what contacts, joints, friction and inertia make of it
-//! to second order in time, for the network to correct.
+//! The prior motion of every object in a frame: the result of contacts, joints, friction and
+//! inertia to second order in time, for the network to correct.
 
 use nalgebra::Vector3;
 
@@ -66,8 +66,8 @@ impl Prior {
         self.collect(scenery);
     }
 
-    /// The displacements and what forces make them, which begin as those of the contacts `last` of
-    /// the frame before, if this one follows it; the motions are not touched.
+    /// The displacements and the forces that make them, which begin as those of the contacts `last`
+    /// of the frame before, if this one follows it; the motions are not touched.
     pub fn press(
         &mut self,
         scenery: Scenery,

@@ -1,4 +1,4 @@
-//! The equations of frames, and the forces that make things so.
+//! The equations of frames, and the forces behind the motions.
 
 use super::{
     forces::FrameForces,
@@ -43,12 +43,12 @@ impl FrameSolver {
         tally
     }
 
-    /// What everything does in the frame.
+    /// The motions of all objects in the frame.
     pub fn solve<'a>(&'a mut self, problem: FrameProblem<'a>) -> FrameSolution<'a> {
         self.solve_with_forces_of_few(problem, 0).0
     }
 
-    /// The same with the forces that, acting over the whole frame, do so.
+    /// The same, with the forces that have this effect over the whole frame.
     pub fn solve_with_forces<'a>(
         &'a mut self,
         problem: FrameProblem<'a>,
@@ -71,13 +71,12 @@ impl FrameSolver {
     }
 
     /// Begins all `problems` that there are, each on a frame of its own: finds what is awake, and
-    /// solves frames of one object side by side. [`Self::finish`] says what became of them.
+    /// solves frames of one object side by side. [`Self::finish`] gives the solutions.
     pub fn begin(&mut self, problems: &[Option<FrameProblem>], frames: &mut [Frame]) {
         self.equations.begin(problems, frames);
     }
 
-    /// What everything does in a frame that has begun, and by which forces if at most `most` objects
-    /// are awake.
+    /// The motions in a frame that has begun, and the forces if at most `most` objects are awake.
     pub fn finish<'a>(
         &'a mut self,
         problem: FrameProblem<'a>,

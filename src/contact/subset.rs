@@ -155,7 +155,7 @@ mod tests {
         subset.gather(&whole);
         assert_eq!(subset.bodies.groups.members, whole.groups.members);
         assert_eq!(subset.bodies.mechanisms, whole.mechanisms);
-        // Fewer than before, so that what is left over of the last time would show.
+        // Fewer than before, so that leftovers of the last time would show.
         subset.objects = [2, 3, 4, 5].map(SceneIndex).to_vec();
         subset.parts.clear();
         subset.gather(&whole);

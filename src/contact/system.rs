@@ -68,12 +68,12 @@ pub(super) struct System {
 }
 
 impl System {
-    /// The groups of `bodies`, without contacts and joints yet. They begin as they move already, and
-    /// with what they gained by that in the last frame if this one follows it; else what rests
-    /// coasts, and `reach` is how far that is first assumed to move (metres). All that only
-    /// decides where the iteration begins. One group alone begins at rest, as its load then has time
-    /// to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and 0.69 mm
-    /// otherwise, and of several objects it is not larger.
+    /// The groups of `bodies`, without contacts and joints yet. They begin as they move already,
+    /// and with what they gained by that in the last frame if this one follows it; else what rests
+    /// coasts, and `reach` is how far that is first assumed to move (metres). All of this only
+    /// decides where the iteration begins. One group alone begins at rest, as its load then has
+    /// time to follow what presses: of 700 pushes of one object the median error is 0.61 mm so and
+    /// 0.69 mm otherwise, and of several objects it is not larger.
     pub fn begin(&mut self, scenery: Scenery, reach: f64, gains: Option<&[Gain]>) {
         std::mem::swap(&mut self.constraints, &mut self.last);
         let follows = gains.is_some();
@@ -159,8 +159,8 @@ impl System {
             Quantity::Velocity if self.ties.is_empty() => SETTLED,
             Quantity::Velocity => SETTLED_IN_JOINTS,
         };
-        // Where one update finds no set of contacts that is right, the next ones hardly would: among
-        // nine to twelve objects in joints a sixth of all sets were looked at for nothing so.
+        // Where one update finds no right set of contacts, the next ones hardly would: among nine
+        // to twelve objects in joints a sixth of all sets were looked at for nothing so.
         let mut found = true;
         for update in 0..UPDATES {
             if update > 0 {

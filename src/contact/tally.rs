@@ -19,8 +19,8 @@ pub struct Tally {
     pub rows: u64,
     /// Updates in which no set was right, so that the answer was approached by iteration.
     pub approached: u64,
-    /// Floating-point operations of points that drag and of linear equations: what the method
-    /// cannot do without.
+    /// Floating-point operations of points that drag and of linear equations: the unavoidable work
+    /// of the method.
     pub operations: u64,
 }
 
@@ -37,7 +37,7 @@ impl Tally {
         self.operations += other.operations;
     }
 
-    /// Counts an object with so many points under it: two products and a sum for the speed along
+    /// Counts an object with this many points under it: two products and a sum for the speed along
     /// either axis, their length, a quotient, and five sums of products.
     #[inline(always)]
     pub(super) fn weigh(&mut self, points: usize) {

@@ -63,7 +63,7 @@ impl Quantity {
 }
 
 /// Updates of the weights in which the load follows what presses; then it stays, as where it goes
-/// and what then presses could otherwise take turns for ever. Of 400 held-out pushes of one object
+/// and what then presses could otherwise alternate for ever. Of 400 held-out pushes of one object
 /// the mean error against the planar engine is 2.85 mm with 1, 2.33 with 2, 1.70 with 4, 1.60 with
 /// 5, 1.63 with 6 and 1.8 without end.
 pub(super) const FOLLOWING: usize = 5;
@@ -90,9 +90,9 @@ pub(super) struct Unknown {
     pub resistance: Matrix3<f64>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
-    /// What pulls it without contacts and joints, force and torque, if that has been taken.
+    /// The pull on it without contacts and joints, force and torque, if that has been computed.
     pull: Option<Vector3<f64>>,
-    /// What it does without contacts and joints.
+    /// Its motion without contacts and joints.
     pub free: Vector3<f64>,
     /// Shift of the centre, metres, and turn, radians.
     pub twist: Vector3<f64>,
@@ -181,8 +181,8 @@ impl Unknown {
         self.touched = false;
     }
 
-    /// Another quantity is asked for, which is not known without the equations where anything but the
-    /// table has held the group.
+    /// Another quantity is wanted now, which is unknown without the equations where anything but
+    /// the table has held the group.
     #[inline]
     pub fn turn_to_another(&mut self) {
         self.pull = None;

@@ -99,7 +99,7 @@ pub fn shifted_start(start: &State, physics: &Physics, metres: f64, rng: &mut Pc
 }
 
 /// Directions come from the start itself, so that a job gives the same trajectory whatever jobs
-/// stand beside it.
+/// come with it.
 fn directions(start: &State) -> Pcg64 {
     Pcg64::seed_from_u64(start.poses.iter().fold(0u64, |seed, pose| {
         (seed ^ pose.position.x.to_bits() ^ pose.position.y.to_bits().rotate_left(32))

@@ -1,4 +1,4 @@
-//! From what a model is called to the model; the shipped weights, available from any directory.
+//! From the name of a model to the model; the shipped weights, available from any directory.
 
 use std::fmt;
 use std::path::Path;
@@ -7,14 +7,14 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use crate::{
-    network::{Weights, WeightsError},
+    network::{PredictorWeights, WeightsError},
     scene::{Engine, ModelKind, ModelPart, ModelSpec},
     sim::Simulator,
 };
 
 use super::{
     Assuming, EffectModel, Follow, LeverModel, LeverNetwork, LeverPrior, Levering, Network, Prior,
-    Projection, Routed, Simulated, Still, UpTo, load_lever,
+    Projection, Routed, Simulated, Still, UpTo,
 };
 
 /// Why a model cannot be made.
@@ -23,7 +23,7 @@ pub enum ModelError {
     /// The library was built around a damaged weights file.
     #[error("the shipped weights are broken: {0}")]
     Shipped(#[source] WeightsError),
-    /// A weights file that is missing, damaged or of someone else.
+    /// A weights file that is missing, damaged or not of pushplan.
     #[error("{path}: {error}")]
     File {
         /// The file.
@@ -49,15 +49,15 @@ impl EffectModels {
     ///
     /// # Errors
     /// [`ModelError::Shipped`] if the library was built around a damaged weights file.
-    pub fn weights() -> Result<Weights, ModelError> {
-        Weights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
+    pub fn weights() -> Result<PredictorWeights, ModelError> {
+        PredictorWeights::from_bytes(pushplan_models::BRDPN).map_err(ModelError::Shipped)
     }
 
     /// The weights of the first part of `spec` that is a network, if one is.
     ///
     /// # Errors
     /// [`ModelError`] if they cannot be used.
-    pub fn weights_of(spec: &ModelSpec) -> Result<Option<Weights>, ModelError> {
+    pub fn weights_of(spec: &ModelSpec) -> Result<Option<PredictorWeights>, ModelError> {
         let file = spec.parts().find_map(|part| match &part.kind {
             ModelKind::Network { weights, .. } => Some(weights.as_deref()),
             _ => None,
@@ -89,8 +89,9 @@ fn levering(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
     let levers: Arc<dyn LeverModel> = match &part.kind {
         ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part),
         ModelKind::Network { weights: Some(file), .. } => {
-            if let Ok(levers) = load_lever(Path::new(file)) {
-                return Ok(Arc::new(Levering::new(Arc::new(Prior::default()), levers)));
+            if let Ok(levers) = LeverNetwork::load(Path::new(file)) {
+                let (prior, levers) = (Arc::new(Prior::default()), Arc::new(levers));
+                return Ok(Arc::new(Levering::new(prior, levers)));
             }
             Arc::new(LeverPrior::default())
         }
@@ -103,9 +104,9 @@ fn levering(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
     Ok(Arc::new(Levering::new(self::part(part)?, levers)))
 }
 
-fn load(file: Option<&str>) -> Result<Weights, ModelError> {
+fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {
     let Some(path) = file else { return EffectModels::weights() };
-    Weights::load(Path::new(path))
+    PredictorWeights::load(Path::new(path))
         .map_err(|error| ModelError::File { path: path.to_owned(), error })
 }
 

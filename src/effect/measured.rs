@@ -4,7 +4,7 @@
 use crate::scene::{Engine, ModelKind, Ranges, Rate, Span, TRAINED_SLIDE, TRAINED_TURN};
 
 /// Errors of final positions on held-out pushes, metres, against the planar engine at its default
-/// step; of an engine at its default step, which is a truth itself, none at all.
+/// step; none of an engine at its default step, which is itself a truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantiles {
     /// Median.
@@ -21,13 +21,13 @@ struct Errors {
     several: Quantiles,
 }
 
-/// `pushplan evaluate --on single touching`: 2000 pushes of seed 7 each.
+/// `pushplan-lab evaluate --on single touching`: 2000 pushes of seed 7 each.
 const PRIOR: Errors = Errors {
     one: Quantiles { median: 0.75e-3, p95: 6.43e-3 },
     several: Quantiles { median: 1.09e-3, p95: 7.35e-3 },
 };
 
-/// `pushplan tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
+/// `pushplan-lab tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
 const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
         120,
@@ -52,8 +52,8 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
     ),
 ];
 
-/// Errors of a model where `objects` come into play, if they were measured. More than three
-/// objects were not; they are taken for three.
+/// Errors of a model where `objects` come into play, if they were measured. More than three objects
+/// were not measured; they count as three.
 pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Option<Quantiles> {
     let errors = match *kind {
         ModelKind::PRIOR => &PRIOR,
@@ -69,10 +69,10 @@ pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Opt
     Some(if objects() > 1 { errors.several } else { errors.one })
 }
 
-/// What the prior was measured on: the scenes and pushes of `pushplan evaluate`, with the shipped
+/// What the prior was measured on: the scenes and pushes of `pushplan-lab evaluate`, with the shipped
 /// tools and in crowds, and those that the network is trained on.
 ///
-/// Outside (`cargo test --release --test it -- --ignored the_prior_hides_no_defect_either`, 22
+/// Outside (`cargo test --release -p pushplan-lab -- --ignored the_prior_hides_no_defect_either`, 22
 /// pushes of seed 7 in each cell) it is wrong at 2 m/s, where the tool turns by 90 degrees in a push,
 /// where it is set down into an object, and nearly without friction; a single object may have any
 /// mass and size. Inside it is wrong in front of a wall after 5 cm, and warns of 15 pushes in 22.

@@ -1,8 +1,8 @@
-//! What a tool motion does to a scene, whoever computes it.
+//! What a tool motion does to a scene, whatever computes it.
 //!
 //! Planner, benchmarks and trade-off see only [`EffectModel`]; the network, its prior, the engines
-//! and models without physics stand behind it as levels of one ladder of speed and accuracy.
-//! Nothing is searched here.
+//! and models without physics implement it, as rungs of one ladder of speed and accuracy. Nothing
+//! is searched here.
 
 mod assuming;
 mod build;
@@ -21,9 +21,8 @@ pub use crate::scene::Job;
 pub use assuming::{Assuming, shifted_start};
 pub use build::{EffectModels, ModelError};
 pub use lever::{
-    LeverCourse, LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverParts, LeverPrior,
-    LeverTrust, LeverView, Levering, PartGraphs, PartState, PriorSettings, SimulatedLevers, Walk,
-    Walker, lever_action, lever_features, lever_inputs, load_lever,
+    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust, LeverView,
+    Levering, PriorSettings, SimulatedLevers, lever_action, lever_features, lever_inputs,
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;

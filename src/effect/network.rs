@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     graph::Batch,
-    network::{Buffers, Forward, Weights},
+    network::{Buffers, Forward, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
@@ -19,7 +19,7 @@ use super::{EffectModel, Quantiles, Trust, trust::outside};
 pub(super) const CHUNK: usize = 32;
 
 /// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
-/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan evaluate
+/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
 /// --on dense sparse` its mean error is 1.11 (dense) and 0.98 (sparse) times the prior's if it
 /// corrects all, 1.00 and 0.95 with five at most, 1.00 and 0.98 with three.
 const CORRECTED: usize = 5;
@@ -28,14 +28,14 @@ const CORRECTED: usize = 5;
 pub struct Network {
     spec: ModelSpec,
     forward: Forward,
-    weights: Weights,
+    weights: PredictorWeights,
     settings: RollSettings,
     error: Option<Quantiles>,
 }
 
 impl Network {
     /// A model of these weights, which [`EffectModel::spec`] takes for the shipped ones.
-    pub fn new(weights: Weights) -> Self {
+    pub fn new(weights: PredictorWeights) -> Self {
         let errors = weights.card.errors.as_ref();
         Self {
             spec: ModelKind::NETWORK.into(),
@@ -49,7 +49,12 @@ impl Network {
     /// A model of weights from a file; with `steps` propagation steps instead of those that it was
     /// trained with, and `stride` frames predicted as one. Measured errors are those of the
     /// weights as trained, frame by frame.
-    pub fn with(weights: Weights, file: Option<String>, steps: Option<u8>, stride: Stride) -> Self {
+    pub fn with(
+        weights: PredictorWeights,
+        file: Option<String>,
+        steps: Option<u8>,
+        stride: Stride,
+    ) -> Self {
         let mut model = Self::new(weights);
         if steps.is_some() || stride != Stride::ONE {
             model.error = None;
@@ -63,7 +68,7 @@ impl Network {
     }
 
     /// What the weights are.
-    pub fn weights(&self) -> &Weights {
+    pub fn weights(&self) -> &PredictorWeights {
         &self.weights
     }
 }
@@ -143,9 +148,9 @@ fn has_guesses(job: &Job) -> bool {
 
 /// The job with guessed anchors and axes taken for known ones.
 ///
-/// Told that a joint is a guess, neither prior nor projection pulls its objects together again, and
-/// the network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and
-/// 60.4 mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
+/// Where a joint is a guess, neither prior nor projection pulls its objects together again, and the
+/// network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and 60.4
+/// mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
 fn without_guesses(job: &Job) -> Job {
     let mut job = job.clone();
     if has_guesses(&job) {

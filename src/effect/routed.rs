@@ -43,7 +43,7 @@ pub struct Routed {
     planar: Simulated,
 }
 
-/// Which model a job goes to, and what is to be said about that.
+/// Which model a job goes to, and the warnings about that.
 struct Route {
     model: usize,
     error: Option<Quantiles>,
@@ -58,7 +58,7 @@ impl Routed {
         Self { models: vec![model], spec, outside: Outside::default(), planar }
     }
 
-    /// The same, and `other` for what none of them takes.
+    /// The same, and `other` for jobs that none of them takes.
     pub fn or(mut self, other: Arc<dyn EffectModel>) -> Self {
         self.spec = self.spec.or(other.spec().clone());
         self.models.push(other);
@@ -124,7 +124,7 @@ impl EffectModel for Routed {
             if let [only] = &self.models[..] {
                 return only.rollout(scene, jobs, record);
             }
-            // Which model it is decides alone; what speaks against it is not asked for.
+            // Only which model it is counts here; what speaks against it is not asked for.
             let taker = |job| self.models.iter().position(|model| model.takes(scene, job));
             let last = self.models.len() - 1;
             let takers: Vec<usize> = jobs.iter().map(|job| taker(job).unwrap_or(last)).collect();
@@ -176,8 +176,8 @@ impl Routed {
     }
 }
 
-/// How far the planar engine ends from what is predicted for `job`, as a warning, for the object
-/// on which the two differ most: what a model's being outside its range means for this motion.
+/// How far the planar engine ends from what is predicted for `job`, as a warning, for the object on
+/// which the two differ most: what it means for this motion that the model is outside its range.
 pub fn consequence(scene: &Scene, job: &Job, predicted: &State) -> Option<Warning> {
     let run = Simulator::planar().run(scene, job, Record::Outcome);
     let apart = |k: usize| (run.outcome().poses[k].position - predicted.poses[k].position).norm();
@@ -237,7 +237,7 @@ mod tests {
             mixed.iter().map(|one| one.by.to_string()).collect::<Vec<_>>(),
             ["planar", "prior"]
         );
-        // The planar engine is exact where it stands in; the prior is not.
+        // The planar engine, where it stands in, is exact; the prior is not.
         let errors = [0, 1].map(|k| model.trust(&scene, &jobs[k]).error().map(|error| error.p95));
         assert!(errors[0] == Some(0.0) && errors[1].is_some_and(|p95| p95 > 0.0), "{errors:?}");
         assert_eq!(roll(&to(3)), own);

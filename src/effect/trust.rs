@@ -37,8 +37,8 @@ impl Trust {
     }
 }
 
-/// Whatever of a job lies outside `ranges`: of the tool, the motion, and the objects that it can
-/// reach.
+/// Everything of a job that lies outside `ranges`: of the tool, the motion, and the objects that it
+/// can reach.
 pub(super) fn outside(ranges: &Ranges, scene: &Scene, job: &Job) -> Vec<Warning> {
     let found = ranges.warnings(scene, job);
     if found.is_empty() {

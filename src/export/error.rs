@@ -2,10 +2,10 @@
 
 use thiserror::Error;
 
-/// Why a plan has no form in another program's files.
+/// Why a plan cannot be written in another program's format.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ExportError {
-    /// MuJoCo's bodies hang together as trees; a file of ours never holds such a scene.
+    /// MuJoCo's bodies form trees; no file of pushplan holds such a scene.
     #[error("the joint between `{}` and `{}` closes a loop, which MJCF's trees of bodies cannot hold", between[0], between[1])]
     JointLoop {
         /// Names of the two objects.

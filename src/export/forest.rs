@@ -1,4 +1,4 @@
-//! Jointed objects as trees: which object hangs on which.
+//! Joined objects as trees: which object is attached to which.
 
 use crate::scene::{DisjointSets, Joint, JointKind, Scene};
 
@@ -8,7 +8,7 @@ use super::ExportError;
 pub(super) struct Node<'a> {
     /// Its index in the scene.
     pub object: usize,
-    /// The object that it hangs on, and by which joint; `None` where it stands by itself.
+    /// The object that it is attached to, and by which joint; `None` where it stands by itself.
     pub parent: Option<(usize, &'a Joint)>,
     /// What hangs on it.
     pub children: Vec<Node<'a>>,

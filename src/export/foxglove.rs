@@ -1,4 +1,4 @@
-//! Messages of the schemas that Foxglove and its kin draw, in JSON.
+//! Messages of the schemas that Foxglove and similar viewers draw, in JSON.
 //!
 //! Of `foxglove.SceneUpdate` and `foxglove.FrameTransforms` all fields are written, whose names and
 //! meanings are at <https://docs.foxglove.dev/docs/sdk/schemas>.
@@ -54,7 +54,7 @@ pub(super) fn transform_in_space(at: u64, child: &str, frame: &Pose3) -> Json {
     })
 }
 
-/// The frame that all others stand in: the table's top, x ahead of the robot.
+/// The frame of all others: the table's top, x ahead of the robot.
 pub(super) const TABLE: &str = "table";
 
 /// `foxglove.SceneEntity`: solids that stand in a frame, each with its pose there and the height of

@@ -22,7 +22,7 @@ const OBSTACLE: Colour = [0.45, 0.45, 0.45, 1.0];
 const TOOL: Colour = [0.30, 0.65, 0.40, 1.0];
 const GOAL: Colour = [0.90, 0.55, 0.20, 0.25];
 
-/// Height of the goal's disc, metres: it is seen and stands in nobody's way.
+/// Height of the goal's disc, metres: visible, and in nobody's way.
 const DISC: f64 = 1e-3;
 
 /// `plan` and what it does according to `trajectory` as the bytes of an MCAP file.
@@ -38,7 +38,7 @@ const DISC: f64 = 1e-3;
 /// is compressed. The same plan gives the same bytes.
 ///
 /// # Errors
-/// [`ExportError::Mcap`] if the trajectory holds what no such file can.
+/// [`ExportError::Mcap`] if the trajectory holds something that no such file can.
 pub fn mcap(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, ExportError> {
     written(plan, trajectory).map_err(|error| ExportError::Mcap(error.to_string()))
 }

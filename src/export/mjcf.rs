@@ -1,10 +1,11 @@
 //! A plan as a scene of MuJoCo (MJCF), pushes and goal included.
 //!
 //! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
-//! masses, joints and the points that they stand on, friction of every pair as the mean of two values, and a tool that nothing
-//! stops. It stands on two sliding joints, whose positions *and* velocities the script sets before
-//! every step: a `mocap` body has no velocity, so what it pushes rubs against it as if it stood
-//! still (a box pushed 10 degrees aside then slips by 35 mm of 200 instead of sticking).
+//! masses, joints and the points that they stand on, friction of every pair as the mean of two
+//! values, and a tool that nothing stops. It is held by two sliding joints, whose positions *and*
+//! velocities the script sets before every step: a `mocap` body has no velocity, so an object that
+//! it pushes rubs against it as if it stood still (a box pushed 10 degrees aside then slips by 35
+//! mm of 200 instead of sticking).
 //!
 //! MuJoCo's friction is convex: an object that slides at v is pushed off the surface by mu b v,
 //! b = 2 / (d timeconst) of the friction's constraint, against (1 - d) / d of the load that holds
@@ -176,7 +177,7 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
         let values = [from.x, from.y, to.x, to.y, stroke.duration, settle];
         numeric(xml, &format!("push {}", index + 1), &values);
     }
-    xml.comment("Rest is slower than this; it is looked for this often, and so many times.");
+    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
     numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");
@@ -188,7 +189,7 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
     xml.close();
 }
 
-/// An object and all that hangs on it.
+/// An object and everything attached to it.
 fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     let object = &scene.objects[node.object];
     let half = object.shape.height() / 2.0;
@@ -223,7 +224,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     xml.close();
 }
 
-/// What of an object is clear of the table, and how far that moves its middle up, metres.
+/// The part of an object that is clear of the table, and how far that moves its middle up, metres.
 fn raised(shape: &Shape) -> (Shape, f64) {
     match *shape {
         Shape::Cuboid { size: [x, y, z] } => {
@@ -245,7 +246,7 @@ fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
     objects.chain(tool).collect()
 }
 
-/// The joint on which object `child` hangs; MJCF says fixed by saying nothing.
+/// The joint that attaches object `child`; in MJCF no joint means fixed.
 fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
     // Limits are of the second object against the first, MuJoCo's of the child.
     let (side, sign) = if joint.between[1] == child { (1, 1.0) } else { (0, -1.0) };
@@ -293,7 +294,7 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
     xml.close();
 }
 
-/// A solid of a mass and a friction value. Only pairs rub; the value is for whoever reads the file.
+/// A solid of a mass and a friction value. Only pairs rub; the value is for readers of the file.
 fn solid(
     xml: &mut Xml,
     name: String,

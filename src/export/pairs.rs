@@ -1,4 +1,4 @@
-//! What may touch what, and how it rubs.
+//! Which pairs may touch, and their friction.
 
 use crate::scene::{Physics, Scene, Surface, Tool};
 

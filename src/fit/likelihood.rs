@@ -1,4 +1,4 @@
-//! How likely a set of distances is under a law of noise whose width is not known.
+//! How likely a set of distances is under a law of noise of unknown width.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// and Taylor 1989, doi:10.2307/2290063, take 4).
 const FREEDOM: f64 = 4.0;
 
-/// No noise is thought smaller than this share of the mean motion: so far even good models of the
-/// same physics end apart, and a posterior that trusts them more is narrower than it should be.
+/// Noise is never taken as smaller than this share of the mean motion: even good models of the same
+/// physics end this far apart, and a posterior that trusts them more is narrower than it should be.
 const DISAGREEMENT: f64 = 0.02;
 
 /// Widths that are tried where none is stated: how many, and the largest in metres; they are
 /// evenly spaced in their logarithm.
 const WIDTHS: (usize, f64) = (64, 0.2);
 
-/// The law of what a model cannot know of a recorded end.
+/// The law of the part of a recorded end that a model cannot know.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NoiseLaw {

@@ -1,4 +1,4 @@
-//! The fit: a rough grid over all that is possible, then a fine one over what is left.
+//! The fit: a rough grid over everything possible, then a fine one over what is left.
 
 use std::sync::Arc;
 
@@ -83,7 +83,7 @@ pub struct Fit {
     pub friction: Estimate,
     /// The posterior over all that was thought possible.
     pub rough: Posterior,
-    /// The same, finer, where it is not nothing; the estimates are its.
+    /// The same, finer, where it is not negligible; the estimates come from it.
     pub fine: Posterior,
     /// With the likeliest numbers.
     pub best: SupportError,
@@ -237,7 +237,7 @@ fn ends(
                 .filter(|(_, moves)| **moves)
                 .map(|((error, object), _)| {
                     let arm = object.shape.footprint().gyration_radius();
-                    // An answer that is none is as wrong as can be.
+                    // No answer counts as the worst one.
                     let far = |value: f64| if value.is_finite() { value } else { 1.0 };
                     let position = far(error.position);
                     let residual = match error.heading {

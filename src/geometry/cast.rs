@@ -10,8 +10,8 @@ use super::{Footprint, Pose, Vector};
 
 /// Travel, metres, along the unit vector `direction` after which `moving` first touches `still`.
 ///
-/// 0 if they touch or overlap already; `None` if they never meet. Sliding past with faces that
-/// exactly touch is no meeting.
+/// 0 if they touch or overlap already; `None` if they never meet. Sliding past with faces that just
+/// touch does not count as meeting.
 pub fn travel_to_contact(
     moving: (&Footprint, &Pose),
     direction: Vector,

@@ -62,7 +62,7 @@ fn swept_corners(
         corners.iter().flat_map(|corner| [vector(*corner), vector(corner + travel)]).collect();
     match Hull::from_convex_hull(&ends) {
         Some(hull) => between(&hull, from, &*shape(still.0), still.1, reach),
-        // A hull can only fail on a sliver; its ends then tell the same.
+        // A hull can only fail on a sliver; then its two ends tell the same.
         None => clearance((moving, from), still, reach).min(clearance((moving, to), still, reach)),
     }
 }

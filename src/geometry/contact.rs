@@ -11,7 +11,7 @@ use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
 /// Points of one pair that lie closer together than this are one contact, metres.
 const SAME_POINT: f64 = 1e-3;
 
-/// Two ways to the same point end no farther apart than this, metres.
+/// Two ways to compute the same point end no farther apart than this, metres.
 const ROUNDING: f64 = 1e-9;
 
 /// What the normal of a contact follows when its bodies move.

@@ -1,4 +1,4 @@
-//! Where two cuboids in space touch, or would soon.
+//! Where two cuboids in space touch, or soon would.
 
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector as ParryVector};
 use parry3d_f64::query::ContactManifold;

@@ -8,7 +8,7 @@
 use super::Rim;
 use super::rim::corner;
 
-/// Edges closer together than this lie in line, metres: rounding, and gaps that count as none.
+/// Edges closer together than this lie in line, metres: rounding, and gaps that do not count.
 const IN_LINE: f64 = 1e-4;
 
 /// A rectangle along the axes: its lower left and its upper right corner, metres.

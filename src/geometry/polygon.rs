@@ -45,7 +45,7 @@ pub struct ConvexPolygon {
     count: usize,
 }
 
-/// Why corners make no convex polygon; corners are counted from zero.
+/// Why corners do not make a convex polygon; corners are counted from zero.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum PolygonError {
     /// Fewer than three or more than [`MAX_CORNERS`].
@@ -63,7 +63,7 @@ pub enum PolygonError {
     /// It goes around more than once.
     #[error("the outline crosses itself")]
     Crossing,
-    /// Thinner than a millimetre, larger than ten metres, or no number.
+    /// Thinner than a millimetre, larger than ten metres, or not a number.
     #[error("the polygon is thinner than 1 mm or larger than 10 m")]
     Size,
     /// The centre of mass is not inside.
@@ -76,7 +76,7 @@ impl ConvexPolygon {
     /// centre of mass where the weight is spread evenly.
     ///
     /// # Errors
-    /// [`PolygonError`] if they make no convex polygon.
+    /// [`PolygonError`] if they do not make a convex polygon.
     pub fn new(corners: &[Vector]) -> Result<Self, PolygonError> {
         Self::balanced(corners, centroid(corners))
     }
@@ -84,7 +84,7 @@ impl ConvexPolygon {
     /// The polygon of these corners about a centre of mass given in their frame, metres.
     ///
     /// # Errors
-    /// [`PolygonError`] if they make no convex polygon around it.
+    /// [`PolygonError`] if they do not make a convex polygon around it.
     pub fn balanced(corners: &[Vector], centre_of_mass: Vector) -> Result<Self, PolygonError> {
         let count = corners.len();
         if !(3..=MAX_CORNERS).contains(&count) {

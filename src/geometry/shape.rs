@@ -169,7 +169,7 @@ impl Footprint {
             Footprint::Rectangle { half } => {
                 let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
                 let corners = corners.map(|(x, y)| Vector::new(x * half.x, y * half.y));
-                // Too thin for a polygon, it is no square.
+                // Too thin for a polygon, so not a square.
                 Some(ConvexPolygon::new(&corners).map_or(2, |polygon| polygon.symmetry()))
             }
             Footprint::Polygon(polygon) => Some(polygon.symmetry()),

@@ -124,7 +124,7 @@ mod tests {
             [[a, a], [b, a], [b, b], [a, b]].map(|[x, y]| Vector::new(x, y)).to_vec()
         };
         let mut common = common_area(&square(0.0, 2.0), &square(1.0, 3.0));
-        // Which corner comes first is the clipper's business.
+        // Which corner comes first is up to the clipper.
         let first = common.iter().position(|corner| *corner == Vector::new(1.0, 1.0));
         common.rotate_left(first.expect("the lower left corner"));
         assert_eq!(common, square(1.0, 2.0));

@@ -18,8 +18,8 @@ pub struct SupportEdge {
 /// The side of a convex outline by which the ray from `point` through `centre` leaves it: a body
 /// whose edge is raised at `point` stands on the two corners between which its weight then lies.
 ///
-/// `corners` run counter-clockwise, metres; `point` lies on the outline. Nothing is found if the
-/// outline has no area or `point` is `centre`.
+/// `corners` run counter-clockwise, metres; `point` lies on the outline. `None` if the outline has
+/// no area or `point` is `centre`.
 pub fn support_edge(corners: &[Vector], point: Vector, centre: Vector) -> Option<SupportEdge> {
     let ray = centre - point;
     let mut found: Option<(f64, SupportEdge)> = None;

@@ -66,7 +66,7 @@ impl Turn {
     }
 }
 
-/// Sines and cosines of angles, radians: those of one are the same bits beside any others.
+/// Sines and cosines of angles, radians: those of one are the same bits whatever the others are.
 #[inline(always)]
 pub fn sines<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
     // Nearly all turns of a frame are small, and most tools never turn.

@@ -39,7 +39,7 @@ pub const OUTPUT_ODD: usize = 4;
 /// Unit of heights, metres.
 const HEIGHT: f64 = 0.1;
 
-/// What an object stands on, and how far it is known how that is loaded.
+/// What an object stands on, and how much is known about its load.
 pub(super) struct Underside<'a> {
     pub feet: &'a Feet,
     /// Cosine and sine of the turn from the node's x axis to the object's own.

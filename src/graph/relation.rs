@@ -24,7 +24,7 @@ pub(super) enum RelationKind {
         left: f64,
         /// Displacement of the sender's point along the receiver's surface in the prior, metres.
         slip: f64,
-        /// Normal force over the weight mu m g of what the receiver rubs on the table with.
+        /// Normal force over mu m g, the friction of the receiver with the table.
         load: f64,
     },
     /// A joint holds them together.

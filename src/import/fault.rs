@@ -2,7 +2,7 @@
 
 use crate::asset::{Fault, Faults, Place};
 
-/// Collects what is wrong with a file, and what is said a little otherwise.
+/// Collects what is wrong with a file, and what is expressed slightly differently.
 #[derive(Debug)]
 pub(super) struct Ledger {
     file: String,
@@ -28,7 +28,7 @@ impl Ledger {
         self.faults.push(Fault::of_file(&self.file, message, advice));
     }
 
-    /// Something that a person should know, of the element at a place.
+    /// Something that people should know about the element at a place.
     pub fn note(&mut self, place: Place, message: impl AsRef<str>) {
         let Place { line, column } = place;
         let note = format!("{}:{line}:{column}: {}", self.file, message.as_ref());
@@ -66,7 +66,7 @@ impl Ledger {
 
     fn faults(mut self) -> Faults {
         if self.faults.is_empty() {
-            // Whoever gives up says why; this is for a way that was forgotten.
+            // Whatever gives up says why; this is for a case that was forgotten.
             self.fault_of_file("the file cannot be imported", "");
         }
         self.faults.sort_by_key(|fault| fault.place);

@@ -2,9 +2,9 @@
 //!
 //! A file is read into plain bodies with solids, poses in the world and masses ([`Model`], by
 //! `mjcf` or `urdf`), and those become a [`Tool`](crate::scene::Tool) or a
-//! [`Scene`](crate::scene::Scene) (`convert`). What pushplan has no word for is a fault with its
-//! place and what to do; what it says a little otherwise is a note. Nothing is left out silently,
-//! nothing is simulated, nothing is written.
+//! [`Scene`](crate::scene::Scene) (`convert`). What pushplan cannot express is a fault with its
+//! place and what to do; what it expresses slightly differently is a note. Nothing is left out
+//! silently, nothing is simulated, nothing is written.
 //!
 //! XML is read with `roxmltree` itself. Of the crates for these formats `mjcf-rs` 0.36 keeps no
 //! places, passes over elements and attributes that it does not know, and an `eulerseq` of four

@@ -1,4 +1,4 @@
-//! What a file of another program says, before it becomes anything of ours.
+//! What a file of another program says, before it is converted.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -13,7 +13,7 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// Coefficients of friction of pairs of solids, by their names.
     pub pairs: Vec<([String; 2], f64)>,
-    /// What the file has beyond bodies that pushes would be changed by, such as actuators.
+    /// What the file has besides bodies that would change pushes, such as actuators.
     pub beyond: Vec<(Place, String)>,
     /// Where an object should end, if the file says so: its body, x and y, tolerance (metres) and,
     /// where it matters, heading and its tolerance (radians).
@@ -31,9 +31,9 @@ pub struct Body {
     pub name: String,
     /// Where it stands in the file.
     pub place: Place,
-    /// The body that it hangs on; none for the world.
+    /// The body that it is attached to; `None` for the world.
     pub parent: Option<usize>,
-    /// What it may do against that body.
+    /// How it may move against that body.
     pub motion: Motion,
     /// Pose in the world, metres.
     pub pose: Isometry3<f64>,
@@ -44,7 +44,7 @@ pub struct Body {
     pub inertial: Option<(f64, Point3<f64>, Option<f64>)>,
 }
 
-/// What a body may do against the one that it hangs on.
+/// How a body may move against the one that it is attached to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
     /// Nothing.
@@ -67,7 +67,7 @@ pub enum Motion {
         /// Shifts from the start, metres, where limited.
         limits: Option<[f64; 2]>,
     },
-    /// What pushplan has no word for; said in words.
+    /// What pushplan cannot express; in words.
     Other(String),
 }
 
@@ -156,7 +156,7 @@ impl Model {
         self.bodies.get(body).map_or("", |body| &body.name)
     }
 
-    /// The bodies that hang on `body`, in order.
+    /// The bodies attached to `body`, in order.
     pub fn children(&self, body: usize) -> impl Iterator<Item = usize> + '_ {
         let hangs = move |index: &usize| self.bodies[*index].parent == Some(body);
         (0..self.bodies.len()).filter(hangs)

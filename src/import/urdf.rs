@@ -1,9 +1,9 @@
 //! URDF, the files of ROS.
 //!
-//! Collision shapes count, what is only seen does not. The links below `world`, or one without a
-//! parent, stand in the world as their joints say, all joints at zero. URDF itself has no friction:
-//! it is read where simulators look for it, `<contact><lateral_friction>` of a link (Bullet) and
-//! `<gazebo reference="..."><mu1>`.
+//! Collision shapes count, shapes that are only seen do not. The links below `world`, or one
+//! without a parent, stand in the world as their joints say, all joints at zero. URDF itself has no
+//! friction: it is read where simulators look for it, `<contact><lateral_friction>` of a link
+//! (Bullet) and `<gazebo reference="..."><mu1>`.
 
 use std::collections::HashMap;
 
@@ -17,10 +17,10 @@ use super::xml::{Source, element, elements};
 /// The link that stands for the world.
 const WORLD: &str = Body::WORLD;
 
-/// What of a file says nothing of how pushes end.
+/// Parts of a file that do not affect how pushes end.
 const HARMLESS: [&str; 2] = ["material", "gazebo"];
 
-/// A link, and the joint that it hangs on.
+/// A link, and the joint that attaches it.
 struct Link<'a> {
     node: Node<'a, 'a>,
     joint: Option<Node<'a, 'a>>,
@@ -55,7 +55,8 @@ pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<M
         }
     }
     let frictions = gazebo(source, root);
-    // Parents before children; what is left when nothing more hangs on anything goes in circles.
+    // Parents before children; what is left when nothing more is attached to anything goes in
+    // circles.
     let mut indices: HashMap<&str, usize> = HashMap::from([(WORLD, 0)]);
     let mut waiting: Vec<usize> = (0..links.len()).collect();
     loop {
@@ -75,7 +76,7 @@ pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<M
                     indices.insert(name, model.bodies.len());
                     model.bodies.push(body);
                 }
-                // Its fault is noted; children are looked at all the same.
+                // Its fault is noted; children are still looked at.
                 None => {
                     indices.insert(name, 0);
                 }
@@ -92,7 +93,7 @@ pub(super) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> Option<M
     Some(model)
 }
 
-/// Notes which joint a link hangs on; none, with a fault, if the joint is not sound.
+/// Notes which joint attaches a link; `None`, with a fault, if the joint is not sound.
 fn hang<'a>(
     source: &mut Source<'a>,
     joint: Node<'a, 'a>,
@@ -111,7 +112,7 @@ fn hang<'a>(
     match found {
         Some((_, link)) if link.joint.is_none() && child != WORLD => link.joint = Some(joint),
         _ => {
-            let message = format!("the link `{child}` hangs on two joints");
+            let message = format!("the link `{child}` is attached by two joints");
             source.fault(joint, message, "a link has one parent, and `world` has none");
             return None;
         }
@@ -138,7 +139,7 @@ fn take<'a>(
             let pose = above * origin(source, node)?;
             (pose, motion(source, node, pose)?)
         }
-        // What hangs on nothing stands freely, as in Bullet and MuJoCo.
+        // A link that is attached to nothing stands freely, as in Bullet and MuJoCo.
         None => (above, Motion::Free),
     };
     let friction = match friction(source, link.node) {
@@ -194,7 +195,7 @@ fn motion<'a>(
         "prismatic" => Motion::Slide { axis, limits: Some(limits) },
         "planar" => Motion::Other("a planar joint".to_owned()),
         other => {
-            let message = format!("`{other}` is no type of a joint");
+            let message = format!("`{other}` is not a type of joint");
             let advice = "write fixed, floating, revolute, continuous or prismatic";
             source.fault(joint, message, advice);
             return None;
@@ -306,7 +307,7 @@ fn inertial<'a>(
     Some((mass, frame.translation.vector.into(), about))
 }
 
-/// The friction of a link as Bullet has it; the inner none, with a fault, if it is no number.
+/// The friction of a link as Bullet has it; the inner none, with a fault, if it is not a number.
 fn friction<'a>(source: &mut Source<'a>, link: Node<'a, 'a>) -> Option<Option<f64>> {
     let value = element(element(link, "contact")?, "lateral_friction")?.attribute_node("value")?;
     Some(source.number(value))
@@ -322,7 +323,7 @@ fn gazebo<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) -> HashMap<String, f6
             Ok(friction) if friction.is_finite() => {
                 found.insert(link.to_owned(), friction);
             }
-            _ => source.fault(stated, "this friction is no number", "write one such as 0.4"),
+            _ => source.fault(stated, "this friction is not a number", "write one such as 0.4"),
         }
     }
     found

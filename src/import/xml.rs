@@ -55,11 +55,11 @@ impl<'a> Source<'a> {
         self.ledger.fault(place, message, advice);
     }
 
-    /// Notes attributes of an element that are none of `known`.
+    /// Notes attributes of an element that are not among `known`.
     pub fn only(&mut self, node: Node<'a, 'a>, known: &[&[&str]]) {
         for attribute in node.attributes() {
             let name = attribute.name();
-            // Those of other namespaces are somebody else's.
+            // Those of other namespaces are not ours to judge.
             if attribute.namespace().is_none() && !known.iter().any(|list| list.contains(&name)) {
                 let tag = node.tag_name().name();
                 let message = format!("<{tag}> has an attribute `{name}` that is not known");
@@ -68,7 +68,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// All numbers of an attribute; none, with a fault, if one is none or not finite.
+    /// All numbers of an attribute; `None`, with a fault, if one is not a number or not finite.
     pub fn list(&mut self, attribute: Attribute<'a, 'a>) -> Option<Vec<f64>> {
         let mut found = Vec::new();
         for word in attribute.value().split_whitespace() {

@@ -1,4 +1,4 @@
-//! A prediction beside the truth of a trial.
+//! A prediction compared with the truth of a trial.
 
 use crate::{
     effect::EffectModel,
@@ -12,7 +12,7 @@ use super::{
     trial::Trial,
 };
 
-/// A model's rollout beside the truth of a trial.
+/// A model's rollout and the truth of a trial.
 #[derive(Clone, Debug)]
 pub struct Comparison<'a> {
     trial: &'a Trial,
@@ -21,7 +21,7 @@ pub struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// What was `predicted` for the trial, beside its truth. No frames are no answer.
+    /// What was `predicted` for the trial, with its truth. Without frames there is no answer.
     pub fn new(trial: &'a Trial, predicted: Trajectory) -> Self {
         Self { trial, start: trial.scene.start(), predicted }
     }
@@ -44,7 +44,7 @@ impl<'a> Comparison<'a> {
         !self.predicted.frames.is_empty() && !self.predicted.warnings.contains(&Warning::Refused)
     }
 
-    /// Whether it gave an answer that stays within the finite numbers.
+    /// Whether it gave a finite answer.
     pub fn is_finite(&self) -> bool {
         self.is_answered() && !self.predicted.warnings.contains(&Warning::NotFinite)
     }
@@ -61,7 +61,7 @@ impl<'a> Comparison<'a> {
         last.map_or_else(Vec::new, |moment| self.end_against(&moment.poses))
     }
 
-    /// Errors at every moment at which the truth is known. Saying nothing is predicting that
+    /// Errors at every moment at which the truth is known. No answer counts as predicting that
     /// nothing moves.
     pub fn moments(&self) -> Vec<Vec<ObjectError>> {
         let pairs = self.states().into_iter().zip(&self.trial.truth);
@@ -81,7 +81,7 @@ impl<'a> Comparison<'a> {
         Joints::new(&self.trial.scene).drift(&self.states())
     }
 
-    /// The trial as if what was predicted had really happened.
+    /// The trial as if the prediction had really happened.
     pub fn as_truth(&self) -> Trial {
         let poses = self.states().into_iter().map(|state| state.poses.clone());
         let mut trial = self.trial.clone();

@@ -12,9 +12,9 @@ use crate::{
 pub struct Drift {
     /// Number of joints.
     pub joints: usize,
-    /// Mean distance from where the joint would hold, metres: of a fixed joint the second
-    /// object's distance from its place beside the first, of a revolute one the distance of the
-    /// two anchors, of a prismatic one the offset across the axis.
+    /// Mean distance from where the joint would hold, metres: of a fixed joint the second object's
+    /// distance from its place relative to the first, of a revolute one the distance of the two
+    /// anchors, of a prismatic one the offset across the axis.
     pub mean: f64,
     /// The largest, metres.
     pub max: f64,

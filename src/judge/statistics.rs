@@ -9,7 +9,7 @@ use crate::scene::Span;
 /// Resamples of a bootstrap: the ends of a 95 % interval are then the 25th of a thousand.
 const RESAMPLES: usize = 1000;
 
-/// What a list of numbers says, in their unit.
+/// The summary of a list of numbers, in their unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// How many numbers.
@@ -62,7 +62,7 @@ impl Summary {
     }
 }
 
-/// Position errors of objects beside how far they truly moved.
+/// Position errors of objects, and how far they truly moved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RelativeErrors {
     /// Number of objects.
@@ -150,7 +150,7 @@ fn interval(count: usize, statistic: impl Fn(&mut dyn Iterator<Item = usize>) ->
     Span::new(percentile(&values, 2.5), percentile(&values, 97.5))
 }
 
-/// `error / motion`; 0 where nothing moved, so that no infinity travels.
+/// `error / motion`; 0 where nothing moved, so that no infinity spreads.
 fn ratio([error, motion]: [f64; 2]) -> f64 {
     if motion > 0.0 { error / motion } else { 0.0 }
 }

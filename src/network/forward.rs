@@ -1,13 +1,13 @@
-//! Fused inference: the predictor on preallocated buffers, `gemm` called directly.
+//! Fused inference: the predictor on preallocated buffers, its kernels of `gemm` called directly.
 //!
-//! Computes the same as [`super::Predictor::forward`] (a test holds the two together) without
+//! Computes the same as the graph that training differentiates (a test holds the two together), without
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 
 use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Normaliser, Parameters, Rows, Statistics, Weights,
+    Config, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -58,7 +58,7 @@ pub struct Buffers {
 
 impl Forward {
     /// Takes the weights apart into the layout of the fused pass.
-    pub fn new(weights: &Weights) -> Self {
+    pub fn new(weights: &PredictorWeights) -> Self {
         Self::of(&weights.card.config, &weights.card.normaliser, &weights.parameters)
     }
 
@@ -178,7 +178,7 @@ impl Forward {
         self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
-        // With a single object per graph nobody but kinematic bodies sends anything.
+        // With a single object per graph only kinematic bodies send anything.
         let objects_send = objects_send(batch.senders);
         w.to_sender.resize(2 * n * h, 0.0);
         for _ in 0..self.steps {
@@ -296,7 +296,7 @@ fn multiply(x: &[f32], matrix: &[f32], m: usize, k: usize, n: usize, out: &mut [
     if m != 1 {
         return multiply_rows(x, matrix, m, k, n, out, add);
     }
-    // gemm takes another way for a single row, which rounds otherwise: give it a second one.
+    // gemm takes another path for a single row, which rounds differently: give it a second one.
     let mut rows = x.to_vec();
     rows.resize(2 * k, 0.0);
     let mut both = out.to_vec();
@@ -320,26 +320,28 @@ fn multiply_rows(
     // matrices, so every access lies inside its slice; `out` is borrowed mutably and so does
     // not overlap the others.
     unsafe {
-        gemm::gemm(
-            m,
+        // The kernels want columns that lie together, so what is asked for is the transposed product,
+        // out' = matrix' x'. Strides are those between columns, then between rows.
+        gemm_f32::gemm::f32::get_gemm_fn()(
             n,
+            m,
             k,
             out.as_mut_ptr(),
-            1,
             n as isize,
+            1,
             add,
-            x.as_ptr(),
-            1,
-            k as isize,
             matrix.as_ptr(),
-            1,
             n as isize,
+            1,
+            x.as_ptr(),
+            k as isize,
+            1,
             1.0,
             1.0,
             false,
             false,
             false,
-            gemm::Parallelism::None,
+            gemm_common::Parallelism::None,
         );
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use super::{Config, Tables};
+use super::{Config, Layout, Tables};
 
 /// Parameter values by name, each row-major in the shape that [`layout`] gives.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Parameters {
 }
 
 /// [`layout_of`] pushes.
-pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+pub fn layout(config: &Config) -> Layout {
     layout_of(&Tables::PUSHES, config)
 }
 
@@ -25,7 +25,7 @@ pub fn layout(config: &Config) -> Vec<(&'static str, Vec<usize>)> {
 ///
 /// A matrix `[2, h, h]` acts on the even half and on the odd half separately; biases `[h]` exist
 /// for the even half alone, since a constant cannot change sign under mirroring.
-pub fn layout_of(tables: &Tables, config: &Config) -> Vec<(&'static str, Vec<usize>)> {
+pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
     let Tables { node, relation, output } = *tables;
     let h = config.half();
     let square = || vec![2, h, h];

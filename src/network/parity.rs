@@ -18,7 +18,7 @@ pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
 
 /// Rectifies the rows of x [2, M, h] after adding `bias` [h] to the even half: the forward pass of
 /// the candle graph's layer and of the fused pass.
-pub(super) fn rectify_rows(x: &mut [f32], bias: &[f32]) {
+pub fn rectify_rows(x: &mut [f32], bias: &[f32]) {
     Arch::new().dispatch(Rows { x, bias });
 }
 
@@ -27,7 +27,7 @@ struct Rows<'a> {
     bias: &'a [f32],
 }
 
-// On the widest vectors that the processor has, not only those that every one has; the same bits. A
+// On the widest vectors of the processor, not only those that all processors have; the same bits. A
 // closure would do, but is not always inlined, and then silently runs on the narrowest.
 impl WithSimd for Rows<'_> {
     type Output = ();
@@ -49,17 +49,25 @@ impl WithSimd for Rows<'_> {
 /// a [2, R, h], b, c and sum [2, N, h]. A sender past the last node sends nothing of its own.
 /// The forward pass of both the candle graph and the fused pass; `h` is half the width.
 /// `sum` must be zero on entry.
-pub(super) struct Sum<'a> {
+pub struct Sum<'a> {
+    /// What each relation says, [2, R, h].
     pub a: &'a [f32],
+    /// What each receiver adds, [2, N, h].
     pub b: &'a [f32],
+    /// What each sender adds, [2, N, h].
     pub c: &'a [f32],
+    /// Receivers, [R].
     pub receivers: &'a [u32],
+    /// Senders, [R].
     pub senders: &'a [u32],
+    /// Half the width.
     pub h: usize,
+    /// Sums at the receivers, [2, N, h].
     pub sum: &'a mut [f32],
 }
 
 impl Sum<'_> {
+    /// Adds all messages.
     pub fn run(self) {
         Arch::new().dispatch(self);
     }

@@ -1,160 +1,76 @@
-//! The physics predictor as a candle graph: the reference, and what training differentiates.
-//!
-//! Propagation networks (Li et al., ICRA 2019, eq. 3-5; Tekden et al., ICRA 2020): relations
-//! are encoded as c_k, objects as h_i, and for L steps
-//!
-//! ```text
-//! e_k = f_R(c_k, p_r, p_s)        p_i <- f_O(h_i, sum_k e_k, p_i)
-//! ```
-//!
-//! with p_i starting at h_i, and the motion read from p_i after the last step. f_R is one
-//! layer of three matrices, whose p parts are computed per node before gathering; the matrix
-//! behind its rectifier is merged with f_O's, since a sum commutes with it. B graphs are laid
-//! side by side as N nodes and R relations.
+//! What the weights of the physics predictor are.
 
-use std::{collections::BTreeMap, sync::Arc};
+use serde::{Deserialize, Serialize};
 
-use candle_core::{Device, Result, Tensor, Var, bail};
+use crate::scene::Ranges;
 
 use super::{
-    Config, Normaliser, Parameters, Rows, Statistics, Tables, layout_of,
-    operations::{BiasRectify, Messages},
+    Config, Normaliser, Tables, layout,
+    tensors::Layout,
+    weights::{Card, Weights, WeightsError, check_config, check_normaliser},
 };
 
-/// A batch as normalised tensors.
-pub struct Inputs {
-    node_even: Tensor,
-    node_odd: Tensor,
-    relation_even: Tensor,
-    relation_odd: Tensor,
-    receivers: Arc<[u32]>,
-    senders: Arc<[u32]>,
+/// Largest held-out error that a card may state, metres: longer than any table.
+const LARGEST_ERROR: f64 = 100.0;
+
+/// The weights of the physics predictor.
+pub type PredictorWeights = Weights<PredictorCard>;
+
+/// Held-out errors that planning needs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorCard {
+    /// Held-out pushes counted (true motion over 1 cm).
+    pub pushes: usize,
+    /// Mean final position error, metres.
+    pub mean: f64,
+    /// Median, metres.
+    pub median: f64,
+    /// 95th percentile, metres.
+    pub p95: f64,
 }
 
-impl Inputs {
-    /// Normalises the feature tables of a batch.
-    ///
-    /// # Errors
-    /// Those of candle, which tables of whole rows do not cause.
-    pub fn new<'a>(batch: impl Into<Rows<'a>>, normaliser: &Normaliser) -> Result<Self> {
-        let rows = batch.into();
-        let table = |values: &[f32], scales: &Statistics| {
-            let columns = scales.mean.len();
-            let shape = (values.len() / columns, columns);
-            Tensor::from_vec(scales.apply(values), shape, &Device::Cpu)
-        };
-        Ok(Self {
-            node_even: table(rows.node_even, &normaliser.node_even)?,
-            node_odd: table(rows.node_odd, &normaliser.node_odd)?,
-            relation_even: table(rows.relation_even, &normaliser.relation_even)?,
-            relation_odd: table(rows.relation_odd, &normaliser.relation_odd)?,
-            receivers: rows.receivers.into(),
-            senders: rows.senders.into(),
-        })
-    }
+/// What the weights are and how they came about.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PredictorCard {
+    /// Network size.
+    pub config: Config,
+    /// Feature scales.
+    pub normaliser: Normaliser,
+    /// Ranges of the training data.
+    pub ranges: Ranges,
+    /// Seed of the training data.
+    pub data_seed: u64,
+    /// Training episodes.
+    pub episodes: u64,
+    /// Optimiser steps taken.
+    pub steps: u64,
+    /// Errors of final positions, one object, on the training's own held-out episodes, if there
+    /// were any.
+    pub errors: Option<ErrorCard>,
 }
 
-/// The network with its variables.
-pub struct Predictor {
-    config: Config,
-    variables: BTreeMap<String, Var>,
-}
+impl Card for PredictorCard {
+    const KEY: &'static str = "pushplan";
+    const FORMAT: u32 = 4;
 
-impl Predictor {
-    /// A network of pushes with the given parameters.
-    ///
-    /// # Errors
-    /// As those of [`Predictor::of`].
-    pub fn new(config: Config, parameters: &Parameters) -> Result<Self> {
-        Self::of(&Tables::PUSHES, config, parameters)
-    }
-
-    /// A network on these tables with the given parameters.
-    ///
-    /// # Errors
-    /// If a parameter is missing or has another shape than [`layout_of`] says.
-    pub fn of(tables: &Tables, config: Config, parameters: &Parameters) -> Result<Self> {
-        let mut variables = BTreeMap::new();
-        for (name, shape) in layout_of(tables, &config) {
-            let Some(values) = parameters.values.get(name) else {
-                bail!("the parameter {name} is missing")
-            };
-            let tensor = Tensor::from_slice(values, shape.as_slice(), &Device::Cpu)?;
-            variables.insert(name.to_owned(), Var::from_tensor(&tensor)?);
+    fn check(&self) -> Result<(), WeightsError> {
+        check_config(self.config)?;
+        check_normaliser(&self.normaliser, &Tables::PUSHES)?;
+        if let Some((name, value)) = self.ranges.unsound() {
+            let (name, expected) = (format!("ranges.{name}"), "a number up to its upper end");
+            return Err(WeightsError::Value { name, value, expected });
         }
-        Ok(Self { config, variables })
-    }
-
-    /// The variables by name.
-    pub fn variables(&self) -> &BTreeMap<String, Var> {
-        &self.variables
-    }
-
-    /// Copies the present values out.
-    ///
-    /// # Errors
-    /// Those of candle.
-    pub fn parameters(&self) -> Result<Parameters> {
-        let values = self
-            .variables
-            .iter()
-            .map(|(name, var)| Ok((name.clone(), var.flatten_all()?.to_vec1()?)))
-            .collect::<Result<_>>()?;
-        Ok(Parameters { values })
-    }
-
-    /// What is read from every node, even columns first: of pushes the correction of the prior in
-    /// output units, [N, 6] in the order of [`crate::graph::Node::prior`].
-    ///
-    /// # Errors
-    /// Those of candle.
-    pub fn forward(&self, inputs: &Inputs) -> Result<Tensor> {
-        let h = self.object(inputs)?;
-        let nodes = h.dims()[1];
-        if nodes == 0 {
-            return Tensor::zeros((0, 6), candle_core::DType::F32, &Device::Cpu);
+        let Some(ErrorCard { mean, median, p95, .. }) = self.errors else { return Ok(()) };
+        for (name, value) in [("mean", mean), ("median", median), ("p95", p95)] {
+            if !(0.0..=LARGEST_ERROR).contains(&value) {
+                let name = format!("errors.{name}");
+                return Err(WeightsError::Value { name, value, expected: "0 to 100 m" });
+            }
         }
-        let relation = self.relation(inputs)?.matmul(self.get("message.relation"))?;
-        let keep = h.matmul(self.get("update.object"))?;
-        let mut p = h;
-        for _ in 0..self.config.steps {
-            let sum = relation.apply_op3(
-                &p.matmul(self.get("message.receiver"))?,
-                &p.matmul(self.get("message.sender"))?,
-                Messages { receivers: inputs.receivers.clone(), senders: inputs.senders.clone() },
-            )?;
-            let own = p.matmul(self.get("update.own"))?;
-            let next = ((sum.matmul(self.get("update.effect"))? + &keep)? + own)?;
-            p = self.rectify(&next, "update.bias")?;
-        }
-        let hidden = self.rectify(&p.matmul(self.get("motion.hidden"))?, "motion.hidden_bias")?;
-        let even = hidden.get(0)?.matmul(self.get("motion.even"))?;
-        let odd = hidden.get(1)?.matmul(self.get("motion.odd"))?;
-        Tensor::cat(&[even, odd], 1)
+        Ok(())
     }
 
-    fn relation(&self, inputs: &Inputs) -> Result<Tensor> {
-        let first = self.first(&inputs.relation_even, &inputs.relation_odd, "relation")?;
-        self.rectify(&first.matmul(self.get("relation.second"))?, "relation.second_bias")
-    }
-
-    fn object(&self, inputs: &Inputs) -> Result<Tensor> {
-        let first = self.first(&inputs.node_even, &inputs.node_odd, "object")?;
-        self.rectify(&first.matmul(self.get("object.second"))?, "object.second_bias")
-    }
-
-    fn first(&self, even: &Tensor, odd: &Tensor, layer: &str) -> Result<Tensor> {
-        let even = even.matmul(self.get(&format!("{layer}.even")))?;
-        let odd = odd.matmul(self.get(&format!("{layer}.odd")))?;
-        self.rectify(&Tensor::stack(&[even, odd], 0)?, &format!("{layer}.bias"))
-    }
-
-    fn rectify(&self, x: &Tensor, bias: &str) -> Result<Tensor> {
-        x.apply_op2(self.get(bias), BiasRectify)
-    }
-
-    /// A variable that the constructor put there.
-    fn get(&self, name: &str) -> &Tensor {
-        self.variables[name].as_tensor()
+    fn layout(&self) -> Layout {
+        layout(&self.config)
     }
 }

@@ -1,39 +1,56 @@
-//! The weights file: parameters with everything needed to use and to judge them.
+//! A weights file: the parameters of a network with everything needed to use and to judge them.
 //!
 //! A safetensors file whose metadata hold one JSON text: the format number, a checksum over the
-//! card and all tensors, and the [`Card`]. Reading checks every name, shape and number: loading
-//! into an empty map must never look like success.
+//! card and all tensors, and the card. Which network it is the [`Card`] says, with the key under
+//! which that text stands. Reading checks every name, shape and number: loading into an empty map
+//! must never look like success.
 
 use std::fmt;
 use std::path::Path;
 
 use safetensors::SafeTensors;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{
-    checksum::{checksum, extend},
-    scene::Ranges,
-};
+use crate::checksum::{checksum, extend};
 
 use super::{
-    Config, Normaliser, Parameters, Tables, layout,
+    Config, Normaliser, Parameters, Statistics, Tables,
     normaliser::MIN_DEVIATION,
-    tensors::{ParameterError, decode_parameters, encode_parameters, file_metadata},
+    tensors::{Layout, ParameterError, decode_parameters, encode_parameters, file_metadata},
 };
-
-/// Version of the feature layout and file format; a file of another version is refused.
-const FORMAT: u32 = 4;
 
 /// Largest magnitude of a parameter, a mean or a deviation. Those of trained networks stay below 4;
 /// far beyond, products of single precision overflow.
 const LARGEST: f32 = 1e3;
 
-/// Largest held-out error that a card may state, metres: longer than any table.
-const LARGEST_ERROR: f64 = 100.0;
+/// What the weights of a network are and how they came about.
+pub trait Card: Clone + Serialize + DeserializeOwned {
+    /// Key of the card in the file's metadata: which network it is.
+    const KEY: &'static str;
 
-/// Key of the card in the file's metadata.
-const KEY: &str = "pushplan";
+    /// Version of the feature layout and file format; a file of another version is refused.
+    const FORMAT: u32;
+
+    /// Whether sizes and scales are those of a network that can be; asked before the layout is.
+    ///
+    /// # Errors
+    /// [`WeightsError`] for the first that is not.
+    fn check(&self) -> Result<(), WeightsError>;
+
+    /// Names and shapes of all parameters.
+    fn layout(&self) -> Layout;
+}
+
+/// A card and its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weights<C> {
+    /// What they are.
+    pub card: C,
+    /// Their values.
+    pub parameters: Parameters,
+}
 
 /// Why a weights file cannot be used.
 #[derive(Error)]
@@ -44,17 +61,22 @@ pub enum WeightsError {
     /// Not a safetensors file.
     #[error("not a weights file: {0}")]
     Format(#[from] safetensors::SafeTensorError),
-    /// A safetensors file of someone else.
-    #[error("a safetensors file, but not one of pushplan: its metadata have no `{KEY}` entry")]
-    Foreign,
+    /// A safetensors file of someone else, or of another network.
+    #[error("a safetensors file, but not one of this network: its metadata have no `{key}` entry")]
+    Foreign {
+        /// Of this network.
+        key: &'static str,
+    },
     /// The card cannot be read.
     #[error("the weights file's card is damaged: {0}")]
     Card(#[from] serde_json::Error),
     /// Written by another version.
-    #[error("the weights file has format {found}, this program reads {FORMAT}; train again")]
+    #[error("the weights file has format {found}, this program reads {read}; train again")]
     Version {
         /// Format number found.
         found: u32,
+        /// The one that can be read.
+        read: u32,
     },
     /// A size that no network has.
     #[error("the weights file describes an impossible network: width {width}, {steps} steps")]
@@ -96,54 +118,12 @@ impl fmt::Debug for WeightsError {
     }
 }
 
-/// Held-out errors that planning needs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ErrorCard {
-    /// Held-out pushes counted (true motion over 1 cm).
-    pub pushes: usize,
-    /// Mean final position error, metres.
-    pub mean: f64,
-    /// Median, metres.
-    pub median: f64,
-    /// 95th percentile, metres.
-    pub p95: f64,
-}
-
-/// What the weights are and how they came about.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Card {
-    /// Network size.
-    pub config: Config,
-    /// Feature scales.
-    pub normaliser: Normaliser,
-    /// Ranges of the training data.
-    pub ranges: Ranges,
-    /// Seed of the training data.
-    pub data_seed: u64,
-    /// Training episodes.
-    pub episodes: u64,
-    /// Optimiser steps taken.
-    pub steps: u64,
-    /// Errors of final positions, one object, on the training's own held-out episodes, if there
-    /// were any.
-    pub errors: Option<ErrorCard>,
-}
-
-/// A card and its parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Weights {
-    /// What they are.
-    pub card: Card,
-    /// Their values.
-    pub parameters: Parameters,
-}
-
 /// The text of the metadata.
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct Header<C> {
     format: u32,
     checksum: String,
-    card: Card,
+    card: C,
 }
 
 /// What is read first of it: a header of another format may have other keys.
@@ -152,15 +132,21 @@ struct FormatOnly {
     format: u32,
 }
 
-impl Weights {
+impl<C: Card> Weights<C> {
+    /// Whether a file's bytes are of this network, damaged or not.
+    pub fn are_in(bytes: &[u8]) -> bool {
+        file_metadata(bytes, C::KEY).is_ok_and(|text| text.is_some())
+    }
+
     /// The file's bytes; the same weights give the same bytes.
     ///
     /// # Errors
     /// If a parameter's length does not fit its shape.
     pub fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
-        let header = Header { format: FORMAT, checksum: self.checksum()?, card: self.card.clone() };
-        let header = serde_json::to_string(&header)?;
-        Ok(encode_parameters(&layout(&self.card.config), &[("", &self.parameters)], (KEY, header))?)
+        let (checksum, card) = (self.checksum()?, self.card.clone());
+        let header = serde_json::to_string(&Header { format: C::FORMAT, checksum, card })?;
+        let groups = [("", &self.parameters)];
+        Ok(encode_parameters(&self.card.layout(), &groups, (C::KEY, header))?)
     }
 
     /// Reads a file.
@@ -175,21 +161,17 @@ impl Weights {
     ///
     /// # Errors
     /// [`WeightsError`] if they are not a complete, sound and undamaged weights file of this
-    /// version.
+    /// network and version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, WeightsError> {
-        let text = file_metadata(bytes, KEY)?.ok_or(WeightsError::Foreign)?;
+        let text = file_metadata(bytes, C::KEY)?.ok_or(WeightsError::Foreign { key: C::KEY })?;
         let FormatOnly { format: found } = serde_json::from_str(&text)?;
-        if found != FORMAT {
-            return Err(WeightsError::Version { found });
+        if found != C::FORMAT {
+            return Err(WeightsError::Version { found, read: C::FORMAT });
         }
-        let Header { checksum: written, card, .. } = serde_json::from_str(&text)?;
-        let Config { width, steps } = card.config;
-        if !(2..=4096).contains(&width) || width % 2 != 0 || !(1..=16).contains(&steps) {
-            return Err(WeightsError::Size { width, steps });
-        }
-        check_card(&card)?;
+        let Header::<C> { checksum: written, card, .. } = serde_json::from_str(&text)?;
+        card.check()?;
         let file = SafeTensors::deserialize(bytes)?;
-        let parameters = decode_parameters(&file, &layout(&card.config), "")?;
+        let parameters = decode_parameters(&file, &card.layout(), "")?;
         check_parameters(&parameters)?;
         let weights = Self { card, parameters };
         let found = weights.checksum()?;
@@ -212,58 +194,69 @@ impl Weights {
     }
 }
 
-pub(super) fn check_parameters(parameters: &Parameters) -> Result<(), WeightsError> {
+/// Whether a propagation network can have this size.
+///
+/// # Errors
+/// [`WeightsError::Size`] if not.
+pub fn check_config(config: Config) -> Result<(), WeightsError> {
+    let Config { width, steps } = config;
+    if !(2..=4096).contains(&width) || width % 2 != 0 || !(1..=16).contains(&steps) {
+        return Err(WeightsError::Size { width, steps });
+    }
+    Ok(())
+}
+
+/// Whether a network without propagation can have this width and be told so many numbers.
+///
+/// # Errors
+/// [`WeightsError::Size`] if not.
+pub fn check_widths(width: usize, told: &[usize]) -> Result<(), WeightsError> {
+    if told.iter().chain([&width]).any(|size| !(1..=4096).contains(size)) {
+        return Err(WeightsError::Size { width, steps: 1 });
+    }
+    Ok(())
+}
+
+/// Whether the scales of all four `tables` of a graph are sound.
+///
+/// # Errors
+/// As those of [`check_scales`].
+pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), WeightsError> {
+    let Tables { node, relation, .. } = tables;
+    check_scales("normaliser.node_even", &normaliser.node_even, node[0])?;
+    check_scales("normaliser.node_odd", &normaliser.node_odd, node[1])?;
+    check_scales("normaliser.relation_even", &normaliser.relation_even, relation[0])?;
+    check_scales("normaliser.relation_odd", &normaliser.relation_odd, relation[1])
+}
+
+/// Whether scales are of so many columns, and sound.
+///
+/// # Errors
+/// [`WeightsError::Parameter`] for another number of columns, [`WeightsError::Value`] for a scale
+/// that no data have.
+pub fn check_scales(name: &str, scales: &Statistics, columns: usize) -> Result<(), WeightsError> {
+    if scales.mean.len() != columns || scales.deviation.len() != columns {
+        let (name, fault) = (name.to_owned(), "has a wrong length");
+        return Err(ParameterError { name, fault }.into());
+    }
+    let mean = scales.mean.iter().find(|x| !(-LARGEST..=LARGEST).contains(*x));
+    if let Some(value) = mean {
+        let (name, value) = (format!("{name}.mean"), f64::from(*value));
+        return Err(WeightsError::Value { name, value, expected: "-1000 to 1000" });
+    }
+    let deviation = scales.deviation.iter().find(|x| !(MIN_DEVIATION..=LARGEST).contains(*x));
+    if let Some(value) = deviation {
+        let (name, value) = (format!("{name}.deviation"), f64::from(*value));
+        return Err(WeightsError::Value { name, value, expected: "0.02 to 1000" });
+    }
+    Ok(())
+}
+
+fn check_parameters(parameters: &Parameters) -> Result<(), WeightsError> {
     for (name, values) in &parameters.values {
         if let Some(value) = values.iter().find(|value| value.abs() > LARGEST) {
             let (name, value) = (format!("`{name}`"), f64::from(*value));
             return Err(WeightsError::Value { name, value, expected: "up to 1000" });
-        }
-    }
-    Ok(())
-}
-
-fn check_card(card: &Card) -> Result<(), WeightsError> {
-    check_normaliser(&card.normaliser, &Tables::PUSHES)?;
-    if let Some((name, value)) = card.ranges.unsound() {
-        let name = format!("ranges.{name}");
-        return Err(WeightsError::Value { name, value, expected: "a number up to its upper end" });
-    }
-    let errors = card
-        .errors
-        .iter()
-        .flat_map(|errors| [("mean", errors.mean), ("median", errors.median), ("p95", errors.p95)]);
-    for (name, value) in errors {
-        if !(0.0..=LARGEST_ERROR).contains(&value) {
-            let name = format!("errors.{name}");
-            return Err(WeightsError::Value { name, value, expected: "0 to 100 m" });
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn check_normaliser(
-    normaliser: &Normaliser,
-    Tables { node, relation, .. }: &Tables,
-) -> Result<(), WeightsError> {
-    for (name, table, columns) in [
-        ("node_even", &normaliser.node_even, node[0]),
-        ("node_odd", &normaliser.node_odd, node[1]),
-        ("relation_even", &normaliser.relation_even, relation[0]),
-        ("relation_odd", &normaliser.relation_odd, relation[1]),
-    ] {
-        let name = format!("normaliser.{name}");
-        if table.mean.len() != columns || table.deviation.len() != columns {
-            return Err(ParameterError { name, fault: "has a wrong length" }.into());
-        }
-        let mean = table.mean.iter().find(|x| !(-LARGEST..=LARGEST).contains(*x));
-        let deviation = table.deviation.iter().find(|x| !(MIN_DEVIATION..=LARGEST).contains(*x));
-        if let Some(value) = mean {
-            let (name, value) = (format!("{name}.mean"), f64::from(*value));
-            return Err(WeightsError::Value { name, value, expected: "-1000 to 1000" });
-        }
-        if let Some(value) = deviation {
-            let (name, value) = (format!("{name}.deviation"), f64::from(*value));
-            return Err(WeightsError::Value { name, value, expected: "0.02 to 1000" });
         }
     }
     Ok(())

@@ -1,5 +1,5 @@
-//! Which states a search continues from: cheap ones first, but of every grip, direction and
-//! place some, because the way to a goal may begin with a detour.
+//! Which states a search continues from: cheap ones first, but some of every grip, direction and
+//! place, because the way to a goal may begin with a detour.
 
 use std::collections::HashSet;
 

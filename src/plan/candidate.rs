@@ -18,7 +18,7 @@ pub enum Start {
         /// contacting face, left of the direction positive, metres.
         offset: f64,
     },
-    /// At the robot's home, or where the push before ended.
+    /// At the robot's home, or where the last push ended.
     Chained,
 }
 

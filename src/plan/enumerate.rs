@@ -33,7 +33,8 @@ pub(super) struct Extension {
     pub push: Push,
     /// Where its score is kept.
     pub scored: Option<usize>,
-    /// Least cost left if the object were carried straight along: what is tried first.
+    /// Least cost left if the object were carried straight along: the order in which pushes are
+    /// tried.
     pub promise: f64,
 }
 

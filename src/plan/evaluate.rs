@@ -1,5 +1,5 @@
-//! What a candidate really does: its pushes placed one after another, each rolled out from
-//! where the one before left the objects.
+//! What a candidate really does: its pushes placed one after another, each rolled out from where
+//! the last one left the objects.
 
 use std::sync::Arc;
 
@@ -55,8 +55,8 @@ impl Evaluation {
 /// the whole motion. The answer's order is that of the candidates.
 ///
 /// # Errors
-/// Per candidate: why a push could not be placed. Broken reach or clearance is no error here but
-/// a negative margin, so that refinement can still learn from the outcome.
+/// Per candidate: why a push could not be placed. Broken reach or clearance is not an error here
+/// but a negative margin, so that refinement can still learn from the outcome.
 pub fn evaluate(
     workspace: &Workspace,
     rollouts: &mut Rollouts,

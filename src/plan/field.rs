@@ -1,5 +1,5 @@
-//! How far an object still has to go around obstacles: what the beam over push sequences is
-//! ranked by, because the straight distance leads into every corner.
+//! How far an object still has to go around obstacles. It ranks the beam over push sequences,
+//! because the straight distance leads into every dead end.
 //!
 //! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
 //! comes from Dijkstra's algorithm on a grid with sixteen neighbours.
@@ -16,7 +16,7 @@ const SPACING: f64 = 0.02;
 /// At most this many cells along a side; a larger scene gets coarser cells.
 const MOST_CELLS: usize = 128;
 
-/// Room around everything that matters in which ways may lead, metres.
+/// Room for ways around everything that matters, metres.
 const BORDER: f64 = 0.3;
 
 /// Added where no way leads to the goal, metres: worse than any way, yet still ordered.

@@ -1,12 +1,11 @@
 //! A linear model fitted to a handful of points by least squares.
 //!
-//! Around a known point y0 = f(0) it fits y - y0 = J u from samples (u, y), by the normal
-//! equations with a small ridge, so that directions no sample went along get zero slope instead
-//! of nonsense.
+//! Around a known point y0 = f(0) it fits y - y0 = J u from samples (u, y), by the normal equations
+//! with a small ridge, so that directions without samples get zero slope instead of nonsense.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Ridge in units of the mean square of the samples: far below any slope that is meant.
+/// Ridge in units of the mean square of the samples: far below any meaningful slope.
 const RIDGE: f64 = 1e-6;
 
 /// Slopes by output: `slopes[k][i]` is the change of output k per unit of u_i. All zeros if

@@ -1,9 +1,9 @@
 //! Small dense quadratic programmes, solved by clarabel:
 //! minimise 1/2 x'Px + q'x subject to Ax <= b.
 //!
-//! One solver is kept as long as the shape stays the same, and its numbers are replaced in
-//! place; every entry is stored, zeros too, so that the sparsity pattern never changes.
-//! Nothing here panics on bad numbers: what is no answer is a [`QpStatus`].
+//! One solver is kept as long as the shape stays the same, and its numbers are replaced in place;
+//! every entry is stored, zeros too, so that the sparsity pattern never changes. Nothing here
+//! panics on bad numbers: a failure is a [`QpStatus`].
 //!
 //! The solver's tolerances are absolute, so the objective and every constraint are first divided
 //! by their largest entry, which changes no minimiser: a goal far away, tiny columns or rows of
@@ -48,7 +48,7 @@ pub enum QpStatus {
     Infeasible,
     /// The objective has no lower bound.
     Unbounded,
-    /// Too many steps, or steps that no longer got anywhere.
+    /// Too many steps, or steps that no longer made progress.
     NoProgress,
     /// Dimensions do not match, or a number is not finite or too large.
     BadProblem,

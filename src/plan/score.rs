@@ -1,10 +1,11 @@
-//! How good a rollout is: the error in units of the tolerance, and what stands behind all others.
+//! How good a rollout is: the error in units of the tolerance, and which ones come after all
+//! others.
 
 use crate::scene::{Goal, State, Trajectory, Warning};
 
-/// Added to the score of a rollout that leads through what a rigid body cannot pass. More than any
-/// error in units of a tolerance, so such a candidate is tried only when there is no other: it is
-/// not refused, because a prediction of a few millimetres too much is no proof.
+/// Added to the score of a rollout that leads through something that a rigid body cannot pass. More
+/// than any error in units of a tolerance, so such a candidate is tried only when there is no
+/// other: it is not refused, because a prediction of a few millimetres too much proves nothing.
 const BEHIND: f64 = 1e6;
 
 /// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
@@ -30,12 +31,12 @@ pub(super) fn is_blocked(trajectory: &Trajectory) -> bool {
     trajectory.warnings.iter().any(Warning::blocks)
 }
 
-/// The score, put behind those of all rollouts that are not blocked.
+/// The score, moved after those of all rollouts that are not blocked.
 pub fn behind(score: f64) -> f64 {
     bare(score) + BEHIND
 }
 
-/// Whether a score stands behind those of all rollouts that are not blocked.
+/// Whether a score comes after those of all rollouts that are not blocked.
 pub fn is_behind(score: f64) -> bool {
     score >= BEHIND && score.is_finite()
 }

@@ -25,8 +25,7 @@ pub struct ScoredPush {
     /// something could not pass (see [`super::is_behind`]). `None` if it was not rolled out, or
     /// led to no rest.
     pub score: Option<f64>,
-    /// Why it cannot be made, where that was found last; what has a score can be made from another
-    /// state.
+    /// Why it cannot be made, as found last; a way with a score can be made from another state.
     pub refused: Option<Infeasible>,
 }
 

@@ -81,9 +81,9 @@ pub(super) struct Node {
     pub state: State,
     /// Where the end effector is then.
     pub end: Option<Vector>,
-    /// Where small errors at the start lead instead, see [`Spread`]; `None` if nobody will ask.
+    /// Where small errors at the start lead instead, see [`Spread`]; `None` if that is not needed.
     pub others: Vec<State>,
-    /// Room for where the object may stand, metres.
+    /// Room for where the object may be, metres.
     pub room: f64,
 }
 

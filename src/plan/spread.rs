@@ -1,8 +1,8 @@
-//! How far from where it is predicted an object may stand when a later push begins.
+//! How far from its predicted place an object may be when a later push begins.
 //!
-//! Whatever is a little off at the start is off by more after a push: boxes turn, cans roll along
-//! a face. So the states that the search continues from are rolled out with small errors as well,
-//! and the next push is placed with room for the spread of where the object ends.
+//! An object that is a little off at the start is off by more after a push: boxes turn, cans roll
+//! along a face. So the states that the search continues from are rolled out with small errors as
+//! well, and the next push is placed with room for the spread of where the object ends.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::scene::{Physics, Scene, Situation, State, Tool, ToolMotion};
 /// Rollouts with errors for every state. The largest of six is about the 85th percentile.
 const DRAWS: usize = 6;
 
-/// Errors, beside those of supports and of the push's height, of where objects are seen, metres
+/// Errors, apart from those of supports and of the push's height, of where objects are seen, metres
 /// and radians, and of every friction value, relative.
 const SHIFT: f64 = 1e-3;
 const TURN: f64 = std::f64::consts::PI / 180.0;
@@ -25,7 +25,7 @@ const FRICTION: f64 = 0.1;
 /// The most room that a push gets, metres: a longer approach costs reach and time.
 const MOST: f64 = 0.03;
 
-/// What may be different from what is believed: the same draws for a whole search.
+/// Possible differences from what is believed: the same draws for a whole search.
 #[derive(Clone, Debug)]
 pub(super) struct Spread {
     physics: Vec<Arc<Physics>>,
@@ -104,6 +104,6 @@ pub(super) fn room(
         (a.position - b.position).norm() + radius * wrap_angle(a.heading - b.heading).abs()
     };
     let spread = others.iter().map(off).fold(0.0, f64::max);
-    // What is not a number leaves all the room there can be.
+    // NaN leaves all the room there can be.
     (error + spread).min(MOST)
 }

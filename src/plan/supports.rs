@@ -1,6 +1,6 @@
-//! Where a candidate ends on whatever its objects may rest.
+//! Where a candidate ends on whatever its objects may rest on.
 //!
-//! Nobody sees the underside of an object, and what it rests on decides how far it turns. So
+//! The underside of an object cannot be seen, and what it rests on decides how far it turns. So
 //! refinement does not bring the predicted end to the goal but the middle of all ends on plausible
 //! supports: the centre of the smallest ball around them, at which the worst one is as near as it
 //! can be.
@@ -16,7 +16,7 @@ use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
 
 /// How far the middle may lie from what is predicted on the believed support, in tolerances: that
-/// must reach the goal whatever the others do.
+/// one must reach the goal whatever the others do.
 const MOST: f64 = 0.35;
 
 /// Rounds in which the centre of the smallest ball is found, each a step towards the farthest point
@@ -33,7 +33,7 @@ pub(super) struct Ends {
     pub worst: f64,
 }
 
-/// What objects may rest on beside what is believed.
+/// What objects may rest on besides what is believed.
 pub(super) struct Supports(Vec<Arc<Physics>>);
 
 impl Supports {
@@ -104,7 +104,7 @@ fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
     centre
 }
 
-/// Where the goal object is against the goal, in units of the tolerances: x, y and the heading;
+/// Where the goal object is relative to the goal, in units of the tolerances: x, y and the heading;
 /// zero where none is asked for.
 pub(super) fn errors(goal: &Goal, outcome: &State) -> Vector3<f64> {
     let apart = (outcome.poses[goal.object].position - goal.position) / goal.tolerance;
@@ -123,7 +123,7 @@ mod tests {
     fn the_middle_is_as_near_to_all_as_can_be() {
         assert_eq!(middle(&[]), Vector3::zeros());
         let (a, b) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(1.0, 0.2, 0.0));
-        // Of these and the origin the two farthest decide.
+        // Among these and the origin, the two farthest decide.
         assert!((middle(&[a, b]) - 0.5 * a).norm() < 0.02);
         let corners = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0)];
         assert!((middle(&corners) - Vector3::new(0.5, 0.5, 0.0)).norm() < 0.02);

@@ -17,19 +17,19 @@ use super::{CandidatePush, Start};
 /// placed push).
 pub const STAND_OFF: f64 = 0.005;
 
-/// A tool that comes down keeps at least this distance from every object, metres. Small against
-/// the stand-off, because a glancing face stands closer to a round object than it travels.
+/// A tool that comes down keeps at least this distance from every object, metres. Small compared
+/// with the stand-off, because a glancing face is closer to a round object than it travels.
 pub const SET_DOWN_CLEARANCE: f64 = 0.001;
 
-/// Room for where an object may stand is kept on all sides up to this, metres: between the arms of
-/// a hook there is no more.
+/// Room for where an object may be is kept on all sides up to this, metres: between the arms of a
+/// hook there is no more.
 const MOST_ASIDE: f64 = 0.01;
 
 /// A tool keeps at least this distance from obstacles, also while pushing, metres: the error of a
 /// robot arm and its calibration.
 pub const OBSTACLE_CLEARANCE: f64 = 0.005;
 
-/// Shortest push worth making, metres: the stand-off and then as much again to be felt.
+/// Shortest push worth making, metres: the stand-off and then as much again, to have an effect.
 pub const MIN_LENGTH: f64 = 0.01;
 
 /// Offsets are tried up to the face's half width plus this share of the object's half width.
@@ -54,7 +54,7 @@ const SLACK: f64 = 1e-6;
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Infeasible {
-    /// The face passes beside or above the object.
+    /// The face passes next to or above the object.
     #[error("the face does not meet the object")]
     NoContact,
     /// Another part of the tool meets the object before the face does, or overlaps it.

@@ -1,4 +1,4 @@
-//! Recordings: what was seen on a table, frame by frame, and what follows from it.
+//! Recordings: what was seen on a table, frame by frame, and what follows from that.
 //!
 //! The types of a recording, what no real table does between two of its frames (`rules`), and the
 //! pusher's poses as a motion that an effect model can play (`replay`). Reads no files: that is

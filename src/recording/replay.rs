@@ -7,8 +7,8 @@ use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
 
 use super::observed::{RecordedFrame, Recording};
 
-/// A pusher that moves less than this between frames stands still, metres and radians: the
-/// jitter of trackers.
+/// A pusher that moves less than this between frames stands still, metres and radians: trackers
+/// jitter by this much.
 const STANDING: f64 = 2e-4;
 const STANDING_TURN: f64 = 4e-3;
 
@@ -21,7 +21,7 @@ const STRAIGHT_TURN: f64 = 0.02;
 /// compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// What the pusher did: strokes of about a model's frame, no waiting for rest but where the
+    /// What the pusher did: strokes of about a model's frame, waiting for rest only where the
     /// pusher was lifted.
     pub motion: ToolMotion,
     /// In order of time; the last one is the last recorded frame.

@@ -1,5 +1,5 @@
-//! What no real table does between two frames: then a tracker lost something, frames are missing,
-//! or a size is wrong.
+//! Motions between two frames that are impossible on a real table: a tracker lost something, frames
+//! are missing, or a size is wrong.
 
 use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{DisjointSets, near_pairs};
@@ -17,11 +17,11 @@ const TURN: f64 = 0.45 * std::f64::consts::PI;
 const GAP: f64 = 2.5;
 const MOVED: f64 = 0.002;
 
-/// What slides at the start of a recording shows it within this time, seconds; later motions of
-/// what nothing touches are a tracker's.
+/// An object that slides at the start of a recording shows it within this time, seconds; later
+/// motions of untouched objects are a tracker's errors.
 const SOON: f64 = 0.3;
 
-/// Turns of less than this at the start are a tracker's, radians.
+/// Turns of less than this at the start are a tracker's errors, radians.
 const TURNED: f64 = 0.05;
 
 /// A body of a recording.
@@ -33,7 +33,7 @@ pub enum Body {
     Object(usize),
 }
 
-/// What a body does that cannot be.
+/// Impossible motions of bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strange {
     /// Moves so far, metres.

@@ -1,4 +1,4 @@
-//! What is believed of a recording: which objects hang together, since when, and over time.
+//! What is believed after a recording: which objects are joined, since when, and how that changed.
 
 use serde_json::json;
 
@@ -13,7 +13,7 @@ use super::table::{
     NONE, Table,
 };
 
-/// Nine in ten normal numbers lie within so many standard deviations.
+/// Nine in ten normal numbers lie within this many standard deviations.
 const NINE_IN_TEN: f64 = 1.645;
 
 /// The belief about the objects called `names` of a recording of this title; `ranges` are those that masses
@@ -142,8 +142,8 @@ fn likeliest(shares: &[f64; 4]) -> usize {
     (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0)
 }
 
-/// The observation since which the likeliest type of a pair is what it is; none if nothing of it
-/// moved.
+/// The observation since which the likeliest type of a pair is what it is; `None` if neither of
+/// them moved.
 fn since(belief: &Belief, pair: usize) -> Option<usize> {
     let history = belief.history();
     history.iter().find(|step| step.evidence[pair].is_some())?;

@@ -48,7 +48,7 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// How they are shown.
     pub mark: Mark,
-    /// Words beside single points, by index.
+    /// Words next to single points, by index.
     pub labels: Vec<(usize, String)>,
 }
 
@@ -155,7 +155,7 @@ impl Chart {
         }
     }
 
-    /// The words beside points, each where it covers least.
+    /// The words next to points, each where it covers least.
     fn label(&self, svg: &mut Svg, corner: Vector, map: &impl Fn(&[f64; 2]) -> Vector) {
         let dotted = self.series.iter().filter(|series| series.mark != Mark::Line);
         let dots = dotted.flat_map(|series| &series.points).filter(|point| self.visible(point));

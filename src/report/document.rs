@@ -16,7 +16,7 @@ use super::table::Table;
 pub struct Document {
     /// What it is about; empty where it continues the one before.
     pub title: String,
-    /// What a reader must know to understand the numbers, a paragraph each.
+    /// What a reader must know to understand the numbers, in paragraphs.
     pub notes: Vec<String>,
     /// In order.
     pub sections: Vec<Section>,
@@ -70,7 +70,7 @@ impl Document {
         self.words(Table::to_markdown, "## ", false)
     }
 
-    /// The same as a page of its own beside the files of its figures.
+    /// The same as a page of its own, next to the files of its figures.
     pub fn to_page(&self) -> String {
         self.words(Table::to_markdown, "# ", true)
     }
@@ -87,7 +87,7 @@ impl Document {
         format!("{report:#}\n")
     }
 
-    /// A page that needs nothing but itself: no script, no font, no picture from elsewhere.
+    /// A self-contained page: no script, no font, no picture from elsewhere.
     pub fn to_html(&self) -> String {
         html::page(self)
     }

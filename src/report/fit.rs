@@ -1,4 +1,4 @@
-//! What was fitted to recordings: numbers, what they are worth, and the posterior as a picture.
+//! What was fitted to recordings: numbers, how sure they are, and the posterior as a picture.
 
 use serde_json::json;
 

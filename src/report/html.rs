@@ -19,7 +19,7 @@ th,td{padding:.25rem .7rem;border-bottom:1px solid #8884;text-align:left;white-s
 figure{margin:1rem 0}svg{max-width:100%;height:auto}\
 details{margin-top:2rem}";
 
-/// The page. A browser is told to load nothing at all, so that even a fault here could not.
+/// The page. The browser is told to load nothing at all, so that even a bug here could not make it.
 pub(super) fn page(document: &Document) -> String {
     let title = escape(&document.title);
     let mut out = format!(

@@ -1,4 +1,4 @@
-//! Words beside points that neither cover one another nor leave the chart.
+//! Words next to points that neither cover one another nor leave the chart.
 
 use crate::geometry::Vector;
 
@@ -11,8 +11,8 @@ const GAP: Vector = Vector::new(6.0, 6.0);
 /// Height of letters above their baseline and below it, in units of the font size.
 const ABOVE: f64 = 0.78;
 const BELOW: f64 = 0.22;
-/// How much worse it is to cover other words than to cover a dot, which the light rim of the
-/// words leaves half visible.
+/// How much worse it is to cover other words than a dot, which the light rim of the words leaves
+/// half visible.
 const OVER_WORDS: f64 = 10.0;
 
 /// Where words may still go in a chart.
@@ -31,7 +31,7 @@ impl Labels {
         Self { plot: Rect { low: corner, high: corner + size }, dots, words: Vec::new() }
     }
 
-    /// Where the baseline of `words` begins beside the dot at `point`: the place that covers
+    /// Where the baseline of `words` begins next to the dot at `point`: the place that covers
     /// least, of equal ones the first of right above, right below, left above, left below,
     /// above and below.
     pub fn place(&mut self, point: Vector, words: &str, font: Font) -> Vector {

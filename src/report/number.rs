@@ -1,4 +1,4 @@
-//! Quantities with their units, as short as a reader can use them.
+//! Quantities with their units, as short as is useful.
 
 /// A length given in metres, in millimetres.
 pub fn millimetres(metres: f64) -> String {

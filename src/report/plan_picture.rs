@@ -32,7 +32,13 @@ pub fn plan_figures(
     let still = still(task, plan, &motion, replays).to_svg();
     let mut figures = vec![Figure::svg(name, still)];
     if let Some(replay) = replay.filter(|_| animate) {
-        figures.push(moving_figure(task, &plan.plan, &motion, (Engine::Spatial, replay), name));
+        figures.push(moving_figure(
+            task,
+            &plan.plan,
+            &motion,
+            (Source::Simulated(Engine::Spatial), replay),
+            name,
+        ));
     }
     figures
 }
@@ -68,7 +74,7 @@ pub fn moving_figure(
     task: &Task,
     plan: &Plan,
     motion: &ToolMotion,
-    (engine, trajectory): (Engine, &Trajectory),
+    (source, trajectory): (Source, &Trajectory),
     name: &str,
 ) -> Figure {
     let title = match task.description.as_str() {
@@ -78,7 +84,7 @@ pub fn moving_figure(
     let picture = MovingPicture {
         title: title.to_owned(),
         plan: plan_line(plan),
-        source: Source::Simulated(engine),
+        source,
         scene: &task.scene,
         goal: &task.goal,
         robot: &task.robot,
@@ -96,7 +102,7 @@ fn still<'a>(
 ) -> ScenePicture<'a> {
     let mut errors = vec![format!("predicted {}", millimetres(plan.outcome.error))];
     let mut tracks = Vec::new();
-    // What does not move has no way to be drawn.
+    // An object that does not move has no path to draw.
     for evidence in nominal(replays).filter(|_| !motion.strokes.is_empty()) {
         let (engine, error) = (engine_name(evidence.engine), evidence.outcome.error);
         errors.push(format!("{engine} {}", millimetres(error)));

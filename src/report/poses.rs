@@ -25,7 +25,7 @@ pub struct PoseRow {
     pub pose: Pose,
 }
 
-/// What wrote a row that no model has made.
+/// The source of a row that no model made.
 pub const RECORDED: &str = "recorded";
 
 /// The rows as CSV and JSON: `name`, `by`, `object`, `time` (seconds), `x`, `y` (metres) and

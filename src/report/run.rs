@@ -238,7 +238,7 @@ fn numbers(trace: &Trace) -> Option<Section> {
     Some(Section { title: "masses and friction values".into(), table, ..Section::default() })
 }
 
-/// What was done, and where things came.
+/// What was done, and where the objects ended.
 fn picture(trace: &Trace) -> Figure {
     let task = &trace.task;
     let start = trace.before.as_ref().map_or(task.scene.start(), |before| before.state.clone());

@@ -11,7 +11,7 @@ use super::plan_text::{goal_line, plan_line, plan_sections, point};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
 
-/// A solved task, or the nearest that there is.
+/// A solved task, or the nearest plan.
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     let mut sections = Vec::new();
     if let Some(best) = solution.best() {
@@ -21,7 +21,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
         let mut outcomes = outcome_section(task, predicted, best.verdict.as_ref());
         outcomes.lines.extend(best.refinement.aimed_at.map(|aim| {
             let aim = point(aim);
-            format!("aimed at {aim}, as the same plan aimed at the goal ended beside it in 3-D")
+            format!("aimed at {aim}, as the same plan aimed at the goal ended next to it in 3-D")
         }));
         sections.push(outcomes);
     }

@@ -12,7 +12,7 @@ use super::number::{millimetres, seconds};
 use super::table::{Align, Table};
 
 /// Names of [`solved_cells`] in CSV; lengths in metres, angles in degrees, times in seconds.
-pub(super) const SOLVED_COLUMNS: [(&str, Align); 20] = [
+pub const SOLVED_COLUMNS: [(&str, Align); 20] = [
     ("index", Align::Right),
     ("task", Align::Left),
     ("status", Align::Left),
@@ -97,7 +97,7 @@ fn task_table(tasks: &[Finished<SolvedTask>]) -> Table {
 }
 
 /// A task in full, for CSV.
-pub(super) fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<String> {
+pub fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let error = |end: Option<End>| number(end.map(|end| end.error));
     let turned =
@@ -123,8 +123,8 @@ pub(super) fn solved_cells(index: usize, record: &SolvedTask, times: &Seconds) -
 }
 
 /// Which share of tasks ends within which error, on a logarithmic axis.
-pub(super) fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
-    /// Smaller errors are of no use to anybody and would only squeeze the rest, metres.
+pub fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure {
+    /// Smaller errors matter to nobody and would only squeeze the rest, metres.
     const SMALLEST: f64 = 1e-4;
     let series = errors.iter().map(|(name, errors)| {
         let mut sorted: Vec<f64> = errors.iter().map(|error| error.max(SMALLEST)).collect();
@@ -148,8 +148,8 @@ pub(super) fn error_chart(title: &str, errors: &[(String, Vec<f64>)]) -> Figure 
     Figure::chart("errors", chart)
 }
 
-/// A finished task as one JSON object, its index and times beside the record's own keys.
-pub(super) fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
+/// A finished task as one JSON object, its index and times next to the record's own keys.
+pub fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value {
     let mut value = json!(task.record);
     value["index"] = json!(task.index);
     value["seconds"] = json!(task.seconds);
@@ -157,7 +157,7 @@ pub(super) fn flat<R: serde::Serialize>(task: &Finished<R>) -> serde_json::Value
 }
 
 /// Which part of the suite the numbers are of, where it is not all of it.
-pub(super) fn progress_note(run: &RunManifest, done: usize) -> Option<String> {
+pub fn progress_note(run: &RunManifest, done: usize) -> Option<String> {
     let wanted = run.indices().len();
     let shard = run.shard.map(|shard| format!("Shard {shard} of {} tasks. ", run.tasks));
     let left = (done < wanted).then(|| format!("Unfinished: {done} of {wanted} tasks."));

@@ -2,7 +2,7 @@
 
 use crate::asset::printable;
 
-/// What stands in a cell that has no value.
+/// The content of a cell without a value.
 pub const NONE: &str = "\u{2013}";
 
 /// Side on which a column's cells line up.
@@ -14,7 +14,7 @@ pub enum Align {
     Right,
 }
 
-/// A column of a table of things: its name, its side, and what it says of a thing.
+/// A column of a table of things: its name, its side, and what it says about a thing.
 pub type Column<'a, T> = (&'a str, Align, &'a dyn Fn(&T) -> String);
 
 /// A table of short texts.
@@ -31,7 +31,7 @@ impl Table {
         Self { columns, rows: Vec::new() }
     }
 
-    /// One row for each of `things`, with what every column says of it.
+    /// One row for each of `things`, with what every column says about it.
     pub fn of<T>(things: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let mut table = Self::new(columns.iter().map(|(name, align, _)| (*name, *align)));
         for thing in things {

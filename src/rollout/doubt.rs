@@ -1,4 +1,4 @@
-//! What a rollout shows about itself that no real table does.
+//! What a rollout shows about itself that cannot happen on a real table.
 
 use crate::{
     contact::{Bodies, Jointed},

@@ -10,9 +10,9 @@ use crate::{
 const REMAINING_SLIDE: f64 = 1e-5;
 
 /// How much faster than the tool an object may come out of a frame (or as fast as the fastest
-/// object was before it), and how far it may be moved out of an overlap, metres. Physics
-/// without restoring impacts needs a factor of about one; the rest is room for error. It keeps
-/// a network that is wrong from being wildly wrong, and does nothing to one that is not.
+/// object was before it), and how far it may be moved out of an overlap, metres. Physics without
+/// restoring impacts needs a factor of about one; the rest is room for error. It keeps a wrong
+/// network from being wildly wrong, and does nothing to a right one.
 const FASTER: f64 = 1.5;
 /// The same where joints make levers of objects, whose far ends run ahead of what pushes them.
 const LEVER: f64 = 5.0;

@@ -1,9 +1,9 @@
 //! The one loop over time: graph, network, integration, new contacts.
 //!
 //! Shared by training (single frames of episodes) and planning (whole motions): [`Stepper`] takes
-//! both on, many side by side.
-//! Only what a motion can reach is looked at, and only from the first contact until rest.
-//! Which network corrects the prior is the caller's business, and so is which motions to try.
+//! both on, many side by side. Only what a motion can reach is looked at, and only from the first
+//! contact until rest. The caller decides which network corrects the prior, and which motions to
+//! try.
 
 mod doubt;
 mod integrate;

@@ -1,6 +1,6 @@
 //! Objects pressed between the tool and something that does not give way.
 //!
-//! What happens then is decided by what no model of rigid bodies knows; two engines, or one at two
+//! What happens then depends on what no model of rigid bodies knows; two engines, or one at two
 //! time steps, put the object in different places.
 
 use crate::{

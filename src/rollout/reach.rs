@@ -1,10 +1,10 @@
 //! What a stroke can set in motion: the only bodies that its frames need to look at.
 //!
 //! Objects that the tool's swept area comes near, those that move, and whatever is near those or
-//! jointed with them, and so on. *Near* allows for some motion; when an object has used that up,
-//! or the stroke ends, the list is made again. So it never leaves out anything that a frame of
-//! the whole scene would relate, however far the network throws things: the neighbour list of
-//! molecular dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
+//! joined to them, and so on. *Near* allows for some motion; when an object has used that up, or
+//! the stroke ends, the list is made again. So it never leaves out anything that a frame of the
+//! whole scene would relate, however far the network moves things: the neighbour list of molecular
+//! dynamics (Verlet 1967, doi:10.1103/PhysRev.159.98).
 
 use crate::{
     contact::{Bodies, ListIndex, MARGIN, SceneIndex, Subset},
@@ -103,7 +103,7 @@ impl Reach {
             let (pose, velocity) = (&state.poses[k], &state.velocities[k]);
             let moves = *velocity != Velocity::default();
             let room = body.radius + *near;
-            // A position that is no number is near everything.
+            // A position that is not a number is near everything.
             let apart = hull.is_some_and(|hull| hull.square_gap(pose.position) > room * room);
             if !moves && apart {
                 continue;

@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Sees to it that the list holds all that the coming frame of `stroke` can relate.
+    /// Makes sure that the list holds everything that the coming frame of `stroke` can relate.
     fn look(&mut self, stroke: &Stroke, duration: f64) {
         let Memory { subset, reach, state, .. } = &mut *self.memory;
         if self.settings.pruned {
@@ -188,7 +188,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Notes what the way and its end show that no real table does.
+    /// Notes what the way and its end show that cannot happen on a real table.
     fn doubt(&mut self) {
         let Some(stroke) = self.job.motion.slide().strokes.last() else { return };
         let Scene { objects, obstacles, .. } = self.scene;
@@ -281,7 +281,7 @@ impl<'a> Run<'a> {
             let Memory { subset, state, before, .. } = &*self.memory;
             for (own, object) in subset.objects.iter().enumerate() {
                 let (from, to) = (before.poses[own], state.poses[own]);
-                // The last one puts things where they really are.
+                // The last one puts objects where they really are.
                 self.state.poses[object.0] =
                     if k < self.span { from.towards(&to, share) } else { to };
             }
@@ -325,7 +325,8 @@ impl<'a> Run<'a> {
 
     /// Notes that `object` meets another body.
     fn meet(&mut self, object: usize, with: Body, depth: f64) {
-        // What the tool is set down on, or what overlaps at the start, is no fault of the model.
+        // Objects that the tool is set down on, or that overlap at the start, are no fault of the
+        // model.
         if self.frame > 0 && self.depths.note(object, with, depth) {
             // They were so deep already where the last frame ended.
             if self.trajectory.frames.len() > 1 {

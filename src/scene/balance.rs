@@ -1,4 +1,4 @@
-//! Which share of a weight each of several points carries.
+//! The share of a weight that each of several points carries.
 
 use crate::geometry::Vector;
 
@@ -9,7 +9,7 @@ pub fn carries(points: &[Vector]) -> Option<Vec<f64>> {
     balanced(points, &vec![1.0; points.len()])
 }
 
-/// The same for points whose shares would be as these `weights` if the origin were in their middle.
+/// The same for points whose shares would be these `weights` if the origin were in their middle.
 pub(super) fn balanced(points: &[Vector], weights: &[f64]) -> Option<Vec<f64>> {
     let mut used = vec![true; points.len()];
     loop {

@@ -29,8 +29,9 @@ pub struct Drag {
 impl Feet {
     /// What resists a planar motion of the object, whose own x axis points along the unit vector
     /// `axis`, when every point drags with its load along its own motion, and those slower than
-    /// `least` as if they were so fast. With d the motion of a point, the weight of its place is
-    /// load / max(|d|, `least`). The object leans: the centre of its load lies `lean` metres aside.
+    /// `least` as if they moved at that speed. With d the motion of a point, the weight of its
+    /// place is load / max(|d|, `least`). The object leans: the centre of its load is off by `lean`
+    /// metres.
     pub fn drag(&self, axis: Vector, motion: (Vector, f64), least: f64, lean: Vector) -> Drag {
         ARCH.get_or_init(Arch::new).dispatch(Moving { feet: self, axis, motion, least, lean })
     }
@@ -46,7 +47,7 @@ impl Feet {
         lean: Vector,
     ) -> Drag {
         let speed = (linear.x * linear.x + linear.y * linear.y).sqrt();
-        // The points of what is round stand for all of its turns, so they turn with the motion.
+        // The points of a round object stand for all of its turns, so they turn with the motion.
         let (cos, sin) = match self.round {
             true if speed > 0.0 => (linear.x / speed, linear.y / speed),
             true => (1.0, 0.0),

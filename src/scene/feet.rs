@@ -20,7 +20,7 @@ pub struct Feet {
     pub load: [f64; MAX_FEET],
     /// How many there are.
     pub count: usize,
-    /// Whether they stand for something that looks the same at every turn.
+    /// Whether they stand for an object that looks the same at every turn.
     pub round: bool,
     /// Whether they stand for even pressure, so that other points would do as well.
     even: bool,
@@ -80,9 +80,9 @@ impl Feet {
     }
 
     /// In place of even pressure fewer points with the same first and second moments, for engines
-    /// in which all of them are contacts of a body that tips: how it spreads its weight over many
-    /// is left to chance there, and each costs time. Eight under a cylinder, four under anything
-    /// else. Points that are stated stay.
+    /// in which all of them are contacts of a body that can tip: there it is left to chance how its
+    /// weight spreads over many contacts, and each costs time. Eight under a cylinder, four under
+    /// anything else. Points that are stated stay.
     pub fn few(&self, footprint: &Footprint) -> Self {
         if !self.even {
             return self.clone();
@@ -200,7 +200,8 @@ impl Feet {
     }
 
     /// Shares of the weight when the centre of the load lies at `lean`, in the object's frame.
-    /// Points do not pull: where some would have to, the rest carries all, a little less far aside.
+    /// Points do not pull: where some would have to, the others carry all, with the centre a little
+    /// less far off.
     pub fn leaning(&self, lean: Vector) -> [f64; MAX_FEET] {
         let slope = self.slope(lean);
         let mut load = self.load;
@@ -257,7 +258,7 @@ mod tests {
                 let loads = feet.leaning(lean);
                 let centre: Vector = feet.each().zip(loads).map(|((at, _), load)| load * at).sum();
                 assert!((centre - lean).norm() < 1e-12, "{shape:?} {support:?}: {centre}");
-                // So slow that all points weigh alike, what is left is the load's first moment.
+                // At so low a speed all points weigh alike, and the load's first moment is left.
                 let motion = (Vector::new(0.1, 0.03), 0.4);
                 let drag = feet.drag(Vector::x(), motion, 1.0, lean);
                 assert!((drag.first - lean).norm() < 1e-12, "{shape:?} {support:?}: {drag:?}");

@@ -53,7 +53,7 @@ pub fn pair_friction(
 }
 
 impl Physics {
-    /// Coefficient of friction between an object and what has this friction `value`.
+    /// Coefficient of friction between an object and a body of this friction `value`.
     pub fn friction(&self, object: usize, with: Surface, value: f64) -> f64 {
         pair_friction(&self.pairs, object, with, [self.frictions[object], value])
     }

@@ -10,7 +10,7 @@ use super::{Joint, JointKind, Object, Physics, Scene};
 pub const NEARLY_TOUCHING: f64 = 0.005;
 
 impl Physics {
-    /// What someone believes who knows which objects of `scene` are joined and by which type of
+    /// The beliefs of someone who knows which objects of `scene` are joined, and by which type of
     /// joint, but not where the axes are.
     ///
     /// Geometry is guessed from the stated poses: the axis of a revolute joint stands midway

@@ -1,4 +1,4 @@
-//! Joints between objects: what two of them may do against each other.
+//! Joints between objects: how two of them may move against each other.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::geometry::{Pose, Vector};
 
 use super::{Object, Span};
 
-/// What two jointed objects may do against each other.
+/// How two joined objects may move against each other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
@@ -48,8 +48,8 @@ impl Joint {
     }
 
     /// The joint's own frame as seen from each of its two objects. At the poses that the scene
-    /// states (not where the objects may have come since) the two coincide. A revolute joint
-    /// turns about the frames' origin; a prismatic one slides along their x axis.
+    /// states (not where the objects have moved since) the two coincide. A revolute joint turns
+    /// about the frames' origin; a prismatic one slides along their x axis.
     pub fn frames(&self, objects: &[Object]) -> [Pose; 2] {
         let [first, second] = self.between.map(|index| objects[index].pose);
         let world = match self.kind {

@@ -1,12 +1,12 @@
-//! The plain data of the field.
+//! The plain data of scenes.
 //!
 //! - What is *seen* or stated in a file: objects, obstacles, tools, tasks and goals.
 //! - What is *believed*: [`Physics`]. A [`Situation`] is a scene, where everything is now, and
 //!   what is believed about it; a [`Job`] is a tool motion that begins in one.
 //! - What *happened*: trajectories, plans and verdicts.
 //!
-//! No files are read here, nothing is simulated and nothing is decided; every other room takes
-//! and gives these types. SI units and radians throughout.
+//! No files are read here, nothing is simulated and nothing is decided; every other module takes
+//! and returns these types. SI units and radians throughout.
 
 mod balance;
 mod drag;
@@ -72,8 +72,7 @@ pub use outline::Piece;
 pub use physics::{Physics, face_height};
 pub use plan::{Engine, LeverStep, Plan, PushStep, Step};
 pub use quantity::Quantity;
-pub(crate) use ranges::slant;
-pub use ranges::{Ranges, Span, TRAINED_SLANT, TRAINED_SLIDE, TRAINED_TURN};
+pub use ranges::{Ranges, Span, TRAINED_SLANT, TRAINED_SLIDE, TRAINED_TURN, slant};
 pub use separation::{JOINT_ARM, Misfit, Separation};
 pub use sets::DisjointSets;
 pub use situation::Situation;

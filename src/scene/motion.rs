@@ -221,8 +221,8 @@ impl ToolMotion {
         Self { tool, lift, strokes }
     }
 
-    /// The stroke under way `time` seconds after the first one began, and the pose of the tool frame
-    /// then, if none but the last waits for rest; nothing of a motion without strokes.
+    /// The stroke under way `time` seconds after the first one began, and the pose of the tool
+    /// frame then, if only the last one waits for rest; `None` for a motion without strokes.
     pub fn at(&self, time: f64) -> Option<(usize, Pose)> {
         let (mut begun, last) = (0.0, self.strokes.len().checked_sub(1)?);
         for (k, stroke) in self.strokes.iter().enumerate() {

@@ -14,7 +14,7 @@ pub fn near_pairs(scene: &Scene) -> Vec<([usize; 2], Vector)> {
     pairs.map(|pair| (pair.between, pair.midway)).collect()
 }
 
-/// Two objects that stand near each other.
+/// Two objects near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearPair {
     /// Their indices, the lower first.

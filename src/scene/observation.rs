@@ -24,7 +24,7 @@ pub struct Sight {
     pub heading: Option<f64>,
 }
 
-/// Errors of what is seen: independent normal ones, as standard deviations.
+/// Errors of what is seen: standard deviations of independent normal errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Noise {
     /// Of either coordinate of a position, metres.
@@ -34,7 +34,7 @@ pub struct Noise {
 }
 
 impl Sight {
-    /// A pose that was seen with its heading, or without.
+    /// A pose as it was seen, with or without its heading.
     pub fn new(pose: &Pose, heading: bool) -> Self {
         Self { position: pose.position, heading: heading.then_some(pose.heading) }
     }

@@ -1,4 +1,4 @@
-//! What of a tool can be touched: its parts without the seams between them.
+//! The parts of a tool that can be touched, without the seams between them.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -21,13 +21,13 @@ const SAME_HEIGHT: f64 = 1e-6;
 /// know the tool by its pieces: to the graph each is a node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// The names of the parts that it holds whole, or of those it has a share in.
+    /// The names of the parts that it contains, or of those that it has a share in.
     pub name: String,
     /// Its solid, upright.
     pub shape: Shape,
     /// Pose of the centre in the tool frame.
     pub pose: Pose,
-    /// Where it can be touched; everywhere where nothing is said.
+    /// Where it can be touched; everywhere by default.
     pub rim: Option<Rim>,
 }
 
@@ -112,7 +112,7 @@ fn extent(part: &Part, axes: &Pose) -> Extent {
 }
 
 fn name(parts: &[&Part], extents: &[Extent], piece: Extent) -> String {
-    /// What rounding and gaps that count as none may hide, metres.
+    /// The most that rounding, and gaps that do not count, may hide, metres.
     const SLACK: f64 = 2e-4;
     let among = |is_in: &dyn Fn(&Extent, usize) -> bool| -> Vec<&str> {
         let within = |extent: &Extent| (0..2).all(|axis| is_in(extent, axis));
@@ -148,7 +148,7 @@ mod tests {
         assert_eq!(names, ["handle-1+handle-2+handle-3", "bar"]);
         let Shape::Cuboid { size } = pieces[1].shape else { panic!("a cuboid") };
         assert!((size[0] - 0.08).abs() < 1e-12 && (size[1] - 0.24).abs() < 1e-12);
-        // Held askew it is the same tool.
+        // Held at an angle it is the same tool.
         let askew = Pose::new(0.2, -0.1, 0.7);
         parts.iter_mut().for_each(|part| part.pose = askew * part.pose);
         for (piece, straight) in super::pieces(&parts).iter().zip(&pieces) {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::{Feet, Joint, Object, PairFriction, Scene, Support, Surface, Tool};
 
-/// Physical parameters under which a motion is played. What computes effects reads these and not
-/// what the scene states, so that several beliefs about one scene can be rolled out side by side.
+/// Physical parameters under which a motion is played. Effect models read these and not what the
+/// scene states, so that several beliefs about one scene can be rolled out side by side.
 ///
 /// A tool's friction belongs to the tool.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,8 @@ pub struct Physics {
     /// What every object stands on.
     pub feet: Vec<Arc<Feet>>,
     /// How high the tool presses on objects, as a share of the mean height of where their faces
-    /// meet: 0 at the table, 1 in the middle. Flat against each other they leave it open: then
-    /// `None`. The higher, the more of the weight moves ahead, see [`Self::lean`].
+    /// meet: 0 at the table, 1 in the middle. `None` where flat faces leave it open. The higher,
+    /// the more of the weight moves ahead, see [`Self::lean`].
     pub push_height: Option<f64>,
     /// Joints between objects; their anchors, axes and limits are given where the objects stand
     /// at the poses that the scene states.
@@ -31,8 +31,8 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// What [`Self::push_height`] is taken for where nobody says it. A flat face can
-    /// press anywhere on another; this is the middle of it.
+    /// The value of [`Self::push_height`] where none is stated. A flat face can press anywhere on
+    /// another; this is the middle.
     pub const PUSH_HEIGHT: f64 = 0.5;
 
     /// Exactly what the scene states.
@@ -55,7 +55,8 @@ impl Physics {
         self.push_height.unwrap_or(Self::PUSH_HEIGHT) * face_height(object, (tool, lift)) * friction
     }
 
-    /// What an object may rest on: nobody sees its underside, but most are somewhere in this range.
+    /// What an object may rest on: its underside cannot be seen, but most are somewhere in this
+    /// range.
     pub const PLAUSIBLE_SUPPORTS: [Support; 3] =
         [Support::Spread(0.75), Support::Even, Support::Corners];
 

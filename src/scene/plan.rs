@@ -12,7 +12,7 @@ use super::{LeverMotion, LeverUp, Motion, Push, PushForm, Tool, ToolMotion};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Engine {
-    /// Top-down, with a support-friction law of our own: the default truth for data and search.
+    /// Top-down, with its own law of support friction: the default truth for data and search.
     Planar,
     /// Full 3-D: the independent check.
     Spatial,
@@ -21,8 +21,8 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Those that a verdict rests on, in the order in which they are shown: predictions are
-    /// compared with the planar one.
+    /// The engines of a verdict, in the order in which they are shown: predictions are compared
+    /// with the planar one.
     pub const ALL: [Self; 2] = [Self::Planar, Self::Spatial];
 }
 

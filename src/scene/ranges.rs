@@ -8,12 +8,12 @@ use crate::geometry::{ConvexPolygon, Shape, Vector, centroid};
 use super::{GRAVITY, Job, Quantity, Scene, Stroke, Warning};
 
 /// Values within this relative distance of a bound still count as inside: the speed of a recorded
-/// push is known no better, and no model changes within a hundredth.
+/// push is known no better, and no model changes within one per cent.
 const SLACK: f64 = 1e-2;
 
 /// How far an object released at the speed of the push slides on in nearly all training pushes
 /// (all but 11 of 2000: the fastest ones on the smoothest tables are rare), metres. Beyond it errors exceed
-/// three times those of ordinary pushes (`models/extremes.md`, corners).
+/// three times those of ordinary pushes (`crates/lab/results/extremes.md`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
 /// Most that the tool turns in training for each metre of travel, rad/m: 34 degrees in 20 cm.
@@ -36,7 +36,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// The interval that holds nothing; its ends are finite, so that it can be written down.
+    /// The empty interval; its ends are finite, so that it can be written down.
     pub const NOTHING: Self = Self { low: f64::MAX, high: f64::MIN };
 
     /// The interval from `low` to `high`.
@@ -44,7 +44,7 @@ impl Span {
         Self { low, high }
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -262,7 +262,7 @@ impl Ranges {
 }
 
 /// How far the corner farthest from it is from a right angle, radians.
-pub(crate) fn slant(base: &ConvexPolygon) -> f64 {
+pub fn slant(base: &ConvexPolygon) -> f64 {
     let normals: Vec<Vector> = base.faces().map(|(_, normal)| normal).collect();
     let next = normals.iter().cycle().skip(1);
     normals.iter().zip(next).map(|(a, b)| a.dot(b).abs().asin()).fold(0.0, f64::max)

@@ -16,7 +16,7 @@ pub struct Separation {
     pub ends: [Pose; 2],
 }
 
-/// By how much a joint is not as it should be.
+/// By how much a joint is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misfit {
     /// Of the second end against the first, along the first's axes, metres.

@@ -1,7 +1,7 @@
 //! Disjoint sets: what pairs connect.
 
-/// Numbers that pairs connect, in sets that are named by their lowest member: joining towards
-/// the lower root keeps that name whatever the order of the pairs.
+/// Numbers connected by pairs, in sets that are named by their lowest member: joining towards the
+/// lower root keeps that name in any order of the pairs.
 #[derive(Clone, Debug, Default)]
 pub struct DisjointSets {
     /// A lower member of the same set, or the number itself where it is the lowest.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::{GRAVITY, Physics, Scene, State};
 
-/// What planning starts from: planning again from the middle, or under another belief, is the
-/// same call with another situation.
+/// What planning starts from: to plan again from the middle, or under another belief, is the same
+/// call with another situation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Situation {
     /// What is on the table.

@@ -16,8 +16,8 @@ pub struct Robot {
     pub reach_min: f64,
     /// Largest distance of the end effector from the base, metres.
     pub reach_max: f64,
-    /// Largest force that the arm can press with for longer than a blow, newtons; any if nothing
-    /// is said.
+    /// Largest force that the arm can press with for longer than an impact, newtons; any by
+    /// default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,
 }
@@ -49,7 +49,7 @@ pub enum ToolChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PushForm {
-    /// Each push starts where it is best: the tool comes down from above, pushes, lifts.
+    /// Each push starts where it is best: the tool comes down from above, pushes and lifts.
     Placed,
     /// All start from `home`, each goes on where the last ended, without lifting or waiting.
     Chained,
@@ -213,7 +213,7 @@ impl Task {
         Self { robustness: share, ..self }
     }
 
-    /// The task with so much of its scene unknown.
+    /// The task with this unknown about its scene.
     pub fn guessing(self, unknown: Unknowns) -> Self {
         Self { unknown, ..self }
     }

@@ -113,7 +113,7 @@ fn list(pieces: &[Vec<String>]) -> String {
 }
 
 impl Tool {
-    /// Friction value that most shipped tools have: painted wood or plastic.
+    /// Friction value of most shipped tools: painted wood or plastic.
     pub const FRICTION: f64 = 0.4;
 
     /// A tool of `parts`, those that touch joined into one rigid piece, held at the origin of its
@@ -181,11 +181,7 @@ impl Tool {
     }
 
     /// [`Tool::new`] of parts that are known to make one piece by these joints.
-    pub(crate) fn assembled(
-        name: impl Into<String>,
-        parts: Vec<Part>,
-        joints: Vec<[usize; 2]>,
-    ) -> Self {
+    pub fn assembled(name: impl Into<String>, parts: Vec<Part>, joints: Vec<[usize; 2]>) -> Self {
         Self {
             name: name.into(),
             description: String::new(),

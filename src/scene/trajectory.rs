@@ -58,9 +58,9 @@ impl Body {
     /// there.
     ///
     /// Nothing comes into an obstacle: over 300 solved random tasks 0 mm, squeezed through gaps too
-    /// narrow 2.5 mm and more. Light objects before heavy ones sink honestly into what pushes
-    /// them: in 3-D 0.1 kg before three of 1 kg by 3.1 mm into the tool and 4.4 mm into its
-    /// neighbour.
+    /// narrow 2.5 mm and more. Light objects in front of heavy ones do sink into what pushes them:
+    /// in 3-D one of 0.1 kg in front of three of 1 kg sinks 3.1 mm into the tool and 4.4 mm into
+    /// its neighbour.
     pub fn most_overlap(&self) -> f64 {
         match self {
             Body::Obstacle(_) => 2e-3,
@@ -83,7 +83,7 @@ pub struct Contact {
 
 /// How hard the tool presses against objects, newtons.
 ///
-/// Read from the impulses of an engine's contacts, which tell it to within a factor of two.
+/// Read from the impulses of an engine's contacts, and right to within a factor of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     /// The largest force in a single time step: mostly that of a first touch.
@@ -104,9 +104,9 @@ pub struct Trajectory {
     pub frames: Vec<Frame>,
     /// First contacts, in order of time; empty when only the outcome was asked for.
     pub contacts: Vec<Contact>,
-    /// What the reader should know about the trust this deserves.
+    /// What the reader should know about how far to trust this.
     pub warnings: Vec<Warning>,
-    /// How hard the tool pressed; nothing where the model does not tell.
+    /// How hard the tool pressed; `None` where the model does not say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
     /// What each lever-up has come to, in order.

@@ -21,7 +21,7 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Errors of a good camera, where nothing else is said: 1 mm and half a degree.
+    /// The default errors, those of a good camera: 1 mm and half a degree.
     pub const NOISE: Noise = Noise { position: 1e-3, heading: 0.5 * std::f64::consts::PI / 180.0 };
 
     /// A world that is as `scene` states it, in the planar engine, seen with [`Self::NOISE`].

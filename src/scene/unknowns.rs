@@ -1,4 +1,4 @@
-//! What a task does not know of its scene, and what it then may be.
+//! What a task does not know about its scene, and what that may be.
 
 use std::fmt;
 
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Span;
 
-/// What is unknown of the objects of a scene. What the scene states of it is only the middle of what
-/// it may be.
+/// What is unknown of the objects of a scene. What the scene states about it is only the middle of
+/// what it may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Unknowns {
@@ -40,7 +40,7 @@ impl Unknowns {
     /// in here. Even pressure is like 0.5 to 0.7, the corners are 1.
     pub const SPREADS: Span = Span::new(0.5, 1.0);
 
-    /// Each with the word that files use.
+    /// Each with its word in files.
     pub fn words(self) -> [(&'static str, bool); 4] {
         [
             ("joints", self.joints),
@@ -50,7 +50,7 @@ impl Unknowns {
         ]
     }
 
-    /// The same with one more unknown, by its word; `None` for a word that means nothing.
+    /// The same with one more unknown, by its word; `None` for an unknown word.
     pub fn with(mut self, word: &str) -> Option<Self> {
         *match word {
             "joints" => &mut self.joints,

@@ -10,7 +10,7 @@ use super::{Engine, Force, Outcome, Trajectory, Warning};
 pub enum Disturbance {
     /// Nothing.
     Nominal,
-    /// Where objects start and every friction value, by little and at random.
+    /// Where objects start and every friction value, slightly and at random.
     Disturbed {
         /// Number of the draw, from 1; the same for the same seed in both engines.
         draw: usize,
@@ -32,8 +32,8 @@ pub struct Evidence {
     /// How hard the tool pressed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
-    /// What happened frame by frame, of a nominal replay. Not written to files: replaying the
-    /// plan brings it back.
+    /// What happened frame by frame, of a nominal replay. Not written to files, as replaying the
+    /// plan gives it again.
     #[serde(skip)]
     pub trajectory: Option<Trajectory>,
 }
@@ -58,7 +58,7 @@ pub enum Reason {
         /// What.
         fault: Warning,
     },
-    /// The object ends beside the goal when it is replayed as written.
+    /// The object misses the goal when the plan is replayed as written.
     Misses {
         /// In which engine.
         engine: Engine,
@@ -80,7 +80,7 @@ pub enum Reason {
     },
 }
 
-/// Whether a plan works, with what shows it.
+/// Whether a plan works, with the evidence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Passed: the plan breaks no rule of its task, its replays as written reach the goal at rest
@@ -112,7 +112,7 @@ impl Verdict {
         verdict
     }
 
-    /// Whether the plan works as written; too seldom under disturbances, perhaps.
+    /// Whether the plan works as written, though perhaps too seldom under disturbances.
     pub fn works(&self) -> bool {
         matches!(self.reason, None | Some(Reason::Fragile { .. }))
     }

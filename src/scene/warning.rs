@@ -23,7 +23,7 @@ pub enum Warning {
         /// Largest value of the range.
         high: f64,
     },
-    /// No model that was asked takes this job; the last of them predicted all the same.
+    /// No model that was asked takes this job; the last of them predicted it all the same.
     Declined {
         /// The last.
         model: ModelSpec,
@@ -42,8 +42,8 @@ pub enum Warning {
         /// Its name.
         object: String,
     },
-    /// An object was pressed into what does not give way: rigid bodies get stuck there, and an arm
-    /// stops or something breaks. The replay ended.
+    /// An object was pressed into something that does not give way: rigid bodies get stuck there,
+    /// and an arm stops or something breaks. The replay ended.
     Jammed {
         /// Its name.
         object: String,
@@ -107,7 +107,7 @@ pub enum Warning {
     },
     /// Forces grew as they do when something is jammed. The replay ended.
     Strained,
-    /// The tool came down on an object instead of beside it.
+    /// The tool came down on an object instead of next to it.
     SetDownOn {
         /// Name of the object.
         object: String,
@@ -121,8 +121,8 @@ pub enum Warning {
         /// The names of the part and the obstacle.
         between: [String; 2],
     },
-    /// Two bodies came inside each other: pressed together by what does not give way, or left
-    /// so by the model.
+    /// Two bodies overlap: pressed together by something that does not give way, or left so by the
+    /// model.
     Overlap {
         /// Their names.
         between: [String; 2],
@@ -136,8 +136,8 @@ pub enum Warning {
         /// How far, metres (a turn at 5 cm).
         distance: f64,
     },
-    /// What is predicted and what the planar engine makes of the same motion differ: the measured
-    /// consequence of another warning.
+    /// The prediction and the planar engine differ on the same motion: the measured consequence of
+    /// another warning.
     Differs {
         /// The object on which they differ most.
         object: String,
@@ -220,7 +220,7 @@ impl Warning {
         )
     }
 
-    /// What is the matter, in a word or two for a table.
+    /// The trouble in a word or two, for a table.
     pub fn word(&self) -> &'static str {
         match self {
             Warning::OutsideRange { .. } => "outside its range",
@@ -251,7 +251,7 @@ impl Warning {
         }
     }
 
-    /// What is the matter, without what it means or helps.
+    /// The fact, without what it means or what helps.
     fn fact(&self) -> String {
         match self {
             Warning::OutsideRange { of, quantity, value, low, high } => {
@@ -269,7 +269,7 @@ impl Warning {
                 let millimetres = distance * 1e3;
                 format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
             }
-            Warning::NotFinite => "the prediction left the finite numbers".to_owned(),
+            Warning::NotFinite => "the prediction became NaN or infinite".to_owned(),
             other => other.to_string(),
         }
     }
@@ -290,7 +290,7 @@ impl fmt::Display for Warning {
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
                 f,
-                "{}, which no table shows; `--outside simulate` simulates instead",
+                "{}, which cannot happen on a table; `--outside simulate` simulates instead",
                 self.fact()
             ),
             Warning::Differs { object, distance } => write!(
@@ -309,17 +309,17 @@ impl fmt::Display for Warning {
             ),
             Warning::Guessed { unknown } => write!(
                 f,
-                "the task does not know its {unknown}, so this rests on the middle of what they may \
+                "the task does not know its {unknown}, so this assumes the middle of what they may \
                  be; `pushplan run` finds out by pushing"
             ),
             Warning::NotAtRest { waited } => write!(
                 f,
-                "something still moved {waited:.1} s after the push ended; the outcome is not a \
-                 rest, raise the friction"
+                "something still moved {waited:.1} s after the push ended; the outcome is not at \
+                 rest; raise the friction"
             ),
             Warning::SetDownOn { object, stroke } => write!(
                 f,
-                "the tool came down on {object} for push {} instead of beside it, so the plan does \
+                "the tool came down on {object} for push {} instead of next to it, so the plan does \
                  not work as written",
                 stroke + 1
             ),
@@ -335,7 +335,7 @@ impl fmt::Display for Warning {
             }
             Warning::TooMuchForce { needed, limit } => write!(
                 f,
-                "pushing takes about {needed:.0} N for longer than a blow, and the robot has {limit:.0}"
+                "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
             ),
             Warning::OutOfReach { push } => {
                 write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
@@ -357,7 +357,7 @@ impl fmt::Display for Warning {
             Warning::Strained => write!(f, "something is jammed"),
             Warning::Toppled { object } => write!(
                 f,
-                "{object} toppled; its pose on the table means little, push lower or slower"
+                "{object} toppled; its pose on the table means little; push lower or slower"
             ),
             Warning::NotFinite => {
                 write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())

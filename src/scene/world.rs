@@ -154,7 +154,7 @@ impl Obstacle {
         Self { name: name.into(), size, pose, z: 0.0, friction: Scene::FRICTION }
     }
 
-    /// The obstacle with its underside so high above the table, metres.
+    /// The obstacle with its underside this high above the table, metres.
     pub fn raised(self, z: f64) -> Self {
         Self { z, ..self }
     }
@@ -204,7 +204,7 @@ impl TableTop {
 pub struct Scene {
     /// Friction value of the table.
     pub table_friction: f64,
-    /// Where the table ends; nowhere near if nothing is said.
+    /// Where the table ends; by default nowhere near.
     pub table_top: Option<TableTop>,
     /// How high tools press on objects, where it is known: see [`Physics::push_height`].
     ///

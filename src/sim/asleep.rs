@@ -1,14 +1,15 @@
-//! What nothing has come near yet sleeps: it costs nothing, and stays where it is to the last bit.
+//! A body that nothing has come near yet sleeps: it costs nothing, and stays where it is to the
+//! last bit.
 //!
-//! rapier leaves out what sleeps and wakes it when something awake touches it. But it does so in the middle
-//! of a step, in which a body in 3-D has no table yet and falls by 0.17 mm. So bodies are woken here, before
-//! the step in which that could happen; and they never sleep again, as what is pushed slowly, or turns back,
-//! is slow without being at rest.
+//! rapier leaves out what sleeps and wakes it when something awake touches it. But it does so in
+//! the middle of a step, in which a body in 3-D has no table yet and falls by 0.17 mm. So bodies
+//! are woken here, before the step in which that could happen; and they never sleep again, as a
+//! body that is pushed slowly, or turns back, is slow without being at rest.
 
 use super::groups::Group;
 use crate::scene::Velocity;
 
-/// What is so near to something awake wakes, metres: rapier looks for contacts up to 2 mm away.
+/// A body this near to something awake wakes, metres: rapier looks for contacts up to 2 mm away.
 const NEAR: f64 = 4e-3;
 
 /// A box around a body on the table, in the engine's coordinates: metres.
@@ -38,8 +39,8 @@ impl Extent {
     }
 }
 
-/// What sleep needs of an engine's world. The two that implement it look alike, but are of two crates with types of
-/// their own.
+/// What sleep needs of an engine's world. The two that implement it look alike, but belong to two
+/// crates with types of their own.
 pub(super) trait Sleepable {
     /// Names a body.
     type Handle: Copy;
@@ -60,11 +61,11 @@ pub(super) trait Sleepable {
     fn wake(&mut self, body: Self::Handle);
 }
 
-/// What is slower rests, m/s and rad/s.
+/// A slower body rests, m/s and rad/s.
 const AT_REST: f64 = 1e-9;
 
-/// So long a body must rest before it sleeps, seconds: less than a step. With no time at all rapier would let
-/// what moves sleep, too.
+/// How long a body must rest before it sleeps, seconds: less than a step. With no time at all
+/// rapier would let moving bodies sleep, too.
 const AT_ONCE: f64 = 1e-9;
 
 /// The bodies of a world by whether they sleep.
@@ -108,13 +109,13 @@ impl<H: Copy> Asleep<H> {
     /// Wakes what something awake is near to, or will be in this step.
     pub fn wake_near<W: Sleepable<Handle = H>>(&mut self, world: &mut W) {
         let mut k = 0;
-        // What wakes wakes what it is near to in turn.
+        // A body that wakes also wakes those near it.
         while k < self.awake.len() && !self.asleep.is_empty() {
             let body = self.awake[k];
             let (extent, margin) = (world.extent(body), NEAR + world.stride(body));
             self.asleep.retain_mut(|sleeper| {
                 let sleeps = world.sleeps(sleeper.body);
-                // What the engine woke was hit by something faster than we look ahead.
+                // Bodies woken by the engine were hit by something faster than we look ahead.
                 let woken = sleeper.sleeps && !sleeps;
                 sleeper.sleeps = sleeps;
                 let wakes = woken || extent.is_near(&sleeper.around, margin);

@@ -15,10 +15,10 @@ use crate::watch::Watch;
 use super::Simulator;
 use super::strain::{Overlap, Strain};
 
-/// Steps of what is played faster than it happens are so many times finer.
+/// How many times finer the steps are of what is played faster than it happens.
 const FINER: f64 = 4.0;
 
-/// Nothing is played more than so many times faster than it happens.
+/// The most times faster than it happens that anything is played.
 const MOST_HURRIED: f64 = 100.0;
 
 /// An object this many times faster than the tool is not carried by it.
@@ -26,9 +26,9 @@ const CARRIED: f64 = 3.0;
 
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
-    /// Slower motions of the tool are played at this speed, m/s, in finer steps: an engine whose
-    /// friction is only exact above a speed makes honey of the table below it. So slow, nothing
-    /// feels its inertia, and what happens does not depend on the speed.
+    /// Slower motions of the tool are played at this speed, m/s, in finer steps: to an engine whose
+    /// friction is only exact above a speed, the table is like honey below it. At such speeds
+    /// inertia does not matter, and what happens does not depend on the speed.
     const SLOWEST: f64 = 0.0;
 
     /// Multiplies the velocities of all objects by `factor`.
@@ -89,9 +89,9 @@ pub(super) fn drive<W: World>(
     for (index, stroke) in motion.strokes.iter().enumerate() {
         let lifted = index > 0 && motion.strokes[index - 1].settle;
         if lifted && world.toppled().is_empty() {
-            // A fresh world, so that going on from a recorded rest and never having stopped
-            // are the same computation. What lies on its side cannot be told by a planar state
-            // and stays in the old one, where the tool jumps.
+            // A fresh world, so that going on from a recorded rest and never having stopped are the
+            // same computation. An object on its side cannot be described by a planar state, and
+            // stays in the old world, where the tool jumps.
             world = W::build(scene, &world.state(), physics, motion, &stroke.from);
             recorder.strain.begin();
         }
@@ -198,7 +198,7 @@ fn hurry<W: World>(world: &W, frame: &FrameStep) -> f64 {
     if fastest > CARRIED * speed { 1.0 } else { (W::SLOWEST / speed).min(MOST_HURRIED) }
 }
 
-/// What is said about an object that jammed.
+/// The warning about an object that jammed.
 fn jammed(scene: &Scene, motion: &ToolMotion, jam: Overlap) -> Warning {
     let against = match jam.with {
         Body::Object(index) => scene.objects[index].name.clone(),

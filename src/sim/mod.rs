@@ -5,7 +5,7 @@
 //! planned or judged here, and no type of rapier leaves this room.
 //!
 //! Both engines rest objects on the same points. Over 400 held-out pushes of one object, 20 cm at
-//! 0.1 m/s, they end 0.96 mm apart (mean; cuboids 1.01) if nothing may tip (`pushplan evaluate
+//! 0.1 m/s, they end 0.96 mm apart (mean; cuboids 1.01) if nothing may tip (`pushplan-lab evaluate
 //! 3d-upright --on single --pushes 400`) and 3.9 mm (cuboids 5.6) if it may (`3d` for
 //! `3d-upright`): how high two flat faces press on each other is then up to the 3-D engine.
 //!

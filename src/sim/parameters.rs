@@ -32,7 +32,7 @@ pub(super) const ARTICULATED_ITERATIONS: usize = 6;
 
 /// Whether some objects can move against others that they are joined with.
 ///
-/// Such neighbours also touch each other, with the leverage of all that hangs on the joint:
+/// Such neighbours also touch each other, with the leverage of everything attached to the joint:
 /// rapier's soft contacts let 12 boxes on revolute joints with gaps of 2 mm, which can turn by 3
 /// degrees, turn by 24 instead, and the row then never came to rest.
 pub(super) fn is_articulated(physics: &Physics) -> bool {

@@ -13,10 +13,10 @@ use crate::scene::{Body, Physics, Surface};
 /// Normals that rise more steeply than this (sine) are those of top or underside.
 const STEEP: f64 = 0.5;
 
-/// What is to be changed of contacts before they are solved, by the colliders' labels.
+/// Changes of contacts before they are solved, by the colliders' labels.
 #[derive(Debug, Default)]
 pub(super) struct Seams {
-    /// Where they can be touched; nowhere said means everywhere.
+    /// Where they can be touched; everywhere by default.
     rims: Vec<Option<Rim>>,
     /// Coefficients of friction of pairs.
     frictions: Vec<([u128; 2], f64)>,

@@ -66,20 +66,19 @@ impl Simulator {
         self.rate.step()
     }
 
-    /// What it is as an effect model.
+    /// Its spec as an effect model.
     pub fn spec(&self) -> ModelSpec {
         ModelKind::Simulated { engine: self.engine, rate: self.rate }.into()
     }
 
     /// Plays a job until everything rests.
     ///
-    /// The trajectory always has at least one frame; what went wrong on the way stands in its
-    /// warnings.
+    /// The trajectory always has at least one frame; its warnings say what went wrong on the way.
     pub fn run(&self, scene: &Scene, job: &Job, record: Record) -> Trajectory {
         self.run_watched(scene, job, record, &Unwatched)
     }
 
-    /// [`Simulator::run`], which `watch` can stop after any frame; that stands in the warnings.
+    /// [`Simulator::run`], which `watch` can stop after any frame; the warnings say so then.
     pub fn run_watched(
         &self,
         scene: &Scene,

@@ -21,7 +21,7 @@ pub(super) struct Twist {
     pub angular: f64,
 }
 
-/// What resists a body's motion: force and torque for each m/s and rad/s of it.
+/// The resistance to a body's motion: force and torque for each m/s and rad/s of it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Resistance {
     sum: f64,

@@ -1,5 +1,5 @@
-//! What rigid bodies do not do, seen in every time step: objects inside what does not give way,
-//! and the force that the tool needs.
+//! What rigid bodies cannot do, looked for in every time step: objects inside something that does
+//! not give way, and the force that the tool needs.
 //!
 //! Tool and obstacles do not yield, so when the tool travels farther than an object has room, the
 //! engines' soft contacts let the object sink into one of them, and in the end through it, at any
@@ -28,8 +28,8 @@ pub(super) struct Overlap {
 /// Looks at a world after every time step.
 #[derive(Debug, Default)]
 pub(super) struct Strain {
-    /// What overlapped before anything moved: no fault of the motion, as long as it gets no
-    /// deeper. Nothing is known before the first step.
+    /// Overlaps from before anything moved: no fault of the motion, as long as they get no deeper.
+    /// Nothing is known before the first step.
     excused: Option<Vec<Overlap>>,
     /// Forces in the last steps, newest first, newtons.
     recent: [f64; LASTING],
@@ -38,7 +38,7 @@ pub(super) struct Strain {
 }
 
 impl Strain {
-    /// The world is built again, from what it had come to.
+    /// The world is built again, from the state it had reached.
     pub fn begin(&mut self) {
         self.excused = None;
         self.recent = [0.0; LASTING];
@@ -57,7 +57,7 @@ impl Strain {
                 overlaps.push(found);
             }
         });
-        // The engines tell depths from before the step: the first are those of the start.
+        // The engines report depths from before the step: the first are those of the start.
         let Some(excused) = &self.excused else {
             self.excused = Some(overlaps);
             return None;

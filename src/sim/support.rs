@@ -11,12 +11,13 @@ use crate::scene::{Drag, Feet, GRAVITY, MAX_FEET};
 use super::slowing::{Inertia, Twist};
 
 /// Points slower than this share of the speed that friction takes from a free body in a step drag
-/// in proportion to their speed, so that what rests can be told from what creeps. The larger it is, the
-/// more a step matters: `tests/it/simulation/steps.rs` has the ends of pushes at 1/240 and 1/3840 s.
+/// in proportion to their speed, so that resting can be told from creeping. The larger it is, the
+/// more a step matters: `tests/it/simulation/steps.rs` has the ends of pushes at 1/240 and 1/3840
+/// s.
 const STUCK: f64 = 0.05;
 
-/// The same where objects hang together by joints that move: friction knows what presses from the
-/// step before, and a row of twelve would creep for seconds.
+/// The same where objects are connected by joints that move: friction knows what presses only from
+/// the last step, and a row of twelve would creep for seconds.
 const STUCK_IN_JOINTS: f64 = 1.0;
 
 /// The support law of one object.
@@ -51,7 +52,7 @@ impl Support {
         Self { feet, deceleration, mass, lean, stiffest, stuck: STUCK }
     }
 
-    /// The same among objects that hang together by joints that move.
+    /// The same among objects that are connected by joints that move.
     pub(super) fn in_joints(self) -> Self {
         Self { stuck: STUCK_IN_JOINTS, ..self }
     }

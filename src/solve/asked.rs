@@ -1,4 +1,4 @@
-//! A plan as a person asks for it: pushes given by where they start, or by the object they meet.
+//! A plan that a person asks for: pushes given by where they start, or by the object they meet.
 //!
 //! Nothing is searched. A push before an object is placed where the pushes before it leave the
 //! objects, by the planar simulation.
@@ -12,10 +12,10 @@ use crate::plan::{CandidatePush, Infeasible, Start, Workspace};
 use crate::scene::{Job, Plan, Push, PushForm, Record, Situation, State, Task, Tool};
 use crate::sim::Simulator;
 
-/// How far a chained push may be said to start from where the last one ended, metres.
+/// How far from the end of the last push the stated start of a chained one may be, metres.
 const SAME_PLACE: f64 = 1e-6;
 
-/// One push as it is asked for.
+/// One push that is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedPush {
     /// Where it starts.
@@ -45,7 +45,7 @@ pub enum AskedStart {
     },
 }
 
-/// Why no plan can be made of what is asked for.
+/// Why no plan can be made from what is asked for.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ActionError {
     /// A chained push with a start of its own.

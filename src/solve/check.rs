@@ -1,4 +1,4 @@
-//! Refuses tasks made in code that no file could hold.
+//! Refuses tasks made in code that could not be read from a file.
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ pub(super) fn check(
         }
     }
     if task.robustness > 1.0 {
-        return fault(format!("the robustness is {}, but is a share", task.robustness));
+        return fault(format!("the robustness is {}, but must be a share", task.robustness));
     }
     if robot.max_force.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
         return fault("the largest force of the robot must be a positive number".into());

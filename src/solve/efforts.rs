@@ -1,7 +1,7 @@
 //! What the efforts stand for: measured levels of planning.
 //!
-//! `pushplan tradeoff` measures robustness and cost of every level and says which of those on its
-//! front each effort is (`models/tradeoff.json`). A test compares the rows below with that file,
+//! `pushplan-lab tradeoff` measures robustness and cost of every level and says which of those on its
+//! front each effort is (`crates/lab/results/tradeoff.json`). A test compares the rows below with that file,
 //! and fails when another measured level is both cheaper and more robust.
 
 use std::num::NonZeroU16;
@@ -12,7 +12,7 @@ use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
 use super::{Effort, LeverSettings, Settings};
 
 /// The planar engine that pushes into crowds are left to: among touching objects it is off by less
-/// in the plane than the prior, and costs a quarter of what the engine does at its default step.
+/// in the plane than the prior, and costs a quarter of the engine at its default step.
 const CROWD_ENGINE: ModelKind = planar(60);
 
 /// The most objects that a push can set in motion for which the prior is clearly cheaper than
@@ -20,7 +20,7 @@ const CROWD_ENGINE: ModelKind = planar(60);
 /// of objects that were measured, or the largest of these where they do not.
 const FEW_FOR_PRIOR: u16 = 9;
 
-/// The planar engine at so many steps a second, one at least.
+/// The planar engine at this many steps a second, at least one.
 const fn planar(rate: u16) -> ModelKind {
     let rate = Rate(NonZeroU16::MIN.saturating_add(rate.saturating_sub(1)));
     ModelKind::Simulated { engine: Engine::Planar, rate }
@@ -56,26 +56,23 @@ const MEDIUM: Settings = Settings {
 
 impl Effort {
     /// The model, the budgets, and the disturbed replays of the winning plan in each engine: what a
-    /// look, a usual answer, a careful one and a thorough study are worth. More replays than a
-    /// level was measured with make its plans no better, but tell their robustness in finer shares.
+    /// first look, a usual answer and a thorough one take. More replays than a level was measured
+    /// with do not make its plans better, but measure their robustness more finely.
     const fn level(self) -> (ModelKind, Settings, usize) {
         match self {
             Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
             Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
             Effort::Thorough => (planar(30), MEDIUM, 16),
-            Effort::Exhaustive => (planar(30), MEDIUM, 64),
         }
     }
 
-    /// What it means in numbers: the budgets of its level, and the replays that tell how robust
-    /// the plan is.
+    /// Its numbers: the budgets of its level, and the replays that tell how robust the plan is.
     pub fn settings(self) -> Settings {
         let (_, settings, disturbed) = self.level();
         let levers = match self {
             Effort::Draft => LeverSettings::DRAFT,
             Effort::Standard => LeverSettings::STANDARD,
             Effort::Thorough => LeverSettings::THOROUGH,
-            Effort::Exhaustive => LeverSettings::EXHAUSTIVE,
         };
         Settings { disturbed, levers, ..settings }
     }

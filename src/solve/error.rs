@@ -14,8 +14,8 @@ pub enum SolveError {
     /// The task names tools that the library does not have, or there are none.
     #[error(transparent)]
     Tools(#[from] Faults),
-    /// A number of the task makes no sense. Tasks read from files are checked there already,
-    /// this is for those made in code.
+    /// A number of the task makes no sense. Tasks from files have been checked already; this is for
+    /// those made in code.
     #[error("task `{task}`: {what}")]
     BadTask {
         /// Name of the task.

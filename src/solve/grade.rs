@@ -26,7 +26,7 @@ pub(super) enum Class {
 }
 
 impl Class {
-    /// How solving ends with such a plan as the best one.
+    /// The status when such a plan is the best one.
     pub fn status(self) -> PlanStatus {
         match self {
             Class::Fails => PlanStatus::FailedVerification,

@@ -138,7 +138,8 @@ impl Planner {
     }
 
     /// Solves tasks side by side on the current rayon pool, results in the order of the tasks and
-    /// the same as those of [`Planner::solve`], wall-clock times aside, for any number of threads.
+    /// the same as those of [`Planner::solve`], except for wall-clock times, for any number of
+    /// threads.
     pub fn solve_all(
         &self,
         tasks: &[Task],
@@ -167,8 +168,8 @@ impl Planner {
     }
 
     /// [`Planner::solve_with`] from another situation than the one that the task states: where
-    /// everything stands by now, and what is believed by now. Of the task only the robot, the
-    /// tools, the rules for pushes and the goal count then.
+    /// everything is by now, and what is believed by now. Of the task only the robot, the tools,
+    /// the rules for pushes and the goal count then.
     ///
     /// # Errors
     /// [`SolveError`] for bad input only.
@@ -236,7 +237,7 @@ impl Planner {
         let mut warnings = Vec::new();
         let asked = |motion| self.model.trust(&situation.scene, &Job::new(situation, motion));
         for warning in motions.flat_map(|motion| asked(motion).warnings()) {
-            // What the scene is to blame for comes with every tool.
+            // Warnings about the scene come with every tool.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }
@@ -280,7 +281,7 @@ impl Planner {
                     }
                 }
                 if warnings.iter().any(Warning::questions_model) {
-                    // Once simulated the doubt has a number.
+                    // Once simulated, the doubt is a number.
                     warnings.extend(consequence(scene, job, trajectory.outcome()));
                 }
                 let outcome = Outcome::judge(scene, &task.goal, &trajectory);
@@ -291,7 +292,7 @@ impl Planner {
 }
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
-/// used for, as far as it can be known before.
+/// used for, as far as can be known beforehand.
 pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
     let (rules, goal) = (&task.pushes, &task.goal);
     let object = start.poses[goal.object].position;

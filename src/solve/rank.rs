@@ -3,9 +3,9 @@
 use crate::plan::{Candidate, Evaluation, Found, Refined, is_behind, kinds};
 use crate::scene::{Goal, Scene};
 
-/// The best `count` found candidates of different kinds, then, if there are too few kinds, the
-/// next best ones; at most `most_behind` of them such that something is in the way. `found` is
-/// sorted, best first, and so is the answer.
+/// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
+/// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
+/// first, and so is the answer.
 pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec<Candidate> {
     let kinds = kinds(found, count);
     let mut taken = vec![false; found.len()];
@@ -14,7 +14,7 @@ pub(super) fn distinct(found: &[Found], count: usize, most_behind: usize) -> Vec
     let spare: Vec<usize> = (0..found.len()).filter(|&k| !taken[k]).take(missing).collect();
     spare.into_iter().for_each(|k| taken[k] = true);
     let kept = found.iter().zip(&taken).filter(|(_, taken)| **taken).map(|(one, _)| one);
-    // What leads through a wall stands behind everything else.
+    // Plans that lead through a wall come after everything else.
     let (behind, sound): (Vec<&Found>, Vec<&Found>) = kept.partition(|one| is_behind(one.score));
     sound
         .into_iter()
@@ -29,12 +29,12 @@ pub(super) fn sort(refined: &mut [Refined]) {
 }
 
 /// A prediction that is outside the tolerance by no more than this share of it is tried, however
-/// good the model is said to be: it is good on average.
+/// good the model is said to be: it is good only on average.
 const HAIR: f64 = 0.1;
 
-/// Whether the predicted error is at most the tolerance plus the effect model's error,
-/// `error_p95` metres, or a hair; for a heading this is taken at the object's mean radius. Where
-/// that was not measured, whatever can be carried out is.
+/// Whether the predicted error is at most the tolerance plus the effect model's error, `error_p95`
+/// metres, or a hair; for a heading this is taken at the object's mean radius. Where that was not
+/// measured, everything that can be carried out is.
 pub(super) fn is_worth_verifying(
     scene: &Scene,
     goal: &Goal,

@@ -1,4 +1,4 @@
-//! What comes back: the plans that were tried, ranked.
+//! The result: the plans that were tried, ranked.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use crate::scene::{Plan, Tool};
 use super::solving::{Solving, Tried};
 use super::{PlanStatus, RankedPlan, Solution};
 
-/// At most this many plans come back: what a reader looks at.
+/// At most this many plans are returned: as many as a reader looks at.
 const REPORTED: usize = 8;
 
 impl Solving<'_> {

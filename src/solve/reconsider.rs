@@ -1,5 +1,5 @@
-//! What failed replays teach: ways that do not work are left for others, and plans that end near
-//! the goal are aimed again, by as much as they missed it.
+//! What is learnt from failed replays: ways that do not work are left for others, and plans that
+//! end near the goal are aimed again, by as much as they missed it.
 
 use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::plan::{Candidate, CandidatePush, Found, is_behind};
@@ -8,8 +8,8 @@ use crate::scene::{Engine, Goal, Verdict, Warning};
 use super::rank::distinct;
 use super::solving::{Solving, Tried};
 
-/// A plan is refuted if its replay misses the goal by more than this many tolerances: what misses
-/// by less may do with another tool.
+/// A plan is refuted if its replay misses the goal by more than this many tolerances: one that
+/// misses by less may work with another tool.
 const REFUTED: f64 = 1.25;
 
 /// A plan is aimed again if its replay misses the goal by at most this many tolerances. Farther
@@ -107,7 +107,7 @@ impl Solving<'_> {
             next.extend(self.refined(&others, goal, pushes));
         }
         next.extend(rest);
-        // Stable: what leads through a wall goes behind, everything else keeps its order.
+        // Stable: plans through a wall go last, everything else keeps its order.
         next.sort_by_key(|&k| is_behind(self.tried[k].score));
         *queue = next;
     }
@@ -180,7 +180,7 @@ impl Solving<'_> {
     }
 
     /// Refines the nearest of the failed plans towards goals that lie as far on the other side
-    /// of ours as their replays ended beside it.
+    /// of ours as their replays ended next to it.
     fn aim_again(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
         let goal = self.task.goal;
         let mut near: Vec<(f64, usize)> = failed
@@ -222,7 +222,7 @@ fn missed(goal: &Goal, tried: &Tried) -> f64 {
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)
 }
 
-/// Where to aim next, when a plan aimed at `aim` ended beside the goal: as far on the other side.
+/// Where to aim next, when a plan aimed at `aim` missed the goal: as far on the other side.
 /// One step of iterative learning control (Arimoto et al. 1984, doi:10.1002/rob.4620010203) with
 /// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
 /// not. `None` if that is on the goal already.
@@ -310,7 +310,7 @@ mod tests {
         let (heading, tolerance) = first.heading.expect("a heading");
         let turned = wrap_angle(-3.2 - 3.0);
         assert!((heading - (3.0 - turned)).abs() < 1e-12 && tolerance == 0.1, "{heading}");
-        // What is still missed after that is added to it.
+        // What is still missed after that is added.
         let second = aim(&goal, &first, &ended(0.51, 0.1, 3.0)).expect("an aim");
         assert!((second.position - Vector::new(0.46, 0.11)).norm() < 1e-12, "{second:?}");
         assert_eq!(second.heading, first.heading);

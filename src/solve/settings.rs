@@ -1,4 +1,4 @@
-//! How hard to try: four efforts, and the budgets that a planner has.
+//! How hard to try: three efforts, and the budgets that a planner has.
 
 use std::fmt;
 
@@ -20,16 +20,13 @@ pub enum Effort {
     #[default]
     Standard,
     /// Half as expensive again, by simulation: plans hold a little more often when the world is a
-    /// little different, which twice as many replays tell.
+    /// little different, and twice as many replays check it.
     Thorough,
-    /// The same, robustness told in finer shares by four times as many replays.
-    Exhaustive,
 }
 
 impl Effort {
     /// All of them, cheapest first.
-    pub const ALL: [Effort; 4] =
-        [Effort::Draft, Effort::Standard, Effort::Thorough, Effort::Exhaustive];
+    pub const ALL: [Effort; 3] = [Effort::Draft, Effort::Standard, Effort::Thorough];
 }
 
 impl fmt::Display for Effort {
@@ -38,14 +35,13 @@ impl fmt::Display for Effort {
             Effort::Draft => "draft",
             Effort::Standard => "standard",
             Effort::Thorough => "thorough",
-            Effort::Exhaustive => "exhaustive",
         })
     }
 }
 
 /// Budgets of a planner, all counted and none in seconds, so that results do not depend on the
 /// machine. A push of one object costs about 0.04 ms of one core in the prior, 0.16 in the network,
-/// 1.1 in the planar engine and 9 in the 3-D one (`models/tradeoff.md`).
+/// 1.1 in the planar engine and 9 in the 3-D one (`crates/lab/results/tradeoff.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Lateral offsets per contacting face. Three tell left, right and middle; from five on,
@@ -76,15 +72,21 @@ pub struct Settings {
     pub levers: LeverSettings,
 }
 
-/// A replay costs more the more objects there are, so at most so many, of all plans, are replayed together:
-/// with four on the table, eight plans.
+/// A replay costs more the more objects there are, so at most this many, of all plans, are replayed
+/// together: with four on the table, eight plans.
 const REPLAYED_AT_ONCE: usize = 32;
 
 impl Settings {
-    /// Plans verified together where so many objects are on the table: fewer in a crowd, where the first
-    /// ones are often good and their replays are most of the cost.
+    /// Plans verified together where this many objects are on the table: fewer in a crowd, where
+    /// the first ones are often good and their replays are most of the cost.
     pub(super) fn at_once(&self, objects: usize) -> usize {
         self.verified_at_once.min((REPLAYED_AT_ONCE / objects.max(1)).max(2)).max(1)
+    }
+
+    /// The same with this many disturbed replays of the winning plan, in each engine.
+    #[must_use]
+    pub fn replaying(self, disturbed: usize) -> Self {
+        Self { disturbed, levers: LeverSettings { disturbed, ..self.levers }, ..self }
     }
 
     /// The least that still searches, refines and verifies.
@@ -101,7 +103,7 @@ impl Settings {
         levers: LeverSettings::DRAFT,
     };
 
-    /// The part that the search takes, with a model that is off by `model_error` metres at times.
+    /// The settings of the search, with a model that is off by `model_error` metres at times.
     pub fn search(&self, model_error: f64) -> SearchSettings {
         SearchSettings {
             offsets: self.offsets,

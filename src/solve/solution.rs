@@ -1,4 +1,4 @@
-//! What comes back from solving a task.
+//! The result of solving a task.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -37,8 +37,8 @@ pub struct Refinement {
     pub before: f64,
     /// The same now.
     pub after: f64,
-    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D had ended
-    /// beside it.
+    /// Where the plan was aimed instead of the goal, metres, because its replay in 3-D missed the
+    /// goal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aimed_at: Option<Vector>,
     /// Score of that middle (error in units of the tolerance) after each round.
@@ -131,7 +131,7 @@ pub struct Statistics {
     pub search: SearchStatistics,
     /// Of the refinement.
     pub refinement: RefineStatistics,
-    /// Rollouts of the effect model altogether.
+    /// All rollouts of the effect model.
     pub rollouts: usize,
     /// Plans replayed in the simulator.
     pub verified: usize,

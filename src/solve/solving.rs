@@ -28,7 +28,7 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 /// gain much; with up to four objects the rounds end first.
 const REFINE_WORK: usize = 20_000;
 
-/// Of the plans that were replayed together and work, so many are replayed with disturbances, best
+/// How many of the plans that were replayed together and work are replayed with disturbances, best
 /// first: the others miss by more.
 const DISTURBED_AT_ONCE: usize = 3;
 
@@ -38,7 +38,7 @@ pub(super) struct Tried {
     pub tool: Arc<Tool>,
     /// What the plan was made from; `None` for the plan without pushes.
     pub candidate: Option<Candidate>,
-    /// What it was refined towards: the task's goal, or one beside it.
+    /// What it was refined towards: the task's goal, or one next to it.
     pub aim: Goal,
     pub refinement: Refinement,
     pub score: f64,
@@ -158,7 +158,7 @@ impl<'a> Solving<'a> {
             self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
-            // Where even the most promising one leads through a wall, a few tries are enough.
+            // Where even the most promising plan leads through a wall, a few tries are enough.
             if safe || is_behind(self.tried[leader].score) {
                 break;
             }
@@ -171,14 +171,14 @@ impl<'a> Solving<'a> {
         self.planner.settings().at_once(self.situation.scene.objects.len())
     }
 
-    /// Says what is done to plans of so many pushes.
+    /// Says what is done to plans of a number of pushes.
     fn tell(&self, stage: &str, pushes: usize) {
         let s = if pushes == 1 { "" } else { "es" };
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
-    /// Refines candidates towards `aim`, the task's goal or one beside it, keeps what came out, and
-    /// gives the indices of what is worth verifying, best first.
+    /// Refines candidates towards `aim`, the task's goal or one next to it, keeps the results, and
+    /// returns the indices of those worth verifying, best first.
     pub(super) fn refined(
         &mut self,
         candidates: &[Candidate],
@@ -191,7 +191,7 @@ impl<'a> Solving<'a> {
         let refine_settings = RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
-            // Another stream for every length, so that no two share their samples.
+            // Each length has a stream of its own, so that no two share samples.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
             enough: self.at_once(),
             rollouts: REFINE_WORK / self.situation.scene.objects.len().max(1),

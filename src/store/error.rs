@@ -72,7 +72,7 @@ pub enum StoreError {
     },
     /// The folder holds no run.
     #[error(
-        "{} holds neither data nor a benchmark; `pushplan generate DIR` and `pushplan bench ... \
+        "{} holds neither data nor a benchmark; `pushplan-learn generate DIR` and `pushplan bench ... \
          --out DIR` make them",
         path.display()
     )]

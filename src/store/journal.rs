@@ -59,7 +59,7 @@ impl Journal {
             .map_err(StoreError::io("write", &path))?;
         if read.torn {
             watch.note(&format!(
-                "{} is not whole behind record {}; what stood there is made again",
+                "{} is incomplete after record {}; the rest is made again",
                 path.display(),
                 read.count
             ));

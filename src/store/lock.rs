@@ -138,7 +138,7 @@ fn note_another_machine(dir: &Path, before: Option<String>, watch: &dyn Watch) {
 fn note_no_locks(dir: &Path, before: Option<String>, watch: &dyn Watch) {
     let last = before.map_or(String::new(), |writer| format!(" (last to write was {writer})"));
     watch.note(&format!(
-        "the file system of {} knows no locks: see to it that only one pushplan writes there{last}",
+        "the file system of {} has no locks: make sure that only one pushplan writes there{last}",
         dir.display()
     ));
 }

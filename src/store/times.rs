@@ -1,4 +1,4 @@
-//! Wall times of a run, `times.jsonl`: beside the records, as they are never the same.
+//! Wall times of a run, `times.jsonl`: apart from the records, as they differ from run to run.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};

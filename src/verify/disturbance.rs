@@ -1,4 +1,5 @@
-//! Small errors of the world against the task as written: those of a camera and a data sheet.
+//! Small differences between the world and the task as written: errors of a camera and a data
+//! sheet.
 
 use std::sync::Arc;
 
@@ -19,7 +20,7 @@ const FRICTION: f64 = 0.1;
 
 /// One draw of disturbances, uniform within their ranges; the same for the same seed and draw.
 pub(super) struct Disturbed {
-    /// Where the objects start and what they are like instead.
+    /// The start and the physics that are used instead.
     situation: Situation,
     /// The tool instead.
     tool: Arc<Tool>,
@@ -32,7 +33,7 @@ impl Disturbed {
         let mut random = Pcg64::seed_from_u64(random.random());
         let mut situation = situation.clone();
         let mut tool = tool.clone();
-        // Moving one side of a joint alone would break it.
+        // Moving only one side of a joint would break it.
         let groups = situation.physics.groups(|_| true);
         for first in 0..groups.len() {
             let mut within = |range: f64| random.random_range(-range..=range);

@@ -1,6 +1,6 @@
 //! What a plan does that its task does not allow, whatever it leads to.
 //!
-//! Written apart from the planner's own rules, which are stricter: it keeps distances, this only
+//! Written apart from the planner's own rules, which are stricter: it keeps distances; this only
 //! says what no robot can do or the task forbids.
 
 use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};

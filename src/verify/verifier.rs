@@ -53,7 +53,7 @@ impl<'a> Verifier<'a> {
     }
 
     /// About how long verifying a plan takes on one core, seconds: right to within a factor of
-    /// three where not everything is pushed into everything.
+    /// three unless everything is pushed into everything.
     pub fn seconds(&self, scene: &Scene, plan: &Plan) -> f64 {
         let pushing = plan.push_steps().map(|step| step.push.length / step.push.speed);
         let levering = plan.lever_steps().map(|step| step.lever.duration());
@@ -97,7 +97,7 @@ impl<'a> Verifier<'a> {
         Verdict::judge(broken_rules(task, scene, tool, plan), evidence, task.robustness)
     }
 
-    /// The verdict of [`Verifier::nominal`] with the disturbed replays beside it.
+    /// The verdict of [`Verifier::nominal`] together with the disturbed replays.
     pub fn disturb(
         &self,
         task: &Task,

@@ -6,19 +6,20 @@ mod prisms;
 mod recordings;
 mod robustness;
 mod saved;
-#[path = "../../fuzz/snippets.rs"]
+#[path = "../../crates/lab/fuzz/snippets.rs"]
 mod snippets;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use pushplan::asset::{ToolLibrary, load_task};
-use pushplan::dataset::Preset;
-use pushplan::geometry::{Pose, Shape};
-use pushplan::scene::{Job, Push, Tool, ToolMotion};
+use pushplan::geometry::Shape;
+use pushplan::scene::Tool;
+
+use crate::ROOT;
 
 /// A folder of the repository.
 fn folder(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(name)
+    Path::new(ROOT).join(name)
 }
 
 #[test]
@@ -71,32 +72,7 @@ fn the_reference_tools_have_the_reference_geometry() {
     }
 }
 
-#[test]
-fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
-    let library = ToolLibrary::embedded().unwrap();
-    for path in shipped_tasks() {
-        let task = load_task(path, &library).unwrap();
-        let jointed = !task.scene.joints.is_empty();
-        let ranges = if jointed { Preset::Mixed.ranges() } else { Preset::Tools.ranges() };
-        let start = Pose::default().position;
-        let (length, speed) = (task.pushes.length, task.pushes.speed);
-        let push = Push { start, direction: 0.0, length, speed };
-        for tool in task.tools(&library).unwrap() {
-            let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
-            let mut warnings = ranges.warnings(&task.scene, &Job::stated(&task.scene, motion));
-            if task.name == "glide" {
-                // Its point is to slide farther than nearly all training pushes do.
-                assert_eq!(warnings.len(), 1);
-                warnings.retain(|warning| !warning.to_string().contains("sliding on"));
-            }
-            // Data sets hold no prisms.
-            warnings.retain(|warning| !warning.to_string().contains("corner off a right angle"));
-            assert_eq!(warnings, [], "{}", task.name);
-        }
-    }
-}
-
-/// Every task file; pictures stand beside some of them.
+/// Every task file; pictures lie next to some of them.
 pub fn shipped_tasks() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder("tasks")).unwrap();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();

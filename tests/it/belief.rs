@@ -1,22 +1,19 @@
 //! Joints are found from how objects move, in simulated pushes whose truth is known.
 
-use std::process::{Command, Output};
 use std::sync::Arc;
 
 use pushplan::belief::{Belief, BeliefSettings, JointType};
-use pushplan::dataset::{Constraints, DatasetConfig, Episode, JointRule, Preset, Solids};
 use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::recording::Recording;
 use pushplan::scene::{
-    Engine, Job, Joint, JointKind, Noise, Object, Observation, Part, Push, Rate, Record, Scene,
-    Span, Tool, ToolMotion,
+    Engine, Job, Joint, JointKind, Noise, Object, Part, Push, Rate, Record, Scene, Span, Tool,
+    ToolMotion,
 };
 use pushplan::sim::Simulator;
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64;
 
-pub const EXACT: Noise = Noise { position: 0.0, heading: 0.0 };
+use crate::believing::{EXACT, believed};
+use crate::program::{run, stderr};
 
 /// Two boxes side by side, 4 mm apart, that a finger pushes off their middle.
 pub fn pair(joint: Option<JointKind>) -> (Scene, ToolMotion) {
@@ -45,32 +42,6 @@ pub fn recorded(scene: &Scene, motion: &ToolMotion, engine: Engine) -> Recording
     let job = Job::stated(scene, motion.clone());
     let frames = simulator.run(scene, &job, Record::Frames).frames;
     Recording::of_frames("pushed", scene, motion, &frames)
-}
-
-/// What is believed after all of a recording that was seen with this noise.
-pub fn believed(recording: &Recording, noise: Noise, seed: u64) -> Belief {
-    let mut rng = Pcg64::seed_from_u64(seed);
-    let mut normal = |sd: f64| {
-        // Sums of twelve even numbers are nearly normal.
-        sd * ((0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0)
-    };
-    let mut scene = recording.scene.clone();
-    for object in &mut scene.objects {
-        object.pose.position += Vector::new(normal(noise.position), normal(noise.position));
-        object.pose.heading += normal(noise.heading);
-    }
-    let settings = BeliefSettings::new(noise);
-    let mut belief = Belief::new(&scene, recording.tool.clone(), recording.lift, settings);
-    let model = Prior::default();
-    for Observation { strokes, mut seen } in recording.observations() {
-        for sight in seen.iter_mut().flatten() {
-            sight.position += Vector::new(normal(noise.position), normal(noise.position));
-            sight.heading = sight.heading.map(|heading| heading + normal(noise.heading));
-        }
-        belief.update(&model, Observation { strokes, seen });
-    }
-    belief.settle(&model);
-    belief
 }
 
 fn hinge() -> JointKind {
@@ -167,52 +138,6 @@ fn every_type_of_joint_of_cylinders_is_found_without_their_headings() {
     }
 }
 
-/// How many near pairs that moved are told right, of how many, in crowds of a seed that the filter's
-/// numbers were not chosen on.
-fn told_apart(preset: Preset, count: u64, solids: Solids, headings: bool) -> (usize, usize) {
-    let constraints = Constraints::test(9, JointRule::Mixed, solids);
-    let config = DatasetConfig { seed: 7, episodes: count, preset, constraints };
-    let (mut right, mut all) = (0, 0);
-    for index in 0..count {
-        let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
-        let mut recording = Recording::of_frames("drawn", &scene, &motion, &frames);
-        recording.headings.fill(headings);
-        let belief = believed(&recording, EXACT, index);
-        let joints = belief.map().joints;
-        let moved = |k: usize| {
-            let start = scene.objects[k].pose.position;
-            recording.frames.iter().any(|f| (f.poses[k].position - start).norm() > 0.01)
-        };
-        for between in belief.pairs().filter(|pair| pair.iter().any(|k| moved(*k))) {
-            let truth = scene.joints.iter().find(|joint| {
-                let [a, b] = joint.between;
-                [a.min(b), a.max(b)] == between
-            });
-            let found = joints.iter().find(|joint| joint.between == between);
-            right += usize::from(JointType::of(found) == JointType::of(truth));
-            all += 1;
-        }
-    }
-    println!("{preset:?}, {solids:?}: {right} of {all}");
-    (right, all)
-}
-
-#[test]
-fn near_pairs_that_moved_are_told_apart_in_crowds() {
-    for (preset, count, least) in [(Preset::Sparse, 4, 0.93), (Preset::Dense, 8, 0.85)] {
-        let (right, all) = told_apart(preset, count, Solids::Any, true);
-        assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
-    }
-}
-
-#[test]
-fn many_are_told_apart_in_crowds_of_cylinders_without_headings() {
-    for (preset, count, least) in [(Preset::Sparse, 8, 0.85), (Preset::Dense, 8, 0.75)] {
-        let (right, all) = told_apart(preset, count, Solids::Cylinders, false);
-        assert!(f64::from(right as u32) >= least * all as f64, "{preset:?}: {right} of {all}");
-    }
-}
-
 #[test]
 fn beliefs_are_the_same_bits_for_any_number_of_threads() {
     for headings in [true, false] {
@@ -266,22 +191,10 @@ fn a_mirrored_group_without_headings_is_believed_the_same_of() {
 fn the_command_infers_from_a_simulated_trajectory() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let dir = folder.path().to_str().expect("UTF-8");
-    let pushplan = |arguments: &[&str]| {
-        let command =
-            Command::new(env!("CARGO_BIN_EXE_pushplan")).arg("-q").args(arguments).output();
-        command.expect("the command starts")
-    };
-    let stderr = |output: &Output| String::from_utf8_lossy(&output.stderr).into_owned();
-    let simulated = pushplan(&[
-        "simulate",
-        "tasks/jointed-pair.yaml",
-        "--tool",
-        "finger",
-        "--push",
-        "start=0.44,0.06 direction_deg=0 length=0.15",
-        "--out",
-        dir,
-    ]);
+    let push = "start=0.44,0.06 direction_deg=0 length=0.15";
+    let action = ["tasks/jointed-pair.yaml", "--tool", "finger", "--push", push];
+    let alone = ["--model", "planar", "--alone", "--trajectories", "--out", dir];
+    let simulated = run(&[&["predict"], &action[..], &alone].concat());
     assert_eq!(simulated.status.code(), Some(0), "{}", stderr(&simulated));
     let file = std::fs::read_dir(dir)
         .expect("the folder")
@@ -290,7 +203,7 @@ fn the_command_infers_from_a_simulated_trajectory() {
         .expect("a trajectory");
     let file = file.to_str().expect("UTF-8");
     let output =
-        pushplan(&["infer", file, "--noise", "0", "--heading-noise", "0", "--json", "--out", dir]);
+        run(&["infer", file, "--noise", "0", "--heading-noise", "0", "--json", "--out", dir]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let pairs = json["pairs"].as_array().expect("pairs").len();
@@ -299,7 +212,7 @@ fn the_command_infers_from_a_simulated_trajectory() {
     assert!(
         folder.path().join("belief.json").exists() && folder.path().join("belief.svg").exists()
     );
-    let wrong = pushplan(&["infer", file, "--noise", "-1"]);
+    let wrong = run(&["infer", file, "--noise", "-1"]);
     assert_eq!(wrong.status.code(), Some(2));
 }
 

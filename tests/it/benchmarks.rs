@@ -2,10 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 use serde_json::Value as Json;
 use tempfile::TempDir;
+
+use crate::program::{run, stderr};
 
 const TASKS: [&str; 4] = [
     "tasks/pull-back.yaml",
@@ -13,6 +15,8 @@ const TASKS: [&str; 4] = [
     "tasks/too-far.yaml",
     "tasks/push-out-of-reach.yaml",
 ];
+
+const BENCH: [&str; 6] = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
 
 #[test]
 fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
@@ -22,11 +26,11 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
         (path("whole"), path("first"), path("second"), path("merged"));
     let printed = tasks(&["--out", &whole, "--json", "--threads", "1"]);
     tasks(&["--out", &second, "--shard", "2/2"]);
-    let output = pushplan(&["bench", "merge", &merged, &second]);
+    let output = run(&["bench", "merge", &merged, &second]);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("missing: 1"), "{}", stderr(&output));
     tasks(&["--out", &first, "--shard", "1/2"]);
-    let output = pushplan(&["bench", "merge", &merged, &second, &first, "--json"]);
+    let output = run(&["bench", "merge", &merged, &second, &first, "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(compared(Path::new(&merged)), compared(Path::new(&whole)));
 
@@ -50,7 +54,7 @@ fn shards_of_a_benchmark_merge_to_the_bytes_of_one_run() {
     let rows = fs::read_to_string(Path::new(&merged).join("tasks.csv")).expect("rows");
     assert_eq!(rows.lines().count(), TASKS.len() + 1, "{rows}");
 
-    let output = pushplan(&["bench", "report", &merged]);
+    let output = run(&["bench", "report", &merged]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("3 of 4 tasks solved with planar"), "{text}{}", stderr(&output));
 }
@@ -69,7 +73,7 @@ fn a_folder_with_another_run_is_refused() {
     let output = bench_tasks(&["--shard", "1/2"]);
     assert_eq!(output.status.code(), Some(2), "a shard that is kept nowhere");
     let empty = TempDir::new().expect("a folder");
-    let output = pushplan(&["bench", "report", empty.path().to_str().expect("UTF-8")]);
+    let output = run(&["bench", "report", empty.path().to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
 }
 
@@ -80,75 +84,16 @@ fn an_interrupted_benchmark_keeps_its_tasks_and_goes_on_to_the_same_bytes() {
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
     tasks(&["--out", whole.to_str().expect("UTF-8")]);
     let out = broken.to_str().expect("UTF-8");
-    let mut child = command(&["--out", out])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let begun = std::time::Instant::now();
     let kept = || fs::read_to_string(broken.join("records.jsonl")).unwrap_or_default();
-    while kept().is_empty() && child.try_wait().expect("a child").is_none() {
-        assert!(begun.elapsed().as_secs() < 60, "no task after a minute");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let pid = child.id().to_string();
-    Command::new("kill").args(["-INT", &pid]).status().expect("a signal is sent");
-    let output = child.wait_with_output().expect("the command ends");
-    // On a fast machine it may be done before the signal comes.
-    match output.status.code() {
-        Some(130) => {
-            assert!(stderr(&output).contains("the same command goes on"), "{}", stderr(&output));
-        }
-        code => assert_eq!(code, Some(0), "{}", stderr(&output)),
-    }
+    let line = [&BENCH[..], &TASKS, &["--out", out]].concat().join(" ");
+    let output = crate::interrupted::interrupted(&line, || !kept().is_empty());
+    let goes_on = stderr(&output).contains("the same command goes on");
+    assert!(goes_on || output.status.success(), "{}", stderr(&output));
     let before = kept();
     assert!(!before.is_empty());
     tasks(&["--out", out]);
     assert!(kept().starts_with(&before), "finished work was lost");
     assert_eq!(compared(&broken), compared(&whole));
-}
-
-#[test]
-fn random_tasks_are_measured_saved_and_compared() {
-    let folder = TempDir::new().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let random = |options: &[&str]| {
-        let fixed = ["bench", "random", "--effort", "draft", "--count", "4"];
-        let kinds = ["--kind", "heading", "--kind", "reach"];
-        let output = pushplan(&[&fixed[..], &kinds, options].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    };
-    let (planar, still, other) = (path("planar"), path("still"), path("other"));
-    random(&["--model", "planar", "--out", &planar, "--save-tasks", &path("tasks")]);
-    random(&["--model", "still", "--out", &still]);
-    random(&["--model", "still", "--out", &other, "--seed", "8"]);
-
-    let output = pushplan(&["bench", "report", &planar, &still, "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let json: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
-    let kind = |k: usize| json["runs"][0]["tasks"][k]["kind"].as_str().expect("a kind");
-    assert_eq!([0, 1, 2, 3].map(kind), ["reach", "heading", "heading", "reach"]);
-    let solved = |run: usize| {
-        let tasks = json["runs"][run]["tasks"].as_array().expect("tasks");
-        tasks.iter().filter(|task| task["solved"]["status"] == "solved").count()
-    };
-    assert!(solved(0) >= 3 && solved(1) == 0, "{} and {}", solved(0), solved(1));
-
-    let output = pushplan(&["bench", "report", &planar, &still, "--markdown"]);
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    for method in ["planar, draft", "still, draft", "random push", "do nothing"] {
-        assert!(text.contains(&format!("| {method} ")), "{text}");
-    }
-    let output = pushplan(&["bench", "report", &planar, &other]);
-    assert_eq!(output.status.code(), Some(2), "other tasks side by side");
-    assert!(stderr(&output).contains("seed 7, 4 tasks beside seed 8"), "{}", stderr(&output));
-
-    let saved = [0, 1].map(|k| ["reach", "heading"].map(|kind| format!("{kind}-000{k}.yaml")));
-    let files = saved.as_flattened().iter().map(|name| format!("{}/{name}", path("tasks")));
-    let mut arguments = vec!["check".to_owned()];
-    arguments.extend(files);
-    let output = pushplan(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }
 
 /// The files that are the same for every way to the same run.
@@ -165,20 +110,5 @@ fn tasks(options: &[&str]) -> Vec<u8> {
 }
 
 fn bench_tasks(options: &[&str]) -> Output {
-    command(options).output().expect("the command runs")
-}
-
-fn command(options: &[&str]) -> Command {
-    let fixed = ["bench", "tasks", "--model", "planar", "--effort", "draft"];
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pushplan"));
-    command.args(fixed).args(TASKS).args(options).current_dir(env!("CARGO_MANIFEST_DIR"));
-    command
-}
-
-fn pushplan(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pushplan")).args(arguments).output().expect("it runs")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
+    run(&[&BENCH[..], &TASKS, options].concat())
 }

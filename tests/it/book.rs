@@ -3,13 +3,14 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use pushplan::{Task, Tool};
 use serde_json::Value as Json;
 use serde_yaml::Value as Yaml;
 
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+use crate::ROOT;
+use crate::pages::blocks;
+use crate::program::{run, stderr};
 
 /// Writes the tables of keys anew.
 const UPDATE: &str = "PUSHPLAN_BOOK=write cargo test --release --test it -- book";
@@ -29,7 +30,7 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
     there.sort();
     let mut pages: Vec<&String> = listed.iter().filter(|path| !path.contains('/')).collect();
     pages.sort();
-    assert_eq!(there.iter().collect::<Vec<_>>(), pages, "pages beside the summary's");
+    assert_eq!(there.iter().collect::<Vec<_>>(), pages, "other pages than the summary's");
 
     let mut wrong = Vec::new();
     for (path, text) in pages_of(&listed) {
@@ -55,37 +56,19 @@ fn every_page_is_in_the_summary_and_every_link_leads_somewhere() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
-/// With `--help` behind it a command line is read up to there; scripts of the repository are there.
+/// Those of programs are looked at in `pages`; scripts of the repository are there.
 #[test]
-fn its_commands_are_taken() {
-    let mut taken = 0;
+fn its_commands_are_known() {
     for (path, text) in own_pages() {
         for block in blocks(&text, "sh") {
-            for line in block.replace("\\\n", " ").lines() {
-                let line = line.split(" #").next().unwrap_or(line).trim();
-                let Some(arguments) = line.strip_prefix("pushplan ") else {
-                    let program = line.split(' ').next().unwrap_or_default();
-                    let known = program == "pip" || Path::new(ROOT).join(program).is_file();
-                    assert!(known, "{path}: {line}");
-                    continue;
-                };
-                let output = Command::new("sh")
-                    .args(["-c", &format!("\"$PUSHPLAN\" {arguments} --help")])
-                    .env("PUSHPLAN", env!("CARGO_BIN_EXE_pushplan"))
-                    .current_dir(ROOT)
-                    .output()
-                    .expect("a shell");
-                let error = String::from_utf8_lossy(&output.stderr);
-                assert_eq!(output.status.code(), Some(0), "{path}: {line}: {error}");
-                // Files of the repository that a command names are there.
-                for file in line.split(' ').filter(|word| word.starts_with("tasks/")) {
-                    assert!(Path::new(ROOT).join(file).exists(), "{path}: {file}");
-                }
-                taken += 1;
+            for line in block.replace("\\\n", " ").lines().map(str::trim) {
+                let program = line.split(' ').next().unwrap_or_default();
+                let known = ["pip", "pushplan", "pushplan-learn", "pushplan-lab"];
+                let known = known.contains(&program) || Path::new(ROOT).join(program).is_file();
+                assert!(known, "{path}: {line}");
             }
         }
     }
-    assert!(taken > 15, "{taken}");
 }
 
 #[test]
@@ -116,14 +99,10 @@ fn its_files_are_right() {
                         fs::write(&file, text).expect("a file");
                         file
                     });
-                let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-                    .args(["run", "--pushes", "1", "--world"])
-                    .args([&world, &task])
-                    .arg("--out")
-                    .arg(folder.path())
-                    .output()
-                    .expect("the command runs");
-                let error = String::from_utf8_lossy(&output.stderr);
+                let [world, task, out] =
+                    [&world, &task, folder.path()].map(|path| path.to_str().expect("UTF-8"));
+                let output = run(&["run", "--pushes", "1", "--world", world, task, "--out", out]);
+                let error = stderr(&output);
                 assert!(matches!(output.status.code(), Some(0 | 4 | 5)), "{path}: {error}");
                 worlds += 1;
             }
@@ -142,10 +121,7 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
         ("world", "closed-loop.md"),
         ("recording", "recordings.md"),
     ] {
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-            .args(["schema", kind])
-            .output()
-            .expect("the command runs");
+        let output = run(&["check", "--schema", kind]);
         let schema: Json = serde_json::from_slice(&output.stdout).expect("JSON");
         let mut table = "| key | meaning |\n| --- | --- |\n".to_owned();
         rows(&schema, "", &mut table);
@@ -238,13 +214,6 @@ fn headings(text: &str) -> Vec<String> {
         found.push(if again == 0 { anchor } else { format!("{anchor}-{again}") });
     }
     found
-}
-
-/// The contents of a page's code blocks in `language`.
-fn blocks(page: &str, language: &str) -> Vec<String> {
-    let fence = format!("```{language}\n");
-    let rest = page.split(&fence).skip(1);
-    rest.filter_map(|rest| rest.split("```").next()).map(str::to_owned).collect()
 }
 
 /// A path without `..`, with slashes.

@@ -1,21 +1,22 @@
 //! The command as a user sees it: words, exit codes, files.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Stdio;
 
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use crate::program::{command, run, stderr};
+
 /// The transcripts in `tests/cmd`, with what was printed and the exit codes.
 #[test]
-#[cfg_attr(feature = "train", ignore = "the help is that of a build without training")]
 fn transcripts() {
     trycmd::TestCases::new().case("tests/cmd/*.md").default_bin_name("pushplan");
 }
 
 #[test]
 fn the_help_says_what_every_exit_code_means() {
-    let output = pushplan(&["--help"]);
+    let output = run(&["--help"]);
     let text = String::from_utf8(output.stdout).expect("UTF-8");
     let codes = text.split("Exit codes:\n").nth(1).expect("a list of exit codes");
     let listed: Vec<u8> = codes
@@ -30,7 +31,7 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
     let run = |threads: &str| {
         let arguments =
             ["predict", "tasks/pull-back.yaml", "--tool", "l-hook", "--push", "can:180", "--json"];
-        let output = pushplan(&[&arguments[..], &["--threads", threads]].concat());
+        let output = run(&[&arguments[..], &["--threads", threads]].concat());
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let mut json: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
         for effect in json["effects"].as_array_mut().expect("effects") {
@@ -48,22 +49,15 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let push = "start=0.62,-0.02 direction_deg=180 length=0.17";
-    let output = pushplan(&[
-        "simulate",
-        "tasks/pull-back.yaml",
-        "--tool",
-        "l-hook",
-        "--push",
-        push,
-        "--out",
-        out,
-    ]);
+    let action = ["tasks/pull-back.yaml", "--tool", "l-hook", "--push", push];
+    let alone = ["--model", "planar", "--alone", "--trajectories", "--out", out];
+    let output = run(&[&["predict"], &action[..], &alone].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let trajectory = folder.path().join("pull-back.planar.trajectory.json");
-    let output = pushplan(&["check", trajectory.to_str().expect("UTF-8")]);
+    let output = run(&["check", trajectory.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let names = files(folder.path());
-    assert_eq!(names, ["pull-back.planar.svg", "pull-back.planar.trajectory.json"]);
+    let names = ["pull-back.html", "pull-back.planar.svg", "pull-back.planar.trajectory.json"];
+    assert_eq!(files(folder.path()), names);
 }
 
 #[test]
@@ -73,22 +67,12 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
     let taken = folder.path().join("taken");
     std::fs::write(&taken, "").expect("a file");
     for out in [taken.join("plans"), taken] {
-        let output = pushplan(&[
-            "simulate",
-            "tasks/pull-back.yaml",
-            "--tool",
-            "stick",
-            "--push",
-            "can:0",
-            "--out",
-            out.to_str().expect("UTF-8"),
-        ]);
+        let out = ["--out", out.to_str().expect("UTF-8")];
+        let action = ["predict", "tasks/pull-back.yaml", "--tool", "stick", "--push", "can:0"];
+        let output = run(&[&action[..], &out].concat());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-        assert!(
-            stderr(&output).contains("error: cannot write to the folder"),
-            "{}",
-            stderr(&output)
-        );
+        let said = stderr(&output);
+        assert!(said.contains("error: cannot write to the folder"), "{said}");
     }
     assert_eq!(files(folder.path()), ["taken"]);
 }
@@ -97,11 +81,8 @@ fn a_folder_that_cannot_be_written_is_said_before_anything_is_computed() {
 #[test]
 fn a_full_disk_is_an_error_and_not_a_panic() {
     let full = std::fs::File::create("/dev/full").expect("the device of full disks");
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(["schema", "task"])
-        .stdout(full)
-        .output()
-        .expect("the command runs");
+    let output =
+        command(&["check", "--schema", "task"]).stdout(full).output().expect("the command runs");
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).starts_with("error: cannot write the results"), "{}", stderr(&output));
 }
@@ -112,14 +93,14 @@ fn a_plan_that_cannot_be_written_is_printed_all_the_same() {
     // A folder where the plan should go: refused to everybody, root as well.
     std::fs::create_dir(folder.path().join("pull-back.plan.json")).expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
-    let output = pushplan(&["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out]);
+    let output = run(&["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("pull-back.plan.json: error: cannot write the file"));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("solved") && !text.contains("wrote"), "{text}");
 
     let json = ["solve", "tasks/pull-back.yaml", "--effort", "draft", "--out", out, "--json"];
-    let output = pushplan(&json);
+    let output = run(&json);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(report["files"], serde_json::json!([]));
@@ -142,7 +123,7 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
         (&["check", path, bad], 3),
         (&["solve", path, "--tools", bad], 3),
     ] {
-        let output = pushplan(arguments);
+        let output = run(arguments);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
         for text in [&output.stdout, &output.stderr] {
             let text = String::from_utf8_lossy(text);
@@ -151,7 +132,7 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
     }
     // What the files hold is named after the file as far as a name can be.
     assert!(files(folder.path()).contains(&"red--31m--2J.plan.json".to_owned()));
-    let output = pushplan(&["check", path, bad]);
+    let output = run(&["check", path, bad]);
     assert!(
         String::from_utf8_lossy(&output.stdout).contains("red\\u001b[31m \\u009b2J.yaml: task")
     );
@@ -159,32 +140,28 @@ fn control_characters_of_a_file_never_reach_the_terminal() {
 }
 
 #[test]
-fn many_files_with_one_doubt_get_one_warning() {
-    let folder = TempDir::new().expect("a folder");
-    let text = include_str!("assets/push.recording.json");
-    let heavy = text.replace("\"name\": \"can\",", "\"name\": \"can\", \"mass\": 80.0,");
-    assert_ne!(heavy, text);
-    let mut arguments = vec!["evaluate".to_owned(), "--no-baselines".into(), "--on".into()];
-    for (k, text) in [text, &heavy, &heavy, &heavy].into_iter().enumerate() {
-        let path = folder.path().join(format!("push-{k}.recording.json"));
-        std::fs::write(&path, text).expect("a recording");
-        arguments.push(path.to_str().expect("UTF-8").to_owned());
+fn words_that_went_or_moved_say_what_to_write_now() {
+    for (words, now) in [
+        ("evaluate prior", "pushplan predict RECORDINGS"),
+        ("simulate tasks/pull-back.yaml", "--alone"),
+        ("schema task", "pushplan check --schema"),
+        ("solve tasks/pull-back.yaml --effort exhaustive", "--effort thorough --disturbed 64"),
+        ("generate data", "pushplan-learn"),
+        ("train runs/any --steps 9", "pushplan-learn"),
+        ("tradeoff", "pushplan-lab"),
+        ("bench random --count 3", "pushplan-lab"),
+    ] {
+        let output = run(&words.split(' ').collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert!(stderr(&output).contains("any more") && stderr(&output).contains(now), "{words}");
     }
-    let output = pushplan(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let warnings = stderr(&output);
-    let of_mass: Vec<&str> = warnings.lines().filter(|line| line.contains("mass")).collect();
-    assert_eq!(of_mass.len(), 1, "{warnings}");
-    assert!(of_mass[0].starts_with("warning: push-1: "), "{warnings}");
-    assert!(of_mass[0].ends_with("(and the like in 2 more of 4 recordings)"), "{warnings}");
 }
 
 #[test]
 fn a_reader_that_goes_away_is_no_error() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(["completions", "zsh"])
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
+    let mut child = command(&["completions", "zsh"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
     drop(child.stdout.take());
@@ -195,7 +172,7 @@ fn a_reader_that_goes_away_is_no_error() {
 #[test]
 fn schemas_fit_the_shipped_files() {
     for kind in ["tool", "task"] {
-        let output = pushplan(&["schema", kind]);
+        let output = run(&["check", "--schema", kind]);
         let schema: Json = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(schema["title"], format!("pushplan {kind}"));
         assert_eq!(schema["additionalProperties"], false);
@@ -208,7 +185,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
         let folder = TempDir::new().expect("a folder");
         let out = folder.path().to_str().expect("UTF-8").to_owned();
         let task = "tasks/pull-back.yaml";
-        let output = pushplan(&["solve", task, "--out", &out, "--threads", threads]);
+        let output = run(&["solve", task, "--out", &out, "--threads", threads]);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let names = ["pull-back.html", "pull-back.plan.json", "pull-back.svg"];
         assert_eq!(files(folder.path()), names);
@@ -223,7 +200,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     let plan = plan.to_str().expect("UTF-8");
     let page = folder.path().join("verified");
     let out = page.to_str().expect("UTF-8");
-    let output = pushplan(&["verify", plan, "--disturbed", "2", "--out", out]);
+    let output = run(&["verify", plan, "--disturbed", "2", "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(files(&page), ["pull-back.html"]);
 
@@ -234,7 +211,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     json["plan"]["steps"][0]["push"]["length"] = (0.5 * length).into();
     let short = folder.path().join("short.plan.json");
     std::fs::write(&short, json.to_string()).expect("a file");
-    let output = pushplan(&["verify", short.to_str().expect("UTF-8"), "--json"]);
+    let output = run(&["verify", short.to_str().expect("UTF-8"), "--json"]);
     assert_eq!(output.status.code(), Some(5), "{}", stderr(&output));
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
     assert_eq!(report["verdict"]["passed"], false);
@@ -244,78 +221,12 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
 fn a_task_without_a_solution_ends_with_code_4_and_shows_the_nearest_plan() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
-    let output = pushplan(&["solve", "tasks/too-far.yaml", "--out", out, "--json"]);
+    let output = run(&["solve", "tasks/too-far.yaml", "--out", out, "--json"]);
     assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
     assert_eq!(report["status"], "no_plan");
     let names = ["too-far.nearest.html", "too-far.nearest.plan.json", "too-far.nearest.svg"];
     assert_eq!(files(folder.path()), names);
-}
-
-#[test]
-fn a_test_set_is_made_as_asked_and_says_so_in_its_manifest() {
-    let folder = TempDir::new().expect("a folder");
-    let out = folder.path().to_str().expect("UTF-8");
-    let output = pushplan(&[
-        "generate",
-        out,
-        "--episodes",
-        "3",
-        "--preset",
-        "sparse-line",
-        "--objects",
-        "6",
-        "--joints",
-        "mixed",
-        "--solids",
-        "cylinders",
-        "--speed",
-        "0.21",
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(files(folder.path()), ["manifest.json", "records.bin"]);
-    let manifest = std::fs::read(folder.path().join("manifest.json")).expect("a manifest");
-    let manifest: Json = serde_json::from_slice(&manifest).expect("JSON");
-    let settings = &manifest["settings"];
-    assert_eq!(settings["preset"], "sparse_line");
-    let wanted = serde_json::json!(
-        {"objects": 6, "joints": "mixed", "solids": "cylinders", "speed": 0.21}
-    );
-    assert_eq!(settings["constraints"], wanted);
-}
-
-#[cfg(unix)]
-#[test]
-fn an_interrupted_generation_keeps_what_it_has_and_goes_on_to_the_same_bytes() {
-    crate::interrupted::goes_on_after_an_interruption("generate", "--episodes 64");
-}
-
-#[cfg(not(feature = "train"))]
-#[test]
-fn a_build_without_training_says_how_to_get_one_with_it() {
-    for command in ["train", "train-regulator", "train-lever"] {
-        let output = pushplan(&[command, "runs/any", "--steps", "9"]);
-        assert_eq!(output.status.code(), Some(2));
-        let said = stderr(&output);
-        assert!(said.contains("error: this pushplan was built without training"), "{said}");
-        assert!(said.contains("--features train"), "{said}");
-    }
-}
-
-fn pushplan(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments)
-        .current_dir(root())
-        .output()
-        .expect("the command runs")
-}
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// Names of the files in a folder, sorted.

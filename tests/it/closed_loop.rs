@@ -1,18 +1,18 @@
 //! The closed loop: hidden truths are found out or coped with, whatever is seen of them.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use pushplan::act::{
     ActError, End, Look, Note, RunSettings, Runner, SimulatedWorld, Step, Trace, Why, World,
     WorldError, WorldState, hidden,
 };
 use pushplan::asset::{Faults, ToolLibrary, load_task, load_world};
-use pushplan::belief::{Belief, BeliefSettings, generator};
+use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::geometry::Vector;
 use pushplan::scene::{
     Engine, JointKind, Noise, Physics, Sight, Support, Task, ToolMotion, Truth, Unknowns, Warning,
 };
+use pushplan::seeded::generator;
 use pushplan::solve::{Effort, Planner};
 use pushplan::watch::{Unwatched, Watch};
 
@@ -25,7 +25,7 @@ fn planner() -> Planner {
 }
 
 fn shipped(name: &str) -> Task {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tasks/{name}.yaml"));
+    let path = Path::new(crate::ROOT).join(format!("tasks/{name}.yaml"));
     load_task(path, &library()).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
@@ -81,7 +81,7 @@ fn tasks_that_say_so_need_a_probe() {
     }
 }
 
-/// Stops once so many steps are made.
+/// Stops after a number of steps.
 struct After(usize, std::sync::atomic::AtomicUsize);
 
 impl Watch for After {
@@ -337,18 +337,13 @@ fn world_files_say_what_is_really_there_and_their_faults_have_places() {
     }
 }
 
-fn pushplan(arguments: &[&str]) -> Output {
-    let program = Command::new(env!("CARGO_BIN_EXE_pushplan")).arg("-q").args(arguments).output();
-    program.expect("the command starts")
-}
-
 #[test]
 fn the_command_runs_resumes_and_tells_how_it_ended() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let run = |more: &[&str]| {
         let fixed = ["run", "tasks/hidden-hinge.yaml", "--world", "2", "--json", "--out", out];
-        pushplan(&[&fixed, more].concat())
+        crate::program::run(&[&fixed, more].concat())
     };
     let output = run(&[]);
     let error = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -365,24 +360,5 @@ fn the_command_runs_resumes_and_tells_how_it_ended() {
     assert_eq!(run(&["--resume"]).status.code(), Some(3));
     let nothing = folder.path().join("none.yaml");
     let world = ["run", "tasks/hidden-hinge.yaml", "--world", nothing.to_str().expect("UTF-8")];
-    assert_eq!(pushplan(&world).status.code(), Some(3));
-}
-
-#[test]
-fn the_benchmark_is_the_same_in_parts() {
-    let folder = tempfile::TempDir::new().expect("a folder");
-    let within = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
-    let bench = |out: &str, shard: &[&str]| {
-        let fixed = ["bench", "run", "--count", "2", "--kind", "pair", "--out", out, "--json"];
-        let output = pushplan(&[&fixed, shard].concat());
-        let error = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(0), "{error}");
-    };
-    bench(&within("whole"), &[]);
-    bench(&within("one"), &["--shard", "1/2"]);
-    bench(&within("two"), &["--shard", "2/2"]);
-    let merged = pushplan(&["bench", "merge", &within("merged"), &within("one"), &within("two")]);
-    assert_eq!(merged.status.code(), Some(0), "{}", String::from_utf8_lossy(&merged.stderr));
-    let records = |run: &str| std::fs::read(Path::new(&within(run)).join("records.jsonl")).unwrap();
-    assert_eq!(records("merged"), records("whole"));
+    assert_eq!(crate::program::run(&world).status.code(), Some(3));
 }

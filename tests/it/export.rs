@@ -1,6 +1,5 @@
 //! Plans for other programs: what is written, and what MuJoCo makes of it.
 
-mod lever_twins;
 mod mujoco;
 
 use std::fs;
@@ -97,7 +96,7 @@ goal: {object: a, position: [0.60, 0.0], tolerance: 0.02}
 #[test]
 fn every_shipped_task_has_a_scene() {
     let tool = Tool::parse(BAR, "bar.yaml").unwrap();
-    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks")).unwrap() {
+    for entry in fs::read_dir(Path::new(crate::ROOT).join("tasks")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|end| end == "yaml") {
             let mut file = plan(SIMPLE, BAR, PushForm::Placed, &[([0.4, 0.0], 0.0, 0.1, 0.1)]);
@@ -146,7 +145,7 @@ fn the_command_writes_a_scene_for_each_plan_and_the_script() {
 }
 
 fn export(plans: &[impl AsRef<Path>], out: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pushplan"))
+    Command::new(crate::PROGRAM)
         .arg("export")
         .args(plans.iter().map(AsRef::as_ref))
         .args(["--format", "mjcf", "--out"])

@@ -101,7 +101,7 @@ fn pushes_that_move_nothing_are_no_ground_for_a_fit() {
     assert!(fit(&Prior::default(), &trials, &FitSettings::default(), &Unwatched).is_none());
 }
 
-/// The end of a push of 5 cm against a box beside its middle.
+/// The end of a push of 5 cm against a box, off its middle.
 fn slow_end(model: &dyn EffectModel, speed: f64, support: Support) -> Pose {
     let object = Object::cuboid("box", [0.1, 0.1, 0.05]).friction(0.3).standing_on(support);
     let scene = Scene::new([object]).on_table(0.3).with_friction(0, Surface::Tool, 0.25);

@@ -5,7 +5,8 @@ use pushplan::effect::Prior;
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{Engine, JointKind, Noise, Push, Span, ToolMotion};
 
-use crate::belief::{EXACT, believed, cylinders, pair, recorded};
+use crate::belief::{cylinders, pair, recorded};
+use crate::believing::{EXACT, believed};
 
 /// Where a joint stopped it stops again; to the other side nothing is known.
 #[test]

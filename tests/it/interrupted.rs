@@ -1,63 +1,60 @@
 //! A command that is interrupted and goes on.
 
+use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
+
+use crate::program::succeed;
 
 /// Runs a resumable command once whole and once with an interruption, and compares the files.
 pub fn goes_on_after_an_interruption(command: &str, options: &str) {
     let folder = TempDir::new().expect("a folder");
-    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
-    let (whole, broken) = (path("whole"), path("broken"));
-    let arguments = |dir: &str| -> Vec<String> {
-        [command, dir].into_iter().chain(options.split(' ')).map(str::to_owned).collect()
-    };
-    let run = |dir: &str| {
-        let arguments = arguments(dir);
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).args(arguments).output();
-        let output = output.expect("the command runs");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    };
-    run(&whole);
-
-    // As long jobs are run; a hangup that is ignored must not cost the other signals.
-    let mut child = Command::new("nohup")
-        .arg(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments(&broken))
-        .stdin(std::process::Stdio::null())
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .expect("the command starts");
+    let [whole, broken] = ["whole", "broken"].map(|name| folder.path().join(name));
+    let line = |dir: &Path| format!("{command} {} {options}", dir.display());
+    succeed(&line(&whole));
     // After the first files, so that there is something to keep.
-    let begun = std::time::Instant::now();
-    while std::fs::read_dir(&broken).map_or(0, Iterator::count) < 2
-        && child.try_wait().expect("a child").is_none()
-    {
-        assert!(begun.elapsed().as_secs() < 60, "no file after a minute");
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .expect("a signal is sent");
-    let code = child.wait().expect("the command ends").code();
-    // On a fast machine it may be done before the signal comes.
-    assert!(code == Some(130) || code == Some(0), "exit code {code:?}");
-
-    run(&broken);
-    let read = |dir: &str| -> Vec<(String, Vec<u8>)> {
-        let entries = std::fs::read_dir(dir).expect("a folder");
-        let names = entries.map(|entry| entry.expect("an entry").file_name());
-        let names = names.map(|name| name.into_string().expect("UTF-8"));
+    interrupted(&line(&broken), || fs::read_dir(&broken).map_or(0, Iterator::count) > 1);
+    succeed(&line(&broken));
+    let read = |dir: &Path| -> Vec<(String, Vec<u8>)> {
+        let entries = fs::read_dir(dir).expect("a folder");
+        let files = entries.map(|entry| entry.expect("an entry"));
+        // Data that a run makes for itself lie in folders of their own.
+        let files = files.filter(|entry| entry.path().is_file());
+        let names = files.map(|entry| entry.file_name().into_string().expect("UTF-8"));
         // Metrics hold wall times, which no two runs share.
         let names = names.filter(|name| name != "metrics.jsonl");
-        let mut read: Vec<_> = names
-            .map(|name| (name.clone(), std::fs::read(Path::new(dir).join(name)).expect("a file")))
-            .collect();
+        let file = |name: String| (name.clone(), fs::read(dir.join(name)).expect("a file"));
+        let mut read: Vec<_> = names.map(file).collect();
         read.sort();
         read
     };
     assert!(read(&broken) == read(&whole), "the resumed files differ");
+}
+
+/// Runs a command as long jobs are run, until there is something, and interrupts it: a hangup that is
+/// ignored must not cost the other signals.
+pub fn interrupted(line: &str, until: impl Fn() -> bool) -> Output {
+    let mut child = Command::new("nohup")
+        .arg(crate::PROGRAM)
+        .args(line.split_whitespace())
+        .current_dir(crate::ROOT)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let begun = Instant::now();
+    while !until() && child.try_wait().expect("a child").is_none() {
+        assert!(begun.elapsed().as_secs() < 60, "nothing after a minute");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let id = child.id().to_string();
+    Command::new("kill").args(["-INT", &id]).status().expect("a signal is sent");
+    let output = child.wait_with_output().expect("the command ends");
+    // On a fast machine it may be done before the signal comes.
+    assert!(matches!(output.status.code(), Some(130 | 0)), "{output:?}");
+    output
 }

@@ -3,7 +3,7 @@
 use pushplan::{
     effect::{EffectModel, Network, Prior},
     geometry::{Pose, Shape, Vector, perpendicular, wrap_angle},
-    network::Weights,
+    network::PredictorWeights,
     scene::{Job, Joint, JointKind, Record, Scene, Span, State, Stroke, ToolMotion},
 };
 
@@ -33,7 +33,7 @@ fn scene() -> Scene {
 
 /// Random weights that disturb the prior but do not drown it: ten frames of noise through three
 /// joints amplify any rounding.
-fn gentle() -> Weights {
+fn gentle() -> PredictorWeights {
     let mut weights = weights(64);
     for name in ["motion.even", "motion.odd"] {
         if let Some(values) = weights.parameters.values.get_mut(name) {

@@ -218,7 +218,7 @@ fn a_plan_pushes_levers_and_pushes_again() {
 
 #[test]
 fn the_shipped_task_needs_both_and_its_plan_reads_back() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers/turn-and-push.yaml");
+    let path = Path::new(crate::ROOT).join("tasks/levers/turn-and-push.yaml");
     let task = load_task(&path, &library()).expect("a task of levering");
     let planner = |effort| Planner::for_effort(effort).expect("the shipped weights").build();
     let tools = ToolChoice::Named(vec!["screwdriver".to_owned()]);

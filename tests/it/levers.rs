@@ -29,7 +29,7 @@ fn library() -> ToolLibrary {
 }
 
 fn shipped() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
+    let folder = Path::new(crate::ROOT).join("tasks/levers");
     let entries = std::fs::read_dir(folder).expect("a folder of tasks");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|end| end == "yaml"));
@@ -101,7 +101,7 @@ fn blades_are_no_tools_for_pushes() {
     for tool in library.blades() {
         let text = serde_json::to_string(&tool.to_json()).expect("numbers");
         assert_eq!(&Tool::parse(&text, "again.yaml").expect("sound"), &**tool);
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tools/{}.yaml", tool.name));
+        let path = Path::new(crate::ROOT).join(format!("tools/{}.yaml", tool.name));
         assert_eq!(&Tool::load(&path).expect("named after its tool"), &**tool);
         assert_eq!(check(&path, None).ok(), Some(Kind::Tool));
     }

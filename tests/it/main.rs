@@ -1,37 +1,31 @@
-//! Tests across rooms, in one binary so that rapier links once. Those of training, which are built only
-//! with candle, stand in `tests/training`.
+//! Tests across rooms, in one binary so that rapier links once. The crates in `crates` have tests of
+//! their own, which share what several of them need.
 
 mod architecture;
 mod assets;
 mod baselines;
 mod belief;
+mod believing;
 mod bench_store;
 mod benchmarks;
 mod book;
 mod cli;
 mod closed_loop;
-mod crowd_errors;
-mod crowds;
-mod dataset;
-mod evaluation;
 mod export;
-mod extremes;
 mod facade;
 mod fitting;
 mod fixtures;
 mod foreseen;
 mod formats;
 #[cfg(unix)]
+#[allow(dead_code)]
 mod interrupted;
 mod jointed;
-mod joints_bench;
-mod lever_data;
 mod lever_engine;
 mod lever_follow_up;
-mod lever_models;
-mod lever_parts;
 mod levers;
 mod models;
+mod mujoco_python;
 mod network;
 mod outside;
 mod pages;
@@ -39,21 +33,24 @@ mod pairs;
 mod pictures;
 mod plan_page;
 mod planning;
-mod prior;
 mod prisms;
-mod pruning;
+mod program;
 mod random_network;
 mod random_regulator;
-mod random_tasks;
 mod readme;
 mod real_pushes;
+mod recorded;
+mod recorded_pushes;
 mod regulator;
 mod seams;
+#[allow(dead_code)]
+mod sharding;
 mod shards;
-mod shipped_network;
 mod simulation;
 mod solving;
-mod symmetry;
 mod tool_choice;
-mod tradeoff;
 mod verification;
+
+/// The repository, and its program.
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const PROGRAM: &str = env!("CARGO_BIN_EXE_pushplan");

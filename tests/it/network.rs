@@ -5,7 +5,10 @@ use std::sync::Arc;
 use pushplan::{
     effect::{EffectModel, Network},
     geometry::{Pose, Shape, Vector},
-    network::{Buffers, ErrorCard, Forward, Weights, WeightsError},
+    network::{
+        Buffers, Card, ErrorCard, Forward, LeverCard, PredictorCard, PredictorWeights,
+        RegulatorCard, RegulatorWeights, Weights, WeightsError,
+    },
     scene::{Job, Part, Record, Scene, State, Stroke, Tool, ToolMotion, Velocity},
 };
 
@@ -133,9 +136,9 @@ fn weights_survive_their_file_and_damage_is_refused() {
     let weights = weights(32);
     let bytes = weights.to_bytes().expect("encode");
     assert_eq!(bytes, weights.to_bytes().expect("encode"), "same weights, same bytes");
-    assert_eq!(Weights::from_bytes(&bytes).expect("decode"), weights);
-    assert!(matches!(Weights::from_bytes(&bytes[..50]), Err(WeightsError::Format(_))));
-    assert!(Weights::from_bytes(b"name: stick").is_err());
+    assert_eq!(PredictorWeights::from_bytes(&bytes).expect("decode"), weights);
+    assert!(matches!(PredictorWeights::from_bytes(&bytes[..50]), Err(WeightsError::Format(_))));
+    assert!(PredictorWeights::from_bytes(b"name: stick").is_err());
 }
 
 #[test]
@@ -147,7 +150,7 @@ fn a_single_wrong_bit_of_a_tensor_or_of_the_card_is_found() {
         let mut flipped = bytes.clone();
         // The lowest bit of a mantissa: still a sound number.
         flipped[tensors + (at - tensors) / 4 * 4] ^= 1;
-        let error = Weights::from_bytes(&flipped).expect_err("damage");
+        let error = PredictorWeights::from_bytes(&flipped).expect_err("damage");
         assert!(matches!(error, WeightsError::Checksum { .. }), "{error}");
     }
     // A quotation mark of the card stands behind a backslash in the header.
@@ -157,13 +160,13 @@ fn a_single_wrong_bit_of_a_tensor_or_of_the_card_is_found() {
     let digit = &mut other[episodes.expect("a key of the card") + key.len()];
     assert_eq!(*digit, b'0', "the number of episodes");
     *digit = b'1';
-    let error = Weights::from_bytes(&other).expect_err("damage");
+    let error = PredictorWeights::from_bytes(&other).expect_err("damage");
     assert!(matches!(error, WeightsError::Checksum { .. }), "{error}");
 }
 
 #[test]
 fn weights_that_no_training_gives_are_refused_by_name() {
-    type Spoil = fn(&mut Weights);
+    type Spoil = fn(&mut PredictorWeights);
     let spoilt: [(Spoil, &str); 7] = [
         (|w| set(w, "update.own", f32::NAN), "the parameter `update.own` holds a number"),
         (|w| set(w, "update.own", 1e9), "`update.own` is 1000000000, up to 1000 is sound"),
@@ -177,22 +180,36 @@ fn weights_that_no_training_gives_are_refused_by_name() {
         let mut weights = weights(32);
         spoil(&mut weights);
         let bytes = weights.to_bytes().expect("encode");
-        let error = Weights::from_bytes(&bytes).expect_err(expected).to_string();
+        let error = PredictorWeights::from_bytes(&bytes).expect_err(expected).to_string();
         assert!(error.contains(expected), "{error}");
     }
 }
 
 const ERRORS: ErrorCard = ErrorCard { pushes: 10, mean: 1e-3, median: 1e-4, p95: -1.0 };
 
-fn set(weights: &mut Weights, name: &str, value: f32) {
+fn set(weights: &mut PredictorWeights, name: &str, value: f32) {
     weights.parameters.values.get_mut(name).expect("a parameter")[3] = value;
 }
 
 #[test]
 fn the_shipped_weights_are_written_as_they_were_read() {
-    let shipped = include_bytes!("../../models/brdpn.safetensors");
-    let weights = Weights::from_bytes(shipped).expect("the shipped weights");
-    assert!(weights.to_bytes().expect("encode") == shipped, "reading and writing changes the file");
+    fn same<C: Card>(shipped: &[u8]) {
+        let weights = Weights::<C>::from_bytes(shipped).expect("shipped weights");
+        let written = weights.to_bytes().expect("encode");
+        assert!(written == shipped, "reading and writing changes the file of {}", C::KEY);
+    }
+    same::<PredictorCard>(include_bytes!("../../crates/models/brdpn.safetensors"));
+    same::<RegulatorCard>(include_bytes!("../../crates/models/regulator.safetensors"));
+    same::<LeverCard>(include_bytes!("../../crates/models/lever.safetensors"));
+}
+
+#[test]
+fn a_file_of_one_network_is_none_of_another() {
+    let lever = include_bytes!("../../crates/models/lever.safetensors");
+    let error = PredictorWeights::from_bytes(lever).expect_err("another network").to_string();
+    assert!(error.contains("no `pushplan` entry"), "{error}");
+    let error = RegulatorWeights::from_bytes(lever).expect_err("another network").to_string();
+    assert!(error.contains("no `pushplan-regulator` entry"), "{error}");
 }
 
 #[test]

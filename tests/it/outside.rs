@@ -1,16 +1,21 @@
 //! What happens where the network should not be trusted: simulated instead, said, or refused.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
     effect::{EffectModel, EffectModels, Network, Outside, Routed, Simulated},
-    scene::{Job, Joint, JointKind, ModelKind, Obstacle, Record, Scene, Task, Trajectory, Warning},
+    scene::{
+        Job, Joint, JointKind, ModelKind, Obstacle, Quantity, Record, Scene, Task, Trajectory,
+        Warning,
+    },
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
 };
 
 use super::random_network::{object, stroke, tool};
+use crate::ROOT;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::scene::ToolMotion;
 
@@ -140,7 +145,7 @@ fn a_tool_set_down_on_an_object_is_said() {
 #[test]
 fn a_planner_refuses_warns_with_a_number_or_simulates() {
     let library = ToolLibrary::embedded().expect("the shipped tools");
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/pull-back.yaml");
+    let path = Path::new(ROOT).join("tasks/pull-back.yaml");
     let mut task: Task = load_task(&path, &library).expect("a shipped task");
     task.scene.objects[0].mass = 500.0;
     let planner = |outside| {
@@ -166,4 +171,23 @@ fn a_planner_refuses_warns_with_a_number_or_simulates() {
         (best.plan.clone(), best.outcome.clone())
     });
     assert_eq!(ends[0].0.tool(), ends[1].0.tool());
+}
+
+#[test]
+fn a_can_of_twenty_kilograms_is_warned_of_whatever_the_effort() {
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let path = Path::new(ROOT).join("tasks/pull-back.yaml");
+    let mut task = load_task(&path, &library).expect("a shipped task");
+    let draft = |task: &Task| {
+        let planner = Planner::for_effort(Effort::Draft).expect("a sound library").build();
+        let solution = planner.solve(task, &library).expect("a sound task");
+        let found = solution.warnings.into_iter().filter_map(|warning| match warning {
+            Warning::OutsideRange { quantity, value, .. } => Some((quantity, value)),
+            _ => None,
+        });
+        found.collect::<Vec<_>>()
+    };
+    assert_eq!(draft(&task), []);
+    task.scene.objects[0].mass = 20.0;
+    assert_eq!(draft(&task), [(Quantity::Mass, 20.0)]);
 }

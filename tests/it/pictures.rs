@@ -1,9 +1,10 @@
 //! The shipped pictures are what the command writes.
 
 use std::path::Path;
-use std::process::Command;
 
 use tempfile::TempDir;
+
+use crate::program::succeed;
 
 /// The task whose pictures the README shows.
 const TASK: &str = "tasks/pull-back-behind-wall";
@@ -13,16 +14,10 @@ const LARGEST: usize = 100_000;
 
 #[test]
 fn the_shipped_pictures_are_what_solve_writes() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(crate::ROOT);
     let out = TempDir::new().expect("a folder");
-    let status = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(["solve", &format!("{TASK}.yaml"), "--animate", "--quiet", "--out"])
-        .arg(out.path())
-        .current_dir(root)
-        .output()
-        .expect("the command runs")
-        .status;
-    assert_eq!(status.code(), Some(0));
+    let folder = out.path().display();
+    succeed(&format!("solve {TASK}.yaml --animate --quiet --out {folder}"));
     for ending in ["svg", "animated.svg"] {
         let shipped = root.join(format!("{TASK}.{ending}"));
         let name = shipped.file_name().expect("a name");

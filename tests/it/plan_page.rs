@@ -165,10 +165,10 @@ fn its_controls_work_and_nothing_leaves() {
     assert!(said.contains("score") || said.contains("would") || said.contains("meet"), "{said}");
 
     // The command that it offers is one that runs.
-    let command = browser.text("#command").replacen("pushplan", env!("CARGO_BIN_EXE_pushplan"), 1);
+    let command = browser.text("#command").replacen("pushplan", crate::PROGRAM, 1);
     let output = Command::new("sh")
         .args(["-c", &format!("{command} --json")])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(crate::ROOT)
         .output()
         .expect("a shell");
     let report: Json = serde_json::from_slice(&output.stdout).expect("JSON alone");
@@ -277,18 +277,13 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
 
 /// How the program ends, run in the checkout.
 fn exit_code(arguments: &[&str]) -> i32 {
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the command runs");
-    output.status.code().expect("no signal")
+    crate::program::run(arguments).status.code().expect("no signal")
 }
 
 /// A shipped task, solved.
 fn solved(path: &str) -> (Task, Solution) {
     let library = ToolLibrary::embedded().expect("the shipped tools");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let path = Path::new(crate::ROOT).join(path);
     let task = load_task(&path, &library).unwrap_or_else(|faults| panic!("{faults}"));
     let planner = Planner::for_effort(Effort::Standard).expect("a model").build();
     let solution = planner.solve(&task, &library).expect("a sound task");
@@ -365,5 +360,5 @@ fn error_at(goal: &Goal, trajectory: &Trajectory, time: f64) -> f64 {
 }
 
 fn number(value: &Json) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }

@@ -56,7 +56,7 @@ fn end(model: &dyn EffectModel, scene: &Scene, motion: &ToolMotion) -> State {
     model.rollout(scene, &[job], Record::Outcome)[0].outcome().clone()
 }
 
-/// A narrow finger that pushes along x by 15 cm, `aside` metres beside the origin.
+/// A narrow finger that pushes along x by 15 cm, `aside` metres off the origin.
 fn finger(aside: f64) -> ToolMotion {
     let part = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
     let tool = Arc::new(Tool::new("finger", [part]).expect("one piece"));
@@ -95,7 +95,7 @@ fn shipped_tasks_with_prisms_are_solved() {
     let library = ToolLibrary::embedded().expect("the shipped tools");
     let planner = Planner::for_effort(Effort::Standard).expect("shipped weights").build();
     for name in ["triangle-turned", "hexagon-any-side"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tasks/{name}.yaml"));
+        let path = Path::new(crate::ROOT).join(format!("tasks/{name}.yaml"));
         let task = Task::load(path).expect("a shipped task");
         let solution = planner.solve(&task, &library).expect("a sound task");
         assert_eq!(solution.status, PlanStatus::Solved, "{name}");

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
-use pushplan::dataset::DatasetConfig;
+use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::graph::Batch;
-use pushplan::network::{Card, Config, Normaliser, Parameters, Tables, Weights};
+use pushplan::network::{Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Tables};
 use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
 
 /// Random weights whose last layer is not zero, so that the network matters, nor large, so
 /// that a rollout stays near a push and does not amplify rounding.
-pub fn weights(width: usize) -> Weights {
+pub fn weights(width: usize) -> PredictorWeights {
     let config = Config { width, steps: 2 };
     let mut parameters = Parameters::fresh(&config, 3);
     let like = parameters.values["motion.hidden"].clone();
@@ -22,11 +22,11 @@ pub fn weights(width: usize) -> Weights {
         }
     }
     let batch = batch(&scene(), &scene().start(), &stroke());
-    Weights {
-        card: Card {
+    PredictorWeights {
+        card: PredictorCard {
             config,
             normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
-            ranges: DatasetConfig::default().ranges(),
+            ranges: PRIOR_RANGES,
             data_seed: 0,
             episodes: 0,
             steps: 0,

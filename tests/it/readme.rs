@@ -1,7 +1,7 @@
 //! What the README says is true: its commands run, its task is solved, its example compiles, its
 //! table is the measured one.
 
-use std::process::Command;
+use std::path::Path;
 
 use pushplan::asset::load_task;
 use pushplan::report::seconds;
@@ -9,7 +9,9 @@ use pushplan::{Effort, PlanStatus, Planner, Task, Tool, ToolLibrary};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::pages::{self, blocks};
+use crate::ROOT;
+use crate::pages::{are_taken, blocks};
+use crate::program::succeed;
 
 const README: &str = include_str!("../../README.md");
 
@@ -25,15 +27,15 @@ fn its_commands_run() {
     let lines: Vec<&str> = lines.collect();
     let [solve, verify, act] = &lines[..] else { panic!("solve, verify, run: {lines:?}") };
     // Results go elsewhere, so that the tests leave the checkout as it is.
-    run(&format!("{solve} --out {folder}"));
-    run(&verify.replace("plans/", &format!("{folder}/")));
+    succeed(&format!("{solve} --out {folder}"));
+    succeed(&verify.replace("plans/", &format!("{folder}/")));
     for end in ["plan.json", "svg", "html", "animated.svg"] {
         assert!(out.path().join(format!("pull-back-behind-wall.{end}")).exists(), "{end}");
     }
-    run(&format!("{act} --out {folder}"));
-    // The pictures beside the command are those that it makes.
+    succeed(&format!("{act} --out {folder}"));
+    // The pictures below the command are those that it makes.
     for name in ["coupled-or-not.run.svg", "coupled-or-not.belief.svg"] {
-        let shown = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks").join(name);
+        let shown = Path::new(ROOT).join("tasks").join(name);
         let [made, shown] = [out.path().join(name), shown].map(std::fs::read);
         let old = format!("tasks/{name} is old: {act} --out tasks, and remove the trace");
         assert!(made.unwrap() == shown.unwrap(), "{old}");
@@ -55,8 +57,9 @@ fn its_task_is_solved_and_its_tool_is_one() {
 /// Success, error and time of the efforts are those of the measured trade-off.
 #[test]
 fn its_table_is_the_measured_one() {
-    let measured: Json = serde_json::from_str(include_str!("../../models/tradeoff.json")).unwrap();
-    for effort in ["draft", "standard", "thorough", "exhaustive"] {
+    let measured: Json =
+        serde_json::from_str(include_str!("../../crates/lab/results/tradeoff.json")).unwrap();
+    for effort in ["draft", "standard", "thorough"] {
         let name = &measured["efforts"][effort]["name"];
         let plans = measured["plans"].as_array().expect("levels");
         let level = plans.iter().find(|level| level["name"] == *name).expect("its level");
@@ -72,13 +75,9 @@ fn its_table_is_the_measured_one() {
     }
 }
 
-/// Those of training are looked at where there is training, in `tests/training`.
 #[test]
 fn the_commands_of_all_pages_are_taken() {
-    let commands = pages::commands();
-    let commands: Vec<_> = commands.iter().filter(|command| !pages::trains(command)).collect();
-    commands.iter().for_each(|command| run(&format!("{command} --help")));
-    assert!(commands.len() > 10);
+    are_taken(15);
 }
 
 #[test]
@@ -99,20 +98,9 @@ fn its_example_is_the_one_that_runs_as_a_documentation_test() {
 fn its_picture_is_of_a_shipped_task() {
     let path =
         README.split("](").nth(1).and_then(|rest| rest.split(')').next()).expect("a picture");
-    let picture = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    let picture = Path::new(ROOT).join(path);
     assert!(picture.exists(), "{path} is missing");
     let task = picture.with_extension("").with_extension("yaml");
     let library = ToolLibrary::embedded().expect("the shipped tools");
     load_task(&task, &library).unwrap_or_else(|faults| panic!("{faults}"));
-}
-
-/// Runs the program in the checkout; it must succeed.
-fn run(arguments: &str) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pushplan"))
-        .args(arguments.split_whitespace())
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the command runs");
-    let error = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "pushplan {arguments}: {error}");
 }

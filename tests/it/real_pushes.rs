@@ -1,46 +1,14 @@
-//! Real pushes of a triangle on known supports, see `assets/real-pushes/README.md`: told where the
-//! plate stands, models end near where it did, and the pushes tell where it stands.
+//! Real pushes, see `recorded_pushes.rs`: told where the plate stands, models end near where it did,
+//! and the pushes tell where it stands.
 
-use std::path::Path;
-
-use pushplan::asset::recordings_in;
 use pushplan::effect::{EffectModel, Prior, Simulated};
 use pushplan::fit::{FitSettings, fit};
-use pushplan::judge::{Comparison, Trial, mean, percentile};
-use pushplan::recording::Recording;
+use pushplan::judge::Trial;
 use pushplan::scene::Support;
 use pushplan::sim::Simulator;
 use pushplan::watch::Unwatched;
 
-pub(super) const SUPPORTS: [&str; 5] = ["flat", "inner", "middle", "outer", "skew"];
-
-/// The ten pushes on a support, as recorded.
-pub(super) fn pushes(support: &str) -> Vec<Recording> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/assets/real-pushes");
-    let found = recordings_in(&folder.join(support)).expect("a folder");
-    let files = found.into_iter().flat_map(|(_, files)| files);
-    files.map(|file| Recording::load(file).expect("a sound recording")).collect()
-}
-
-/// Mean and median of the final position errors when all plates are told to stand on `support`,
-/// metres.
-pub(super) fn errors(
-    model: &dyn EffectModel,
-    pushes: &[Recording],
-    support: &Support,
-) -> (f64, f64) {
-    let mut errors: Vec<f64> = pushes
-        .iter()
-        .map(|push| {
-            let mut push = push.clone();
-            push.scene.objects[0].support = support.clone();
-            let trial = Trial::of_recording(&push);
-            Comparison::of(model, &trial).end()[0].position
-        })
-        .collect();
-    errors.sort_by(f64::total_cmp);
-    (mean(&errors), percentile(&errors, 50.0))
-}
+use crate::recorded_pushes::{SUPPORTS, errors, pushes};
 
 #[test]
 fn told_its_true_support_a_model_is_near_and_told_another_it_is_not_nearer() {

@@ -9,7 +9,6 @@ mod joints;
 mod rapier_035_friction_direction;
 mod sequences;
 mod sliding;
-mod steps;
 mod supports;
 mod symmetry;
 mod travel;

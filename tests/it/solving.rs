@@ -50,7 +50,7 @@ impl EffectModel for Wishful {
     }
 }
 
-/// The planar engine, with every push predicted to end beside its true end.
+/// The planar engine, with every push predicted to end next to its true end.
 struct Beside(Simulated, Vector);
 
 impl EffectModel for Beside {
@@ -73,7 +73,7 @@ impl EffectModel for Beside {
 
 fn shipped(name: &str) -> (Task, ToolLibrary) {
     let library = ToolLibrary::embedded().unwrap();
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let folder = PathBuf::from(crate::ROOT).join("tasks");
     (load_task(folder.join(name), &library).unwrap(), library)
 }
 
@@ -86,7 +86,7 @@ fn a_plan_that_ends_beside_the_goal_in_3d_is_aimed_as_far_on_the_other_side() {
     let solution = Planner::builder(model).build().solve(&task, &library).unwrap();
     assert_eq!(solution.status, PlanStatus::Solved);
     let best = solution.best().unwrap();
-    let aim = best.refinement.aimed_at.expect("an aim beside the goal");
+    let aim = best.refinement.aimed_at.expect("an aim next to the goal");
     // The two engines differ by millimetres on top of what the model is off by.
     assert!((aim - task.goal.position - off).norm() < 0.01, "{aim:?}");
     let verdict = best.verdict.as_ref().unwrap();

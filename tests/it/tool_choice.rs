@@ -1,8 +1,7 @@
 //! The reference tool benchmark: the shipped goals can be made again, and what is chosen is what
 //! is scored.
 
-use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use pushplan::bench::{
     GoalSet, Layout, Method, ReferenceSetup, StartGoals, ToolBench, ToolRecord, single_pushes,
@@ -11,6 +10,8 @@ use pushplan::effect::EffectModels;
 use pushplan::geometry::Vector;
 use pushplan::scene::ModelKind;
 use pushplan::solve::{Effort, Planner};
+
+use crate::program::succeed;
 
 /// A start with goals that need corners and edges.
 const START: usize = 9;
@@ -107,7 +108,7 @@ fn measure(threads: usize) -> ToolRecord {
     let index = goals.starts[..=START].iter().map(|start| start.goals.len()).sum::<usize>() - 1;
     let model = EffectModels::build(&ModelKind::NETWORK.into()).expect("weights");
     let planner = Planner::for_effort(Effort::Draft).expect("weights").build();
-    let mut bench = ToolBench::new(setup, goals, &model, &planner, 7);
+    let mut bench = ToolBench::new(setup, goals, Arc::new(model), planner, 7);
     pool.install(|| bench.measure(index)).expect("a task").record
 }
 
@@ -132,21 +133,14 @@ fn single_pushes_are_solved_where_they_can_be_whatever_the_number_of_threads() {
 fn a_part_of_the_benchmark_is_kept_and_shown_again() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
-    let run = |args: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_pushplan")).args(args).output();
-        let output = output.expect("the command starts");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    };
-    let args =
-        ["bench", "tools", "--effort", "draft", "--shard", "118/118", "--out", out, "--json"];
-    let json = run(&args);
+    let run = |line: &str| String::from_utf8(succeed(line).stdout).expect("UTF-8");
+    let json = run(&format!("bench tools --effort draft --shard 118/118 --out {out} --json"));
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON alone");
     assert_eq!(json["run"]["suite"], "tools");
     assert_eq!(json["tasks"].as_array().map(Vec::len), Some(1));
     assert!(json["tasks"][0]["seconds"]["first"].as_f64() > Some(0.0), "{json}");
     assert_eq!(json["summary"].as_array().map(Vec::len), Some(6 * 8));
-    let text = run(&["bench", "report", out]);
+    let text = run(&format!("bench report {out}"));
     assert!(text.contains("1 tasks on the grid layout, network"), "{text}");
     assert!(text.contains("stick -90, first choice"), "{text}");
     let rows = std::fs::read_to_string(folder.path().join("tasks.csv")).expect("rows");

@@ -1,9 +1,9 @@
-//! Which of several pushes tells most.
+//! Which of several pushes is the most informative.
 //!
 //! Two samples s and t of a belief, in which a push is predicted to end the distance d apart, in
-//! standard deviations of what is seen, are still taken for each other with a probability of at most
-//! exp(-d^2 / 8) afterwards (Bhattacharyya's bound). Of N samples the end of a push therefore tells,
-//! in nats, about
+//! standard deviations of what is seen, are still confused with a probability of at most exp(-d^2 /
+//! 8) afterwards (Bhattacharyya's bound). Of N samples the end of a push therefore tells, in nats,
+//! about
 //!
 //! ```text
 //! mean over s of  -ln (mean over t of exp(-d^2 / 8))
@@ -22,21 +22,21 @@ use crate::scene::{Job, Noise, Record, State, ToolMotion, Trajectory};
 
 use super::super::judge::{Reach, Samples};
 
-/// Probes that are rolled out in a few samples, and those of them that are in all.
+/// How many probes are rolled out in a few samples, and how many of them in all.
 const RACED: (usize, usize) = (32, 4);
 const FINAL: usize = 8;
 
-/// Error of a predicted end beside the noise, metres.
+/// Error of a predicted end on top of the noise, metres.
 const MODEL: f64 = 2e-3;
 
 /// How a probe is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ProbeRule {
-    /// By what it tells of the samples in which different plans work.
+    /// By what it tells about the samples in which different plans work.
     #[default]
     Task,
-    /// By what it tells of all samples, whatever the task is.
+    /// By what it tells about all samples, whatever the task.
     Information,
     /// By chance.
     Random,
@@ -84,7 +84,7 @@ pub(super) fn choose(
     if rule == ProbeRule::Uncertain
         && let Some(pair) = least_certain(belief)
     {
-        // Stable, so those at its objects come first as they came.
+        // Stable, so those at its objects come first, in their order.
         order.sort_by_key(|&k| !pair.contains(&probes[k].object));
     }
     order.truncate(RACED.0);
@@ -97,7 +97,7 @@ pub(super) fn choose(
         let rolled = model.rollout(&samples.now.scene, &jobs, Record::Outcome);
         let each = rolled.chunks(samples.physics.len().max(1));
         let valued = each.map(|ends| value((rule, noise), samples, ends, reach));
-        // What goes wrong in a sample is no probe.
+        // A push that goes wrong in a sample is not a probe.
         valued.zip(order.iter().copied()).filter(|(value, _)| value.is_finite()).collect()
     };
     let mut raced = values(&order, &few);
@@ -152,7 +152,7 @@ fn value(
     }
 }
 
-/// What the end of a push tells of `count` samples, nats, of which two are taken for each other with the
+/// What the end of a push tells of `count` samples, nats, of which two are confused with the
 /// probability `alike`.
 fn told(count: usize, alike: impl Fn(usize, usize) -> f64) -> f64 {
     let one = |s: usize| {

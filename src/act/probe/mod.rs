@@ -1,5 +1,5 @@
-//! Pushes that are made to learn something: of a task, whether that pays and which there are; and
-//! which of several tells most.
+//! Pushes that are made to learn something: for a task, whether that pays and which ones there are;
+//! and which of several is the most informative.
 
 mod choose;
 mod task;

@@ -66,8 +66,8 @@ pub(in crate::act) fn probe(
     Some((plan, tool))
 }
 
-/// Every probe that a task allows at the object of its goal and those that may hang on it, with the
-/// object that it is made at.
+/// Every probe that a task allows at the object of its goal and those that may be joined to it,
+/// with the object that it is made at.
 fn candidates(
     task: &Task,
     samples: &Samples,
@@ -75,7 +75,7 @@ fn candidates(
 ) -> Vec<(usize, Plan, Arc<Tool>)> {
     let scene = &samples.now.scene;
     let mut sets = DisjointSets::new(scene.objects.len());
-    // As they stand now; those that hung together from the start still stand near each other.
+    // As they are now; objects that were joined from the start are still near each other.
     for (between, _) in near_pairs(scene) {
         sets.join(between);
     }

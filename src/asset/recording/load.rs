@@ -17,7 +17,7 @@ use super::spec::{PUSHER_KEYS, RECORDING, default};
 use super::{frames, units};
 
 impl Recording {
-    /// Reads a recording; JSON if the file's name ends so, else YAML.
+    /// Reads a recording; JSON if the file's name ends in `.json`, else YAML.
     ///
     /// # Errors
     /// All faults of the file, each with its place.
@@ -94,7 +94,7 @@ fn complete(object: &mut Node, pose: &Node, ledger: &mut Ledger) {
     if let Some(said) = object.get("position") {
         let differs = |k: usize, found: &Node| {
             let said = said.items().get(k).and_then(Node::number);
-            // Below a tenth of what counts as touching nobody can have meant two places.
+            // Below a tenth of what counts as touching, two places cannot have been meant.
             matches!((said, found.number()), (Some(a), Some(b)) if (a - b).abs() > 1e-3)
         };
         if differs(0, x) || differs(1, y) {
@@ -139,7 +139,7 @@ fn pusher(node: &Node, ledger: &mut Ledger) -> Option<(Arc<Tool>, f64)> {
     if let Some(tool) = node.get("tool") {
         if let Some(friction) = node.get("friction") {
             let advice = "remove it; the tool has its own friction value";
-            ledger.fault(friction, "`friction` beside a tool", advice);
+            ledger.fault(friction, "`friction` as well as a tool", advice);
         }
         return Some((Arc::new(tool::tool_of(tool, ledger)?), lift?));
     }

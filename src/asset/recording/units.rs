@@ -1,4 +1,4 @@
-//! Wrong units, seen from sizes and positions that no table has.
+//! Wrong units, recognised by sizes and positions that no table has.
 
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;

@@ -64,7 +64,7 @@ impl<'a> Opened<'a> {
     pub fn check_plan(&mut self, plan: &Plan) {
         let Some(node) = self.root.get("plan") else { return };
         let tools: Vec<&str> = self.tools.iter().map(|tool| tool.name.as_str()).collect();
-        let mixed = "the file is mixed from two; make it again";
+        let mixed = "the file mixes two; make it again";
         let stated = node.get("tool").and_then(Node::text).into_iter();
         for tool in plan.tools().into_iter().chain(stated) {
             if !tools.contains(&tool) {

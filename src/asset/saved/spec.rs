@@ -293,7 +293,7 @@ const REASON: Value = Value::Variant(&[
         GOES_WRONG,
         "Something goes wrong when it is replayed as written; no default.",
     ),
-    Key::optional("misses", MISSES, "The object ends beside the goal; no default."),
+    Key::optional("misses", MISSES, "The object misses the goal; no default."),
     Key::optional(
         "fragile",
         FRAGILE,

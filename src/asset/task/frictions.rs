@@ -25,8 +25,8 @@ const FRICTION: Value = Value::Map(&[
     Key::required(
         "between",
         Value::List { of: &Value::Name, items: "names", min: 2, max: 2 },
-        "An object and what rubs on it: another object, an obstacle, `table`, or `tool` for \
-         whatever tool or pusher.",
+        "An object and what it touches: another object, an obstacle, `table`, or `tool` for \
+         any tool or pusher.",
     ),
     Key::required(
         "coefficient",

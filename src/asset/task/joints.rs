@@ -241,7 +241,7 @@ fn check_distances(joint: &Node, first: &Node, second: &Node, ledger: &mut Ledge
         let [a, b] = names();
         ledger.fault(
             joint.get("between").unwrap_or(joint),
-            format!("`{a}` and `{b}` are {apart:.2} m apart; a joint reaches over at most {FAR} m"),
+            format!("`{a}` and `{b}` are {apart:.2} m apart; a joint spans at most {FAR} m"),
             "move them closer together; lengths are in metres",
         );
     }
@@ -294,7 +294,7 @@ impl Groups {
             ledger.fault(
                 node,
                 format!(
-                    "with this joint {} objects hang together; at most {GROUP} can be simulated",
+                    "with this joint {} objects are joined together; at most {GROUP} can be simulated",
                     a_size + b_size
                 ),
                 "remove a joint, or write objects with fixed joints as one cuboid",

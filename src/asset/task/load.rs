@@ -63,7 +63,7 @@ impl Task {
         self.chosen(library, library.blades().iter(), mixed, |tool| tool.blade().is_some())
     }
 
-    /// The tools that it allows for pushes beside lever-ups: those without blades.
+    /// The tools that it allows for pushes that follow lever-ups: those without blades.
     pub fn pushers(&self, library: &ToolLibrary) -> ToolChoice {
         match &self.tools {
             ToolChoice::All => ToolChoice::All,

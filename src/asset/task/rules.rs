@@ -1,4 +1,4 @@
-//! Rules that span several keys of a task file: what no single value can break.
+//! Rules that span several keys of a task file, and that no single value can break.
 
 use crate::asset::fault::did_you_mean;
 use crate::asset::node::Node;
@@ -22,7 +22,7 @@ const MASS_RATIO: f64 = 1000.0;
 /// break the simulator at every setting.
 const CHAIN_MASS_RATIO: f64 = 100.0;
 
-/// Notes every fault that lies between values.
+/// Notes every fault in how values go together.
 pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     let empty = Node { id: root.id, content: crate::asset::node::Content::Nothing };
     let section = |key| root.get(key).unwrap_or(&empty);

@@ -71,11 +71,11 @@ const UNKNOWN: Value = Value::List {
     max: 4,
 };
 
-const UNKNOWN_MEANING: &str = "What of the scene nobody knows, so that `pushplan run` has to find out \
+const UNKNOWN_MEANING: &str = "What is not known about the scene, so that `pushplan run` has to find it out \
 by pushing: `joints` (any two objects with a gap below 30 mm may be joined; none are stated then), \
-`masses` (the stated one times or over 2, nine times in ten), `frictions` (of objects and table, times \
-or over 1.5), `support` (anything from even pressure to the corners). What is stated is the middle of \
-what it may be, and what `pushplan solve` plans with; by default nothing is unknown.";
+`masses` (within a factor of 2 of the stated one, nine times in ten), `frictions` (of objects and \
+table, within a factor of 1.5), `support` (anything from even pressure to the corners). What is stated \
+is the middle of the possible values, and `pushplan solve` plans with it; by default nothing is unknown.";
 
 const SCENE: Value = Value::Map(&[
     TABLE,
@@ -101,7 +101,7 @@ pub(in crate::asset) const PUSH_HEIGHT: Key = Key::optional(
     }),
     "How high the tool presses on objects, as a share of the mean height of where their faces \
      meet: 0 at the table, 1 in the middle. The higher, the more of an object's weight moves \
-     ahead; by default unknown, as two flat faces leave it.",
+     ahead; by default unknown, as between two flat faces.",
 );
 
 /// What the objects stand on.
@@ -112,7 +112,7 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
         Key::optional(
             "size",
             numbers(&SIZE, 2),
-            "Extents [x, y] of the table top in metres; by default it has no end. An object whose \
+            "Extents [x, y] of the table top in metres; by default unlimited. An object whose \
              centre leaves it has fallen off.",
         ),
         Key::optional(
@@ -121,7 +121,7 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
             "Middle of a table top with a size, [x, y] in metres; default [0, 0], the robot's base.",
         ),
     ]),
-    "The table; by default of friction 0.5 and without an end.",
+    "The table; by default of friction 0.5 and unlimited.",
 );
 
 /// Joints of one scene.
@@ -238,7 +238,7 @@ pub(in crate::asset) const PUSHES: Value = Value::Map(&[
         "form",
         Value::Word(&["placed", "chained"]),
         "`placed`: each push starts where it is best, the tool comes from above and lifts after \
-         it; `chained`: all start from `home`, each goes on where the last ended; default placed.",
+         it; `chained`: all start from `home`, each continues where the last ended; default placed.",
     ),
     Key::optional(
         "directions",

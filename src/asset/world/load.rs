@@ -1,4 +1,4 @@
-//! Reading a world file beside its task.
+//! Reading a world file together with its task.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::scene::{DisjointSets, Engine, Noise, Scene, Support, Task, Truth, car
 
 use super::spec::WORLD;
 
-/// Reads a world file: what is not said there is as `task` states it.
+/// Reads a world file: whatever it leaves out is as `task` states it.
 ///
 /// # Errors
 /// All faults of the file, each with its place.

@@ -13,7 +13,7 @@ use super::{execute::Action, sequences::Sequences, setup::ReferenceSetup};
 pub struct Choice {
     /// What to do.
     pub action: Action,
-    /// Predicted distance from the goal, metres; `None` where nobody predicted.
+    /// Predicted distance from the goal, metres; `None` without a prediction.
     pub predicted: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What the tool does, as executed in both engines; what is chosen twice is played once.
+//! What the tool does, as executed in both engines; a choice that occurs twice is played once.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::{
 
 use super::setup::{LIFT, ReferenceSetup};
 
-/// What the tool does: a tool pose and its pushes; none is standing still.
+/// What the tool does: a tool pose and its pushes; without one it stands still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// Index of the tool pose.
@@ -29,7 +29,7 @@ pub struct Action {
 pub struct Landing {
     /// Metres.
     pub at: Vector,
-    /// Whether it stands, at rest, where it is said to be.
+    /// Whether it is at rest where it is said to be.
     pub sound: bool,
 }
 

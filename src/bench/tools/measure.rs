@@ -1,5 +1,7 @@
 //! Measuring the tasks one by one; those of one start share its rollouts.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
 use crate::store::{Measured, Seconds};
@@ -36,11 +38,11 @@ pub enum ToolBenchError {
 }
 
 /// The benchmark: goals, the model that is measured, and what tasks of the last start share.
-pub struct ToolBench<'a> {
+pub struct ToolBench {
     setup: ReferenceSetup,
     goals: GoalSet,
-    model: &'a dyn EffectModel,
-    planner: &'a Planner,
+    model: Arc<dyn EffectModel>,
+    planner: Planner,
     seed: u64,
     shared: Option<Shared>,
 }
@@ -63,14 +65,14 @@ pub(super) struct Shared {
     pub spent: Spent,
 }
 
-impl<'a> ToolBench<'a> {
-    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner`
-    /// beside it; `seed` is of the random choices.
+impl ToolBench {
+    /// Measures `model` on `goals` of `setup` by the protocol of the reference, and `planner` as
+    /// well; `seed` is that of the random choices.
     pub fn new(
         setup: ReferenceSetup,
         goals: GoalSet,
-        model: &'a dyn EffectModel,
-        planner: &'a Planner,
+        model: Arc<dyn EffectModel>,
+        planner: Planner,
         seed: u64,
     ) -> Self {
         Self { setup, goals, model, planner, seed, shared: None }
@@ -92,13 +94,13 @@ impl<'a> ToolBench<'a> {
         let kept = self.shared.take().filter(|shared| shared.start == start);
         let shared = match kept {
             Some(shared) => self.shared.insert(shared),
-            None => self.shared.insert(Shared::new(&self.setup, self.model, &task, start)),
+            None => self.shared.insert(Shared::new(&self.setup, &*self.model, &task, start)),
         };
         let mut seconds = Seconds::new();
         let mut record = ToolRecord { start, goal: goal.into(), trials: Vec::new() };
         let poses = (0..self.setup.poses.len()).map(Some);
         for pose in std::iter::once(None).chain(poses) {
-            let choosers = (self.model, self.planner);
+            let choosers = (&*self.model, &self.planner);
             let mut trials = Trials::new(&self.setup, choosers, &task, shared, pose);
             let times = pose.is_none().then_some(&mut seconds);
             record.trials.extend(trials.run((self.seed, index as u64), times)?);

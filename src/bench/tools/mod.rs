@@ -1,10 +1,10 @@
 //! The reference tool benchmark: which tool, which pushes and where to stop, so that a cylinder
 //! ends at a goal.
 //!
-//! The reference chooses among all chained sequences and stops by prediction alone; that
-//! protocol stands in `sequences` and `choose` on nothing but an effect model, because it
-//! measures a model and is no way to plan. Beside its rows stands what the planner makes of the
-//! same goals with the same tool poses, through [`crate::solve::Planner::solve`].
+//! The reference chooses among all chained sequences and stops by prediction alone; that protocol
+//! stands in `sequences` and `choose` on nothing but an effect model, because it measures a model
+//! and is not a way to plan. Other rows show what the planner makes of the same goals with the same
+//! tool poses, through [`crate::solve::Planner::solve`].
 
 mod choose;
 mod execute;

@@ -37,7 +37,7 @@ impl Method {
 pub struct Executed {
     /// Distance from the goal, metres.
     pub error: f64,
-    /// Whether the cylinder stands, at rest, where it is said to be; no success otherwise.
+    /// Whether the cylinder is at rest where it is said to be; no success otherwise.
     pub sound: bool,
 }
 
@@ -63,8 +63,8 @@ pub struct ToolTrial {
     pub pushes: usize,
     /// Travel of the tool, metres.
     pub travel: f64,
-    /// Plans that the planner had replayed until one passed or it gave up; `None` for who tries
-    /// nothing.
+    /// Plans that the planner had replayed until one passed or it gave up; `None` for methods that
+    /// try nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attempts: Option<usize>,
 }

@@ -1,9 +1,9 @@
 //! The reference protocol: all chained sequences of pushes of a task, each with every stop.
 //!
-//! The pushes start from a fixed home and one goes on where the last ended; the tool may stop
-//! after any of a number of equal steps. This is no planner, and nothing of ours plans like it:
-//! it is how the reference chooses, so its rows say what a *model* is worth. It needs nothing
-//! but an [`EffectModel`].
+//! The pushes start from a fixed home and one goes on where the last ended; the tool may stop after
+//! any of a number of equal steps. This is not a planner, and nothing here plans like it: it is how
+//! the reference chooses, so its rows say what a *model* is worth. It needs nothing but an
+//! [`EffectModel`].
 //!
 //! Sequences that begin alike share their beginning: for t tool poses and d directions, t (d +
 //! d^2 + d^3) pushes are rolled out for three-push sequences and not 3 t d^3. For an effect
@@ -12,7 +12,7 @@
 //! remembers contact forces, so its sequences can be played whole instead.
 //!
 //! Where the cylinder comes to rest after a stop is estimated by free sliding, which ranks the
-//! stops; whoever acts on one rolls it out.
+//! stops; whatever acts on one rolls it out.
 
 use crate::{
     effect::EffectModel,
@@ -53,7 +53,7 @@ struct Node {
     end: Vector,
 }
 
-/// What is rolled out, and by whom.
+/// What is rolled out, and by which model.
 #[derive(Clone, Copy)]
 pub struct Rolling<'a> {
     pub setup: &'a ReferenceSetup,

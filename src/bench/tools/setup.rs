@@ -12,9 +12,9 @@ use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    dataset::generator,
     geometry::{Pose, Vector, clearance},
     scene::{Goal, Object, Part, PushForm, PushRules, Robot, Scene, Task, Tool},
+    seeded::generator,
 };
 
 /// Stops are offered after this many equal steps of a push: 5 mm each.

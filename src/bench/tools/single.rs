@@ -2,7 +2,7 @@
 //!
 //! The cylinder stands anywhere in 3 m^2 in front of the robot (1.5 m deep, 2 m wide), the goal
 //! lies anywhere in 16 m^2 around it (a square of 4 m), and a task is solved within 10 cm. Most
-//! of these tasks have no solution, so the count of those that have one stands beside the
+//! of these tasks have no solution, so the count of those that have one stands next to the
 //! successes.
 
 use rand::Rng;
@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    dataset::generator,
     effect::{EffectModel, Simulated},
     geometry::Vector,
     scene::{Engine, Task},
+    seeded::generator,
     sim::Simulator,
 };
 
@@ -61,7 +61,7 @@ pub struct SinglePushes {
     pub missed: usize,
 }
 
-/// What came of one task, in the order of [`SinglePushes`].
+/// The result of one task, in the order of [`SinglePushes`].
 struct One {
     nothing: bool,
     solvable: bool,

@@ -8,9 +8,9 @@ use rand::Rng;
 use crate::store::Seconds;
 use crate::{
     asset::ToolLibrary,
-    dataset::generator,
     effect::{EffectModel, Simulated},
     scene::{Directions, Engine, Push, PushForm, Task},
+    seeded::generator,
     sim::Simulator,
     solve::{Planner, Solution, SolveError},
 };

@@ -7,7 +7,6 @@ use clap::Args;
 use crate::cli::{
     action::LibraryArgs,
     error::CliError,
-    form::Form,
     model::{self, OutsideArgs},
 };
 use crate::effect::EffectModel;
@@ -23,8 +22,6 @@ pub struct Common {
     pub outside: OutsideArgs,
     #[command(flatten)]
     pub library: LibraryArgs,
-    #[command(flatten)]
-    pub form: Form,
 }
 
 impl Common {

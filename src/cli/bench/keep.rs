@@ -12,7 +12,7 @@ use crate::report::Document;
 use crate::scene::ModelSpec;
 use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 
-/// Names of the files that a report leaves beside the records.
+/// Names of the files that a report leaves next to the records.
 const PAGE: &str = "report.html";
 const ROWS: &str = "tasks.csv";
 
@@ -20,9 +20,9 @@ const ROWS: &str = "tasks.csv";
 pub const HELP: &str = "With --out every finished task is kept as soon as those before it are: \
 after an interruption (Ctrl-C) the same command goes on.
 manifest.json and records.jsonl are then the same bytes as without interruption; times.jsonl holds
-the wall times, which never are. --shard 2/3 measures every third task, on another machine say;
-`pushplan bench merge OUT SHARD...` makes of the parts what one run would have left, and
-`pushplan bench status SHARD...` says which are missing.";
+the wall times, which differ. --shard 2/3 measures every third task, for example on another machine;
+`merge OUT SHARD...` puts the parts together as one run would have left them, `status SHARD...` says
+which are missing, and `report DIR...` shows them again.";
 
 /// Where results are kept.
 #[derive(Args, Debug)]
@@ -150,7 +150,7 @@ impl From<StoreError> for CliError {
             | StoreError::Occupied { .. }
             | StoreError::NothingToMerge => Self::usage(
                 message,
-                "name a new folder, then those of all shards: pushplan bench merge OUT SHARD...",
+                "name a new folder, then those of all shards: merge OUT SHARD...",
             ),
             StoreError::Manifest { .. }
             | StoreError::Damaged { .. }

@@ -16,8 +16,7 @@ use crate::verify::{Verifier, VerifySettings};
 /// Which task, and the tools that it was solved with.
 #[derive(Args, Debug)]
 pub struct PageArgs {
-    /// A task file whose plan a page is to play; `bench random --save-tasks` writes those of random
-    /// tasks
+    /// A task file of the run whose plan a page is to play
     #[arg(long, value_name = "TASK", requires = "out")]
     page: Option<PathBuf>,
     #[command(flatten)]
@@ -68,8 +67,8 @@ impl PageArgs {
         let end = |engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
         if [record.planar, record.spatial] != Engine::ALL.map(end) {
             return Err(CliError::usage(
-                format!("the replays of `{}` end elsewhere than those of the run", task.name),
-                "name the very task and tools that were measured, and use the same program",
+                format!("the replays of `{}` end elsewhere than in the run", task.name),
+                "name exactly the task and tools that were measured, and use the same program",
             ));
         }
         let model: Option<ModelSpec> = run.model.parse().ok();

@@ -4,28 +4,22 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::bench::{
-    BeliefCase, BeliefRecord, ClosedRecord, Evaluated, LeverRecord, MassCase, MassRecord,
-    ProbeCase, ProbeRecord, RandomRecord, RefinedTask, SolvedTask, ToolRecord, TradeOff, by_kind,
-};
-use crate::cli::{
-    error::CliError, evaluate, form::Form, generate::data_error, output, session::Session,
-};
-use crate::dataset::{self, merge_data};
-use crate::report::{
-    ClosedRun, Document, RandomRun, closed_document, evaluation_document, lever_tasks_document,
-    random_document, solved_document, tools_document,
-};
-use crate::store::{self, Finished, RunManifest, Store, StoreError, line_index, merge_runs};
+use crate::bench::SolvedTask;
+use crate::cli::{error::CliError, form::Form, output, session::Session};
+use crate::report::Document;
+use crate::store::{self, RunManifest, Store, line_index, merge_runs};
 
+use super::keep;
 use super::page::PageArgs;
-use super::{joints, keep, lever_tasks, masses, probes, random, refinement, tasks, tools};
+use super::suite::{Suite, load};
+use super::tasks::TasksArgs;
+use super::tools::ToolsArgs;
 
-/// Put the shards of a benchmark or of training data together: the same bytes as one run
+/// Put the shards of a benchmark together: the same bytes as one run
 #[derive(Args, Debug)]
 #[command(after_help = "Example:
-  pushplan bench random --out part-1 --shard 1/2      # here
-  pushplan bench random --out part-2 --shard 2/2      # there
+  pushplan bench tools --out part-1 --shard 1/2      # here
+  pushplan bench tools --out part-2 --shard 2/2      # there
   pushplan bench merge whole part-1 part-2")]
 pub struct MergeArgs {
     /// Folder for the merged run; must hold none
@@ -38,7 +32,7 @@ pub struct MergeArgs {
     form: Form,
 }
 
-/// Show runs that are kept in folders, several of one suite side by side
+/// Show runs that are kept in folders; several of one suite side by side
 #[derive(Args, Debug)]
 pub struct ReportArgs {
     /// Folders of runs
@@ -53,18 +47,52 @@ pub struct ReportArgs {
     form: Form,
 }
 
-pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
-    let (out, shards) = (&args.out, &args.shards);
-    let suite = shards.first().map(|dir| RunManifest::expect(dir)).transpose()?;
-    let suite = suite.map(|manifest| manifest.suite).unwrap_or_default();
-    if [dataset::SUITE, dataset::LEVER_SUITE].contains(&suite.as_str()) {
-        let (episodes, seed) = merge_data(out, shards).map_err(data_error)?;
-        return session
-            .print(&format!("{episodes} episodes of seed {seed} in {}\n", out.display()));
+/// A suite whose runs are kept, and what is shown of them.
+pub struct Kept {
+    suite: &'static str,
+    /// None where only the command that measures has all that a report needs.
+    document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
+    solved: fn(&Path) -> Result<Option<SolvedRun>, CliError>,
+}
+
+/// What a run is of, the seed of its disturbed replays, and its solved tasks.
+type SolvedRun = (RunManifest, u64, Vec<SolvedTask>);
+
+impl Kept {
+    /// The runs of a suite.
+    pub const fn of<S: Suite>() -> Self {
+        Self {
+            suite: S::NAME,
+            document: Some(|dirs| S::document(&load(dirs)?)),
+            solved: |dir| {
+                let run = Store::<S::Record>::load(dir)?.into_parts();
+                let solved = S::solved(&run);
+                Ok(solved.map(|(seed, solved)| (run.0, seed, solved)))
+            },
+        }
     }
+
+    /// Runs of which `document` is made by itself, if it can be made of what is kept at all.
+    pub const fn apart(
+        suite: &'static str,
+        document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
+    ) -> Self {
+        Self { suite, document, solved: |_| Ok(None) }
+    }
+}
+
+/// The suites of this command.
+pub const SUITES: [Kept; 2] = [Kept::of::<TasksArgs>(), Kept::of::<ToolsArgs>()];
+
+/// Merges shards of one of these `suites` and shows what they hold together.
+///
+/// # Errors
+/// Folders that are not the shards of one run, or hold another suite.
+pub fn merge(args: &MergeArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
+    let (out, shards) = (&args.out, &args.shards);
+    let kept = shards.first().map(|first| known(suites, first)).transpose()?;
     let whole = merge_runs(out, shards, store::Form::Lines, &mut line_index)?;
-    if suite == TradeOff::SUITE {
-        // Its report needs the networks that were measured, which only the command names.
+    if kept.is_some_and(|kept| kept.document.is_none()) {
         return session.print(&format!(
             "{} units in {}; the command of the shards with this folder and without --shard shows \
              the results\n",
@@ -73,122 +101,66 @@ pub fn merge(args: &MergeArgs, session: &Session) -> Result<(), CliError> {
         ));
     }
     let runs = std::slice::from_ref(out);
-    keep::show(args.form, session, &document(runs)?, Some(&args.out))
+    keep::show(args.form, session, &document(suites, runs)?, Some(&args.out))
 }
 
-pub fn report(args: &ReportArgs, session: &Session) -> Result<(), CliError> {
-    let mut document = document(&args.runs)?;
+/// Shows runs of one of these `suites`.
+///
+/// # Errors
+/// Folders that hold no such run; a page of a run without plans.
+pub fn report(args: &ReportArgs, suites: &[Kept], session: &Session) -> Result<(), CliError> {
+    let mut document = document(suites, &args.runs)?;
     if let Some(out) = &args.out {
         output::prepare(out)?;
         if let Some(task) = args.page.wanted() {
-            document.wrote(&[page(args, task, out, session)?]);
+            document.wrote(&[page(args, suites, task, out, session)?]);
         }
     }
     keep::show(args.form, session, &document, args.out.as_deref())
 }
 
 /// The report of one suite's runs.
-fn document(runs: &[PathBuf]) -> Result<Document, CliError> {
-    let mut suites = Vec::new();
+fn document(suites: &[Kept], runs: &[PathBuf]) -> Result<Document, CliError> {
+    let mut names = Vec::new();
     for dir in runs {
-        suites.push(RunManifest::expect(dir)?.suite);
+        names.push(RunManifest::expect(dir)?.suite);
     }
-    let suite = suites[0].as_str();
-    if let Some(other) = suites.iter().position(|other| other != suite) {
+    let suite = names[0].as_str();
+    if let Some(other) = names.iter().position(|other| other != suite) {
         return Err(CliError::usage(
             format!(
                 "{} holds the suite `{}`, {} `{suite}`",
                 runs[other].display(),
-                suites[other],
+                names[other],
                 runs[0].display()
             ),
-            "show suites one by one",
+            "show each suite by itself",
         ));
     }
-    match (suite, runs) {
-        (tasks::SUITE, [dir]) => {
-            let store = Store::<SolvedTask>::load(dir)?;
-            Ok(solved_document(store.manifest(), store.finished()))
-        }
-        (tools::SUITE, [dir]) => {
-            let store = Store::<ToolRecord>::load(dir)?;
-            Ok(tools_document(store.manifest(), store.finished()))
-        }
-        (joints::SUITE, [dir]) => {
-            let store = Store::<BeliefRecord>::load(dir)?;
-            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
-            let cases: Vec<BeliefCase> = cases.unwrap_or_default();
-            Ok(joints::document(&cases, store.finished()))
-        }
-        (masses::SUITE, [dir]) => {
-            let store = Store::<MassRecord>::load(dir)?;
-            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
-            let cases: Vec<MassCase> = cases.unwrap_or_default();
-            Ok(masses::document(&cases, store.finished()))
-        }
-        (probes::SUITE, [dir]) => {
-            let store = Store::<ProbeRecord>::load(dir)?;
-            let cases = serde_json::from_value(store.manifest().settings["cases"].clone());
-            let cases: Vec<ProbeCase> = cases.unwrap_or_default();
-            Ok(probes::document(&cases, store.finished()))
-        }
-        (lever_tasks::SUITE, [dir]) => {
-            let store = Store::<LeverRecord>::load(dir)?;
-            Ok(lever_tasks_document(store.manifest(), store.finished()))
-        }
-        (super::run::SUITE, runs) => {
-            let runs: Vec<ClosedRun> = runs
-                .iter()
-                .map(|dir| Ok(Store::<ClosedRecord>::load(dir)?.into_parts()))
-                .collect::<Result<_, StoreError>>()?;
-            same_tasks(&runs)?;
-            Ok(closed_document(&runs))
-        }
-        (refinement::SUITE, [dir]) => {
-            let store = Store::<RefinedTask>::load(dir)?;
-            Ok(refinement::document(store.manifest(), store.finished()))
-        }
-        (evaluate::SUITE, [dir]) => {
-            let store = Store::<Evaluated>::load(dir)?;
-            let (suites, crowds) = by_kind(store.finished().iter().map(|part| &part.record));
-            Ok(evaluation_document(&suites, &crowds))
-        }
-        (TradeOff::SUITE, _) => Err(CliError::usage(
-            "the report of a trade-off needs the networks that were measured",
-            "give the command of the run again, with its --out: it measures only what is missing",
+    match known(suites, &runs[0])?.document {
+        Some(document) => document(runs),
+        None => Err(CliError::usage(
+            format!("the report of the suite `{suite}` needs more than is kept"),
+            "repeat the command of the run, with its --out: it measures only what is missing",
         )),
-        (
-            tasks::SUITE
-            | tools::SUITE
-            | joints::SUITE
-            | masses::SUITE
-            | probes::SUITE
-            | refinement::SUITE
-            | evaluate::SUITE
-            | lever_tasks::SUITE,
-            _,
-        ) => Err(CliError::usage(
-            format!("runs of the suite `{suite}` are not shown side by side"),
-            "name one folder",
-        )),
-        (random::SUITE, runs) => {
-            let runs: Vec<RandomRun> = runs
-                .iter()
-                .map(|dir| Ok(Store::<RandomRecord>::load(dir)?.into_parts()))
-                .collect::<Result<_, StoreError>>()?;
-            same_tasks(&runs)?;
-            Ok(random_document(&runs))
-        }
-        _ => Err(CliError::File(format!(
-            "{} holds a suite that this program does not know: `{suite}`",
-            runs[0].display()
-        ))),
     }
+}
+
+/// The suite of the run in a folder.
+fn known<'a>(suites: &'a [Kept], dir: &Path) -> Result<&'a Kept, CliError> {
+    let name = RunManifest::expect(dir)?.suite;
+    suites.iter().find(|kept| kept.suite == name).ok_or_else(|| {
+        CliError::File(format!(
+            "{} holds a suite that this program does not know: `{name}`",
+            dir.display()
+        ))
+    })
 }
 
 /// The page of one task of the run.
 fn page(
     args: &ReportArgs,
+    suites: &[Kept],
     task: &Path,
     out: &Path,
     session: &Session,
@@ -196,42 +168,12 @@ fn page(
     let [dir] = &args.runs[..] else {
         return Err(CliError::usage("a page is of one run", "name one folder"));
     };
-    match RunManifest::expect(dir)?.suite.as_str() {
-        tasks::SUITE => {
-            let store = Store::<SolvedTask>::load(dir)?;
-            let run = (store.manifest(), store.manifest().seed);
-            let solved = store.finished().iter().map(|task| &task.record);
-            args.page.write(task, out, session, run, solved)
-        }
-        random::SUITE => {
-            let store = Store::<RandomRecord>::load(dir)?;
-            let solved = store.finished().iter().map(|task| &task.record.solved);
-            // The seed of a random run is that of its tasks; its planner has the default one.
-            args.page.write(task, out, session, (store.manifest(), 0), solved)
-        }
-        suite => Err(CliError::usage(
-            format!("runs of the suite `{suite}` are not of single plans"),
+    let kept = known(suites, dir)?;
+    let Some((run, seed, solved)) = (kept.solved)(dir)? else {
+        return Err(CliError::usage(
+            format!("runs of the suite `{}` are not of single plans", kept.suite),
             "leave out --page",
-        )),
-    }
-}
-
-/// Methods are compared on the same tasks only.
-fn same_tasks<R>(runs: &[(RunManifest, Vec<Finished<R>>)]) -> Result<(), CliError> {
-    let tasks = |run: &RunManifest| {
-        let decides =
-            ["kinds", "tasks_version", "tools", "world"].map(|key| run.settings[key].to_string());
-        (run.seed, run.tasks, run.shard, decides)
+        ));
     };
-    let Some((first, others)) = runs.split_first() else { return Ok(()) };
-    match others.iter().find(|(run, _)| tasks(run) != tasks(&first.0)) {
-        Some((other, _)) => Err(CliError::usage(
-            format!(
-                "the runs are of different tasks: seed {}, {} tasks beside seed {}, {} tasks",
-                first.0.seed, first.0.tasks, other.seed, other.tasks
-            ),
-            "compare runs with the same --seed, --count, --kind, --shard and --tools",
-        )),
-        None => Ok(()),
-    }
+    args.page.write(task, out, session, (&run, seed), solved.iter())
 }

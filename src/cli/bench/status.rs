@@ -10,12 +10,12 @@ use crate::store::RunStatus;
 /// Say which shards of a run are missing or unfinished, as array jobs take them: `3,7-9`
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Prints nothing on stdout if all are finished; on stderr stands how far the unfinished ones are.
-A folder that is not there yet is that of a missing shard, as long as another one holds a run.
+    after_help = "Prints nothing on stdout if all are finished, and on stderr how far the unfinished ones are.
+A folder that does not exist yet is that of a missing shard, as long as another one holds a run.
 
 Examples:
-  pushplan bench status runs/random-shards/*
-  sbatch --array=\"$(pushplan bench status runs/random-shards/*)\" job.sh"
+  pushplan bench status runs/tools-shards/*
+  sbatch --array=\"$(pushplan bench status runs/tools-shards/*)\" job.sh"
 )]
 pub struct StatusArgs {
     /// Folders of the shards of one benchmark, or of one set of training data

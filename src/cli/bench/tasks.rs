@@ -14,16 +14,14 @@ use crate::cli::{
     solve::solve_error,
     words::{EFFORTS, words},
 };
-use crate::report::solved_document;
+use crate::report::{Document, solved_document};
 use crate::scene::Task;
 use crate::solve::{Effort, Planner};
 use crate::store::{Measured, RunManifest};
 
 use super::common::Common;
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "tasks";
+use super::suite::{Cases, Measure, Run, Suite, only};
 
 /// Solve task files one after another: success, errors and time of each
 #[derive(Args, Debug)]
@@ -40,42 +38,56 @@ pub struct TasksArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    #[command(flatten)]
-    keep: KeepArgs,
 }
 
-pub fn run(args: &TasksArgs, session: &Session) -> Result<(), CliError> {
-    let library = args.common.library.load()?;
-    let tasks = args
-        .tasks
-        .iter()
-        .map(|file| Ok(load_task(file, &library)?))
-        .collect::<Result<Vec<Task>, CliError>>()?;
-    let spec = args.common.spec(args.effort);
-    let planner = Planner::builder(model::load(&spec)?)
-        .effort(args.effort)
-        .seed(args.seed)
-        .outside(args.common.outside.outside())
-        .build();
-    let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-    let mut settings = json!({
-        "budget": planner.settings(),
-        "tools": value_digest(&tools)?,
-        "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
-        "content": value_digest(&tasks)?,
-    });
-    args.common.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, tasks.len(), args.seed, &spec.to_string())
-        .with_weights(weights_digest(&spec)?)
-        .with_settings(settings);
-    let store = args.keep.measure(session, manifest, |index| {
-        let task = &tasks[index];
-        session.compute(|| {
-            let solution = planner.solve(task, &library).map_err(solve_error)?;
-            let record = SolvedTask::of(task, &solution);
-            Ok(Measured { record, seconds: SolvedTask::seconds(&solution) })
-        })
-    })?;
-    let document = solved_document(store.manifest(), store.finished());
-    keep::show(args.common.form, session, &document, args.keep.out.as_deref())
+impl Suite for TasksArgs {
+    const NAME: &'static str = "tasks";
+    type Record = SolvedTask;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, SolvedTask>, CliError> {
+        let library = self.common.library.load()?;
+        let tasks = self
+            .tasks
+            .iter()
+            .map(|file| Ok(load_task(file, &library)?))
+            .collect::<Result<Vec<Task>, CliError>>()?;
+        let spec = self.common.spec(self.effort);
+        let planner = Planner::builder(model::load(&spec)?)
+            .effort(self.effort)
+            .seed(self.seed)
+            .outside(self.common.outside.outside())
+            .build();
+        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+        let mut settings = json!({
+            "budget": planner.settings(),
+            "tools": value_digest(&tools)?,
+            "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
+            "content": value_digest(&tasks)?,
+        });
+        self.common.outside.note(&mut settings);
+        let manifest = RunManifest::new(Self::NAME, tasks.len(), self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(settings);
+        let measure = Measure::InTurn(Box::new(move |index| {
+            let task = &tasks[index];
+            session.compute(|| {
+                let solution = planner.solve(task, &library).map_err(solve_error)?;
+                let record = SolvedTask::of(task, &solution);
+                Ok(Measured { record, seconds: SolvedTask::seconds(&solution) })
+            })
+        }));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<SolvedTask>]) -> Result<Document, CliError> {
+        only(runs).map(|(manifest, finished)| solved_document(manifest, finished))
+    }
+
+    fn solved((manifest, finished): &Run<SolvedTask>) -> Option<(u64, Vec<SolvedTask>)> {
+        Some((manifest.seed, finished.iter().map(|task| task.record.clone()).collect()))
+    }
 }

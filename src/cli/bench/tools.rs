@@ -6,24 +6,23 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::asset::write_atomic;
-use crate::bench::{GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, single_pushes};
+use crate::bench::{
+    GoalSet, Layout, ReferenceSetup, ToolBench, ToolBenchError, ToolRecord, single_pushes,
+};
 use crate::cli::{
     error::CliError,
-    form::Form,
     model::{self, OutsideArgs},
     session::Session,
     solve::solve_error,
     words::{EFFORTS, LAYOUTS, words},
 };
-use crate::report::{single_document, tools_document};
+use crate::report::{Document, single_document, tools_document};
 use crate::scene::{ModelKind, ModelSpec};
 use crate::solve::{Effort, Planner, Settings};
 use crate::store::RunManifest;
 
 use super::keep::{self, KeepArgs, value_digest, weights_digest};
-
-/// Name of the suite in manifests.
-pub const SUITE: &str = "tools";
+use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 
 /// The reference tool benchmark: choose a tool, pushes and a stop for a goal
 #[derive(Args, Debug)]
@@ -50,13 +49,9 @@ pub struct ToolsArgs {
     /// Seed of the random choices, and of the tasks of single pushes
     #[arg(long, value_name = "N", default_value_t = 7)]
     seed: u64,
-    /// Make the goals of the layout again, write them to this file, and end
+    /// Make the goals of the layout again, write them to this file, and stop
     #[arg(long, value_name = "FILE")]
     make_goals: Option<PathBuf>,
-    #[command(flatten)]
-    shown: Form,
-    #[command(flatten)]
-    keep: KeepArgs,
 }
 
 /// The pushes.
@@ -65,67 +60,91 @@ enum FormName {
     /// Three one after another from a fixed home
     #[default]
     Chained,
-    /// One, start and goal at random (the earlier form)
+    /// One, with start and goal at random (the earlier form)
     Single,
 }
 
-pub fn run(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
-    let layout = args.layout;
-    let setup = ReferenceSetup::new(layout);
-    if let Some(file) = &args.make_goals {
+/// Runs the benchmark, or what else is asked for in its place.
+///
+/// # Errors
+/// Those of [`SuiteArgs::run`]; goals that cannot be written.
+pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliError> {
+    let tools = &args.suite;
+    if let Some(file) = &tools.make_goals {
+        let setup = ReferenceSetup::new(tools.layout);
         let spinner = session.spinner("simulating");
         let goals = session.compute(|| GoalSet::make(&setup));
         spinner.finish_and_clear();
         write_atomic(file, goals.to_text().as_bytes()).map_err(CliError::Output)?;
         return session.print(&format!("{} goals in {}\n", goals.len(), file.display()));
     }
-    if args.form == FormName::Single {
-        return single(args, session);
+    if tools.form == FormName::Chained {
+        return args.run(session);
     }
-    let goals = GoalSet::shipped(layout)
-        .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
-    let spec = args.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into());
-    let model = args.outside.load(&spec)?;
-    let effort = args.effort;
-    let planner = args.model.clone().unwrap_or_else(|| effort.spec());
-    let planner = Planner::builder(model::load(&planner)?)
-        // Disturbed replays tell how robust a plan is and change nothing in its choice.
-        .settings(Settings { disturbed: 0, ..effort.settings() })
-        .seed(args.seed)
-        .outside(args.outside.outside())
-        .build();
-    let mut settings = json!({
-        "layout": layout,
-        "goals": value_digest(&goals)?,
-        "planner": format!("effort {effort} with {}", planner.model().spec()),
-        "budget": planner.settings(),
-    });
-    args.outside.note(&mut settings);
-    let manifest = RunManifest::new(SUITE, goals.len(), args.seed, &spec.to_string())
-        .with_weights(weights_digest(&spec)?)
-        .with_settings(settings);
-    let mut bench = ToolBench::new(setup, goals, &model, &planner, args.seed);
-    let store = args.keep.measure(session, manifest, |index| {
-        session.compute(|| bench.measure(index)).map_err(|error| match error {
-            ToolBenchError::Solve(error) => solve_error(error),
-            error @ ToolBenchError::NoTask { .. } => CliError::Unexpected(error.to_string()),
-        })
-    })?;
-    let document = tools_document(store.manifest(), store.finished());
-    keep::show(args.shown, session, &document, args.keep.out.as_deref())
-}
-
-fn single(args: &ToolsArgs, session: &Session) -> Result<(), CliError> {
     if args.keep.out.is_some() {
         return Err(CliError::usage(
-            "single pushes take seconds, and are neither kept nor split",
+            "single pushes take seconds; they are neither kept nor sharded",
             "leave --out out, or --form single",
         ));
     }
-    let spec = args.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into());
-    let model = args.outside.load(&spec)?;
+    let model = tools.outside.load(&tools.spec())?;
     let spinner = session.spinner("pushing");
-    let report = session.compute(|| single_pushes(&model, args.seed, args.tasks as usize));
+    let report = session.compute(|| single_pushes(&model, tools.seed, tools.tasks as usize));
     spinner.finish_and_clear();
-    args.shown.show(session, &single_document(&report))
+    args.form.show(session, &single_document(&report))
+}
+
+impl ToolsArgs {
+    /// The model of all rows.
+    fn spec(&self) -> ModelSpec {
+        self.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into())
+    }
+}
+
+impl Suite for ToolsArgs {
+    const NAME: &'static str = "tools";
+    type Record = ToolRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, ToolRecord>, CliError> {
+        let layout = self.layout;
+        let setup = ReferenceSetup::new(layout);
+        let goals = GoalSet::shipped(layout)
+            .map_err(|error| CliError::unexpected("the shipped goals are broken", &error))?;
+        let spec = self.spec();
+        let model = self.outside.load(&spec)?;
+        let effort = self.effort;
+        let planner = self.model.clone().unwrap_or_else(|| effort.spec());
+        let planner = Planner::builder(model::load(&planner)?)
+            // Disturbed replays tell how robust a plan is and change nothing in its choice.
+            .settings(Settings { disturbed: 0, ..effort.settings() })
+            .seed(self.seed)
+            .outside(self.outside.outside())
+            .build();
+        let mut settings = json!({
+            "layout": layout,
+            "goals": value_digest(&goals)?,
+            "planner": format!("effort {effort} with {}", planner.model().spec()),
+            "budget": planner.settings(),
+        });
+        self.outside.note(&mut settings);
+        let manifest = RunManifest::new(Self::NAME, goals.len(), self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(settings);
+        let mut bench = ToolBench::new(setup, goals, model, planner, self.seed);
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session.compute(|| bench.measure(index)).map_err(|error| match error {
+                ToolBenchError::Solve(error) => solve_error(error),
+                error @ ToolBenchError::NoTask { .. } => CliError::Unexpected(error.to_string()),
+            })
+        }));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<ToolRecord>]) -> Result<Document, CliError> {
+        only(runs).map(|(manifest, finished)| tools_document(manifest, finished))
+    }
 }

@@ -13,8 +13,8 @@ fn noise(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Four bodies of a few centimetres, of which each touches the next in two points and the first
-/// is pushed; two of them hang together by a joint where `jointed`.
+/// Four bodies of a few centimetres, of which each touches the next in two points and the first is
+/// pushed; two of them are joined where `jointed`.
 fn frame(seed: u64, jointed: bool) -> (Vec<Unknown>, Vec<Constraint>, Vec<Tie>) {
     let seed = &mut seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     let mut unknowns = vec![Unknown::default(); 4];

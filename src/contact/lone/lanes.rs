@@ -1,9 +1,9 @@
 //! Numbers of several frames side by side.
 //!
-//! Plain loops over arrays, of which the compiler makes the vectors that the processor has. Every lane
-//! goes through the same operations in the same order as a number alone would, none of them fused, so
-//! that no bit depends on how many there are. All is inlined into the one function that is compiled for
-//! wide vectors: what is called from there is not.
+//! Plain loops over arrays, of which the compiler makes the vectors that the processor has. Every
+//! lane goes through the same operations in the same order as a number alone would, none of them
+//! fused, so that no bit depends on how many there are. Everything is inlined into the one function
+//! that is compiled for wide vectors: functions called from there are not compiled so.
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -72,7 +72,7 @@ impl<const N: usize> Lanes<N> {
         Self([value; N])
     }
 
-    /// The larger one; the other one where this is no number.
+    /// The larger one; the other one where this is not a number.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
         other.below(self).pick(self, other)

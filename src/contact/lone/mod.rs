@@ -3,7 +3,7 @@
 //!
 //! Most frames of a search are of one pushed object, and each of its updates is one chain of quotients
 //! and roots that the processor waits for. The chains of other candidates fill that waiting. Nothing in
-//! a frame depends on those beside it, so a result is the same bits with any number of them.
+//! a frame depends on those next to it, so a result is the same bits with any number of them.
 
 mod forces;
 mod frames;

@@ -1,4 +1,4 @@
-//! What became of a lone object in a frame.
+//! The solution of a lone object's frame.
 
 use nalgebra::Vector3;
 

@@ -97,7 +97,7 @@ impl Drawn {
     }
 }
 
-/// All that is said of a frame, bit by bit.
+/// Everything in a frame's solution, bit by bit.
 fn bits(solution: &LoneSolution) -> Vec<u64> {
     let LoneSolution { motion, normal, pressed, inverse, effort } = solution;
     let motion = motion.iter().flat_map(|motion| {
@@ -145,7 +145,8 @@ fn a_frame_is_the_same_bits_beside_any_others() {
     let order: Vec<usize> = (0..frames.len()).collect();
     let (alone, took) = solved::<1>(&problems, &mut frames, &order);
     assert!(alone.len() > 300, "{} frames", alone.len());
-    // Every frame comes beside others of another number of contacts, and some lanes stay empty.
+    // Every frame comes with others that have another number of contacts, and some lanes stay
+    // empty.
     let steps = [1, 7, 11].map(|step| {
         let place = |k: usize| k * step % order.len();
         assert!(step == 1 || !order.len().is_multiple_of(step), "all are there");

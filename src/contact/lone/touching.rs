@@ -7,7 +7,7 @@ use super::{
     object::{Moves, Object},
 };
 
-/// A contact of each frame, where that has so many. World axes, metres, as the frame begins.
+/// A contact of each frame, where the frame has that many. World axes, metres, as the frame begins.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Touching<const N: usize> {
     /// Which frames have it.

@@ -18,7 +18,7 @@ pub(super) const LANES: usize = 4;
 /// The same where vectors hold as many, as with AVX-512: a push takes a sixth less than with four.
 pub(super) const WIDE: usize = 8;
 
-/// Fewer frames than that take less time one by one.
+/// Fewer frames than this take less time one by one.
 const FEW: usize = 3;
 
 /// A frame that waits to be solved. In this order lanes wait the least for each other.
@@ -35,7 +35,7 @@ pub fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
     scenery.bodies.objects.len() == 1 && contacts.len() <= MOST
 }
 
-/// Solves the frames that are `waiting`: leaves with each what became of it, if its forces were found.
+/// Solves the frames that are `waiting`: leaves the solution with each, if its forces were found.
 pub fn solve_each(
     problems: &[Option<FrameProblem>],
     frames: &mut [Frame],

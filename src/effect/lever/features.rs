@@ -14,15 +14,11 @@ const FARTHEST: f64 = 2.2;
 /// Unit of lengths, metres: the size of a plate.
 const LENGTH: f64 = 0.1;
 
-/// The features of a job's plate as seen in `view`, but for images: lengths in tenths of a metre,
+/// The features of a job's plate as seen in `view`: lengths in tenths of a metre,
 /// shares from 0 to 1.
 pub fn lever_features(features: LeverFeatures, job: &LeverJob, view: &LeverView) -> Vec<f32> {
     match features {
-        LeverFeatures::Nothing
-        | LeverFeatures::Image
-        | LeverFeatures::ImageCode
-        | LeverFeatures::ContextImage
-        | LeverFeatures::Depth => Vec::new(),
+        LeverFeatures::Nothing => Vec::new(),
         LeverFeatures::ShapeContext => shape_context(&outline(job, view)),
         LeverFeatures::Corners => corners(job, view),
         LeverFeatures::Support => support(job, view),
@@ -48,7 +44,7 @@ pub fn lever_action(job: &LeverJob) -> [f32; LeverFeatures::ACTION] {
 }
 
 /// The corners as seen, counter-clockwise from the end of the levered edge, metres.
-pub(super) fn outline(job: &LeverJob, view: &LeverView) -> Vec<Vector> {
+fn outline(job: &LeverJob, view: &LeverView) -> Vec<Vector> {
     let corners = job.scene.plates[job.lever.plate].corners();
     let (count, edge) = (corners.len(), job.lever.place.edge);
     let nth = |k: usize| if view.is_mirrored() { edge + count - k } else { edge + 1 + k };
@@ -89,7 +85,7 @@ fn pair(at: Vector) -> [f32; 2] {
 
 /// Shares of [`POINTS`] points at even distances along an outline in rings and wedges about the
 /// origin (Belongie, Malik and Puzicha 2002; here the inward half-plane), times their number of bins.
-pub(super) fn shape_context(outline: &[Vector]) -> Vec<f32> {
+fn shape_context(outline: &[Vector]) -> Vec<f32> {
     let [rings, wedges] = LeverFeatures::BINS;
     let mut counts = vec![0.0; rings * wedges];
     let size = outline.iter().map(|c| c.norm()).sum::<f64>() / outline.len().max(1) as f64;

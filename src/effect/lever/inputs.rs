@@ -1,9 +1,9 @@
 //! What a network is told of a lever-up, and to what it adds.
 
-use crate::network::{ImageSizes, LEVER_POSE, LeverSizes};
-use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory};
+use crate::network::{LEVER_POSE, LeverSizes, LeverTold};
+use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
 
-use super::{LeverView, image::lever_image, lever_action, lever_features};
+use super::{LeverView, lever_action, lever_features};
 
 /// Unit of ways that the network predicts, metres.
 const WAY: f64 = 0.05;
@@ -15,16 +15,11 @@ const TIP: f64 = 0.02;
 /// the prior slips a little too late, the correction must begin before.
 const AHEAD: [usize; 5] = [2, 5, 8, 11, 14];
 
-/// Numbers that an image is told in.
-const CODE: usize = 32;
-
 /// A lever-up in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeverInputs {
     /// Features of the whole, `[S]`.
     pub still: Vec<f32>,
-    /// The image, row by row; empty where none is seen.
-    pub image: Vec<f32>,
     /// Features of every frame: [T, M].
     pub moving: Vec<f32>,
     /// What predictions are added to: poses `[T, 9]` and that at rest, `[9]`.
@@ -41,7 +36,6 @@ impl LeverInputs {
             // Pose, whether it is held, and the blade's tip.
             moving: 3 + if prior { LEVER_POSE + 1 + 3 } else { 0 },
             width,
-            image: features.image().map(|[rows, columns]| ImageSizes { rows, columns, code: CODE }),
             feedback: false,
         }
     }
@@ -55,6 +49,36 @@ impl LeverInputs {
     pub fn seen(told: &[f32]) -> [f64; LEVER_POSE] {
         std::array::from_fn(|k| f64::from(told[k]) * unit(k))
     }
+
+    /// What a network that said so says of the job, with what it corrects.
+    pub fn answer(
+        &self,
+        told: &LeverTold,
+        job: &LeverJob,
+        prior: Option<&LeverTrajectory>,
+    ) -> LeverTrajectory {
+        let view = LeverView::new(job);
+        let pose = |base: &[f32], told: &[f32]| {
+            let sum: Vec<f32> = base.iter().zip(told).map(|(base, told)| base + told).collect();
+            view.pose(&Self::seen(&sum))
+        };
+        let (frames, rest) = self.base.split_at(LEVER_FRAMES * LEVER_POSE);
+        let lift = frames
+            .chunks_exact(LEVER_POSE)
+            .zip(told.poses.chunks_exact(LEVER_POSE))
+            .map(|(base, told)| pose(base, told))
+            .collect();
+        let slips = told.end[0] > 0.0;
+        let endings = [Ending::Back, Ending::Flipped, Ending::Leaning];
+        let best = (0..3).max_by(|a, b| told.end[1 + a].total_cmp(&told.end[1 + b]));
+        LeverTrajectory {
+            lift,
+            held: prior.map_or_else(|| vec![!slips; LEVER_FRAMES], |prior| prior.held.clone()),
+            rest: pose(rest, &told.end[4..]),
+            ending: best.map_or(Ending::Back, |best| endings[best]),
+            warnings: if slips { vec![LeverWarning::Slipped] } else { Vec::new() },
+        }
+    }
 }
 
 /// The inputs of a job, with what the prior says of it if that is corrected.
@@ -65,11 +89,6 @@ pub fn lever_inputs(
 ) -> LeverInputs {
     let view = LeverView::new(job);
     let mut still = lever_action(job).to_vec();
-    let image = lever_image(features, job, &view);
-    if !image.is_empty() {
-        // How thick a plate is belongs to what is seen of it, or is not.
-        still[LeverFeatures::THICKNESS] = 0.0;
-    }
     still.extend(lever_features(features, job, &view));
     let start = LeverInputs::told(view.see(&job.scene.plates[job.lever.plate].start()));
     let (mut moving, mut base) = (Vec::new(), Vec::new());
@@ -89,7 +108,7 @@ pub fn lever_inputs(
     }
     let Some(prior) = prior else {
         base.extend(start);
-        return LeverInputs { still, image, moving, base };
+        return LeverInputs { still, moving, base };
     };
     let rest = LeverInputs::told(view.see(&prior.rest));
     still.push(is(prior.slipped()));
@@ -99,7 +118,7 @@ pub fn lever_inputs(
     let held = prior.held.iter().rposition(|held| *held).map_or(0, |frame| frame + 1);
     still.push(held as f32 / LEVER_FRAMES as f32);
     base.extend(rest);
-    LeverInputs { still, image, moving, base }
+    LeverInputs { still, moving, base }
 }
 
 /// Unit of a pose's number `k`: its way comes first.

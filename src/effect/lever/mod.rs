@@ -5,12 +5,10 @@
 //! accuracy stands behind it. Nothing is searched here.
 
 mod features;
-mod image;
 mod inputs;
 mod levering;
 mod model;
 mod network;
-mod parts;
 mod prior;
 mod simulated;
 mod view;
@@ -19,8 +17,7 @@ pub use features::{lever_action, lever_features};
 pub use inputs::{LeverInputs, lever_inputs};
 pub use levering::Levering;
 pub use model::{LeverModel, LeverTrust};
-pub use network::{LeverNetwork, LeverNetworkError, load_lever};
-pub use parts::{LeverCourse, LeverParts, PartGraphs, PartState, Walk, Walker};
+pub use network::{LeverNetwork, LeverNetworkError};
 pub use prior::{LeverPrior, PriorSettings};
 pub use simulated::SimulatedLevers;
 pub use view::LeverView;

@@ -1,31 +1,19 @@
 //! Trained networks as models of lever-ups.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-use crate::network::{LEVER_POSE, LeverCell, LeverSizes, LeverWeights, PartsWeights, WeightsError};
-use crate::scene::{Ending, LEVER_FRAMES, LeverFeatures, LeverJob, LeverTrajectory, LeverWarning};
+use crate::network::{LeverCell, LeverSizes, LeverWeights, WeightsError};
+use crate::scene::{LeverFeatures, LeverJob, LeverTrajectory};
 
-use super::{
-    LeverInputs, LeverModel, LeverParts, LeverPrior, LeverTrust, LeverView, PriorSettings,
-    lever_inputs,
-};
+use super::{LeverInputs, LeverModel, LeverPrior, LeverTrust, PriorSettings, lever_inputs};
 
 /// Why weights of lever-ups cannot be used.
 #[derive(Debug, Error)]
 pub enum LeverNetworkError {
-    /// They cannot be read.
-    #[error("cannot read {path}: {error}")]
-    File {
-        /// Of the file.
-        path: String,
-        /// Why.
-        error: std::io::Error,
-    },
-    /// They are no such weights.
+    /// They cannot be read, or are no such weights.
     #[error("{path}: {error}")]
     Weights {
         /// Of the file.
@@ -36,21 +24,6 @@ pub enum LeverNetworkError {
     /// They are told other features than these.
     #[error("the weights have other inputs than their card says")]
     Inputs,
-}
-
-/// Reads the weights of a network of lever-ups of either kind: a memory, or one of parts.
-///
-/// # Errors
-/// [`LeverNetworkError`] if they cannot be used.
-pub fn load_lever(path: &Path) -> Result<Arc<dyn LeverModel>, LeverNetworkError> {
-    let name = || path.display().to_string();
-    let bytes =
-        std::fs::read(path).map_err(|error| LeverNetworkError::File { path: name(), error })?;
-    let weights = |error| LeverNetworkError::Weights { path: name(), error };
-    if PartsWeights::are_in(&bytes) {
-        return Ok(Arc::new(LeverParts::new(&PartsWeights::from_bytes(&bytes).map_err(weights)?)));
-    }
-    Ok(Arc::new(LeverNetwork::new(&LeverWeights::from_bytes(&bytes).map_err(weights)?)?))
 }
 
 /// A network, alone or as a correction of the prior.
@@ -98,38 +71,14 @@ impl LeverNetwork {
     /// # Errors
     /// [`LeverNetworkError`] if it cannot be used.
     pub fn load(path: &Path) -> Result<Self, LeverNetworkError> {
-        let name = || path.display().to_string();
-        let bytes =
-            std::fs::read(path).map_err(|error| LeverNetworkError::File { path: name(), error })?;
-        let weights = LeverWeights::from_bytes(&bytes)
-            .map_err(|error| LeverNetworkError::Weights { path: name(), error })?;
-        Self::new(&weights)
+        let named = |error| LeverNetworkError::Weights { path: path.display().to_string(), error };
+        Self::new(&LeverWeights::load(path).map_err(named)?)
     }
 
     fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
         let inputs = lever_inputs(self.features, job, prior);
-        let told = self.cell.predict(&inputs.still, &inputs.image, &inputs.moving);
-        let view = LeverView::new(job);
-        let pose = |base: &[f32], told: &[f32]| {
-            let sum: Vec<f32> = base.iter().zip(told).map(|(base, told)| base + told).collect();
-            view.pose(&LeverInputs::seen(&sum))
-        };
-        let frames = LEVER_FRAMES * LEVER_POSE;
-        let lift = inputs.base[..frames]
-            .chunks_exact(LEVER_POSE)
-            .zip(told.poses.chunks_exact(LEVER_POSE))
-            .map(|(base, told)| pose(base, told))
-            .collect();
-        let slips = told.end[0] > 0.0;
-        let endings = [Ending::Back, Ending::Flipped, Ending::Leaning];
-        let best = (0..3).max_by(|a, b| told.end[1 + a].total_cmp(&told.end[1 + b]));
-        LeverTrajectory {
-            lift,
-            held: prior.map_or_else(|| vec![!slips; LEVER_FRAMES], |prior| prior.held.clone()),
-            rest: pose(&inputs.base[frames..], &told.end[4..]),
-            ending: best.map_or(Ending::Back, |best| endings[best]),
-            warnings: if slips { vec![LeverWarning::Slipped] } else { Vec::new() },
-        }
+        let told = self.cell.predict(&inputs.still, &inputs.moving);
+        inputs.answer(&told, job, prior)
     }
 }
 

@@ -39,7 +39,7 @@ struct BodyJoint {
     limits: Option<Span>,
 }
 
-/// A body's share in a correction: zero for what does not give way.
+/// A body's share in a correction: zero for one that does not give way.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     /// An object of the body.

@@ -13,8 +13,8 @@ const SAME: f64 = 1e-9;
 /// Most pairs that a task file can name.
 const MOST: usize = 256;
 
-/// What a file of ours has to say of pairs: MuJoCo takes the larger of two values, or what the file
-/// states of the pair.
+/// What a file of pushplan must say about pairs: MuJoCo takes the larger of two values, or what the
+/// file states for the pair.
 pub(super) fn frictions(
     model: &Model,
     drafts: &[Draft<'_>],
@@ -33,7 +33,7 @@ pub(super) fn frictions(
             }
         };
         if let Some(table) = statics.table {
-            // What does not reach down does not rub.
+            // A body that does not reach down does not rub.
             let below: &[&Solid] = if draft.feet.is_empty() { &[draft.solid] } else { &draft.feet };
             add(Surface::Table, [below, &[table]], statics.table_friction);
         }
@@ -48,13 +48,17 @@ pub(super) fn frictions(
         }
     }
     if found.len() > MOST {
-        let message = format!("{} pairs rub otherwise than the mean of their values", found.len());
-        ledger.fault_of_file(message, format!("a task names {MOST} of them; make frictions alike"));
+        let message =
+            format!("{} pairs have another friction than the mean of their values", found.len());
+        ledger.fault_of_file(
+            message,
+            format!("a task states at most {MOST} of them; make frictions alike"),
+        );
     }
     found
 }
 
-/// How two bodies rub; none, with a fault, if the file says different things of them.
+/// How two bodies rub; none, with a fault, if the file contradicts itself about them.
 fn coefficient(
     model: &Model,
     solids: [&[&Solid]; 2],

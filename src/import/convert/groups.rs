@@ -1,4 +1,4 @@
-//! Which bodies are asked for, and what is fixed to what.
+//! Which bodies are asked for, and which are fixed to which.
 
 use crate::import::fault::Ledger;
 use crate::import::model::{Model, Motion};
@@ -62,12 +62,12 @@ pub(super) fn held_by(motion: &Motion) -> String {
     }
 }
 
-/// Faults for what of the file pushes would be changed by; notes only where bodies were chosen, so
-/// that somebody knows of the others.
+/// Faults for parts of the file that would change pushes; only notes where bodies were chosen, so
+/// that the others are mentioned.
 pub(super) fn beyond(model: &Model, wanted: &Wanted, ledger: &mut Ledger) {
     for (place, what) in &model.beyond {
         if wanted.bodies.is_empty() {
-            let message = format!("{what} is nothing that pushplan knows");
+            let message = format!("{what} is unknown to pushplan");
             let advice = "take it out, or name the bodies that are meant with --body";
             ledger.fault(*place, message, advice);
         } else {

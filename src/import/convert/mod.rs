@@ -1,4 +1,4 @@
-//! From bodies of a file to a tool or a scene of ours.
+//! From bodies of a file to a tool or a scene.
 
 mod feet;
 mod frictions;

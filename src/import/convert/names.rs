@@ -1,4 +1,4 @@
-//! Names of ours for names of a file.
+//! Our names for names of a file.
 
 use crate::asset::named_after;
 
@@ -23,8 +23,8 @@ pub(super) fn same(asked: &str, name: &str) -> bool {
 pub(super) struct Names(Vec<String>);
 
 impl Names {
-    /// A name of ours for `name`: with dashes for what ours cannot hold, and a number behind it where
-    /// it is taken.
+    /// Our name for `name`: with dashes for characters that ours cannot hold, and a number after it
+    /// where it is taken.
     pub fn take(&mut self, name: &str) -> String {
         let plain = named_after(bare(name));
         let free = |name: &String| !self.0.contains(name) && !RESERVED.contains(&name.as_str());

@@ -20,8 +20,8 @@ const OFF_CENTRE: f64 = 1e-6;
 /// A mass this small is none, kg.
 const NOTHING: f64 = 1e-9;
 
-/// Differences from what pushplan assumes that a note is worth: a centre of mass above or below the
-/// middle, as a share of the height, and a moment of inertia, as a share of itself.
+/// Differences from what pushplan assumes that are worth a note: a centre of mass above or below
+/// the middle, as a share of the height, and a moment of inertia, as a share of itself.
 const WORTH_A_NOTE: f64 = 0.1;
 
 /// An object before it stands on a table.
@@ -103,7 +103,7 @@ fn of_group<'a>(
         };
         let name = names.take(&name);
         if let Outline::Other(_) = solid.outline {
-            // That it is none of ours matters more than what it weighs.
+            // That it cannot be expressed matters more than its mass.
             Upright::of(solid, &format!("`{name}`"), ledger);
             continue;
         }
@@ -254,7 +254,7 @@ fn draft<'a>(
         ledger.fault(foot.place, message, "spheres are the points that a body stands on");
         return None;
     }
-    // What stands on feet is as high as these and it together; what does not keeps its digits.
+    // An object on feet is as high as the feet and it together; any other keeps its digits.
     let height = if low < upright.low { upright.top() - low } else { upright.height };
     let middle = upright.middle();
     let seen = |point: Point3<f64>| upright.pose.local_point(Vector::new(point.x, point.y));
@@ -264,7 +264,7 @@ fn draft<'a>(
     let polygon = |corners: &[Vector], ledger: &mut Ledger| {
         let made = ConvexPolygon::balanced(corners, at);
         if let Err(error) = &made {
-            let message = format!("`{name}` is no prism of ours: {error}");
+            let message = format!("`{name}` is not a prism that pushplan knows: {error}");
             ledger.fault(solid.place, message, "leave out corners that matter least");
         }
         made.ok().map(|base| Shape::Prism { base, height })
@@ -321,7 +321,7 @@ fn draft<'a>(
     Some((object, feet, low))
 }
 
-/// Joints: everything fixed together, then what hangs on something else.
+/// Joints: everything fixed together, then everything attached by other joints.
 pub(super) fn joints(
     model: &Model,
     drafts: &[Draft<'_>],
@@ -360,7 +360,8 @@ pub(super) fn joints(
                 JointKind::Prismatic { axis: axis.xy().normalize(), limits }
             }
             _ => {
-                let message = format!("`{name}` hangs on another body by {}", held_by(motion));
+                let message =
+                    format!("`{name}` is attached to another body by {}", held_by(motion));
                 let advice = "joints between objects are fixed, turn about the vertical, or slide \
                               along the table";
                 ledger.fault(*place, message, advice);

@@ -17,7 +17,7 @@ use super::wanted::{Imported, Wanted};
 /// an object is.
 const REACH: [f64; 2] = [0.1, 0.9];
 
-/// Tolerance of a goal that nobody has stated, metres.
+/// Tolerance of a goal that is not stated, metres.
 const TOLERANCE: f64 = 0.02;
 
 /// A scene and a task around it.
@@ -32,7 +32,7 @@ pub struct ImportedScene {
 /// The objects and obstacles of a model on a table.
 ///
 /// # Errors
-/// Everything that pushplan has no word for, each with its place in `file`.
+/// Everything that pushplan cannot express, each with its place in `file`.
 pub fn objects(
     model: &Model,
     file: &str,

@@ -164,11 +164,11 @@ fn obstacle<'a>(
     }
     let Base::Rectangle([x, y]) = upright.base else {
         let advice = "put a box around it, or several into it";
-        ledger.fault(solid.place, format!("the obstacle `{what}` is no box"), advice);
+        ledger.fault(solid.place, format!("the obstacle `{what}` is not a box"), advice);
         return None;
     };
     let pose = Pose { position: upright.pose.position, ..upright.pose };
-    // What of it is below the table, or a little above, nobody meets.
+    // No object meets the part of it that is below the table, or a little above.
     let size = [x, y, upright.top() - floor];
     let friction = solid.material.friction.unwrap_or(wanted.friction);
     Some((Obstacle { name: names.take(what), size, pose, z: 0.0, friction }, solid))

@@ -20,7 +20,7 @@ const LEVEL: f64 = 1e-3;
 /// grip, are those of the body; what it weighs and what holds or moves it does not matter.
 ///
 /// # Errors
-/// Everything that pushplan has no word for, each with its place in `file`.
+/// Everything that pushplan cannot express, each with its place in `file`.
 pub fn tool(model: &Model, file: &str, wanted: &Wanted) -> Result<Imported<Tool>, Faults> {
     let mut ledger = Ledger::new(file);
     let body = chosen(model, wanted, &mut ledger);
@@ -117,7 +117,7 @@ fn assemble(
                     Shape::Prism { base, height }
                 }
                 Err(error) => {
-                    let message = format!("`{name}` is no prism of ours: {error}");
+                    let message = format!("`{name}` is not a prism that pushplan knows: {error}");
                     ledger.fault(solid.place, message, "leave out corners that matter least");
                     continue;
                 }

@@ -10,7 +10,7 @@ use crate::import::model::{Outline, Solid};
 
 use super::hull::hull;
 
-/// What leans less than this still stands, radians: files round their turns.
+/// A solid that leans less than this is upright, radians: files round their turns.
 const LEAN: f64 = 1e-3;
 
 /// Top and bottom of a prism differ by no more than this, metres.
@@ -41,7 +41,7 @@ pub(super) struct Upright {
 }
 
 impl Upright {
-    /// The solid standing upright; none, with a fault, if it does not or is none of ours.
+    /// The solid standing upright; `None`, with a fault, if it does not or cannot be expressed.
     pub fn of(solid: &Solid, what: &str, ledger: &mut Ledger) -> Option<Self> {
         match &solid.outline {
             Outline::Box(half) => match standing_box(&solid.pose, *half) {
@@ -60,7 +60,7 @@ impl Upright {
             Outline::Hull(points) => {
                 let found = prism(&solid.pose, points);
                 if let Err(why) = &found {
-                    let message = format!("the mesh of {what} is no upright prism: {why}");
+                    let message = format!("the mesh of {what} is not an upright prism: {why}");
                     ledger.fault(solid.place, message, PRIMITIVES);
                 }
                 found.ok()
@@ -135,7 +135,7 @@ pub(super) fn volume(solid: &Solid) -> Option<f64> {
     }
 }
 
-/// What to do with a shape that is none of ours.
+/// What to do with a shape that cannot be expressed.
 const PRIMITIVES: &str = "put boxes, upright cylinders or upright prisms (meshes whose vertices are \
     corners of top and bottom) in its place, or let it touch nothing";
 
@@ -172,7 +172,7 @@ fn standing_box(pose: &Isometry3<f64>, half: [f64; 3]) -> Option<Upright> {
     })
 }
 
-/// The upright prism whose corners these points are, or why they are none.
+/// The upright prism whose corners these points are, or why they do not make one.
 fn prism(pose: &Isometry3<f64>, points: &[Point3<f64>]) -> Result<Upright, String> {
     let frame = flat(pose);
     let placed: Vec<Point3<f64>> = points.iter().map(|point| pose * point).collect();

@@ -1,4 +1,4 @@
-//! What is asked for, and what comes of it.
+//! What is asked for, and the result.
 
 use crate::geometry::Vector;
 
@@ -9,14 +9,14 @@ pub struct Wanted {
     pub bodies: Vec<String>,
     /// What the tool or task is called; by default after the file.
     pub name: Option<String>,
-    /// Friction value of what states none.
+    /// Friction value of bodies that state none.
     pub friction: f64,
     /// How far everything is shifted on the table, metres.
     pub shift: Vector,
 }
 
 impl Wanted {
-    /// Friction value of what states none: plain wood.
+    /// Friction value of bodies that state none: plain wood.
     pub const FRICTION: f64 = crate::scene::Scene::FRICTION;
 
     /// Whether a body is asked for by its name in the file or its name here.
@@ -36,6 +36,6 @@ impl Default for Wanted {
 pub struct Imported<T> {
     /// The thing itself.
     pub value: T,
-    /// What it says a little otherwise than the file, each with its place.
+    /// Where it differs slightly from the file, each with its place.
     pub notes: Vec<String>,
 }

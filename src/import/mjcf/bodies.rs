@@ -11,7 +11,7 @@ use super::geoms::Context;
 
 const TURNS: [&str; 6] = ["axisangle", "euler", "pos", "quat", "xyaxes", "zaxis"];
 
-/// What stands in a body and is neither touched nor moved by anything.
+/// Elements of a body that nothing touches or moves.
 const UNSEEN: [&str; 3] = ["site", "camera", "light"];
 
 /// Where something is read: below which body, at which pose, with which class.
@@ -44,7 +44,7 @@ pub(super) fn world<'a>(
     );
 }
 
-/// Takes in what is in a body or frame.
+/// Reads what is in a body or frame.
 fn inside<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,
@@ -53,7 +53,7 @@ fn inside<'a>(
     model: &mut Model,
 ) {
     if within.depth > DEEPEST {
-        let message = format!("more than {DEEPEST} bodies and frames are in each other");
+        let message = format!("more than {DEEPEST} levels of bodies and frames");
         source.fault(node, message, "is this the right file?");
         return;
     }
@@ -93,7 +93,7 @@ fn inside<'a>(
     }
 }
 
-/// How to be rid of what MuJoCo's compiler computes.
+/// How to get rid of what MuJoCo's compiler computes.
 pub(super) const FLATTEN: &str = "have MuJoCo write it out: `python3 -c \"import mujoco; \
     mujoco.mj_saveLastXML('flat.xml', mujoco.MjModel.from_xml_path('FILE'))\"`, or take it out";
 
@@ -169,7 +169,7 @@ fn inertial<'a>(
     }
 }
 
-/// What a joint lets its body do.
+/// How a joint lets its body move.
 fn joint<'a>(
     source: &mut Source<'a>,
     context: &Context<'a>,

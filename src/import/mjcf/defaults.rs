@@ -6,10 +6,10 @@ use roxmltree::{Attribute, Node};
 
 use crate::import::xml::{Source, elements};
 
-/// The class of what names none.
+/// The class of elements that name none.
 const MAIN: &str = "main";
 
-/// Classes in each other, less than a stack holds.
+/// Deepest nesting of classes, less than a stack holds.
 const DEEPEST: usize = 200;
 
 /// An element whose attributes are looked for, with the class that its body gives to what names
@@ -52,7 +52,7 @@ impl<'a> Defaults<'a> {
         }
         self.classes.entry(name).or_default().parent = parent;
         if node.ancestors().count() > DEEPEST {
-            source.fault(node, "classes are in each other too often", "is this the right file?");
+            source.fault(node, "classes are nested too deeply", "is this the right file?");
             return;
         }
         for child in elements(node) {

@@ -194,14 +194,14 @@ impl<'a> Context<'a> {
                 Outline::Other(format!("{article} {kind}"))
             }
             _ => {
-                let message = format!("`{kind}` is no type of a geom");
+                let message = format!("`{kind}` is not a type of geom");
                 source.fault(node, message, "write box, cylinder or mesh");
                 return None;
             }
         })
     }
 
-    /// The points of a mesh that stands in the file itself.
+    /// The points of a mesh that is in the file itself.
     fn hull(&self, source: &mut Source<'a>, mesh: Node<'a, 'a>) -> Option<Outline> {
         let element = Lookup { node: mesh, class: None };
         let find = |name: &str| self.defaults.find(element, name);

@@ -14,10 +14,10 @@ use super::contacts::pairs;
 use super::defaults::Defaults;
 use super::geoms::Context;
 
-/// Sections that say nothing of how pushes end.
+/// Sections that do not affect how pushes end.
 const HARMLESS: [&str; 5] = ["visual", "statistic", "size", "sensor", "keyframe"];
 
-/// Sections that move or hold bodies in ways that pushplan has no word for.
+/// Sections that move or hold bodies in ways that pushplan cannot express.
 const BEYOND: [&str; 5] = ["actuator", "equality", "tendon", "deformable", "extension"];
 
 /// The model of an element `mujoco`; none, with faults, if it cannot be read.
@@ -31,7 +31,7 @@ pub(in crate::import) fn model<'a>(source: &mut Source<'a>, root: Node<'a, 'a>) 
         meshes: HashMap::new(),
         paired: HashSet::new(),
     };
-    // What others are read by comes first, wherever it stands.
+    // Sections that others depend on come first, wherever they are.
     for section in elements(root) {
         match section.tag_name().name() {
             "compiler" => context.compiler.read(source, section),

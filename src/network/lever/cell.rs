@@ -5,9 +5,8 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::network::{Parameters, Statistics};
 
 use super::{
-    image::image_code,
+    card::LeverWeights,
     layout::{LEVER_ENDS, LEVER_POSE, LeverSizes},
-    weights::LeverWeights,
 };
 
 /// Normalised features beyond this are cut off, in standard deviations, so that a lever-up unlike
@@ -52,13 +51,10 @@ impl LeverCell {
         self.sizes.feedback
     }
 
-    /// Predicts from features `still`, `[S]`, of the lever-up, its `image` if one is seen, and
-    /// `moving`, `[T, M]`, of its frames.
-    pub fn predict(&self, still: &[f32], image: &[f32], moving: &[f32]) -> LeverTold {
+    /// Predicts from features `still`, `[S]`, of the lever-up, and `moving`, `[T, M]`, of its frames.
+    pub fn predict(&self, still: &[f32], moving: &[f32]) -> LeverTold {
         let (still, moving) = (scaled(&self.still, still), scaled(&self.moving, moving));
-        let sizes = self.sizes.image;
-        let code = sizes.map_or(Vec::new(), |sizes| image_code(&sizes, &self.parameters, image));
-        Arch::new().dispatch(Run { cell: self, still: &still, code, moving: &moving })
+        Arch::new().dispatch(Run { cell: self, still: &still, moving: &moving })
     }
 
     /// A parameter that reading the weights checked.
@@ -71,8 +67,6 @@ impl LeverCell {
 struct Run<'a> {
     cell: &'a LeverCell,
     still: &'a [f32],
-    /// Before its tanh; empty without an image.
-    code: Vec<f32>,
     moving: &'a [f32],
 }
 
@@ -82,14 +76,10 @@ impl WithSimd for Run<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> LeverTold {
-        let Self { cell, still, mut code, moving } = self;
+        let Self { cell, still, moving } = self;
         let width = cell.sizes.width;
         let mut told = cell.get("gates.bias").to_vec();
         multiply(still, cell.get("gates.still"), &mut told);
-        if !code.is_empty() {
-            code.iter_mut().for_each(|value| *value = tanh(*value));
-            multiply(&code, cell.get("gates.image"), &mut told);
-        }
         let of_last = cell.sizes.feedback.then(|| cell.get("gates.pose"));
         let [of_moving, of_hidden] = ["gates.moving", "gates.hidden"].map(|name| cell.get(name));
         let (of_pose, pose_bias) = (cell.get("pose.hidden"), cell.get("pose.bias"));
@@ -161,7 +151,7 @@ fn sigmoid(x: f32) -> f32 {
 /// The hyperbolic tangent within 1e-6, in operations that vectors have: the rational function of
 /// Eigen 3.4, `MathFunctionsImpl.h`.
 #[inline(always)]
-fn tanh(x: f32) -> f32 {
+pub fn tanh(x: f32) -> f32 {
     // Beyond, single precision knows only 1.
     let x = x.clamp(-7.905_311, 7.905_311);
     let x2 = x * x;

@@ -4,9 +4,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use crate::network::Parameters;
-
-use super::image::{ImageSizes, fresh_bound, image_layout};
+use crate::network::{Layout, Parameters};
 
 /// Numbers of a pose.
 pub const LEVER_POSE: usize = 9;
@@ -23,9 +21,6 @@ pub struct LeverSizes {
     pub moving: usize,
     /// Hidden state, H.
     pub width: usize,
-    /// The image that is seen, if one is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub image: Option<ImageSizes>,
     /// Whether the pose that was predicted last is told in the next frame.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub feedback: bool,
@@ -33,8 +28,8 @@ pub struct LeverSizes {
 
 /// Names and shapes of all parameters. Of every row of four gates the order is input, forget, new,
 /// output.
-pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
-    let LeverSizes { still, moving, width, image, feedback } = *sizes;
+pub fn lever_layout(sizes: &LeverSizes) -> Layout {
+    let LeverSizes { still, moving, width, feedback } = *sizes;
     let mut layout = vec![
         ("gates.still", vec![still, 4 * width]),
         ("gates.moving", vec![moving, 4 * width]),
@@ -47,10 +42,6 @@ pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
         ("end.told", vec![width, LEVER_ENDS]),
         ("end.told_bias", vec![LEVER_ENDS]),
     ];
-    if let Some(image) = image {
-        layout.extend(image_layout(&image));
-        layout.push(("gates.image", vec![image.code, 4 * width]));
-    }
     if feedback {
         layout.push(("gates.pose", vec![LEVER_POSE, 4 * width]));
     }
@@ -62,17 +53,26 @@ pub fn lever_layout(sizes: &LeverSizes) -> Vec<(&'static str, Vec<usize>)> {
 pub fn fresh_lever(sizes: &LeverSizes, seed: u64) -> Parameters {
     let mut random = Pcg64::seed_from_u64(seed);
     let values = lever_layout(sizes).into_iter().map(|(name, shape)| {
-        let zero = shape.len() == 1 || name == "pose.hidden" || name == "end.told";
-        let bound = fresh_bound(name, &shape);
-        let count: usize = shape.iter().product();
-        let value = |k: usize| match name {
-            "gates.bias" if k / sizes.width == 1 => 1.0,
-            _ if zero => 0.0,
-            // Three products add up to a gate.
-            _ if name.starts_with("gates") => random.random_range(-bound..bound) * 0.577,
-            _ => random.random_range(-bound..bound),
-        };
-        (name.to_owned(), (0..count).map(value).collect())
+        (name.to_owned(), fresh_lever_values(name, &shape, sizes.width, &mut random))
     });
     Parameters { values: values.collect() }
+}
+
+/// Those of one parameter of a network of hidden `width`.
+pub fn fresh_lever_values(
+    name: &str,
+    shape: &[usize],
+    width: usize,
+    random: &mut Pcg64,
+) -> Vec<f32> {
+    let zero = shape.len() == 1 || name == "pose.hidden" || name == "end.told";
+    let bound = (3.0 / shape[0].max(1) as f32).sqrt();
+    let value = |k: usize| match name {
+        "gates.bias" if k / width == 1 => 1.0,
+        _ if zero => 0.0,
+        // Three products add up to a gate.
+        _ if name.starts_with("gates") => random.random_range(-bound..bound) * 0.577,
+        _ => random.random_range(-bound..bound),
+    };
+    (0..shape.iter().product()).map(value).collect()
 }

@@ -10,27 +10,17 @@
 //! pose_t = base_t + h_t V + a                        end = base + relu(h_T U + b_u) V_e + a_e
 //! ```
 //!
-//! Of an image its code is told beside s, from convolutions that learn together with the rest or as
-//! those of an autoencoder. For comparison with the thesis a network can be fed with the pose that it
-//! predicted last.
+//! For comparison with the thesis a network can be fed with the pose that it predicted last.
 //!
 //! `base` is what the prior says, or the start. The end is slip and ending as logits, and the pose at
 //! rest.
 
+mod card;
 mod cell;
-#[cfg(feature = "train")]
-mod graph;
-mod image;
-#[cfg(feature = "train")]
-mod image_graph;
 mod layout;
-mod weights;
 
-pub use cell::{LeverCell, LeverTold};
-#[cfg(feature = "train")]
-pub use graph::{LeverGraph, LeverTensors};
-pub use image::ImageSizes;
-#[cfg(feature = "train")]
-pub use image_graph::{Autoencoder, autoencoder_layout, fresh_autoencoder};
-pub use layout::{LEVER_ENDS, LEVER_POSE, LeverSizes, fresh_lever, lever_layout};
-pub use weights::{LeverCard, LeverWeights};
+pub use card::{LeverCard, LeverWeights};
+pub use cell::{LeverCell, LeverTold, tanh};
+pub use layout::{
+    LEVER_ENDS, LEVER_POSE, LeverSizes, fresh_lever, fresh_lever_values, lever_layout,
+};

@@ -3,12 +3,12 @@
 use crate::network::{Parameters, Statistics};
 
 use super::{
+    card::RegulatorWeights,
     layout::{OUTPUTS, TYPES},
-    weights::RegulatorWeights,
 };
 
-/// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any in
-/// training cannot drive it anywhere.
+/// Normalised features beyond this are cut off, in standard deviations, so that a scene unlike any
+/// in training cannot drive it astray.
 const BOUND: f32 = 10.0;
 
 /// The regulator with its weights; shared between beliefs.
@@ -31,7 +31,7 @@ pub struct Memory {
 pub struct Correction {
     /// Of every type.
     pub logits: [f64; TYPES],
-    /// Between nothing and 2, untrained 1.
+    /// Between 0 and 2, untrained 1.
     pub trust: f64,
 }
 
@@ -69,7 +69,8 @@ impl Regulator {
     }
 
     /// Takes a window into the memory of the pairs that it `told` something of: `features` [P, F] of
-    /// `pairs` of so many `objects`. Returns what to correct of these pairs, `None` for the others.
+    /// `pairs` of this many `objects`. Returns what to correct of these pairs, `None` for the
+    /// others.
     pub fn step(
         &self,
         features: &[f32],

@@ -3,7 +3,7 @@
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::network::Parameters;
+use crate::network::{Layout, Parameters};
 
 /// Types of joints, *none* among them.
 pub const TYPES: usize = 4;
@@ -13,7 +13,7 @@ pub const OUTPUTS: usize = TYPES + 1;
 
 /// Names and shapes of all parameters for F `features` and H `width`. Of every row of three gates the
 /// order is reset, update, candidate.
-pub fn regulator_layout(features: usize, width: usize) -> Vec<(&'static str, Vec<usize>)> {
+pub fn regulator_layout(features: usize, width: usize) -> Layout {
     vec![
         ("gates.input", vec![features, 3 * width]),
         ("gates.message", vec![width, 3 * width]),

@@ -1,4 +1,4 @@
-//! The belief regulator's recurrent cell: what it is made of, how it computes and how it is kept.
+//! The belief regulator's recurrent cell: its parameters, its step and its weights file.
 //!
 //! A gated recurrent unit per pair of objects (Cho et al., EMNLP 2014) on evidence about that pair and
 //! on the effects of the frozen propagation network, with messages between pairs that share an object
@@ -12,18 +12,14 @@
 //! h' = (1 - z) c + z h     l, t = relu(h' V_h + m' V_m + b_v) V + b_l
 //! ```
 //!
-//! The logits l of the four types of joints, which start at zero, are added to the filter's logarithms times
-//! 2 sigmoid(t), which starts at one: a filter that is too sure by itself is not to be outweighed, but
-//! believed less.
+//! The logits l of the four types of joints, which start at zero, are added to the filter's
+//! logarithms times 2 sigmoid(t), which starts at one: a filter that is too sure of itself should
+//! not be outweighed, but believed less.
 
+mod card;
 mod cell;
-#[cfg(feature = "train")]
-mod graph;
 mod layout;
-mod weights;
 
+pub use card::{RegulatorCard, RegulatorWeights};
 pub use cell::{LEAST, Memory, Regulator};
-#[cfg(feature = "train")]
-pub use graph::{RegulatorGraph, Unrolled};
 pub use layout::{TYPES, fresh_regulator, regulator_layout};
-pub use weights::{RegulatorCard, RegulatorWeights};

@@ -1,4 +1,4 @@
-//! Quadratic programmes with numbers that refinement should never produce, and may.
+//! Quadratic programmes with numbers that refinement should never produce, but might.
 //!
 //! All are of the shape that refinement solves: 1/2 x'Px + q'x within low <= x <= high. The
 //! reference is coordinate descent, which for a convex quadratic over a box converges to the
@@ -15,7 +15,7 @@ const EXCESS: f64 = 1e-4;
 /// Sweeps of the reference.
 const SWEEPS: usize = 20_000;
 
-/// What should come of a programme.
+/// The expected result of a programme.
 #[derive(Clone, Copy, Debug)]
 enum Expected {
     /// The minimum.
@@ -100,7 +100,7 @@ fn list() -> Vec<(&'static str, Programme, Expected)> {
         ("bounds that miss by 1e-9", within(5e-10, -5e-10), Anything),
         ("curved downwards", curved([[-2.0, 0.0], [0.0, 2.0]], ORDINARY.q), Anything),
         ("curvatures 1e11 : 1e-11", curved([[1e11, 0.0], [0.0, 1e-11]], ORDINARY.q), Anything),
-        ("a number that is none", pulled([f64::NAN, 4.0]), bad),
+        ("NaN", pulled([f64::NAN, 4.0]), bad),
         ("an infinite number", pulled([f64::INFINITY, 4.0]), bad),
         ("a number of 1e300", pulled([1e300, 4.0]), bad),
         // After all that it must still solve an ordinary one.

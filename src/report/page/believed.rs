@@ -62,9 +62,9 @@ pub fn numbers(trace: &Trace) -> Vec<Believed> {
     found
 }
 
-/// What was believed of the objects called `names` after so many observations: these numbers, names of
-/// the types, and the probabilities of those of every pair, which were `before` at first. Where nothing
-/// changed an observation is left out.
+/// What was believed of the objects called `names` after a number of observations: these numbers,
+/// names of the types, and the probabilities of those of every pair, which were `before` at first.
+/// Where nothing changed an observation is left out.
 pub fn over_time(
     belief: &Belief,
     before: &[[f64; 4]],

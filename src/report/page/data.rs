@@ -33,13 +33,13 @@ pub fn pose(pose: &Pose) -> [i64; 3] {
 pub struct Data {
     /// Name of the task.
     pub task: String,
-    /// What the task says about itself.
+    /// The task's description.
     pub description: String,
     /// How it ended, in a line; the title of the file says it.
     #[serde(skip)]
     pub headline: String,
     pub stage: Stage,
-    /// What is measured over time, where that is not the distance from the goal.
+    /// The measured quantity over time, where that is not the distance from the goal.
     pub measure: Option<Measure>,
     pub tools: Vec<Tool>,
     /// Best first; at least one.
@@ -59,7 +59,7 @@ pub struct Data {
     pub drawing: Option<String>,
 }
 
-/// What stands on the table, and what must come where.
+/// What is on the table, and what must come where.
 #[derive(Serialize)]
 pub struct Stage {
     pub objects: Vec<Body>,
@@ -146,7 +146,7 @@ pub enum Standing {
     Reached,
     /// Of a run: given up.
     GivenUp,
-    /// Of a recording: somebody looked at it.
+    /// Of a recording: it was watched.
     Inferred,
 }
 
@@ -188,7 +188,7 @@ pub struct Stroke {
     pub lowered: bool,
 }
 
-/// Where a replay or a prediction comes from.
+/// The source of a replay or a prediction.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
@@ -249,12 +249,12 @@ pub struct Candidates {
     /// Why pushes could not be made; cells name them by index.
     pub reasons: Vec<String>,
     pub grids: Vec<Grid>,
-    /// How many there were, of which so many are on the page.
+    /// How many there were, and how many of them are on the page.
     pub considered: usize,
     pub shown: usize,
 }
 
-/// The ways to push with one tool, held one way, as the last of so many pushes.
+/// The ways to push with one tool, held one way, as the last of a number of pushes.
 #[derive(Serialize)]
 pub struct Grid {
     /// Name of the tool.
@@ -262,8 +262,8 @@ pub struct Grid {
     pub pushes: usize,
     /// Grip yaw in degrees.
     pub yaw: String,
-    /// Name of the part that makes contact, over so many cells of a row; empty where a push goes on
-    /// from where the last one ended.
+    /// Name of the part that makes contact, over a number of cells of a row; empty where a push
+    /// goes on from where the last one ended.
     pub faces: Vec<(String, usize)>,
     /// Headings of the rows, degrees.
     pub directions: Vec<f64>,
@@ -290,7 +290,7 @@ pub struct Run {
     pub kind: &'static str,
     /// When beliefs change, in a sentence.
     pub words: &'static str,
-    /// What is known at last.
+    /// What is known in the end.
     pub found: Vec<Found>,
     /// Names of the columns of [`Made::cells`].
     pub columns: Vec<String>,
@@ -305,7 +305,7 @@ pub struct Run {
     pub numbers: Vec<Believed>,
 }
 
-/// A table of what is known at last.
+/// A table of what is known in the end.
 #[derive(Serialize)]
 pub struct Found {
     pub title: String,
@@ -323,13 +323,13 @@ pub struct Made {
     pub cells: Vec<String>,
 }
 
-/// What is believed of how two objects hang together.
+/// What is believed about the joint of two objects.
 #[derive(Serialize)]
 pub struct Joined {
     pub name: String,
     /// At each of [`Run::times`] the probabilities of the types, in thousandths.
     pub shares: Vec<[i64; 4]>,
-    /// Index of the type that it really is, where that is known.
+    /// Index of the true type, where that is known.
     pub really: Option<usize>,
 }
 
@@ -340,7 +340,7 @@ pub struct Believed {
     pub unit: &'static str,
     /// At each of [`Run::times`] mean and standard deviation, in thousandths.
     pub values: Vec<[i64; 2]>,
-    /// What it really is, where that is known.
+    /// The true value, where that is known.
     pub really: Option<i64>,
 }
 

@@ -1,4 +1,4 @@
-//! The page of a recording: what was seen, and what is believed of it under the same clock.
+//! The page of a recording: what was seen, and what is believed after it, on the same clock.
 
 use serde_json::Value as Json;
 
@@ -88,7 +88,7 @@ fn found(document: &Document) -> Vec<Found> {
         let columns = section.table.columns();
         Found {
             title: match section.title.as_str() {
-                "" => "What is known at last".to_owned(),
+                "" => "What is known in the end".to_owned(),
                 title => title.to_owned(),
             },
             columns: columns.iter().map(|(name, _)| name.clone()).collect(),

@@ -1,9 +1,9 @@
-//! The plan page: one HTML file that plays a plan, or a run, with all that is known about it. It
-//! needs no server and no network, and tells the browser to load nothing. On request it holds three.js,
-//! which shows the same in 3-D.
+//! The plan page: one HTML file that plays a plan, or a run, with everything known about it. It
+//! needs no server and no network, and tells the browser to load nothing. On request it contains
+//! three.js, which shows the same in 3-D.
 //!
-//! `data` says what goes into the file, `html` puts it together with the script and the style
-//! beside it; the other files fill the data from what there is to show.
+//! `data` says what goes into the file, `html` puts it together with the script and the style; the
+//! other files fill the data from what there is to show.
 
 mod believed;
 mod candidates;

@@ -1,4 +1,4 @@
-//! What is typed to have a page's replays made again: a command line, and a script in Python.
+//! How to make a page's replays again: a command line, and a script in Python.
 
 use crate::scene::{ModelSpec, Plan, Push, PushForm, Span};
 
@@ -11,7 +11,7 @@ pub struct Origin {
     pub tools: Option<String>,
     /// Folder of further tools.
     pub more_tools: Option<String>,
-    /// What predicted, where it is to be said.
+    /// The model that predicted, where it must be named.
     pub model: Option<ModelSpec>,
 }
 
@@ -219,7 +219,7 @@ fn literal(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// A word as a POSIX shell takes it whole.
+/// A word quoted for a POSIX shell.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
     match !word.is_empty() && word.chars().all(plain) {

@@ -1,4 +1,4 @@
-//! The pages of one plan: replayed for a verdict, or predicted beside simulated.
+//! The pages of one plan: replayed for a verdict, or predicted next to simulated.
 
 use std::sync::Arc;
 

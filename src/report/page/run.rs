@@ -1,5 +1,5 @@
-//! The page of a run: its pushes one after another under one clock, what was predicted when each
-//! was chosen, what came of it, and what was believed meanwhile.
+//! The page of a run: its pushes one after another on one clock, what was predicted when each was
+//! chosen, what happened, and what was believed meanwhile.
 
 use serde_json::Value as Json;
 
@@ -98,7 +98,7 @@ struct Clock {
     /// What really happened, or else what was seen.
     came: Vec<Vec<Frame>>,
     layer: Layer,
-    /// When every step begins, and at last when all is over, seconds.
+    /// When every step begins, and finally when all is over, seconds.
     starts: Vec<f64>,
     /// Index of the first stroke of every step.
     strokes: Vec<usize>,
@@ -124,7 +124,7 @@ impl Clock {
         Self { predicted, came, layer, starts, strokes: first }
     }
 
-    /// The frames of every step under one clock. What came to rest stays so until the next push.
+    /// The frames of every step on one clock. Objects at rest stay so until the next push.
     fn joined(&self, parts: &[Vec<Frame>]) -> Vec<Frame> {
         let mut all: Vec<Frame> = Vec::new();
         for (k, part) in parts.iter().enumerate() {
@@ -160,7 +160,7 @@ fn replays(trace: &Trace, clock: &Clock) -> Vec<data::Replay> {
     replays
 }
 
-/// What was seen of a step, frame by frame: what is not seen stays where it was.
+/// What was seen of a step, frame by frame: an object that is not seen stays where it was.
 fn seen(trace: &Trace, step: usize, motion: &ToolMotion) -> Vec<Frame> {
     let mut state = thought(trace, step);
     let frame = |time: f64, state: &State| {

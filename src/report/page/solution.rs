@@ -88,7 +88,8 @@ fn fewest(verdict: &Verdict) -> Option<(usize, usize, Engine)> {
     made.min_by(|a, b| (a.0 * b.1).cmp(&(b.0 * a.1)))
 }
 
-/// What came of the plan of rank `k`: of the first its verdict, of the others why it is not first.
+/// The result of the plan of rank `k`: for the first its verdict, for the others why they are not
+/// first.
 fn why(task: &Task, solution: &Solution, k: usize) -> String {
     let ranked = &solution.plans[k];
     let Some(verdict) = &ranked.verdict else {
@@ -164,7 +165,9 @@ fn lost(
             Some(reason) => format!("no push can be made, mostly as {reason}"),
             None => "no push was tried".to_owned(),
         },
-        (None, Some(best)) if is_behind(best) => "leads through what does not give way".to_owned(),
+        (None, Some(best)) if is_behind(best) => {
+            "leads through something that does not give way".to_owned()
+        }
         (None, Some(best)) if best > 1.0 => "ends too far from the goal by prediction".to_owned(),
         (None, Some(_)) => "predicted to come near; others were taken further".to_owned(),
     }

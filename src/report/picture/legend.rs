@@ -9,7 +9,7 @@ const ROW: f64 = 21.0;
 const SAMPLE: f64 = 26.0;
 const FONT: Font = Font::new(12.0, palette::INK);
 
-/// What stands beside the words.
+/// The sign next to the words.
 #[derive(Clone, Copy, Debug)]
 pub enum Sample {
     /// A small box.

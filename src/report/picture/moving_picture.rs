@@ -22,7 +22,7 @@ use super::{
     view::View,
 };
 
-/// Pixels beside the plot.
+/// Pixels next to the plot.
 const BESIDE: f64 = 16.0;
 /// Pixels between plot and legend: the progress bar and the line that says what happens.
 const STRIP: f64 = 42.0;

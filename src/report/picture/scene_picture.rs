@@ -19,7 +19,7 @@ use super::{
 const LEFT: f64 = 46.0;
 const RIGHT: f64 = 16.0;
 
-/// Who says where the objects went.
+/// Which source says where the objects went.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The effect model that chose the plan.

@@ -6,7 +6,7 @@ use crate::report::svg::Svg;
 
 use super::{timeline::Timeline, view::View};
 
-/// The eye sees no less, pixels and degrees.
+/// The eye sees nothing smaller, pixels and degrees.
 pub const SEEN: f64 = 0.2;
 /// Fading in and out at both ends of the loop, seconds.
 const FADE: f64 = 0.35;

@@ -35,8 +35,7 @@ impl Story<'_> {
         stage.close(2);
     }
 
-    /// What happens now, with its first letter at `at`; a picture that does not move tells the
-    /// ending.
+    /// What happens now, with its first letter at `at`; a still picture shows the end.
     pub fn captions(&self, stage: &mut Stage, at: Vector) {
         let rest = stage.timeline.rest();
         let name = self.scene.objects.get(self.goal.object).map_or("object", |object| &object.name);

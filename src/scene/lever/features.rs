@@ -19,14 +19,6 @@ pub enum LeverFeatures {
     Support,
     /// Corners and support.
     Shape,
-    /// A mask of the plate from above, from which a convolutional network learns what matters.
-    Image,
-    /// The same mask in the code of an autoencoder, which knows nothing of levers.
-    ImageCode,
-    /// The shape context as an image of rings and wedges, by a convolutional network.
-    ContextImage,
-    /// How high everything is above the table, from above, by a convolutional network.
-    Depth,
 }
 
 impl LeverFeatures {
@@ -42,28 +34,14 @@ impl LeverFeatures {
     /// Which of these is the thickness.
     pub const THICKNESS: usize = 3;
 
-    /// Rows and columns of a mask or a depth image.
-    pub const PIXELS: [usize; 2] = [64, 64];
-
-    /// How many numbers there are beside those of an image.
+    /// How many numbers there are.
     pub fn count(self) -> usize {
         match self {
-            Self::Nothing | Self::Image | Self::ImageCode | Self::ContextImage | Self::Depth => 0,
+            Self::Nothing => 0,
             Self::ShapeContext => Self::BINS[0] * Self::BINS[1],
             Self::Corners => 2 * Self::CORNERS + 2,
             Self::Support => 7,
             Self::Shape => 2 * Self::CORNERS + 9,
-        }
-    }
-
-    /// Rows and columns of the image that is seen, if one is.
-    pub fn image(self) -> Option<[usize; 2]> {
-        match self {
-            Self::Image | Self::ImageCode | Self::Depth => Some(Self::PIXELS),
-            Self::ContextImage => Some(Self::BINS),
-            Self::Nothing | Self::ShapeContext | Self::Corners | Self::Support | Self::Shape => {
-                None
-            }
         }
     }
 }
@@ -76,10 +54,6 @@ impl fmt::Display for LeverFeatures {
             Self::Corners => "corners",
             Self::Support => "support points",
             Self::Shape => "corners and support points",
-            Self::Image => "image CNN",
-            Self::ImageCode => "image autoencoder",
-            Self::ContextImage => "shape context CNN",
-            Self::Depth => "depth image CNN",
         })
     }
 }

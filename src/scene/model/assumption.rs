@@ -1,4 +1,4 @@
-//! What an effect model is told about a scene in place of what its job says.
+//! What an effect model is told about a scene instead of what its job says.
 
 /// What a model is told about the joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -11,7 +11,7 @@ pub enum JointBelief {
     Fixed,
 }
 
-/// What a model is told that its job does not say, to see what knowing it is worth. Nothing by
+/// What a model is told that its job does not say, to measure what knowing it is worth. Nothing by
 /// default.
 ///
 /// Whole numbers, so that the text form is exact.

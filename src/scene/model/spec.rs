@@ -1,4 +1,4 @@
-//! What an effect model is: its kind, its settings, what it is told, and who takes over.
+//! What an effect model is: its kind, its settings, what it is told, and which model takes over.
 
 use std::num::{NonZeroU8, NonZeroU16};
 
@@ -23,11 +23,11 @@ use super::Assumptions;
 /// | `step` | `planar`, `3d` | the engine's time step in seconds, `1/N` |
 /// | `joints` | all | told that there are `none`, that their geometry is `guessed`, or that whatever touches is `fixed` |
 /// | `friction` | all | told this share of every friction value, `70%` |
-/// | `start` | all | told a start off by so much, `100um` |
+/// | `start` | all | told a start off by this much, `100um` |
 /// | `up-to` | all | takes no job in which the tool can set more objects in motion |
 ///
-/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse. A text that ends in `.safetensors` and
-/// is nothing else is short for `network,weights=` that file.
+/// [`std::fmt::Display`] and [`std::str::FromStr`] are inverse. A text that is only a path ending
+/// in `.safetensors` is short for `network,weights=` that file.
 ///
 /// ```
 /// use pushplan::scene::{ModelKind, ModelSpec};

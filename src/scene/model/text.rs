@@ -11,7 +11,7 @@ use crate::scene::{Engine, FRAME_TRAVEL};
 
 use super::{Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, Stride};
 
-/// Why a text names no effect model.
+/// Why a text does not name an effect model.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum SpecError {
     /// No such kind.
@@ -99,7 +99,7 @@ impl ModelKind {
         }
     }
 
-    /// Takes a setting of its own; whether it has it.
+    /// Takes a setting of this kind; whether it has such a one.
     fn set(&mut self, key: &str, value: &str) -> Result<bool, SpecError> {
         match (self, key) {
             (Self::Network { weights, .. }, "weights") => {
@@ -136,7 +136,7 @@ impl ModelKind {
 }
 
 impl ModelPart {
-    /// Takes a setting that all kinds have; whether it is one.
+    /// Takes a setting that all kinds have; whether it was one.
     fn set(&mut self, key: &str, value: &str) -> Result<bool, SpecError> {
         let Assumptions { joints, friction, start } = &mut self.assumptions;
         match key {

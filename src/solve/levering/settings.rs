@@ -44,8 +44,6 @@ impl LeverSettings {
     /// A careful one.
     pub const THOROUGH: Self =
         Self { simulated: 128, doubts: 8, verify_batches: 4, followed: 8, ..Self::STANDARD };
-    /// A study.
-    pub const EXHAUSTIVE: Self = Self { disturbed: 64, ..Self::THOROUGH };
 }
 
 impl Default for LeverSettings {

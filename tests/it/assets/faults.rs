@@ -145,7 +145,7 @@ fn empty_values_and_lists() {
     assert_snapshot!(task(&[("[stick, l-hook]", "[]"), ("mass: 0.5", "mass:"), ("{cylinder: {radius: 0.05, height: 0.10}}", "{}")]), @r#"
     t.yaml:4:26: error: expected a map with one key, `cylinder`, `cuboid` or `prism`, found an empty map
     t.yaml:7:12: error: expected a mass in kg from 0.001 to 1000, found nothing
-      help: remove the key, or write its value behind it
+      help: remove the key, or write its value after it
     t.yaml:13:8: error: expected a list of 1 to 64 tool names, found an empty list
     "#);
 }

@@ -182,7 +182,7 @@ fn two_joints_and_a_loop() {
 #[test]
 fn joints_over_the_whole_room() {
     assert_snapshot!(faults(&[("[0.5, 0.0]", "[0.5, -1.0]"), ("at: [0.5, 0.135]", "at: [50, 13.5]"), ("axis: [3, 4]", "axis: [3000, 400]")]), @r#"
-    t.yaml:8:17: error: `a` and `b` are 1.01 m apart; a joint reaches over at most 0.5 m
+    t.yaml:8:17: error: `a` and `b` are 1.01 m apart; a joint spans at most 0.5 m
       help: move them closer together; lengths are in metres
     t.yaml:9:46: error: expected a coordinate in metres from -10 to 10, found the number 50
       help: lengths are in metres: 50 mm is 0.05
@@ -227,7 +227,7 @@ fn row(count: usize) -> String {
 fn more_than_twelve_in_one_piece() {
     assert_eq!(Task::parse(&row(12), "t.yaml").unwrap().scene.joints.len(), 11);
     assert_snapshot!(Task::parse(&row(20), "t.yaml").unwrap_err(), @r#"
-    t.yaml:35:7: error: with this joint 13 objects hang together; at most 12 can be simulated
+    t.yaml:35:7: error: with this joint 13 objects are joined together; at most 12 can be simulated
       help: remove a joint, or write objects with fixed joints as one cuboid
     "#);
 }

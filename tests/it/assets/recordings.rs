@@ -60,7 +60,7 @@ fn what_the_documentation_shows_can_be_read() {
             assert!(status.success());
             folder.path().join("push.recording.json")
         }
-        Err(_) => Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/assets/push.recording.json"),
+        Err(_) => Path::new(crate::ROOT).join("tests/it/assets/push.recording.json"),
     };
     assert!(block("python").lines().count() <= 10);
     assert_eq!(check(&path, None), Ok(Kind::Recording));

@@ -111,7 +111,7 @@ fn damaged_plan_files_are_refused() {
     "#);
     assert_snapshot!(damaged("\"length\":0.2", "\"length\":null"), @r#"
     p.json:1:197: error: expected a positive number from 0.0001 to 100, found nothing
-      help: remove the key, or write its value behind it
+      help: remove the key, or write its value after it
     "#);
     assert_snapshot!(damaged("\"length\":0.2", "\"length\":1e999"), @r#"
     p.json:1:198: error: not valid JSON: number out of range
@@ -123,7 +123,7 @@ fn damaged_plan_files_are_refused() {
     "#);
     assert_snapshot!(damaged("\"push\":{\"tool\":\"stick\"", "\"push\":{\"tool\":\"rake\""), @r#"
     p.json:1:42: error: the plan uses `rake`, the file holds `stick`
-      help: the file is mixed from two; make it again
+      help: the file mixes two; make it again
     "#);
     assert_snapshot!(damaged("\"velocities\":[", "\"velocities\":[{\"linear\":[0,0],\"angular\":0},"), @r#"
     p.json:1:412: error: expected 1 velocities, one per object, found 2

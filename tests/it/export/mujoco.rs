@@ -1,21 +1,22 @@
 //! What MuJoCo makes of exported plans: closed forms of friction, and the shipped tasks.
 //!
-//! Needs a Python with the package `mujoco`: the one that `PUSHPLAN_PYTHON` names, or else
-//! `python3`. Without it these tests say so and check nothing; one that is named must have it.
+//! Needs a Python with the package `mujoco`.
 
-use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use pushplan::asset::{PlanFile, ToolLibrary};
-use pushplan::export::{REPLAY_SCRIPT, mjcf};
+use pushplan::asset::{PlanFile, ToolLibrary, load_task};
+use pushplan::export::{LEVER_SCRIPT, REPLAY_SCRIPT, mjcf};
 use pushplan::scene::{GRAVITY, PushForm, Task};
 use pushplan::solve::{Effort, Planner};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
 use super::{BAR, plan};
+use crate::ROOT;
+use crate::levers::plan_file;
+use crate::mujoco_python::python;
 
 /// Where the box of [`pushed`] stands at the start, metres.
 const START: f64 = 0.50;
@@ -23,6 +24,30 @@ const START: f64 = 0.50;
 /// Coefficients of friction of that box: with the table, and with the bar.
 const TABLE: f64 = 0.45;
 const BAR_FRICTION: f64 = 0.4;
+
+/// A lever-up that turns a plate over, and one with pushes that follow, as the planner found them.
+#[test]
+fn shipped_plans_in_space_work_in_mujoco() {
+    let Some(python) = python() else { return };
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let planner = Planner::for_effort(Effort::Draft).expect("the shipped weights").build();
+    let root = Path::new(ROOT).join("tasks/levers");
+    let folder = TempDir::new().expect("a folder");
+    let script = folder.path().join("lever.py");
+    fs::write(&script, LEVER_SCRIPT).expect("written");
+    for name in ["flip-plate", "turn-and-push"] {
+        let task = load_task(root.join(format!("{name}.yaml")), &library).expect("sound");
+        let solution = planner.solve(&task, &library).expect("sound");
+        let best = solution.best().expect("a plan");
+        let scene = folder.path().join(format!("{name}.xml"));
+        let text = mjcf(&plan_file(&task, best)).expect("no loops");
+        fs::write(&scene, text).expect("written");
+        let output = Command::new(&python).arg(&script).arg(&scene).output().expect("Python runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found: Json = serde_json::from_slice(&output.stdout).expect("a line of JSON");
+        assert_eq!(found["reached"], true, "{name}: {}", found["rest"]);
+    }
+}
 
 #[test]
 fn a_box_pushed_flush_slides_on_by_v2_over_2_mu_g() {
@@ -76,7 +101,7 @@ fn five_shipped_plans_work_in_mujoco() {
     let Some(python) = python() else { return };
     let library = ToolLibrary::embedded().unwrap();
     let planner = Planner::for_effort(Effort::Standard).unwrap().build();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let root = Path::new(ROOT).join("tasks");
     let mut texts = Vec::new();
     // A can behind a wall; a box that takes two pulls; a joint with limits; prisms.
     let names = ["pull-back-behind-wall", "pull-back-twice", "drawer"];
@@ -156,17 +181,4 @@ fn replay(python: &str, scenes: &[(&str, String)]) -> Vec<Json> {
     let all = results.iter().all(|result| result["reached"] == true);
     assert_eq!(output.status.code(), Some(i32::from(!all)), "{error}");
     results
-}
-
-/// A Python that has MuJoCo.
-pub(super) fn python() -> Option<String> {
-    let named = env::var("PUSHPLAN_PYTHON").ok();
-    let python = named.clone().unwrap_or_else(|| "python3".to_owned());
-    let found = Command::new(&python).args(["-c", "import mujoco"]).output();
-    if found.is_ok_and(|output| output.status.success()) {
-        return Some(python);
-    }
-    assert!(named.is_none(), "{python} cannot import mujoco");
-    eprintln!("skipped: python3 cannot import mujoco (pip install mujoco)");
-    None
 }

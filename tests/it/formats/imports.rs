@@ -128,11 +128,11 @@ fn each_thing_that_cannot_be_said_is_refused() {
         (free(&format!("{box_}<composite/>")), "<composite> is not read"),
         (
             free(&format!("{box_}<body><joint type='ball'/>{box_}</body>")),
-            "hangs on another body by a ball joint",
+            "is attached to another body by a ball joint",
         ),
         (
             free(&format!("{box_}<body><joint axis='1 0 0'/>{box_}</body>")),
-            "hangs on another body by a hinge",
+            "is attached to another body by a hinge",
         ),
         (
             free(&format!("{box_}<body pos='.2 0 0'><joint stiffness='1'/>{box_}</body>")),
@@ -147,7 +147,7 @@ fn each_thing_that_cannot_be_said_is_refused() {
         (free(box_).replace("0.5 0 0.05", "0.5 0 0.2"), "150.0 mm above this plane"),
         (free(box_).replace("<worldbody>", "<option gravity='0 0 -1.6'/><worldbody>"), "gravity is 0 0 -1.6"),
         (free(box_).replace("<worldbody>", "<compiler eulerseq='xyzx'/><worldbody>"), "eulerseq=\"xyzx\" is not supported"),
-        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is nothing that pushplan knows"),
+        (free(box_).replace("</worldbody>", "</worldbody><equality><weld/></equality>"), "<equality> is unknown to pushplan"),
         (free(&box_.replace("/>", " mass='0'/>")), "`b` has no mass"),
         (free(&box_.replace("/>", " mass='1e7'/>")), "as a task: expected a mass in kg"),
         ("<robot name='r'><link name='a'><visual/></link></robot>".into(), "is only seen"),

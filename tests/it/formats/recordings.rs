@@ -13,7 +13,7 @@ use serde_json::Value as Json;
 fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let library = ToolLibrary::embedded().unwrap();
     let tool = Arc::clone(library.get("stick").unwrap());
-    let task = Task::load(concat!(env!("CARGO_MANIFEST_DIR"), "/tasks/pull-back-behind-wall.yaml"));
+    let task = Task::load(format!("{}/tasks/pull-back-behind-wall.yaml", crate::ROOT));
     let task = task.unwrap();
     let push = Push { start: Vector::new(0.3, 0.0), direction: 0.1, length: 0.1, speed: 0.1 };
     let form = PushForm::Placed;

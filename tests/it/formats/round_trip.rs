@@ -18,7 +18,7 @@ fn plan(task: Task, tool: &Tool) -> PlanFile {
 }
 
 fn tasks() -> Vec<Task> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks");
+    let folder = std::path::Path::new(crate::ROOT).join("tasks");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files = paths.filter(|path| path.extension().is_some_and(|end| end == "yaml"));
     files.map(|path| Task::load(path).unwrap_or_else(|faults| panic!("{faults}"))).collect()

@@ -136,7 +136,7 @@ impl Browser {
         }
     }
 
-    /// Drags from the middle of the element that a selector finds, so many pixels right and down.
+    /// Drags from the middle of the element that a selector finds, by pixels right and down.
     pub fn drag(&mut self, selector: &str, [right, down]: [f64; 2]) {
         let found = self.value(&format!(
             "(() => {{ const b = document.querySelector({}).getBoundingClientRect(); \

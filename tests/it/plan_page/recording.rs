@@ -1,27 +1,31 @@
 //! The page of a recording: what was seen, and what was believed of it, under one clock.
 
 use pushplan::belief::{Belief, BeliefSettings};
-use pushplan::bench::{CrowdFamily, CrowdSet};
-use pushplan::dataset::{JointRule, Solids};
 use pushplan::effect::Prior;
+use pushplan::geometry::Vector;
 use pushplan::recording::Recording;
 use pushplan::report::{PageView, Recipe, belief_document, recording_page};
-use pushplan::scene::Truth;
+use pushplan::scene::{Job, Joint, JointKind, Object, Record, Scene, Truth};
+use pushplan::sim::Simulator;
 use tempfile::TempDir;
 
 use super::browser::Browser;
 use super::{LARGEST, data, exit_code, follow, number};
+use crate::fixtures::hand_push;
 
 #[test]
 fn a_recording_is_played_with_what_is_believed_of_it() {
-    let set = CrowdSet {
-        family: CrowdFamily::Dense,
-        objects: 6,
-        joints: JointRule::Mixed,
-        solids: Solids::Cylinders,
+    // Two rows of three, nearly touching, two of which are joined.
+    let can = |k: usize| {
+        let at = [0.072 * (k / 3) as f64, 0.072 * (k % 3) as f64];
+        Object::cylinder(format!("can {k}"), 0.035, 0.1).at(at[0], at[1], 0.0)
     };
-    let episode = set.episode(7, 0);
-    let recording = Recording::of_frames("clump", &episode.scene, &episode.motion, &episode.frames);
+    let mut scene = Scene::new((0..6).map(can));
+    scene.joints.push(Joint::new([1, 4], JointKind::Fixed));
+    let motion = hand_push(Vector::new(-0.1, 0.06), 0.1, 0.2, 0.1);
+    let job = Job::stated(&scene, motion.clone());
+    let frames = Simulator::planar().run(&scene, &job, Record::Frames).frames;
+    let recording = Recording::of_frames("clump", &scene, &motion, &frames);
     let (tool, lift) = (recording.tool.clone(), recording.lift);
     let settings = BeliefSettings::new(Truth::NOISE);
     let mut belief = Belief::new(&recording.scene, tool, lift, settings);

@@ -138,7 +138,7 @@ fn goal(trace: &Trace) -> &Goal {
 /// A shipped task, carried out in a drawn world.
 fn run(name: &str, seed: u64) -> Trace {
     let library = ToolLibrary::embedded().expect("the shipped tools");
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tasks/{name}.yaml"));
+    let path = std::path::Path::new(crate::ROOT).join(format!("tasks/{name}.yaml"));
     let task = pushplan::asset::load_task(&path, &library).unwrap_or_else(|e| panic!("{e}"));
     let truth = hidden(&task, &library, seed).expect("its tools are there");
     let planner = Planner::for_effort(Effort::Draft).expect("a model").build();

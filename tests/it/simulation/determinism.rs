@@ -1,4 +1,4 @@
-//! The same job gives the same bits, whoever computes it beside what.
+//! The same job gives the same bits, whoever computes it, and alongside what.
 
 use pushplan::effect::{EffectModel, Job, Simulated};
 use pushplan::geometry::Vector;

@@ -20,11 +20,7 @@ pub struct LeverPrior {
 impl LeverPrior {
     /// Where the plate is at these times, seconds from the start of the turn and in order, until it rests;
     /// the last pose then holds for the others.
-    pub(in crate::effect) fn follow(
-        &self,
-        job: &LeverJob,
-        times: impl Iterator<Item = f64>,
-    ) -> Vec<Pose3> {
+    pub fn follow(&self, job: &LeverJob, times: impl Iterator<Item = f64>) -> Vec<Pose3> {
         let setup = Setup::new(job);
         Marcher::default().follow(&setup, &self.settings_for(&setup), times)
     }

@@ -1,0 +1,150 @@
+//! The cases and their trajectories.
+
+use pushplan::internals::belief::BeliefRegulator;
+use pushplan::internals::effect::EffectModel;
+use pushplan::internals::recording::Recording;
+use pushplan::internals::scene::Noise;
+use pushplan::internals::seeded::generator;
+use pushplan::internals::store::Measured;
+use pushplan_learn::dataset::{Episode, JointRule, Seeing, Solids};
+use serde::{Deserialize, Serialize};
+
+use crate::bench::{CrowdFamily, CrowdSet};
+
+use super::circumstances::Circumstances;
+use super::follow::{Asked, follow};
+use super::record::BeliefRecord;
+
+/// Keeps the random numbers of noise apart from those of scenes.
+const SALT: u64 = 0x5345_4549_4E47_0000;
+
+/// How well things are seen, by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sighting {
+    /// True poses.
+    Exact,
+    /// 1 mm and 0.5 degrees of noise.
+    Fine,
+    /// 3 mm and 2 degrees.
+    Coarse,
+    /// True positions, but no headings of cylinders.
+    Unmarked,
+    /// 1 mm, and no headings of cylinders.
+    UnmarkedFine,
+}
+
+impl Sighting {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Exact, Self::Fine, Self::Coarse, Self::Unmarked, Self::UnmarkedFine];
+
+    /// A name for tables.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Fine => "1 mm, 0.5 deg",
+            Self::Coarse => "3 mm, 2 deg",
+            Self::Unmarked => "no headings",
+            Self::UnmarkedFine => "1 mm, no headings",
+        }
+    }
+
+    /// The noise, and whether headings of what is round are seen.
+    pub fn seeing(self) -> Seeing {
+        let (position, degrees) = match self {
+            Self::Exact | Self::Unmarked => (0.0, 0.0),
+            Self::Fine | Self::UnmarkedFine => (1e-3, 0.5f64),
+            Self::Coarse => (3e-3, 2.0),
+        };
+        let noise = Noise { position, heading: degrees.to_radians() };
+        Seeing { noise, round_headings: !matches!(self, Self::Unmarked | Self::UnmarkedFine) }
+    }
+
+    /// Headings can only be missing of what is round.
+    fn solids(self) -> Solids {
+        match self {
+            Self::Unmarked | Self::UnmarkedFine => Solids::Cylinders,
+            _ => Solids::Any,
+        }
+    }
+}
+
+/// A set of crowds and how it is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeliefCase {
+    /// The scenes.
+    pub set: CrowdSet,
+    /// How they are seen.
+    pub sight: Sighting,
+}
+
+/// Trajectories of several cases, in turn.
+pub struct BeliefSuite {
+    cases: Vec<BeliefCase>,
+    seed: u64,
+    regulator: Option<BeliefRegulator>,
+    rest: bool,
+    circumstances: Circumstances,
+}
+
+impl BeliefSuite {
+    /// Version of the measurement; another one gives other records for the same settings.
+    pub const VERSION: u32 = 3;
+
+    /// Every set of these families, numbers of objects and joints, seen in each of these ways. With
+    /// `rest` the rest of the way is predicted as well, which costs more than the beliefs.
+    pub fn new(
+        (families, objects, joints): (&[CrowdFamily], &[usize], JointRule),
+        sights: &[Sighting],
+        seed: u64,
+        (regulator, rest): (Option<BeliefRegulator>, bool),
+    ) -> Self {
+        let mut cases = Vec::new();
+        for family in families {
+            for set in CrowdSet::all(*family) {
+                if set.joints != joints || !objects.contains(&set.objects) {
+                    continue;
+                }
+                let seen = sights.iter().filter(|sight| sight.solids() == set.solids);
+                cases.extend(seen.map(|sight| BeliefCase { set, sight: *sight }));
+            }
+        }
+        Self { cases, seed, regulator, rest, circumstances: Circumstances::USUAL }
+    }
+
+    /// The same under other circumstances.
+    pub fn under(self, circumstances: Circumstances) -> Self {
+        Self { circumstances, ..self }
+    }
+
+    /// What is measured.
+    pub fn cases(&self) -> &[BeliefCase] {
+        &self.cases
+    }
+
+    /// Follows the trajectory with this index; `model` rolls out hypotheses and the rest of the way. The
+    /// seconds are processor time of the beliefs' updates, which is known if one thread works alone.
+    pub fn measure(&self, model: &dyn EffectModel, index: usize) -> Measured<BeliefRecord> {
+        let case = index % self.cases.len();
+        let BeliefCase { set, sight } = self.cases[case];
+        let trajectory = (index / self.cases.len()) as u64;
+        let episode = set.episode(self.seed, trajectory);
+        let frames = self.circumstances.frames(&episode);
+        let Episode { scene, motion, .. } = &episode;
+        let recording = Recording::of_frames("drawn", scene, motion, &frames);
+        let by = (model, self.regulator.as_ref(), self.rest);
+        let seeing = sight.seeing();
+        // Noise of its own for every case and trajectory.
+        let mut rng = generator(self.seed ^ SALT, index as u64);
+        let (seen, observations) = seeing.observe(&recording, &mut rng);
+        let seen = self.circumstances.told(seen);
+        let seen = (&seen, &observations[..], seeing.noise);
+        let (record, spent) = follow(&recording, seen, by, Asked::OnTheWay, case);
+        let alone = rayon::current_num_threads() == 1;
+        let seconds = spent.iter().filter(|_| alone);
+        let seconds =
+            seconds.map(|(by, spent)| (by.title().to_owned(), spent.as_secs_f64())).collect();
+        Measured { record, seconds }
+    }
+}

@@ -1,0 +1,116 @@
+//! What the closed loop brings on tasks that do not know their scene, compared with planning once.
+
+use std::time::Instant;
+
+use pushplan::internals::act::{
+    ActError, End, RunSettings, Runner, SimulatedWorld, Trace, Why, World,
+};
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::geometry::wrap_angle;
+use pushplan::internals::scene::{Goal, Scene, Situation, State, Task, Truth};
+use pushplan::internals::solve::{Planner, SolveError};
+use pushplan::internals::store::Measured;
+use pushplan::internals::watch::Unwatched;
+use serde::{Deserialize, Serialize};
+
+use super::random::{HiddenWorld, RandomError, RandomSuite, TaskKind};
+
+/// The result of a task that does not know its scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosedRecord {
+    /// What kind of task.
+    pub kind: TaskKind,
+    /// How the run ended; `None` where the world could no longer be acted in.
+    pub end: Option<End>,
+    /// Where the loop left the object, really.
+    pub closed: Left,
+    /// Pushes that it took.
+    pub pushes: usize,
+    /// How many of them were made only to learn something.
+    pub probes: usize,
+    /// Where one plan left it that was made with the guesses and carried out without looking.
+    pub once: Left,
+    /// Where one plan left it that was made with everything known.
+    pub known: Left,
+}
+
+/// Where the goal's object is left.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Left {
+    /// Whether that is at the goal.
+    pub reached: bool,
+    /// Distance from the goal, metres.
+    pub error: f64,
+}
+
+impl Left {
+    fn of(goal: &Goal, state: &State, sound: bool) -> Self {
+        Self { reached: sound && goal.reached(state), error: goal.error(state) }
+    }
+}
+
+impl RandomSuite {
+    /// Runs task `index` with everything hidden in a `world` of this kind in a loop with `settings`, and plans it once.
+    ///
+    /// # Errors
+    /// If the task cannot be made or the planner refuses it.
+    pub fn run_hidden(
+        &self,
+        planner: &Planner,
+        library: &ToolLibrary,
+        (settings, world): (RunSettings, HiddenWorld),
+        index: usize,
+    ) -> Result<Measured<ClosedRecord>, RandomError> {
+        let hidden = self.hidden(index)?.in_world(world);
+        let goal = hidden.task.goal;
+        let began = Instant::now();
+        let mut trace =
+            Trace::new(hidden.task.clone(), settings, String::new(), Some(hidden.truth.clone()));
+        let mut world = SimulatedWorld::new(hidden.truth.clone());
+        let runner = Runner::new(planner, library);
+        let ran = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched);
+        let seconds = began.elapsed().as_secs_f64();
+        if let Err(ActError::Solve(error)) = ran {
+            return Err(RandomError::Solve(error));
+        }
+        let probes = trace.steps.iter().filter(|step| step.why == Why::Probe).count();
+        let record = ClosedRecord {
+            kind: hidden.kind,
+            end: trace.end,
+            closed: Left::of(&goal, world.state(), trace.end.is_some()),
+            pushes: trace.pushes(),
+            probes,
+            once: once(planner, library, &hidden.task, &hidden.truth)?,
+            known: once(planner, library, &hidden.known, &hidden.truth)?,
+        };
+        Ok(Measured { record, seconds: [("closed".to_owned(), seconds)].into_iter().collect() })
+    }
+}
+
+/// Plans once for what is seen at the start, and carries the plan out to its end.
+fn once(
+    planner: &Planner,
+    library: &ToolLibrary,
+    task: &Task,
+    truth: &Truth,
+) -> Result<Left, SolveError> {
+    let mut world = SimulatedWorld::new(truth.clone());
+    let mut start = task.scene.start();
+    if let Ok(look) = world.look() {
+        for (pose, sight) in start.poses.iter_mut().zip(&look.seen) {
+            let Some(sight) = sight else { continue };
+            pose.position = sight.position;
+            let turn = sight.heading.map_or(0.0, |seen| wrap_angle(seen - pose.heading));
+            pose.heading += turn;
+        }
+    }
+    let mut scene: Scene = task.scene.clone();
+    scene.joints = pushplan::internals::belief::carried(&task.scene.joints, &task.scene, &start);
+    for (object, pose) in scene.objects.iter_mut().zip(&start.poses) {
+        object.pose = *pose;
+    }
+    let solution = planner.solve_from(&Situation::stated(&scene), task, library, &Unwatched)?;
+    let best = solution.best().filter(|best| !best.plan.is_empty());
+    let sound = best.is_none_or(|best| world.act(&best.plan.motion(best.tool())).is_ok());
+    Ok(Left::of(&task.goal, world.state(), sound))
+}

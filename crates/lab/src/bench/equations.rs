@@ -1,0 +1,102 @@
+//! Where the time of a push goes in the prior: how many equations there are, how often they are
+//! solved, and how many operations that takes at least.
+
+use std::num::NonZeroU16;
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::contact::Tally;
+use pushplan::internals::effect::{EffectModel, Prior, Simulated};
+use pushplan::internals::rollout::{RollSettings, Roller};
+use pushplan::internals::scene::{Engine, Job, Rate, Record};
+use pushplan::internals::sim::Simulator;
+use pushplan_learn::dataset::JointRule;
+use serde::{Deserialize, Serialize};
+
+use super::inference::peak;
+use super::suite::{Case, Suite, SuiteKind, jointed_crowd_cases};
+use super::timing::push_seconds;
+
+/// Numbers of objects on the table.
+const COUNTS: [usize; 6] = [1, 2, 3, 6, 9, 12];
+
+/// Most free objects that touch each other from the start; more are scattered or dense in turn.
+const TOUCHING: usize = 3;
+
+/// Rounds, of which the fastest counts: other work on the machine can only lengthen one.
+const ROUNDS: usize = 3;
+
+/// Processor time of a round, at least, seconds.
+const ROUND: f64 = 0.1;
+
+/// The engine's rate that the prior is compared with, steps a second.
+const RIVAL: Rate = Rate(NonZeroU16::MIN.saturating_add(119));
+
+/// What pushes among a number of objects cost the prior.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EquationCost {
+    /// Objects on the table.
+    pub objects: usize,
+    /// Whether some are joined.
+    pub jointed: bool,
+    /// Pushes that were counted.
+    pub pushes: usize,
+    /// Processor time of a push, seconds.
+    pub seconds: f64,
+    /// The same of the planar engine at 1/120 s.
+    pub rival: f64,
+    /// What all of them took.
+    pub tally: Tally,
+    /// Operations a second that matrix products reach here.
+    pub peak: f64,
+}
+
+/// Counts and times `count` pushes of every kind on this thread.
+pub fn equation_costs(library: &ToolLibrary, seed: u64, count: usize) -> Vec<EquationCost> {
+    let peak = peak();
+    let rival = Simulated::new(Simulator::new(Engine::Planar, RIVAL));
+    let prior = Prior::default();
+    let mut costs = Vec::new();
+    for jointed in [false, true] {
+        for objects in COUNTS.into_iter().filter(|&objects| objects > usize::from(jointed)) {
+            let cases = cases(library, (objects, jointed), seed, count);
+            let timed = |model: &dyn EffectModel| {
+                let rounds = (0..ROUNDS).map(|_| push_seconds(model, &cases, 1, ROUND));
+                rounds.fold(f64::INFINITY, f64::min)
+            };
+            let mut roller = Roller::new(prior.spec().clone(), RollSettings::default());
+            for case in &cases {
+                let job = Job::stated(&case.scene, case.motion.clone());
+                roller.roll(&case.scene, &[job], Record::Outcome, None);
+            }
+            costs.push(EquationCost {
+                objects,
+                jointed,
+                pushes: cases.len(),
+                seconds: timed(&prior),
+                rival: timed(&rival),
+                tally: roller.tally(),
+                peak,
+            });
+        }
+    }
+    costs
+}
+
+fn cases(
+    library: &ToolLibrary,
+    (objects, jointed): (usize, bool),
+    seed: u64,
+    count: usize,
+) -> Vec<Case> {
+    match (objects, jointed) {
+        (1, _) => Suite::draw(SuiteKind::Single, library, seed, count).cases,
+        (2..=TOUCHING, false) => {
+            // Of touching cases those of one pass over the tools have two objects, the next three.
+            let enough = 2 * (library.len() + count);
+            let all = Suite::draw(SuiteKind::Touching, library, seed, enough).cases.into_iter();
+            all.filter(|case| case.scene.objects.len() == objects).take(count).collect()
+        }
+        (_, false) => jointed_crowd_cases(objects, JointRule::None, seed, count),
+        (_, true) => jointed_crowd_cases(objects, JointRule::Mixed, seed, count),
+    }
+}

@@ -1,0 +1,146 @@
+//! What the network alone costs: fused network and candle graph on the same batches, against
+//! what the machine's matrix products reach in the same run.
+
+use std::time::Duration;
+
+use pushplan::internals::bench::processor_time;
+use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver};
+use pushplan::internals::graph::Batch;
+use pushplan::internals::network::{Buffers, Forward, PredictorWeights, matrix_product};
+use pushplan::internals::scene::{Job, Record};
+use pushplan::internals::sim::Simulator;
+use pushplan_learn::network::{Inputs, Predictor};
+use serde::{Deserialize, Serialize};
+
+use super::suite::Case;
+
+/// Each figure is the best of this many rounds: other work on the machine can only lengthen it.
+const ROUNDS: usize = 7;
+
+/// Processor time of a round, at least; the kernel may count in ticks of 4 ms.
+const ROUND: Duration = Duration::from_millis(100);
+
+/// Sides of the square products of which the faster stands for the machine's peak: large enough to
+/// hide their packing, small enough for the second-level cache. One alone may have the bad luck of
+/// memory that the cache does not hold: 80 instead of 130 GFLOP/s in some processes at 512.
+const PEAK_SIDES: [usize; 2] = [256, 384];
+
+/// Processor time of the network on a batch of graphs, one thread.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InferenceCost {
+    /// Graphs in the batch: candidate-steps.
+    pub graphs: usize,
+    /// Movable nodes in the batch.
+    pub nodes: usize,
+    /// Relations in the batch.
+    pub relations: usize,
+    /// Fused network, seconds per graph.
+    pub fused: f64,
+    /// candle graph, seconds per graph; `None` in a build without the feature `train`.
+    pub candle: Option<f64>,
+    /// Graph building (contacts, prior, features), seconds per graph.
+    pub graph: f64,
+    /// Share of the peak that the fused network's matrix products would have if they took all
+    /// of its time, 0 to 1.
+    pub of_peak: f64,
+    /// Matrix-product rate of one thread in the same run, floating-point operations per second.
+    pub peak: f64,
+}
+
+/// Times batches of `sizes` graphs, taken from frames of the cases' first strokes in which the
+/// tool is near an object.
+pub fn inference_costs(
+    weights: &PredictorWeights,
+    cases: &[Case],
+    sizes: &[usize],
+) -> Vec<InferenceCost> {
+    let forward = Forward::new(weights);
+    let peak = peak();
+    sizes
+        .iter()
+        .map(|&size| {
+            let mut batch = Batch::default();
+            let building = fill(&mut batch, cases, size);
+            let mut buffers = Buffers::default();
+            let mut corrections = Vec::new();
+            let fused = best(|| forward.run(&batch, &mut buffers, &mut corrections));
+            let work = forward.operations(&batch);
+            InferenceCost {
+                graphs: size,
+                nodes: batch.node_count(),
+                relations: batch.relation_count(),
+                fused: fused / size as f64,
+                candle: candle(weights, &batch).map(|seconds| seconds / size as f64),
+                graph: building / size as f64,
+                of_peak: work as f64 / fused / peak,
+                peak,
+            }
+        })
+        .collect()
+}
+
+/// Seconds of one forward pass of the candle graph over `batch`.
+fn candle(weights: &PredictorWeights, batch: &Batch) -> Option<f64> {
+    // candle refuses no graph with parameters that were read from a weights file.
+    let network = Predictor::new(weights.card.config, &weights.parameters).ok()?;
+    let inputs = Inputs::new(batch, &weights.card.normaliser).ok()?;
+    network.forward(&inputs).ok()?;
+    Some(best(|| {
+        let _ = std::hint::black_box(network.forward(&inputs));
+    }))
+}
+
+/// Fills `batch` with `size` graphs and returns the processor time that building them took.
+fn fill(batch: &mut Batch, cases: &[Case], size: usize) -> f64 {
+    let simulator = Simulator::planar();
+    let mut found = Vec::new();
+    let mut solver = FrameSolver::default();
+    for case in cases {
+        let job = Job::stated(&case.scene, case.motion.clone());
+        let bodies = Bodies::new(&case.scene, &case.motion.tool, case.motion.lift, &job.physics);
+        let truth = simulator.run(&case.scene, &job, Record::Frames);
+        let Some(stroke) = case.motion.strokes.first() else { continue };
+        let axis = (stroke.to.position - stroke.from.position).normalize();
+        for index in 0..stroke.frames().min(truth.frames.len()) {
+            let (state, step) = (truth.frames[index].state.clone(), stroke.frame(index));
+            let problem = FrameProblem { bodies: &bodies, state: &state, step: &step, axis };
+            if !solver.solve(problem).motions.is_empty() {
+                found.push((bodies.clone(), state, step, axis));
+            }
+        }
+    }
+    if found.is_empty() {
+        return 0.0;
+    }
+    best(|| {
+        batch.clear();
+        for (k, (bodies, state, step, axis)) in found.iter().cycle().take(size).enumerate() {
+            let problem = FrameProblem { bodies, state, step, axis: *axis };
+            let (frame, forces) = solver.solve_with_forces(problem);
+            batch.add(k as u32, &frame, &forces);
+        }
+    })
+}
+
+/// Matrix-product rate of one thread, floating-point operations per second.
+pub(super) fn peak() -> f64 {
+    let rates = PEAK_SIDES.map(|n| {
+        let (a, b) = (vec![0.5; n * n], vec![0.25; n * n]);
+        let mut c = vec![0.0; n * n];
+        let seconds = best(|| matrix_product(&a, &b, n, n, n, &mut c));
+        2.0 * (n as f64).powi(3) / seconds
+    });
+    rates.into_iter().fold(0.0, f64::max)
+}
+
+/// Shortest processor time of one call, seconds.
+fn best(mut work: impl FnMut()) -> f64 {
+    // Bounded, should the clock stand still.
+    let mut calls = 1u32;
+    let mut time = |calls: u32| processor_time(|| (0..calls).for_each(|_| work()));
+    while time(calls) < ROUND && calls < 1 << 20 {
+        calls *= 2;
+    }
+    let rounds = (0..ROUNDS).map(|_| time(calls).as_secs_f64() / f64::from(calls));
+    rounds.fold(f64::INFINITY, f64::min).max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,25 @@
+//! Weights of networks of lever-ups, whichever network it is.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use pushplan::internals::effect::{LeverModel, LeverNetwork, LeverNetworkError};
+
+use crate::image::{ImageNetwork, ImageWeights};
+use crate::parts::{LeverParts, PartsWeights};
+
+/// Reads the weights of a network of lever-ups: as the shipped one, one that sees images, or one of parts.
+///
+/// # Errors
+/// [`LeverNetworkError`] if they cannot be used.
+pub fn load_lever(path: &Path) -> Result<Arc<dyn LeverModel>, LeverNetworkError> {
+    let named = |error| LeverNetworkError::Weights { path: path.display().to_string(), error };
+    let bytes = std::fs::read(path).map_err(|error| named(error.into()))?;
+    if PartsWeights::are_in(&bytes) {
+        return Ok(Arc::new(LeverParts::new(&PartsWeights::from_bytes(&bytes).map_err(named)?)));
+    }
+    if ImageWeights::are_in(&bytes) {
+        return Ok(Arc::new(ImageNetwork::new(&ImageWeights::from_bytes(&bytes).map_err(named)?)?));
+    }
+    Ok(Arc::new(LeverNetwork::load(path)?))
+}

@@ -1,0 +1,168 @@
+//! Generated tasks of levering: take the board out of the pocket of a drive.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::geometry::Pose;
+use pushplan::internals::scene::{
+    Goal, LeverJob, LeverMotion, LeverRules, Motion, Obstacle, Outcome, Plate, PushRules, Record,
+    Robot, Scene, Situation, Task, Tool,
+};
+use pushplan::internals::sim::LeverSimulator;
+use pushplan::internals::solve::{LeverStatistics, PlanStatus, Planner, SolveError};
+use pushplan::internals::store::{Measured, Seconds};
+use pushplan::internals::verify::{Verifier, VerifySettings};
+use pushplan::internals::watch::Unwatched;
+use pushplan_learn::dataset::{LEVERS_PER_SHAPE, LeverConfig, LeverPreset, lever_job};
+
+/// The name of what must be left, and of the tool that does it.
+const POCKET: &str = "pocket";
+const TOOL: &str = "screwdriver";
+
+/// Further disturbed replays of every plan, with draws that no planner has seen.
+const FURTHER: usize = 32;
+
+/// Boards in pockets, each of another drive with a notch somewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct LeverSuite {
+    config: LeverConfig,
+}
+
+/// What came of a task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LeverRecord {
+    /// How planning ended.
+    pub status: PlanStatus,
+    /// Whether the replay of the first plan as written reaches the goal.
+    pub works: bool,
+    /// Share of the disturbed replays of verification that reach it.
+    pub robustness: Option<f64>,
+    /// Share of further disturbed replays that reach it; 0 without a plan that works.
+    pub further: f64,
+    /// Whether a lever-up drawn at random takes the board out.
+    pub random: bool,
+    /// Candidates that can be made, and how many of them reach the goal by prediction.
+    pub candidates: usize,
+    /// Of these.
+    pub promising: usize,
+}
+
+impl LeverSuite {
+    /// Version of the tasks: another one makes others of the same seed.
+    pub const VERSION: u32 = 1;
+
+    /// The suite of a seed.
+    pub fn new(seed: u64, count: usize) -> Self {
+        let episodes = count as u64 * LEVERS_PER_SHAPE;
+        Self { config: LeverConfig { seed, episodes, preset: LeverPreset::Drive } }
+    }
+
+    /// A drive and the lever-up that its generator drew; of each shape only the first is taken.
+    fn drawn(&self, index: usize) -> LeverJob {
+        lever_job(&self.config, index as u64 * LEVERS_PER_SHAPE)
+    }
+
+    /// Task `index`, which is the same for the same seed.
+    pub fn task(&self, index: usize) -> Task {
+        let LeverJob { scene, lever } = self.drawn(index);
+        let mut obstacles = scene.blocks.clone();
+        let goal = Goal { outside: Some(obstacles.len()), ..Goal::of(lever.plate) };
+        obstacles.push(pocket(&scene.blocks));
+        let objects = scene.plates.iter().cloned().filter_map(Plate::object);
+        let table = Scene::new(objects).on_table(scene.table_friction);
+        let scene = Scene { obstacles, ..table };
+        Task::new(format!("board-{}", index + 1), scene, Robot::reaching(0.0, 2.0), goal)
+            .choosing([TOOL])
+            .levering(LeverRules::default())
+            .pushing(PushRules::none())
+            .described("Take the board out of the drive.")
+    }
+
+    /// Solves task `index` with `planner`. The times are the planner's alone.
+    ///
+    /// # Errors
+    /// If the planner refuses it.
+    pub fn measure(
+        &self,
+        planner: &Planner,
+        library: &ToolLibrary,
+        index: usize,
+    ) -> Result<Measured<LeverRecord>, SolveError> {
+        let task = self.task(index);
+        let solution = planner.solve(&task, library)?;
+        let best = solution.best();
+        let verdict = best.and_then(|best| best.verdict.as_ref());
+        let works = verdict.is_some_and(|verdict| verdict.works());
+        // The planner's own disturbances are of seed 0.
+        let settings = VerifySettings { disturbed: FURTHER, seed: 1 + index as u64 };
+        let further = best.filter(|_| works).and_then(|best| {
+            let situation = Situation::stated(&task.scene);
+            let verifier = Verifier::new(settings);
+            verifier.verify(&task, &situation, &best.tools, &best.plan).robustness
+        });
+        let LeverJob { scene, lever } = self.drawn(index);
+        let tool = Arc::new(Tool::with_blade(TOOL, scene.blade));
+        let random = [Motion::Lever(LeverMotion::new(tool, lever, None))];
+        let watched = (Record::Outcome, &Unwatched as _);
+        let moved = LeverSimulator::FINE.run_all((&scene, &scene), None, &random, watched);
+        let LeverStatistics { search, .. } = solution.statistics.levers.clone().unwrap_or_default();
+        let timing = &solution.statistics.timing;
+        let seconds = [
+            ("search", timing.search),
+            ("simulation", timing.refinement),
+            ("verification", timing.verification),
+            ("total", timing.total),
+        ];
+        let record = LeverRecord {
+            status: solution.status,
+            works,
+            robustness: verdict.and_then(|verdict| verdict.robustness),
+            further: further.unwrap_or(0.0),
+            random: Outcome::judge(&task.scene, &task.goal, &moved).reached,
+            candidates: search.rollouts,
+            promising: search.promising,
+        };
+        let seconds: Seconds =
+            seconds.into_iter().map(|(stage, time)| (stage.to_owned(), time)).collect();
+        Ok(Measured { record, seconds })
+    }
+}
+
+/// The floor between the walls, as a body of its own: what must be left.
+pub(super) fn pocket(blocks: &[Obstacle]) -> Obstacle {
+    let floor = &blocks[0];
+    let mut inner = [f64::INFINITY; 2];
+    for wall in blocks.iter().filter(|block| block.name.starts_with("wall-")) {
+        let local: Pose = floor.pose.inverse() * wall.pose;
+        // Front and back lie across y, left and right across x, pieces of one wall in one line.
+        let across =
+            usize::from(["front", "back"].iter().any(|side| wall.name[5..].starts_with(side)));
+        let face = local.position[across].abs() - 0.5 * wall.size[1];
+        inner[across] = inner[across].min(face);
+    }
+    Obstacle {
+        name: POCKET.to_owned(),
+        size: [2.0 * inner[0], 2.0 * inner[1], floor.size[2]],
+        ..floor.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tasks_are_files_that_can_be_read() {
+        let suite = LeverSuite::new(3, 4);
+        for index in 0..4 {
+            let task = suite.task(index);
+            let text = task.to_yaml().expect("numbers");
+            let again = Task::parse(&text, "again.yaml");
+            assert_eq!(again.unwrap_or_else(|faults| panic!("{faults}\n{text}")).name, task.name);
+            let [x, y, _] = task.scene.obstacles.last().expect("the pocket").size;
+            assert!((0.05..0.11).contains(&x) && (0.045..0.10).contains(&y), "{x} {y}");
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! The kinds of random tasks, and what makes a task one of them.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
+
+use pushplan::internals::geometry::{Pose, Vector, wrap_angle};
+use pushplan::internals::scene::Span;
+use serde::{Deserialize, Serialize};
+
+use super::one_push::TRAVEL;
+
+/// A kind of random task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TaskKind {
+    /// The object stands farther out than the end effector can go, and goes no nearer.
+    Reach,
+    /// The object comes nearer to the robot.
+    Pull,
+    /// The object goes sideways.
+    Sweep,
+    /// An obstacle stands on the straight way.
+    Obstacle,
+    /// A cuboid with a heading to reach, at least 15 degrees from its own.
+    Heading,
+    /// One of two objects that are joined.
+    Pair,
+    /// The goal lies behind a gap too narrow for the object: no plan can be right.
+    Gap,
+    /// One of four objects that stand close, some of them joined. Asked for by name alone.
+    Cluster,
+}
+
+/// Room that a kind gives, and how hard its tasks are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules {
+    /// Distances of the object from the robot's base, metres.
+    pub places: Span,
+    /// Largest reach of the end effector, metres.
+    pub reach: f64,
+    /// Fewest and most pushes of the plan that makes the goal.
+    pub made_with: [usize; 2],
+    /// Travel of each of its pushes, metres. Refinement may go from 0.10 to 0.30.
+    pub travel: Span,
+    /// Most pushes of a plan.
+    pub max_count: usize,
+    /// The object goes at least this far, metres.
+    pub least_way: f64,
+}
+
+/// Smallest turn of [`TaskKind::Heading`], radians.
+const LEAST_TURN: f64 = PI / 12.0;
+
+/// How far the way may lean against straight inwards or sideways, radians.
+const LEANING: f64 = PI / 6.0;
+
+impl TaskKind {
+    /// All that can be solved, but for clusters.
+    pub const ALL: [TaskKind; 6] = [
+        TaskKind::Reach,
+        TaskKind::Pull,
+        TaskKind::Sweep,
+        TaskKind::Obstacle,
+        TaskKind::Heading,
+        TaskKind::Pair,
+    ];
+
+    /// One word, as in the names of tasks and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            TaskKind::Reach => "reach",
+            TaskKind::Pull => "pull",
+            TaskKind::Sweep => "sweep",
+            TaskKind::Obstacle => "obstacle",
+            TaskKind::Heading => "heading",
+            TaskKind::Pair => "pair",
+            TaskKind::Gap => "gap",
+            TaskKind::Cluster => "cluster",
+        }
+    }
+
+    /// One line for the description of a task.
+    pub fn title(self) -> &'static str {
+        match self {
+            TaskKind::Reach => "An object beyond the end effector's reach.",
+            TaskKind::Pull => "An object to pull towards the robot.",
+            TaskKind::Sweep => "An object to sweep aside.",
+            TaskKind::Obstacle => "An object to bring around an obstacle.",
+            TaskKind::Heading => "A cuboid to bring to a place and a heading.",
+            TaskKind::Pair => "One of two objects that are joined.",
+            TaskKind::Gap => "A goal behind a gap that is too narrow.",
+            TaskKind::Cluster => "One of several objects that stand close, some of them joined.",
+        }
+    }
+
+    pub(super) fn rules(self) -> Rules {
+        let usual = Rules {
+            places: Span::new(0.40, 0.75),
+            reach: 0.9,
+            made_with: [1, 2],
+            travel: TRAVEL,
+            max_count: 2,
+            least_way: 0.08,
+        };
+        match self {
+            TaskKind::Reach => {
+                Rules { places: Span::new(0.65, 0.90), reach: 0.6, made_with: [1, 1], ..usual }
+            }
+            TaskKind::Pull => Rules { places: Span::new(0.50, 0.85), ..usual },
+            TaskKind::Sweep => Rules { least_way: 0.12, ..usual },
+            // Short ways leave no room for a wall beside them.
+            TaskKind::Obstacle => Rules {
+                made_with: [2, 3],
+                travel: Span::new(0.15, TRAVEL.high),
+                max_count: 3,
+                least_way: 0.12,
+                ..usual
+            },
+            TaskKind::Heading => Rules { least_way: 0.05, ..usual },
+            TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => usual,
+        }
+    }
+
+    /// Middle and half width of the directions in which pushes are tried, for an object that
+    /// stands in direction `outwards` from the base, radians; `index` counts the pushes before,
+    /// `before` is the direction of the last one. Only saves draws: what makes a task one of its
+    /// kind is [`TaskKind::accepts`].
+    pub(super) fn directions(
+        self,
+        outwards: f64,
+        index: usize,
+        before: f64,
+        left: bool,
+    ) -> (f64, f64) {
+        let side = if left { FRAC_PI_2 } else { -FRAC_PI_2 };
+        match self {
+            TaskKind::Reach => (outwards, 0.6 * PI),
+            TaskKind::Pull => (outwards + PI, 0.8),
+            TaskKind::Sweep => (outwards + side, 0.7),
+            // Around a corner.
+            TaskKind::Obstacle if index > 0 => (before + side, 0.4),
+            TaskKind::Obstacle
+            | TaskKind::Heading
+            | TaskKind::Pair
+            | TaskKind::Gap
+            | TaskKind::Cluster => (0.0, PI),
+        }
+    }
+
+    /// Whether moving the goal object so makes a task of this kind, as far as start and end
+    /// tell; that the straight way of [`TaskKind::Obstacle`] is blocked is seen to elsewhere.
+    pub(super) fn accepts(self, start: &Pose, end: &Pose) -> bool {
+        let way = end.position - start.position;
+        if !end.is_finite() || way.norm() < self.rules().least_way {
+            return false;
+        }
+        let angle = |v: Vector| v.y.atan2(v.x);
+        let off = wrap_angle(angle(way) - angle(start.position)).abs();
+        match self {
+            TaskKind::Reach => end.position.norm() >= start.position.norm(),
+            TaskKind::Pull => off >= PI - LEANING,
+            TaskKind::Sweep => (off - FRAC_PI_2).abs() <= LEANING,
+            TaskKind::Heading => wrap_angle(end.heading - start.heading).abs() >= LEAST_TURN,
+            TaskKind::Obstacle | TaskKind::Pair | TaskKind::Gap | TaskKind::Cluster => true,
+        }
+    }
+}
+
+impl fmt::Display for TaskKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

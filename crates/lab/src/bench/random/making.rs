@@ -1,0 +1,137 @@
+//! Plans that make goals: random pushes that a task allows, and where they end.
+
+use std::f64::consts::FRAC_PI_8;
+use std::sync::Arc;
+
+use pushplan::internals::plan::{
+    Candidate, CandidatePush, Evaluation, Rollouts, Start, Workspace, evaluate,
+};
+use pushplan::internals::scene::{Plan, Push, Span, Task, Tool};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+use super::kind::{Rules, TaskKind};
+use super::one_push::{TRAVEL, WAYS};
+
+/// Further pushes of the plans that make goals stand off by this much more than the first,
+/// metres: the object does not stand quite where it was predicted, and the tool must not come
+/// down on it.
+const LATER_ROOM: f64 = 0.01;
+
+/// First pushes that are drawn before a table is given up: most tools do not fit most ways.
+const DRAWS: usize = 60;
+
+/// What a task allows with these tools, for plans that make goals.
+pub(super) fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
+    Workspace { task, tools }
+}
+
+/// A random candidate of a kind whose first push can be made; `None` if none was found.
+pub(super) fn random_candidate(
+    rng: &mut Pcg64,
+    workspace: &Workspace,
+    kind: TaskKind,
+) -> Option<Candidate> {
+    let Rules { made_with: [least, most], travel, .. } = kind.rules();
+    (0..DRAWS).find_map(|_| {
+        let pushes = rng.random_range(least..=most);
+        let candidate = draw(rng, workspace, (pushes, travel), |rng, index, before| {
+            let at = workspace.task.scene.objects[workspace.task.goal.object].pose.position;
+            let (middle, half) =
+                kind.directions(at.y.atan2(at.x), index, before, rng.random::<bool>());
+            let wanted = middle + rng.random_range(-half..=half);
+            near_a_way(rng, wanted)
+        });
+        first_push(workspace, &candidate).map(|_| candidate)
+    })
+}
+
+/// A random plan of one push that can be made, in any direction; `None` if none was found.
+pub(super) fn random_plan(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Option<Plan> {
+    /// Enough for any table on which something can be pushed at all.
+    const TRIES: usize = 2000;
+    let workspace = workspace(task, tools);
+    (0..TRIES).find_map(|_| {
+        let candidate = draw(rng, &workspace, (1, TRAVEL), |rng, _, _| {
+            std::f64::consts::TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32))
+        });
+        let push = first_push(&workspace, &candidate)?;
+        Some(plan(&workspace, &candidate, vec![push]))
+    })
+}
+
+/// The candidate as carried out in the model of `rollouts`; `None` if that breaks a rule.
+pub(super) fn carried_out(
+    workspace: &Workspace,
+    rollouts: &mut Rollouts,
+    candidate: &Candidate,
+) -> Option<Evaluation> {
+    let made = evaluate(workspace, rollouts, std::slice::from_ref(candidate)).pop()?.ok()?;
+    (made.is_feasible() && made.is_sound()).then_some(made)
+}
+
+/// Whether the tool keeps clear of the obstacles on these pushes.
+pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
+    let (pair, start) = ((candidate.tool, candidate.grip_yaw), workspace.task.scene.start());
+    pushes.iter().all(|push| {
+        let margins = workspace.margins(pair, &start, push, None);
+        margins.broken().is_none()
+    })
+}
+
+/// What a candidate's pushes are to a robot.
+pub(super) fn plan(workspace: &Workspace, candidate: &Candidate, pushes: Vec<Push>) -> Plan {
+    let rules = &workspace.task.pushes;
+    let tool = &workspace.tools[candidate.tool].name;
+    Plan::pushing(tool, candidate.grip_yaw, rules.form, rules.lift, pushes)
+}
+
+/// Any tool and grip, and pushes of any face, offset and length in the directions of `direct`,
+/// which is told the number of pushes before and the direction of the last.
+fn draw(
+    rng: &mut Pcg64,
+    workspace: &Workspace,
+    (pushes, travel): (usize, Span),
+    direct: impl Fn(&mut Pcg64, usize, f64) -> f64,
+) -> Candidate {
+    let Workspace { task, tools, .. } = *workspace;
+    let tool = rng.random_range(0..tools.len());
+    let yaws = &task.pushes.grip_yaws;
+    let grip_yaw = yaws[rng.random_range(0..yaws.len())];
+    let start = task.scene.start();
+    let mut candidate = Candidate { tool, grip_yaw, pushes: Vec::new() };
+    let mut before = 0.0;
+    for index in 0..pushes {
+        let direction = direct(rng, index, before);
+        let part = rng.random_range(0..tools[tool].parts().len());
+        let span = workspace.offset_span((tool, grip_yaw), &start, part, direction);
+        let offset = rng.random_range(-span..=span);
+        let length = rng.random_range(travel.low..travel.high);
+        let start = Start::Placed { part, offset };
+        let room = if index > 0 { LATER_ROOM } else { 0.0 };
+        candidate.pushes.push(CandidatePush { start, direction, length, room });
+        before = direction;
+    }
+    candidate
+}
+
+/// The first push, if it can be made from the start.
+fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
+    let (start, planned) = (workspace.task.scene.start(), candidate.pushes.first()?);
+    let pair = (candidate.tool, candidate.grip_yaw);
+    let from = workspace.place(pair, &start, planned, None).ok()?;
+    let push = Push {
+        start: from,
+        direction: planned.direction,
+        length: planned.length,
+        speed: workspace.task.pushes.speed,
+    };
+    workspace.margins(pair, &start, &push, Some(0.0)).broken().is_none().then_some(push)
+}
+
+/// A direction near `wanted` that refinement comes to from one of the ways that the search
+/// tries: all do, as the ways are twice as far apart.
+fn near_a_way(rng: &mut Pcg64, wanted: f64) -> f64 {
+    let spacing = std::f64::consts::TAU / WAYS as f64;
+    (wanted / spacing).round() * spacing + rng.random_range(-FRAC_PI_8..FRAC_PI_8)
+}

@@ -1,0 +1,116 @@
+//! What is measured on a random task: our plan, doing nothing and a random choice.
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::bench::{End, SolvedTask};
+use pushplan::internals::geometry::Pose;
+use pushplan::internals::scene::{Engine, ModelKind, Outcome, Situation, Trajectory};
+use pushplan::internals::seeded::generator;
+use pushplan::internals::solve::{Planner, SolveError};
+use pushplan::internals::store::Measured;
+use pushplan::internals::verify::{Verifier, VerifySettings};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::kind::TaskKind;
+use super::making::random_plan;
+use super::suite::{NoTask, RandomSuite, SuiteTask};
+
+/// The result of a random task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RandomRecord {
+    /// What kind of task.
+    pub kind: TaskKind,
+    /// The plan that made the goal; `None` for a task that no plan can solve.
+    pub maker: Option<Maker>,
+    /// The planner's plan.
+    pub solved: SolvedTask,
+    /// Where the object is if nothing is done.
+    pub nothing: End,
+    /// A random plan of one push; `None` if no push can be made.
+    pub random: Option<Choice>,
+}
+
+/// In few words, the plan that made a goal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Maker {
+    /// Name of its tool.
+    pub tool: String,
+    /// Number of its pushes.
+    pub pushes: usize,
+}
+
+/// A random plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    /// Name of its tool.
+    pub tool: String,
+    /// Where it ends in the planar engine.
+    pub planar: End,
+    /// Where it ends in the 3-D engine.
+    pub spatial: End,
+}
+
+/// Why a random task could not be measured.
+#[derive(Debug, Error)]
+pub enum RandomError {
+    /// None could be made.
+    #[error(transparent)]
+    NoTask(#[from] NoTask),
+    /// The planner refuses it.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+impl RandomSuite {
+    /// Solves task `index` with `planner` and the tools of `library`, those of the suite. The
+    /// times are the planner's alone.
+    ///
+    /// # Errors
+    /// If the task cannot be made or the planner refuses it.
+    pub fn measure(
+        &self,
+        planner: &Planner,
+        library: &ToolLibrary,
+        index: usize,
+    ) -> Result<Measured<RandomRecord>, RandomError> {
+        let made = self.task(index)?;
+        let solution = planner.solve(&made.task, library)?;
+        let maker = made.made.as_ref();
+        let maker = maker
+            .map(|(plan, _)| Maker { tool: plan.tool().to_owned(), pushes: plan.pushes().len() });
+        let record = RandomRecord {
+            kind: made.kind,
+            maker,
+            solved: SolvedTask::of(&made.task, &solution),
+            nothing: nothing(&made),
+            random: self.random_choice(&made, index),
+        };
+        Ok(Measured { record, seconds: SolvedTask::seconds(&solution) })
+    }
+
+    fn random_choice(&self, made: &SuiteTask, index: usize) -> Option<Choice> {
+        let mut rng = generator(self.seed() ^ 0xC401CE, index as u64);
+        let plan = random_plan(&mut rng, &made.task, self.tools())?;
+        let tool = self.tools().iter().find(|tool| tool.name == plan.tool())?;
+        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verdict = verifier.nominal(
+            &made.task,
+            &Situation::stated(&made.task.scene),
+            std::slice::from_ref(tool),
+            &plan,
+        );
+        let end =
+            |engine: Engine| verdict.nominal(engine).map(|evidence| End::of(&evidence.outcome));
+        Some(Choice {
+            tool: plan.tool().to_owned(),
+            planar: end(Engine::Planar)?,
+            spatial: end(Engine::Spatial)?,
+        })
+    }
+}
+
+fn nothing(made: &SuiteTask) -> End {
+    let state = made.task.scene.start();
+    let trajectory = Trajectory::standing(ModelKind::Still.into(), Pose::default(), state);
+    End::of(&Outcome::judge(&made.task.scene, &made.task.goal, &trajectory))
+}

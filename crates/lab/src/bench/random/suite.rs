@@ -1,0 +1,185 @@
+//! The suite: tasks of all kinds in turn, each a function of seed, kind and number alone.
+
+use std::sync::Arc;
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::effect::Simulated;
+use pushplan::internals::geometry::{Pose, Vector, cross};
+use pushplan::internals::plan::{Candidate, Rollouts};
+use pushplan::internals::scene::{Plan, Scene, Situation, Task, Tool};
+use pushplan::internals::seeded::generator;
+use pushplan::internals::sim::Simulator;
+use pushplan::internals::verify::{Verifier, VerifySettings};
+use rand_pcg::Pcg64;
+use thiserror::Error;
+
+use super::gap::gap_task;
+use super::kind::TaskKind;
+use super::layout::{open_task, set_goal, wall};
+use super::making::{carried_out, keeps_clear, plan, random_candidate, workspace};
+
+/// Tables that are drawn for one task before it is given up. With the shipped tools about ten are
+/// enough.
+const MOST_TABLES: usize = 3000;
+
+/// Walls that are tried across one way.
+const WALLS: usize = 12;
+
+/// Random tasks of several kinds, in turn.
+///
+/// Every task was made by a plan that it allows: its goal is where that plan ends in the planar
+/// engine, and the plan's replay in the 3-D engine reaches that goal within the tolerance. So
+/// every task is solvable by construction, under the very rule by which plans are judged. Pushes
+/// on whose end the engines disagree by more than the tolerance make no tasks.
+#[derive(Clone, Debug)]
+pub struct RandomSuite {
+    tools: Vec<Arc<Tool>>,
+    seed: u64,
+    kinds: Vec<TaskKind>,
+}
+
+/// A task and the plan that made it.
+#[derive(Clone, Debug)]
+pub struct SuiteTask {
+    /// What kind.
+    pub kind: TaskKind,
+    /// The task.
+    pub task: Task,
+    /// A plan that reaches its goal, and its tool; nothing where there is no such plan.
+    pub made: Option<(Plan, Arc<Tool>)>,
+}
+
+/// With these tools no task of a kind could be drawn.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("no task of the kind `{kind}` could be made with these tools")]
+pub struct NoTask {
+    /// The kind.
+    pub kind: TaskKind,
+}
+
+impl RandomSuite {
+    /// Version of the drawing: another one gives other tasks.
+    pub const VERSION: u32 = 2;
+
+    /// Tasks for the tools of `library`, of the given kinds (all of them, if none is given).
+    pub fn new(library: &ToolLibrary, seed: u64, kinds: &[TaskKind]) -> Self {
+        let kinds = if kinds.is_empty() { &TaskKind::ALL } else { kinds };
+        Self { tools: library.iter().cloned().collect(), seed, kinds: kinds.to_vec() }
+    }
+
+    /// The kinds, in the order in which they take turns.
+    pub fn kinds(&self) -> &[TaskKind] {
+        &self.kinds
+    }
+
+    /// The seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The tools.
+    pub fn tools(&self) -> &[Arc<Tool>] {
+        &self.tools
+    }
+
+    /// Task `index`: the same whether or not other kinds take turns with it, but for its index.
+    ///
+    /// # Errors
+    /// If none could be made with these tools.
+    pub fn task(&self, index: usize) -> Result<SuiteTask, NoTask> {
+        // From one round of kinds to the next the order is turned, so that tasks whose index
+        // leaves the same rest are of all kinds: that is what a shard measures.
+        let (round, place) = (index / self.kinds.len(), index % self.kinds.len());
+        let kind = self.kinds[(round + place) % self.kinds.len()];
+        // Kinds must not share tables.
+        let seed = self.seed ^ 0x5EED ^ ((kind as u64 + 1) << 40);
+        let mut rng = generator(seed, round as u64);
+        if kind == TaskKind::Gap {
+            return Ok(SuiteTask { kind, task: gap_task(&mut rng, round), made: None });
+        }
+        let tables = if self.tools.is_empty() { 0 } else { MOST_TABLES };
+        (0..tables).find_map(|_| self.draw(&mut rng, kind, round)).ok_or(NoTask { kind })
+    }
+
+    /// A task, if this draw makes one.
+    fn draw(&self, rng: &mut Pcg64, kind: TaskKind, round: usize) -> Option<SuiteTask> {
+        let mut task = open_task(rng, kind, round);
+        let candidate = random_candidate(rng, &workspace(&task, &self.tools), kind)?;
+        let mut plan = self.made(&mut task, kind, &candidate)?;
+        if kind == TaskKind::Obstacle {
+            plan = self.walled(rng, &mut task, &candidate, &plan)?;
+        }
+        let tool = Arc::clone(&self.tools[candidate.tool]);
+        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let verdict = verifier.nominal(
+            &task,
+            &Situation::stated(&task.scene),
+            std::slice::from_ref(&tool),
+            &plan,
+        );
+        let both = verdict.evidence.iter().all(|evidence| evidence.outcome.reached);
+        (verdict.passed && both).then_some(SuiteTask { kind, task, made: Some((plan, tool)) })
+    }
+
+    /// Sets the goal where the candidate ends in the planar engine, if that makes a task of the
+    /// kind.
+    fn made(&self, task: &mut Task, kind: TaskKind, candidate: &Candidate) -> Option<Plan> {
+        let planar = Simulated::new(Simulator::planar());
+        let scene: Scene = task.scene.clone();
+        let mut rollouts = Rollouts::new(&planar, Situation::stated(&scene));
+        let workspace = workspace(task, &self.tools);
+        let made = carried_out(&workspace, &mut rollouts, candidate)?;
+        let plan = plan(&workspace, candidate, made.pushes);
+        let object = task.goal.object;
+        let end = made.outcome.poses[object];
+        if !kind.accepts(&scene.objects[object].pose, &end) {
+            return None;
+        }
+        set_goal(task, &end);
+        Some(plan)
+    }
+
+    /// Puts a wall across the straight way, around which the candidate still brings the object
+    /// to the same place; `plan` is what it does without the wall.
+    fn walled(
+        &self,
+        rng: &mut Pcg64,
+        task: &mut Task,
+        candidate: &Candidate,
+        plan: &Plan,
+    ) -> Option<Plan> {
+        let object = task.goal.object;
+        let start = task.scene.objects[object].pose;
+        let straight = Pose { position: task.goal.position, ..start };
+        let corner = corner(start.position, straight.position, candidate);
+        for _ in 0..WALLS {
+            let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
+            let before = task.clone();
+            task.scene.obstacles.push(wall);
+            let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
+            let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
+            // A wall that the object is pushed against would make another task than planned.
+            let kept = (task.goal.position - straight.position).norm() < 1e-3;
+            match plan {
+                Some(plan) if kept => return Some(plan),
+                _ => *task = before,
+            }
+        }
+        None
+    }
+}
+
+/// About where the object is farthest from its straight way, if every push carries it along.
+fn corner(start: Vector, end: Vector, candidate: &Candidate) -> Vector {
+    let way = end - start;
+    let mut at = start;
+    let mut farthest = (0.0, start);
+    for push in &candidate.pushes {
+        at += Vector::new(push.direction.cos(), push.direction.sin()) * push.length;
+        let off = cross(way, at - start).abs();
+        if off > farthest.0 {
+            farthest = (off, at);
+        }
+    }
+    farthest.1
+}

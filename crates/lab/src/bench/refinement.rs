@@ -1,0 +1,160 @@
+//! What refinement brings: random tasks that are known to be solvable, solved without and with
+//! it, everything else alike.
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::bench::{End, SolvedTask};
+use pushplan::internals::judge::Summary;
+use pushplan::internals::scene::{Situation, Task};
+use pushplan::internals::solve::{PlanStatus, Planner, Solution, SolveError};
+use pushplan::internals::store::Measured;
+use serde::{Deserialize, Serialize};
+
+use super::random::random_task;
+
+/// The results of the tasks with one planner; errors are those of the plans to use, metres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanErrors {
+    /// As the effect model predicts them.
+    pub predicted: Option<Summary>,
+    /// As executed in the planar engine.
+    pub planar: Option<Summary>,
+    /// As executed in the 3-D engine.
+    pub spatial: Option<Summary>,
+    /// Tasks solved.
+    pub solved: usize,
+    /// Plans that work in both engines on even pressure, corners and in between.
+    pub on_all_supports: usize,
+    /// Plans replayed a task, on average.
+    pub attempts: f64,
+    /// Rollouts of the effect model a task, on average.
+    pub rollouts: f64,
+}
+
+/// Refinement over many tasks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RefinementReport {
+    /// Name of the effect model.
+    pub model: String,
+    /// Seed of the tasks.
+    pub seed: u64,
+    /// Number of tasks.
+    pub tasks: usize,
+    /// Tolerance of the goals, metres.
+    pub tolerance: f64,
+    /// Without refinement.
+    pub before: PlanErrors,
+    /// With it.
+    pub after: PlanErrors,
+    /// Refined plans whose predicted error is larger than before: must be none.
+    pub worse: usize,
+    /// Quadratic programmes solved.
+    pub programmes: usize,
+    /// Quadratic programmes that ended in another status.
+    pub programmes_failed: usize,
+}
+
+/// What refinement did in one task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RefinedTask {
+    /// The task solved without refinement.
+    pub before: Tried,
+    /// The same with it.
+    pub after: Tried,
+    /// Refined plans whose predicted error is larger than before.
+    pub worse: usize,
+    /// Quadratic programmes solved.
+    pub programmes: usize,
+    /// Quadratic programmes that ended in another status.
+    pub programmes_failed: usize,
+}
+
+/// A task solved, and whether its plan works on whatever the objects may rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tried {
+    /// The task and its result.
+    pub solved: SolvedTask,
+    /// Whether the plan to use works in both engines on even pressure, corners and in between.
+    pub on_all_supports: bool,
+}
+
+impl Tried {
+    fn of(task: &Task, solution: &Solution) -> Self {
+        let situation = Situation::stated(&task.scene);
+        Self {
+            solved: SolvedTask::of(task, solution),
+            on_all_supports: solution
+                .best()
+                .is_some_and(|plan| plan.works_on_all_supports(task, &situation)),
+        }
+    }
+}
+
+/// Solves random task `index` of `seed` with two planners, of which `without` differs from `with` by
+/// not refining; `library` holds at least one tool. The same bits for any number of threads.
+///
+/// # Errors
+/// What the planners refuse.
+pub fn refine_task(
+    [without, with]: [&Planner; 2],
+    library: &ToolLibrary,
+    seed: u64,
+    index: usize,
+) -> Result<Measured<RefinedTask>, SolveError> {
+    let task = random_task(library, seed, index);
+    let before = without.solve(&task, library)?;
+    let after = with.solve(&task, library)?;
+    let statistics = &after.statistics.refinement;
+    let refined = after.plans.iter().map(|plan| &plan.refinement);
+    let record = RefinedTask {
+        before: Tried::of(&task, &before),
+        after: Tried::of(&task, &after),
+        worse: refined.filter(|plan| plan.after > plan.before).count(),
+        programmes: statistics.solved,
+        programmes_failed: statistics.failures.len(),
+    };
+    let total = |solution: &Solution| solution.statistics.timing.total;
+    let seconds = [("without", total(&before)), ("with", total(&after))];
+    let seconds = seconds.map(|(name, spent)| (name.to_owned(), spent)).into();
+    Ok(Measured { record, seconds })
+}
+
+impl RefinementReport {
+    /// What tasks of `seed` say together that were solved by means of the effect model `model`.
+    pub fn of(model: &str, seed: u64, done: &[&RefinedTask]) -> Self {
+        let (before, after): (Vec<&Tried>, Vec<&Tried>) =
+            done.iter().map(|one| (&one.before, &one.after)).unzip();
+        let sum = |count: &dyn Fn(&RefinedTask) -> usize| done.iter().map(|one| count(one)).sum();
+        Self {
+            model: model.to_owned(),
+            seed,
+            tasks: done.len(),
+            tolerance: after.first().map_or(0.0, |task| task.solved.tolerance),
+            before: plan_errors(&before),
+            after: plan_errors(&after),
+            worse: sum(&|one| one.worse),
+            programmes: sum(&|one| one.programmes),
+            programmes_failed: sum(&|one| one.programmes_failed),
+        }
+    }
+}
+
+fn plan_errors(list: &[&Tried]) -> PlanErrors {
+    let on_all_supports = list.iter().filter(|task| task.on_all_supports).count();
+    let list: Vec<&SolvedTask> = list.iter().map(|task| &task.solved).collect();
+    let over = |end: &dyn Fn(&SolvedTask) -> Option<End>| {
+        let errors = list.iter().filter_map(|task| Some(end(task)?.error));
+        Summary::of(&errors.collect::<Vec<f64>>())
+    };
+    let mean = |count: &dyn Fn(&SolvedTask) -> usize| {
+        list.iter().map(|task| count(task) as f64).sum::<f64>() / list.len().max(1) as f64
+    };
+    PlanErrors {
+        predicted: over(&|task| task.predicted),
+        planar: over(&|task| task.planar),
+        spatial: over(&|task| task.spatial),
+        solved: list.iter().filter(|task| task.status == PlanStatus::Solved).count(),
+        on_all_supports,
+        attempts: mean(&|task| task.attempts),
+        rollouts: mean(&|task| task.rollouts),
+    }
+}

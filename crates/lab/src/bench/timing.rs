@@ -1,0 +1,158 @@
+//! What a push costs: predicted, simulated in the plane and in 3-D, and a whole search of
+//! one-push candidates, all in one run so that the ratios mean something.
+
+use std::sync::Arc;
+
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::bench::processor_time;
+use pushplan::internals::effect::{EffectModel, Job, Simulated};
+use pushplan::internals::scene::{Record, Scene, Task};
+use pushplan::internals::sim::Simulator;
+use pushplan::internals::solve::{Planner, Settings, SolveError};
+use serde::{Deserialize, Serialize};
+
+use super::suite::{Case, Suite};
+
+/// A search is timed this often and the shortest counts: other work on the machine can only
+/// lengthen it.
+const REPEATS: usize = 5;
+
+/// Pushes are repeated until they took this much processor time, seconds: the kernel may count
+/// in ticks of 4 ms.
+const ENOUGH: f64 = 0.25;
+
+/// Processor time of one push.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PushCost {
+    /// Name of the model.
+    pub model: String,
+    /// Jobs handed over together.
+    pub batch: usize,
+    /// Processor time per push, seconds.
+    pub seconds: f64,
+    /// The same for one frame of a push, seconds.
+    pub seconds_per_frame: f64,
+}
+
+/// Cost of a search of one-push candidates on the current rayon pool.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SearchCost {
+    /// Name of the model.
+    pub model: String,
+    /// Name of the task.
+    pub task: String,
+    /// Threads of the pool.
+    pub threads: usize,
+    /// Rollouts made.
+    pub rollouts: usize,
+    /// Wall-clock time, seconds.
+    pub seconds: f64,
+}
+
+/// Times pushes of `suite` on one thread: `model` with `batch` jobs at a time on the same scene
+/// and one at a time, then both engines.
+///
+/// The jobs of a batch are the same push, which no model can know; it measures what a search
+/// pays for a candidate.
+///
+/// # Errors
+/// If the thread cannot be started.
+pub fn push_costs(
+    model: &dyn EffectModel,
+    suite: &Suite,
+    batch: usize,
+) -> Result<Vec<PushCost>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let (planar, spatial) =
+        (Simulated::new(Simulator::planar()), Simulated::new(Simulator::spatial()));
+    let runs: [(&dyn EffectModel, usize); 4] =
+        [(model, batch.max(1)), (model, 1), (&planar, 1), (&spatial, 1)];
+    Ok(pool.install(|| runs.into_iter().map(|(m, batch)| push_cost(m, suite, batch)).collect()))
+}
+
+fn push_cost(model: &dyn EffectModel, suite: &Suite, batch: usize) -> PushCost {
+    let seconds = push_seconds(model, &suite.cases, batch, ENOUGH);
+    let strokes = suite.cases.iter().flat_map(|case| &case.motion.strokes);
+    let frames = strokes.map(|stroke| stroke.frames()).sum::<usize>();
+    let pushes = suite.cases.len();
+    PushCost {
+        model: model.spec().to_string(),
+        batch,
+        seconds,
+        seconds_per_frame: seconds * pushes as f64 / frames.max(1) as f64,
+    }
+}
+
+/// Processor time of one push on this thread, seconds: the mean over `cases`, `batch` times the
+/// same push at a time, all repeated until that took `enough` seconds.
+pub(super) fn push_seconds(
+    model: &dyn EffectModel,
+    cases: &[Case],
+    batch: usize,
+    enough: f64,
+) -> f64 {
+    let work = batches(cases, batch);
+    let (mut seconds, mut runs) = (0.0, 0u32);
+    // Bounded, should the clock stand still.
+    while seconds < enough && runs < 10_000 && !work.is_empty() {
+        runs += 1;
+        seconds += processor_time(|| {
+            for (scene, jobs) in &work {
+                std::hint::black_box(model.rollout(scene, jobs, Record::Outcome));
+            }
+        })
+        .as_secs_f64();
+    }
+    seconds / f64::from(runs.max(1)) / (work.len() * batch).max(1) as f64
+}
+
+/// Every push `batch` times, with its scene.
+pub(super) fn batches(cases: &[Case], batch: usize) -> Vec<(&Scene, Vec<Job>)> {
+    let repeated = |case: &'_ Case| {
+        let motion = case.motion.clone();
+        vec![Job::stated(&case.scene, motion); batch]
+    };
+    cases.iter().map(|case| (&case.scene, repeated(case))).collect()
+}
+
+/// Times the planner's search of at most `candidates` one-push candidates for `task` with each
+/// model, one after another on the current rayon pool.
+///
+/// # Errors
+/// What the planner refuses.
+pub fn search_costs(
+    models: &[Arc<dyn EffectModel>],
+    task: &Task,
+    library: &ToolLibrary,
+    offsets: usize,
+    candidates: usize,
+) -> Result<Vec<SearchCost>, SolveError> {
+    let settings = Settings {
+        levers: pushplan::internals::solve::LeverSettings::STANDARD,
+        offsets,
+        beam: 1,
+        search_rollouts: candidates,
+        refined: 1,
+        refine_rounds: 0,
+        refine_extra: 0,
+        verified_at_once: 1,
+        verify_batches: 1,
+        disturbed: 0,
+    };
+    let mut task = task.clone();
+    task.pushes.max_count = 1;
+    let cost = |model: &Arc<dyn EffectModel>| {
+        let planner = Planner::builder(Arc::clone(model)).settings(settings).build();
+        let solved = (0..REPEATS).map(|_| Ok(planner.solve(&task, library)?.statistics));
+        let solved = solved.collect::<Result<Vec<_>, SolveError>>()?;
+        let seconds = solved.iter().map(|statistics| statistics.timing.search);
+        Ok(SearchCost {
+            model: model.spec().to_string(),
+            task: task.name.clone(),
+            threads: rayon::current_num_threads(),
+            rollouts: solved.first().map_or(0, |statistics| statistics.search.rollouts),
+            seconds: seconds.fold(f64::INFINITY, f64::min),
+        })
+    };
+    models.iter().map(cost).collect()
+}

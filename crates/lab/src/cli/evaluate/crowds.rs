@@ -1,0 +1,82 @@
+//! Measuring on a set of crowds.
+
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::form::Form;
+use pushplan::cli::model::OutsideArgs;
+use pushplan::cli::session::Session;
+use pushplan::cli::{model, output};
+use pushplan::internals::effect::EffectModel;
+use pushplan::internals::judge::assumed;
+use pushplan::internals::scene::ModelSpec;
+
+use crate::bench::{CrowdReport, CrowdSet, HeldOutReport, crowd_baselines};
+use crate::report::{crowd_document, evaluation_document};
+
+use super::sources::CrowdArgs;
+
+/// What is asked for.
+pub struct Crowds<'a> {
+    pub sets: &'a [CrowdSet],
+    pub model: &'a ModelSpec,
+    pub outside: OutsideArgs,
+    pub seed: u64,
+    pub args: &'a CrowdArgs,
+    pub form: Form,
+}
+
+impl Crowds<'_> {
+    /// Errors on a set of scenes.
+    ///
+    /// # Errors
+    /// A model that cannot be read.
+    pub fn set(&self, set: &CrowdSet, session: &Session) -> Result<CrowdReport, CliError> {
+        let models = self.models()?;
+        let following = Following::bar(session, &set.title());
+        let report = session.compute(|| {
+            let trials = set.draw(self.seed, self.args.count as usize, &following);
+            CrowdReport::of((set, self.seed), &trials, &models, &following)
+        });
+        following.finish()?;
+        Ok(report)
+    }
+
+    /// Prints the newest report, unless only one table of all is wanted.
+    ///
+    /// # Errors
+    /// Those of [`Form::show`].
+    pub fn show_part(&self, reports: &[CrowdReport], session: &Session) -> Result<(), CliError> {
+        match self.args.summary {
+            true => Ok(()),
+            false => self.form.show_part(session, &crowd_document(reports)),
+        }
+    }
+
+    /// Writes the folder's files, if there is a folder.
+    ///
+    /// # Errors
+    /// If that cannot be done.
+    pub fn write(&self, suites: &[HeldOutReport], crowds: &[CrowdReport]) -> Result<(), CliError> {
+        let Some(folder) = &self.args.out else { return Ok(()) };
+        let document = evaluation_document(suites, crowds);
+        output::write(folder, "evaluation.json", document.to_json().as_bytes())?;
+        output::write_figures(folder, document.figures())?;
+        Ok(())
+    }
+
+    /// The model that is asked for, the same under other assumptions about joints, and what
+    /// it is compared with.
+    fn models(&self) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
+        let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(self.outside.load(self.model)?)];
+        if self.args.no_baselines {
+            return Ok(models);
+        }
+        for spec in assumed(self.model) {
+            models.push(Box::new(self.outside.load(&spec)?));
+        }
+        for spec in crowd_baselines(self.model) {
+            models.push(Box::new(model::load(&spec)?));
+        }
+        Ok(models)
+    }
+}

@@ -1,0 +1,64 @@
+//! Crowds to measure on, picked by options.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::words::words;
+use pushplan_learn::cli::words::{JOINTS, SOLIDS};
+use pushplan_learn::dataset::{JointRule, Solids};
+
+use crate::bench::{CrowdFamily, CrowdSet};
+
+/// Options of scenes of many objects.
+#[derive(Args, Debug)]
+pub struct CrowdArgs {
+    /// Trajectories of each set of sparse or dense scenes
+    #[arg(long, value_name = "N", default_value_t = 200,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub count: u32,
+    /// Only sets with this many objects
+    #[arg(long, value_name = "N")]
+    objects: Vec<usize>,
+    /// Only sets with these joints
+    #[arg(long, num_args = 1.., value_parser = words(&JOINTS[1..]), value_name = "JOINTS")]
+    joints: Vec<JointRule>,
+    /// Only sets of these solids
+    #[arg(long, value_parser = words(&SOLIDS), value_name = "SOLIDS")]
+    solids: Option<Solids>,
+    /// Measure the model alone on sparse and dense scenes, without baselines
+    #[arg(long)]
+    pub no_baselines: bool,
+    /// Of sparse and dense scenes print only one table, a row for each set
+    #[arg(long)]
+    pub summary: bool,
+    /// Folder that keeps every finished part, evaluation.json, written again after each, and the
+    /// curves of error by horizon as SVG
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+impl CrowdArgs {
+    /// The sets that are asked for.
+    ///
+    /// # Errors
+    /// Options that leave none of them.
+    pub fn sets(&self, families: &[CrowdFamily]) -> Result<Vec<CrowdSet>, CliError> {
+        let all = families.iter().flat_map(|family| CrowdSet::all(*family));
+        let sets: Vec<CrowdSet> = all.filter(|set| self.picks(set)).collect();
+        match sets.is_empty() && !families.is_empty() {
+            true => Err(CliError::usage(
+                "no set has that many objects",
+                "sparse sets have 6, 9 or 12 objects, dense ones 6, 8 or 9",
+            )),
+            false => Ok(sets),
+        }
+    }
+
+    fn picks(&self, set: &CrowdSet) -> bool {
+        let joints = self.joints.is_empty() || self.joints.contains(&set.joints);
+        let solids = self.solids.is_none_or(|solids| set.solids == solids);
+        let objects = self.objects.is_empty() || self.objects.contains(&set.objects);
+        joints && solids && objects
+    }
+}

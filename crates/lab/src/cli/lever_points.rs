@@ -1,0 +1,53 @@
+//! `pushplan-lab lever-points`: where plates are levered, from how they begin to move.
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::form::Form;
+use pushplan::cli::interrupt;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::internals::effect::LeverPrior;
+use pushplan_learn::cli::generate::data_error;
+use pushplan_learn::cli::words::LEVER_PRESETS;
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverPreset};
+
+use crate::bench::point_report;
+use crate::report::lever_points_document;
+
+/// Lever points inferred from the first frames, and what they say of the rest
+#[derive(Args, Debug)]
+pub struct LeverPointsArgs {
+    /// Families of lever-ups [default: disc and pcb]
+    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    families: Vec<LeverPreset>,
+    /// Number of lever-ups of each family
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    cases: u64,
+    /// Seed of the lever-ups
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &LeverPointsArgs, session: &Session) -> Result<(), CliError> {
+    let usual = [LeverPreset::Disc, LeverPreset::Board];
+    let families = if args.families.is_empty() { &usual[..] } else { &args.families };
+    interrupt::watch();
+    let mut reports = Vec::new();
+    for preset in families {
+        let config = LeverConfig { seed: args.seed, episodes: args.cases, preset: *preset };
+        let following = Following::bar(session, "simulating");
+        let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
+        following.finish()?;
+        let drawn = drawn.map_err(data_error)?;
+        let spinner = session.spinner("inferring");
+        reports.push(session.compute(|| {
+            point_report((*preset, args.seed), drawn.episodes(), &LeverPrior::default())
+        }));
+        spinner.finish_and_clear();
+    }
+    args.form.show(session, &lever_points_document(&reports))
+}

@@ -1,0 +1,105 @@
+//! `pushplan-lab lever-tasks`: generated tasks of levering.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use pushplan::cli::action::LibraryArgs;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest};
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::Session;
+use pushplan::cli::solve::solve_error;
+use pushplan::cli::words::{EFFORTS, words};
+use pushplan::cli::{interrupt, model, output};
+use pushplan::internals::report::Document;
+use pushplan::internals::scene::{ModelKind, ModelSpec};
+use pushplan::internals::solve::{Effort, Planner};
+use pushplan::internals::store::RunManifest;
+use serde_json::json;
+
+use crate::bench::{LeverRecord, LeverSuite};
+use crate::report::lever_tasks_document;
+
+/// Solve generated tasks of levering: take the board out of a drive
+#[derive(Args, Debug)]
+#[command(after_help = format!("Examples:
+  pushplan-lab lever-tasks --count 50
+  pushplan-lab lever-tasks --count 5 --save-tasks my-tasks
+
+{}", keep::HELP))]
+pub struct LeverTasksArgs {
+    /// Number of tasks
+    #[arg(long, value_name = "N", default_value_t = 50,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    count: u32,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// How hard to try
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
+    #[arg(long, value_name = "MODEL", help = model::HELP_FOR_LEVERS)]
+    model: Option<ModelSpec>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Also write the tasks to this folder, for `pushplan solve`
+    #[arg(long, value_name = "DIR")]
+    save_tasks: Option<PathBuf>,
+}
+
+impl Suite for LeverTasksArgs {
+    const NAME: &'static str = "lever-tasks";
+    type Record = LeverRecord;
+
+    fn cases<'a>(
+        &'a self,
+        keep: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, LeverRecord>, CliError> {
+        let library = self.library.load()?;
+        let count = self.count as usize;
+        let suite = LeverSuite::new(self.seed, count);
+        let spec = self.model.clone().unwrap_or(ModelKind::PRIOR.into());
+        let planner = Planner::builder(model::load(&spec)?).effort(self.effort).build();
+        let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
+        let settings = json!({
+            "effort": self.effort,
+            "budget": planner.settings().levers,
+            "tasks_version": LeverSuite::VERSION,
+            "tools": value_digest(&tools)?,
+        });
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
+            .with_settings(settings);
+        if let Some(folder) = &self.save_tasks {
+            save_tasks(folder, &suite, keep.indices(count))?;
+        }
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session.compute(|| suite.measure(&planner, &library, index)).map_err(solve_error)
+        }));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<LeverRecord>]) -> Result<Document, CliError> {
+        only(runs).map(|(manifest, finished)| lever_tasks_document(manifest, finished))
+    }
+}
+
+/// Writes the tasks of a run as files.
+fn save_tasks(
+    folder: &Path,
+    suite: &LeverSuite,
+    indices: impl Iterator<Item = usize>,
+) -> Result<(), CliError> {
+    output::prepare(folder)?;
+    interrupt::watch();
+    for index in indices {
+        if interrupt::requested() {
+            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
+        }
+        let task = suite.task(index);
+        let text = task.to_yaml().map_err(CliError::Output)?;
+        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
+    }
+    Ok(())
+}

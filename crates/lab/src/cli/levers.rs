@@ -1,0 +1,172 @@
+//! `pushplan-lab levers`: errors of models of lever-ups.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::form::Form;
+use pushplan::cli::interrupt;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::internals::effect::{
+    LeverModel, LeverNetwork, LeverPrior, LeverTrust, PriorSettings, SimulatedLevers,
+};
+use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
+use pushplan::internals::sim::LeverSimulator;
+use pushplan_learn::cli::generate::data_error;
+use pushplan_learn::cli::words::LEVER_PRESETS;
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPart, LeverPreset};
+
+use crate::bench::{LeverBaseline, Neighbour, lever_report, load_lever};
+use crate::report::levers_document;
+
+/// Models of lever-ups against the 3-D engine, on plates that none has seen
+#[derive(Args, Debug)]
+pub struct LeversArgs {
+    /// Families of lever-ups [default: levers and levers-varied]
+    #[arg(value_parser = words(&LEVER_PRESETS), value_name = "FAMILY")]
+    families: Vec<LeverPreset>,
+    /// Number of lever-ups of each family
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    cases: u64,
+    /// Seed of the lever-ups
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Number of lever-ups that models without physics remember
+    #[arg(long, value_name = "N", default_value_t = 1600,
+          value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    known: u64,
+    /// Their seed; must differ from that of the others
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    known_seed: u64,
+    /// Weights of networks to measure as well as the shipped one, see `pushplan-lab train`
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    network: Vec<PathBuf>,
+    /// Only plates of this many corners, of all lever-ups
+    #[arg(long, value_name = "N")]
+    corners: Option<usize>,
+    /// As in the thesis, ask the lever-ups of --seed that `train memory --random-split` leaves; those
+    /// that it learns from are remembered
+    #[arg(long, conflicts_with_all = ["known", "known_seed"])]
+    random_split: bool,
+    /// As in the thesis, measure up to the first slip only
+    #[arg(long)]
+    cut: bool,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &LeversArgs, session: &Session) -> Result<(), CliError> {
+    if args.seed == args.known_seed && !args.random_split {
+        let message = "the lever-ups that are remembered have the seed of the others";
+        return Err(CliError::usage(message, "choose another --known-seed"));
+    }
+    let others =
+        args.network.iter().map(|path| Named::load(path, false)).collect::<Result<Vec<_>, _>>()?;
+    let shipped = LeverNetwork::shipped()
+        .map_err(|error| CliError::unexpected("cannot use the shipped weights", &error))?;
+    interrupt::watch();
+    let usual = [LeverPreset::Fixed, LeverPreset::Varied];
+    let families = if args.families.is_empty() { &usual[..] } else { &args.families };
+    let mut reports = Vec::new();
+    for preset in families {
+        let draw = |(seed, episodes)| {
+            let config = LeverConfig { seed, episodes, preset: *preset };
+            let following = Following::bar(session, "simulating");
+            let drawn = session.compute(|| LeverDataset::in_memory(&config, &following));
+            following.finish()?;
+            drawn.map_err(data_error)
+        };
+        let mut asked = draw((args.seed, args.cases))?.episodes().to_vec();
+        let known = if args.random_split {
+            let part = |episode: &LeverEpisode| LeverPart::of(args.seed, episode);
+            let known = asked.iter().filter(|one| part(one) == LeverPart::Learned).cloned();
+            let known = known.collect();
+            asked.retain(|one| part(one) == LeverPart::Asked);
+            known
+        } else {
+            draw((args.known_seed, args.known))?.episodes().to_vec()
+        };
+        if args.cut {
+            asked = asked.iter().filter_map(LeverEpisode::before_slip).collect();
+        }
+        asked.retain(|episode| args.corners.is_none_or(|corners| corners_of(episode) == corners));
+        let spinner = session.spinner("predicting");
+        reports.push(session.compute(|| {
+            let models = models(&known);
+            let mut models: Vec<&dyn LeverModel> = models.iter().map(|model| &**model).collect();
+            models.push(&shipped);
+            models.extend(others.iter().map(|network| network as &dyn LeverModel));
+            lever_report((*preset, args.seed), &asked, &models)
+        }));
+        spinner.finish_and_clear();
+    }
+    let mut document = levers_document(&reports);
+    if args.random_split {
+        let note = "Shapes of these lever-ups have been seen, levered at other places.";
+        document.notes.push(note.to_owned());
+    }
+    if args.cut {
+        let note = "Frames from a slip on are left out; the turn ends with the last one before.";
+        document.notes.push(note.to_owned());
+    }
+    args.form.show(session, &document)
+}
+
+/// From the simplest on.
+fn models(known: &[LeverEpisode]) -> Vec<Box<dyn LeverModel>> {
+    let like = |neighbour| LeverBaseline::like(neighbour, known, 1);
+    let nearest = |features| like(Neighbour::Nearest(features));
+    vec![
+        Box::new(LeverBaseline::still()),
+        Box::new(LeverBaseline::mean(known)),
+        Box::new(like(Neighbour::Random)),
+        Box::new(nearest(LeverFeatures::ShapeContext)),
+        Box::new(nearest(LeverFeatures::Corners)),
+        Box::new(nearest(LeverFeatures::Support)),
+        Box::new(LeverPrior { settings: PriorSettings::FROM_REST }),
+        Box::new(LeverPrior::default()),
+        Box::new(LeverPrior { settings: PriorSettings::FINE }),
+        Box::new(SimulatedLevers { simulator: LeverSimulator::COARSE }),
+    ]
+}
+
+fn corners_of(episode: &LeverEpisode) -> usize {
+    episode.scene.plates[episode.lever.plate].corners().len()
+}
+
+/// A network that is called after its file.
+pub(super) struct Named {
+    network: Arc<dyn LeverModel>,
+    path: String,
+    /// Whether it is measured among blocks too, of which shipped networks know nothing.
+    among_blocks: bool,
+}
+
+impl Named {
+    /// Reads weights.
+    ///
+    /// # Errors
+    /// [`CliError::File`] for weights that cannot be used.
+    pub fn load(path: &Path, among_blocks: bool) -> Result<Self, CliError> {
+        let network = load_lever(path).map_err(|error| CliError::File(error.to_string()))?;
+        Ok(Self { network, path: path.display().to_string(), among_blocks })
+    }
+}
+
+impl LeverModel for Named {
+    fn name(&self) -> String {
+        format!("{}, {}", self.network.name(), self.path)
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        if self.among_blocks { LeverTrust::Mine { p95: None } } else { self.network.trust(job) }
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        self.network.rollout(jobs)
+    }
+}

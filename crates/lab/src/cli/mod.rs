@@ -1,0 +1,23 @@
+//! The command `pushplan-lab`: one file per subcommand.
+
+mod app;
+mod convergence;
+mod cost;
+mod evaluate;
+mod hdd;
+mod joints;
+mod kept;
+mod lever_points;
+mod lever_tasks;
+mod levers;
+mod masses;
+mod probes;
+mod random;
+mod refinement;
+mod rest_of_way;
+mod run;
+mod tradeoff;
+mod train;
+mod words;
+
+pub use app::run;

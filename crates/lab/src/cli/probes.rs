@@ -1,0 +1,91 @@
+//! `pushplan-lab probes`: how much pushes tell, by how they were chosen.
+
+use clap::Args;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::KeepArgs;
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan::cli::error::CliError;
+use pushplan::cli::model;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::{PROBES, words};
+use pushplan::internals::act::ProbeRule;
+use pushplan::internals::report::Document;
+use pushplan::internals::scene::ModelSpec;
+use pushplan::internals::store::RunManifest;
+use serde_json::json;
+
+use crate::bench::{ProbeRecord, ProbeSuite, summarise_probes};
+use crate::cli::kept::cases_of;
+use crate::report::probes_document;
+
+/// Choose pushes that tell how objects are joined, and see what was learnt
+#[derive(Args, Debug)]
+#[command(after_help = format!("Three pushes of 10 cm are made into dense scenes of cylinders with all types of joints, each the best
+of sixteen at random by the rule; after each the belief is compared with the truth, and used to
+predict four other pushes of 20 cm.
+
+Examples:
+  pushplan-lab probes --count 100
+  pushplan-lab probes --rule information random --objects 9
+
+{}", keep::HELP))]
+pub struct ProbesArgs {
+    /// How pushes are chosen; several may be given [default: all but task, which needs one]
+    #[arg(long, num_args = 1.., value_parser = words(&PROBES), value_name = "RULE")]
+    rule: Vec<ProbeRule>,
+    /// Number of objects in a scene
+    #[arg(long, value_name = "N", default_value_t = 6,
+          value_parser = clap::value_parser!(u8).range(2..=12))]
+    objects: u8,
+    /// Scenes
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    count: u32,
+    /// Seed of the scenes
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Effect model that rolls out hypotheses and pushes
+    #[arg(long, value_name = "MODEL", default_value = "prior")]
+    model: ModelSpec,
+}
+
+impl Suite for ProbesArgs {
+    const NAME: &'static str = "probes";
+    type Record = ProbeRecord;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        _: &'a Session,
+    ) -> Result<Cases<'a, ProbeRecord>, CliError> {
+        let rules = match &self.rule[..] {
+            [] => &[
+                ProbeRule::Information,
+                ProbeRule::Random,
+                ProbeRule::Uncertain,
+                ProbeRule::Motion,
+            ][..],
+            some => some,
+        };
+        if rules.contains(&ProbeRule::Task) {
+            let help = "ask for information, random, uncertain or motion; `pushplan-lab run --rule task` has tasks";
+            return Err(CliError::usage("there is no task here that a probe could serve", help));
+        }
+        let suite = ProbeSuite::new(self.objects.into(), rules, self.seed);
+        let model = model::load(&self.model)?;
+        let settings = json!({"version": ProbeSuite::VERSION, "cases": suite.cases()});
+        let count = self.count as usize * suite.cases().len();
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &self.model.to_string())
+            .with_weights(keep::weights_digest(&self.model)?)
+            .with_settings(settings);
+        let measure = Measure::SideBySide(Box::new(move |index| suite.measure(&model, index)));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<ProbeRecord>]) -> Result<Document, CliError> {
+        let (manifest, finished) = only(runs)?;
+        let cases = cases_of(manifest);
+        let records: Vec<_> = finished.iter().map(|one| &one.record).collect();
+        Ok(probes_document(&summarise_probes(&cases, &records)))
+    }
+}

@@ -1,0 +1,84 @@
+//! `pushplan-lab refinement`: what refinement brings.
+
+use std::sync::Arc;
+
+use clap::Args;
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep;
+use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
+use pushplan::cli::error::CliError;
+use pushplan::cli::model;
+use pushplan::cli::session::Session;
+use pushplan::cli::solve::solve_error;
+use pushplan::cli::words::{EFFORTS, words};
+use pushplan::internals::report::Document;
+use pushplan::internals::solve::{Effort, Planner, Settings};
+use pushplan::internals::store::RunManifest;
+use serde_json::json;
+
+use crate::bench::{RefinedTask, RefinementReport, refine_task};
+use crate::report::refinement_document;
+
+/// Random solvable tasks with and without refinement of what the search finds
+#[derive(Args, Debug)]
+#[command(after_help = keep::HELP)]
+pub struct RefinementArgs {
+    #[command(flatten)]
+    common: Common,
+    /// Number of tasks
+    #[arg(long, value_name = "N", default_value_t = 200,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tasks: u32,
+    /// How hard to try otherwise
+    #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
+    effort: Effort,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+}
+
+impl Suite for RefinementArgs {
+    const NAME: &'static str = "refinement";
+    type Record = RefinedTask;
+
+    fn cases<'a>(
+        &'a self,
+        _: &KeepArgs,
+        session: &'a Session,
+    ) -> Result<Cases<'a, RefinedTask>, CliError> {
+        let library = self.common.library.load()?;
+        let effort = self.effort;
+        let spec = self.common.spec(effort);
+        let model = Arc::new(model::load(&spec)?);
+        let budget = Settings { disturbed: 0, ..effort.settings() };
+        let planner = |settings| {
+            let planner = Planner::builder(Arc::clone(&model)).settings(settings);
+            planner.outside(self.common.outside.outside()).build()
+        };
+        let without = planner(Settings { refine_rounds: 0, ..budget });
+        let with = planner(budget);
+        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+        // Without a tool no task can be made.
+        let count = if tools.is_empty() { 0 } else { self.tasks as usize };
+        let mut settings =
+            json!({ "effort": effort, "budget": with.settings(), "tools": value_digest(&tools)? });
+        self.common.outside.note(&mut settings);
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(settings);
+        let measure = Measure::InTurn(Box::new(move |index| {
+            session
+                .compute(|| refine_task([&without, &with], &library, self.seed, index))
+                .map_err(solve_error)
+        }));
+        Ok(Cases { manifest, measure })
+    }
+
+    fn document(runs: &[Run<RefinedTask>]) -> Result<Document, CliError> {
+        let (run, finished) = only(runs)?;
+        let done: Vec<&RefinedTask> = finished.iter().map(|one| &one.record).collect();
+        let effort = run.settings["effort"].as_str().unwrap_or("unknown");
+        Ok(refinement_document(&RefinementReport::of(&run.model, run.seed, &done), effort))
+    }
+}

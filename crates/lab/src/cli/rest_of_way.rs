@@ -1,0 +1,75 @@
+//! `pushplan-lab rest-of-way`: recordings predicted from first contact on, with what is told of their
+//! joints.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::form::Form;
+use pushplan::cli::model;
+use pushplan::cli::model::OutsideArgs;
+use pushplan::cli::noise::NoiseArgs;
+use pushplan::cli::recordings::load_recordings;
+use pushplan::cli::regulator::RegulatorArgs;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::internals::effect::EffectModel;
+use pushplan::internals::recording::Recording;
+use pushplan::internals::scene::ModelSpec;
+use pushplan::internals::watch::Count;
+
+use crate::bench::{Asked, BeliefRecord, JointMethod, belief_steps, follow};
+use crate::report::recorded_joints_document;
+
+use super::words::TOLD;
+
+/// Predict the rest of recordings under different beliefs about their joints
+#[derive(Args, Debug)]
+pub struct RestOfWayArgs {
+    /// Recordings, trajectories and folders of them
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// What the model is told about the joints from first contact on
+    #[arg(long, required = true, num_args = 1.., value_parser = words(&TOLD), value_name = "HOW")]
+    joints: Vec<JointMethod>,
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT, help = model::HELP)]
+    model: ModelSpec,
+    #[command(flatten)]
+    outside: OutsideArgs,
+    #[command(flatten)]
+    noise: NoiseArgs,
+    #[command(flatten)]
+    regulator: RegulatorArgs,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &RestOfWayArgs, session: &Session) -> Result<(), CliError> {
+    let sets = load_recordings(&args.files)?;
+    let recordings: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
+    let asked = |method: &JointMethod| args.joints.contains(method);
+    let told: Vec<JointMethod> = JointMethod::ALL.into_iter().filter(asked).collect();
+    let model = args.outside.load(&args.model)?;
+    let regulator = match told.contains(&JointMethod::Regulator) {
+        true => args.regulator.load()?.map(|(regulator, _)| regulator),
+        false => None,
+    };
+    let following = Following::bar(session, "inferring");
+    let count = Count::new(&following, 0, recordings.len());
+    let records: Vec<BeliefRecord> = session.compute(|| {
+        let of = |recording: &&Recording| {
+            let observations = recording.observations();
+            let seen = (&recording.scene, &observations[..], args.noise.noise());
+            let by = (&model as &dyn EffectModel, regulator.as_ref(), true);
+            let (record, _) = follow(recording, seen, by, Asked::AfterContact, 0);
+            count.one();
+            record
+        };
+        recordings.iter().map(of).collect()
+    });
+    following.finish()?;
+    let steps = belief_steps(&records.iter().collect::<Vec<_>>());
+    let spec = model.spec().to_string();
+    args.form.show(session, &recorded_joints_document(&spec, recordings.len(), &steps, &told))
+}

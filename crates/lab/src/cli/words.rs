@@ -1,0 +1,89 @@
+//! Words for what is measured, each with its line in `--help`.
+
+use pushplan::internals::scene::LeverFeatures;
+use pushplan_learn::dataset::Controlled;
+
+use crate::bench::{CrowdFamily, JointMethod, Sighting, TaskKind};
+use crate::image::ImageFeatures;
+
+/// What the rest of the way is told of joints.
+pub static TOLD: [(&str, JointMethod, &str); 7] = [
+    ("given", JointMethod::True, "As they are stated"),
+    ("none", JointMethod::None, "Nothing is joined"),
+    ("contacts", JointMethod::ContactsFixed, "What touches is fixed"),
+    ("residuals", JointMethod::Residuals, "By geometric residual tests"),
+    ("one-step", JointMethod::LastWindow, "What the last window says alone"),
+    ("filter", JointMethod::Filter, "As the hypothesis filter believes"),
+    ("believed", JointMethod::Regulator, "As the regulated belief has it"),
+];
+
+/// Families of crowds.
+pub static FAMILIES: [(&str, CrowdFamily, &str); 2] = [
+    ("sparse", CrowdFamily::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
+    ("dense", CrowdFamily::Dense, "Objects almost touching, one stroke into them"),
+];
+
+/// How well things are seen.
+pub static SIGHTINGS: [(&str, Sighting, &str); 5] = [
+    ("exact", Sighting::Exact, "True poses"),
+    ("fine", Sighting::Fine, "1 mm and 0.5 degrees of noise"),
+    ("coarse", Sighting::Coarse, "3 mm and 2 degrees of noise"),
+    ("unmarked", Sighting::Unmarked, "Cylinders alone, true positions, no headings"),
+    ("unmarked-fine", Sighting::UnmarkedFine, "Cylinders alone, 1 mm of noise, no headings"),
+];
+
+/// Set-ups in which only masses differ.
+pub static CONTROLLED: [(&str, Controlled, &str); 2] = [
+    ("rows", Controlled::Rows, "Three rows of three, every second cylinder somewhat aside"),
+    ("wedges", Controlled::Wedges, "Three times one before the gap between two"),
+];
+
+/// Kinds of random tasks.
+pub static KINDS: [(&str, TaskKind, &str); 8] = [
+    ("reach", TaskKind::Reach, "Farther out than the end effector can go"),
+    ("pull", TaskKind::Pull, "Towards the robot"),
+    ("sweep", TaskKind::Sweep, "Sideways"),
+    ("obstacle", TaskKind::Obstacle, "Around an obstacle"),
+    ("heading", TaskKind::Heading, "A cuboid, to a place and a heading"),
+    ("pair", TaskKind::Pair, "One of two joined objects"),
+    (
+        "gap",
+        TaskKind::Gap,
+        "Behind a gap that is too narrow: no plan can be right (only on request)",
+    ),
+    (
+        "cluster",
+        TaskKind::Cluster,
+        "One of four close together, some of them joined (only on request)",
+    ),
+];
+
+/// What a network of lever-ups is told of the shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Numbers of a fixed count.
+    Numbers(LeverFeatures),
+    /// An image, by convolutions.
+    Image(ImageFeatures),
+}
+
+/// All of it.
+pub static LEVER_FEATURES: [(&str, Told, &str); 9] = [
+    ("nothing", Told::Numbers(LeverFeatures::Nothing), "Nothing"),
+    (
+        "shape-context",
+        Told::Numbers(LeverFeatures::ShapeContext),
+        "Counts of outline points in rings and wedges",
+    ),
+    ("corners", Told::Numbers(LeverFeatures::Corners), "Corners and centre of mass"),
+    ("support", Told::Numbers(LeverFeatures::Support), "The support edge and the centre of mass"),
+    ("shape", Told::Numbers(LeverFeatures::Shape), "All of the last two"),
+    ("image", Told::Image(ImageFeatures::Image), "A mask from above, by convolutions"),
+    ("image-code", Told::Image(ImageFeatures::ImageCode), "The same in the code of an autoencoder"),
+    (
+        "context-image",
+        Told::Image(ImageFeatures::ContextImage),
+        "The shape context, by convolutions",
+    ),
+    ("depth", Told::Image(ImageFeatures::Depth), "Heights from above, by convolutions"),
+];

@@ -1,0 +1,84 @@
+//! Networks that see images as models of lever-ups.
+
+use pushplan::internals::effect::{
+    LeverInputs, LeverModel, LeverNetwork, LeverNetworkError, LeverPrior, LeverTrust,
+};
+use pushplan::internals::network::{
+    LeverCell, LeverSizes, LeverWeights, Parameters, Statistics, tanh,
+};
+use pushplan::internals::scene::{LeverFeatures, LeverJob, LeverTrajectory};
+use rayon::prelude::*;
+
+use super::{ImageFeatures, ImageSizes, ImageWeights, image_code, image_inputs};
+
+/// A network, alone or as a correction of the prior.
+#[derive(Clone, Debug)]
+pub struct ImageNetwork {
+    features: ImageFeatures,
+    sizes: ImageSizes,
+    /// Those that see.
+    parameters: Parameters,
+    /// It is told the code as further features of the lever-up.
+    cell: LeverCell,
+    prior: Option<LeverPrior>,
+}
+
+impl ImageNetwork {
+    /// Of these weights.
+    ///
+    /// # Errors
+    /// [`LeverNetworkError::Inputs`] if their widths do not fit what the card says is seen and told.
+    pub fn new(weights: &ImageWeights) -> Result<Self, LeverNetworkError> {
+        let card = &weights.card;
+        let (mut memory, sizes) = (card.memory.clone(), card.image);
+        let LeverSizes { width, feedback, .. } = memory.sizes;
+        let told = LeverInputs::sizes(LeverFeatures::Nothing, memory.prior, width);
+        if (LeverSizes { feedback, ..told }) != memory.sizes
+            || [sizes.rows, sizes.columns] != card.features.extents()
+        {
+            return Err(LeverNetworkError::Inputs);
+        }
+        memory.sizes.still += sizes.code;
+        let Statistics { mean, deviation } = &mut memory.still;
+        mean.resize(memory.sizes.still, 0.0);
+        deviation.resize(memory.sizes.still, 1.0);
+        let mut parameters = weights.parameters.clone();
+        let of_code = parameters.values.remove("gates.image").unwrap_or_default();
+        parameters.values.entry("gates.still".to_owned()).or_default().extend(of_code);
+        let (sees, parameters) =
+            parameters.values.into_iter().partition(|(name, _)| name.starts_with("image"));
+        let prior = memory.prior.then_some(LeverNetwork::PRIOR);
+        let parameters = Parameters { values: parameters };
+        let cell = LeverCell::new(&LeverWeights { card: memory, parameters });
+        let (features, parameters) = (card.features, Parameters { values: sees });
+        Ok(Self { features, sizes, parameters, cell, prior })
+    }
+
+    fn predict(&self, job: &LeverJob, prior: Option<&LeverTrajectory>) -> LeverTrajectory {
+        let (inputs, image) = image_inputs(self.features, job, prior);
+        let code = image_code(&self.sizes, &self.parameters, &image);
+        let still: Vec<f32> =
+            inputs.still.iter().copied().chain(code.into_iter().map(tanh)).collect();
+        inputs.answer(&self.cell.predict(&still, &inputs.moving), job, prior)
+    }
+}
+
+impl LeverModel for ImageNetwork {
+    fn name(&self) -> String {
+        let prior = if self.prior.is_some() { "prior + " } else { "" };
+        let feedback = if self.cell.feeds_back() { ", fed back" } else { "" };
+        format!("{prior}LSTM, {}{feedback}", self.features)
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        // It has learned of plates on a plain table.
+        let alone = job.scene.plates.len() == 1 && job.scene.blocks.is_empty();
+        if alone { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        let said = self.prior.as_ref().map(|prior| prior.rollout(jobs));
+        let said = |k: usize| said.as_ref().map(|said| &said[k]);
+        jobs.par_iter().enumerate().map(|(k, job)| self.predict(job, said(k))).collect()
+    }
+}

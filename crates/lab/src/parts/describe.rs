@@ -1,0 +1,259 @@
+//! A levered body in the midst of a lever-up as a graph.
+
+use pushplan::internals::geometry::{Box3, BoxContact, Matrix3, Pose3, Vector3};
+
+use super::bodies::{LeverBodies, bounds};
+use super::graphs::{NODE, PartGraphs, RELATION};
+use super::state::{Motion, PartState};
+
+/// Unit of distances between bodies and of ways, metres.
+const NEAR: f64 = 0.005;
+
+/// Unit of lengths of bodies, metres.
+const SIZE: f64 = 0.05;
+
+/// A body that may close a smaller gap in a step is near, metres: more than a body falls from rest.
+const REACH: f64 = 0.015;
+
+/// Nor is anything near that is farther than this, metres.
+const FARTHEST: f64 = 0.05;
+
+/// Points of a pair count less the farther they are beyond the nearest one, metres.
+const BLUR: f64 = 1e-3;
+
+/// Durations are told in this unit, seconds.
+const DURATION: f64 = 0.05;
+
+/// Two bodies that are near each other: their points of contact in one.
+struct Near {
+    /// On the receiver, metres.
+    at: Vector3,
+    /// Towards it.
+    normal: Vector3,
+    /// The smallest gap and the mean one, metres.
+    gaps: [f64; 2],
+    /// Mean products of the points' places about `at`, square metres.
+    spread: Matrix3,
+}
+
+/// A step that is described: when it begins and ends and how long the one before took, seconds; how the
+/// body would move without the network, and how far it is from where that begins (metres; turn, radians).
+pub(super) struct Step {
+    pub from: f64,
+    pub to: f64,
+    pub last: f64,
+    pub base: Motion,
+    pub aside: [Vector3; 2],
+}
+
+/// Appends the graph of a body that is in `state`; gives its distance from the blade, metres, infinite
+/// where that is not near.
+pub(super) fn describe(
+    bodies: &LeverBodies,
+    state: &PartState,
+    step: &Step,
+    graphs: &mut PartGraphs,
+) -> f64 {
+    // As far as it would move if it went on.
+    let pace = (step.to - step.from) / step.last.max(1e-9);
+    let going = PartState { way: state.way * pace, spin: state.spin * pace, ..*state };
+    let reach = (REACH + going.fastest(bodies.reach)).min(FARTHEST);
+    let frame = Pose3 { position: state.centre, rotation: state.turn };
+    let seen = |part: &Box3| {
+        let solid = Box3 { pose: frame * part.pose, ..*part };
+        let axes = solid.pose.rotation.to_rotation_matrix().into_inner();
+        Part { solid, axes, bounds: bounds(&solid, &axes) }
+    };
+    let parts: Vec<Part> = bodies.parts.iter().map(seen).collect();
+    graphs.begin();
+    for (k, part) in parts.iter().enumerate() {
+        let (even, odd) = node(part, k == 0, &going, step);
+        graphs.node(even, odd);
+    }
+    for k in 1..parts.len() {
+        let away = (parts[k].solid.pose.position - parts[0].solid.pose.position) / SIZE;
+        for (pair, away) in [((0, Some(k)), away), ((k, Some(0)), -away)] {
+            let (mut even, mut odd) = ([0.0; RELATION[0]], [0.0; RELATION[1]]);
+            (even[0], even[8], even[9], odd[1]) = (1.0, away.x, away.z, away.y);
+            graphs.relation(pair, even, odd);
+        }
+    }
+    let blades = [bodies.blade(step.from), bodies.blade(step.to)];
+    let axes = blades[0].pose.rotation.to_rotation_matrix().into_inner();
+    let around_blade = bounds(&blades[0], &axes);
+    let mut blade = f64::INFINITY;
+    let mut found = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        let mut tell = |near: Near, other: Other| {
+            let (even, odd) = relation(&near, k == 0, &going, &other);
+            graphs.relation((k, None), even, odd);
+        };
+        for (j, fixed) in bodies.fixed.iter().enumerate() {
+            if part.may_meet(&fixed.bounds, reach)
+                && let Some(near) = near(&part.solid, &fixed.solid, reach, &mut found)
+            {
+                let surface = Vector3::zeros();
+                tell(near, Other { blade: false, table: j == 0, surface, rub: fixed.rub });
+            }
+        }
+        if part.may_meet(&around_blade, reach)
+            && let Some(near) = near(&part.solid, &blades[0], reach, &mut found)
+        {
+            blade = blade.min(near.gaps[0]);
+            // Where the blade's point goes that is there now.
+            let surface = blades[1].pose.point(blades[0].pose.local_point(near.at)) - near.at;
+            tell(near, Other { blade: true, table: false, surface, rub: bodies.rub });
+        }
+    }
+    blade
+}
+
+/// A cuboid of the body where it is now.
+struct Part {
+    solid: Box3,
+    axes: Matrix3,
+    bounds: [Vector3; 2],
+}
+
+impl Part {
+    /// Whether what lies within these bounds may be as near as `reach`.
+    fn may_meet(&self, [least, most]: &[Vector3; 2], reach: f64) -> bool {
+        let [from, to] = &self.bounds;
+        (0..3).all(|k| from[k] - reach <= most[k] && to[k] + reach >= least[k])
+    }
+}
+
+/// The body on the other side of a relation.
+struct Other {
+    blade: bool,
+    table: bool,
+    /// How far its point moves in the step, metres.
+    surface: Vector3,
+    /// Friction coefficient.
+    rub: f64,
+}
+
+/// Features of a cuboid of the body, which goes on like that.
+fn node(
+    part: &Part,
+    first: bool,
+    going: &PartState,
+    Step { from, to, base, aside, .. }: &Step,
+) -> ([f64; NODE[0]], [f64; NODE[1]]) {
+    let away = (part.solid.pose.position - going.centre) / SIZE;
+    let half = part.solid.half / SIZE;
+    let shape =
+        part.axes * Matrix3::from_diagonal(&half.component_mul(&half)) * part.axes.transpose();
+    let (up, way, spin) = (going.turn * Vector3::z(), going.way / NEAR, going.spin);
+    let (base, turn) = (base.way / NEAR, base.turn.scaled_axis());
+    let [aside, askew] = [aside[0] / NEAR, aside[1]];
+    let even = [
+        is(first),
+        away.x,
+        away.z,
+        shape[(0, 0)],
+        shape[(1, 1)],
+        shape[(2, 2)],
+        shape[(0, 2)],
+        up.x,
+        up.z,
+        way.x,
+        way.z,
+        spin.y,
+        (to - from) / DURATION,
+        base.x,
+        base.z,
+        turn.y,
+        aside.x,
+        aside.z,
+        askew.y,
+    ];
+    let odd = [
+        away.y,
+        shape[(0, 1)],
+        shape[(1, 2)],
+        up.y,
+        way.y,
+        spin.x,
+        spin.z,
+        base.y,
+        turn.x,
+        turn.z,
+        aside.y,
+        askew.x,
+        askew.z,
+    ];
+    (even, odd)
+}
+
+/// Features of nearness to another body.
+fn relation(
+    near: &Near,
+    first: bool,
+    going: &PartState,
+    other: &Other,
+) -> ([f64; RELATION[0]], [f64; RELATION[1]]) {
+    let away = near.at - going.centre;
+    let (arm, n) = (away / SIZE, near.normal);
+    let own = (going.way + going.spin.cross(&away)) / NEAR;
+    let (surface, spread) = (other.surface / NEAR, near.spread / (SIZE * SIZE));
+    let torque = arm.cross(&n);
+    let [least, mean] = near.gaps;
+    let even = [
+        0.0,
+        is(other.blade),
+        is(other.table),
+        is(first),
+        least / NEAR,
+        mean / NEAR,
+        n.x,
+        n.z,
+        arm.x,
+        arm.z,
+        torque.y,
+        spread[(0, 0)],
+        spread[(1, 1)],
+        spread[(2, 2)],
+        spread[(0, 2)],
+        surface.x,
+        surface.z,
+        surface.dot(&n),
+        own.x,
+        own.z,
+        own.dot(&n),
+        other.rub,
+        (least / BLUR).clamp(-2.0, 2.0),
+        (-least.max(0.0) / (0.5 * BLUR)).exp(),
+    ];
+    let odd = [n.y, arm.y, torque.x, torque.z, spread[(0, 1)], spread[(1, 2)], surface.y, own.y];
+    (even, odd)
+}
+
+/// How `part` is near to `other`, if it is; `found` is memory that is used again.
+fn near(part: &Box3, other: &Box3, reach: f64, found: &mut Vec<BoxContact>) -> Option<Near> {
+    found.clear();
+    part.contacts(other, reach, |contact| {
+        if contact.gap <= reach {
+            found.push(contact);
+        }
+    });
+    let normal = found.first()?.normal;
+    let least = found.iter().map(|contact| contact.gap).fold(f64::INFINITY, f64::min);
+    let weight = |contact: &BoxContact| (-(contact.gap - least) / BLUR).exp();
+    let (mut whole, mut sum, mut gaps) = (0.0, Vector3::zeros(), 0.0);
+    for contact in found.iter() {
+        (whole, gaps) = (whole + weight(contact), gaps + contact.gap);
+        sum += contact.point * weight(contact);
+    }
+    let at = sum / whole;
+    let mut spread = Matrix3::zeros();
+    for contact in found.iter() {
+        let away = contact.point - at;
+        spread += away * away.transpose() * (weight(contact) / whole);
+    }
+    Some(Near { at, normal, gaps: [least, gaps / found.len() as f64], spread })
+}
+
+fn is(is: bool) -> f64 {
+    f64::from(u8::from(is))
+}

@@ -1,0 +1,67 @@
+//! The network of parts as a model of lever-ups.
+
+use rayon::prelude::*;
+
+use pushplan::internals::effect::{LeverModel, LeverPrior, LeverTrust, PriorSettings};
+use pushplan::internals::network::Forward;
+use pushplan::internals::scene::{LeverJob, LeverTrajectory};
+
+use super::card::PartsWeights;
+use super::course::LeverCourse;
+use super::walk::{Walk, Walker};
+
+/// So many lever-ups share the products of a step. Fixed, so that two cores share a search evenly.
+const AT_ONCE: usize = 32;
+
+/// Predicts bodies made of cuboids with trained weights.
+#[derive(Clone, Debug)]
+pub struct LeverParts {
+    forward: Forward,
+    prior: Option<LeverPrior>,
+}
+
+impl LeverParts {
+    /// What is corrected.
+    pub const PRIOR: LeverPrior = LeverPrior { settings: PriorSettings::CORRECTED };
+
+    /// Of these weights.
+    pub fn new(weights: &PartsWeights) -> Self {
+        let card = &weights.card;
+        Self {
+            forward: Forward::of(&card.config, &card.normaliser, &weights.parameters),
+            prior: card.prior.then_some(Self::PRIOR),
+        }
+    }
+
+    fn roll(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        let course = |job| LeverCourse::new(job, self.prior.as_ref());
+        let courses: Vec<Option<LeverCourse>> = jobs.iter().map(course).collect();
+        let mut walks: Vec<Walk<'_>> = courses.iter().flatten().map(Walk::new).collect();
+        let mut walker = Walker::new(&self.forward);
+        while walker.step(&mut walks) {}
+        let mut walks = walks.into_iter();
+        // What is not for this model is answered by what it is nearest to.
+        let other = |job: &LeverJob| Self::PRIOR.rollout(std::slice::from_ref(job)).pop();
+        let answer = |(job, course): (&LeverJob, &Option<LeverCourse>)| match course {
+            Some(_) => walks.next().map(Walk::trajectory),
+            None => other(job),
+        };
+        jobs.iter().zip(&courses).filter_map(answer).collect()
+    }
+}
+
+impl LeverModel for LeverParts {
+    fn name(&self) -> String {
+        let prior = if self.prior.is_some() { "prior + " } else { "" };
+        format!("{prior}propagation network, parts")
+    }
+
+    fn trust(&self, job: &LeverJob) -> LeverTrust {
+        let takes = LeverCourse::new(job, None).is_some() && !job.scene.blocks.is_empty();
+        if takes { LeverTrust::Mine { p95: None } } else { LeverTrust::NotMine }
+    }
+
+    fn rollout(&self, jobs: &[LeverJob]) -> Vec<LeverTrajectory> {
+        jobs.par_chunks(AT_ONCE).flat_map_iter(|jobs| self.roll(jobs)).collect()
+    }
+}

@@ -1,0 +1,134 @@
+//! The base scene that one factor at a time departs from, and the pushes drawn for it.
+
+use std::sync::Arc;
+
+use rand_pcg::Pcg64;
+
+use pushplan::{
+    asset::ToolLibrary,
+    geometry::Vector,
+    scene::{Object, Physics, Scene, Tool, ToolMotion},
+    seeded::generator,
+};
+use pushplan_lab::bench::Case;
+use pushplan_learn::dataset::{Aim, aimed_stroke, random_direction, random_heading};
+
+/// Tries to aim a push before a scene is given up: nearly all succeed within ten.
+const TRIES: usize = 1000;
+
+/// Height of the tools' underside above the metres.
+pub const LIFT: f64 = 0.002;
+
+/// Where pushes come from.
+pub struct Draw<'a> {
+    /// The shipped tools, which take turns.
+    pub library: &'a ToolLibrary,
+    /// Pushes a cell.
+    pub pushes: usize,
+    /// The same scenes and pushes are drawn in every cell, as far as its extreme lets them.
+    pub seed: u64,
+}
+
+/// How a push goes.
+#[derive(Clone)]
+pub struct Way {
+    /// Travel, metres.
+    pub travel: f64,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Gap at the start, metres.
+    pub gap: f64,
+    /// The tool, where it is none of the shipped ones.
+    pub tool: Option<Arc<Tool>>,
+}
+
+impl Default for Way {
+    fn default() -> Self {
+        Self { travel: 0.20, speed: 0.10, gap: 0.005, tool: None }
+    }
+}
+
+impl Draw<'_> {
+    /// One push for each scene that `scene` makes; the random generator is the same in every
+    /// cell.
+    pub fn pushes(&self, way: &Way, scene: impl Fn(&mut Pcg64) -> Scene) -> Vec<Case> {
+        let tools: Vec<_> = self.library.iter().collect();
+        let case = |index: usize| {
+            let mut rng = generator(self.seed ^ 0xE57E, index as u64);
+            // Models are told how high the planar engine presses, which judges them.
+            let scene = Scene { push_height: Some(Physics::PUSH_HEIGHT), ..scene(&mut rng) };
+            let state = scene.start();
+            let tool = match &way.tool {
+                Some(tool) => Arc::clone(tool),
+                None => Arc::clone(tools.get(index % tools.len().max(1))?),
+            };
+            let stroke = (0..TRIES).find_map(|_| {
+                let direction = random_direction(&mut rng, &scene.objects, &state);
+                let heading = random_heading(&mut rng, direction);
+                let Way { travel, speed, gap, .. } = *way;
+                let aim = Aim { direction, heading, gap, travel, speed };
+                aimed_stroke(&mut rng, &tool, &scene, &state, &aim)
+            })?;
+            Some(Case { scene, motion: ToolMotion { tool, lift: LIFT, strokes: vec![stroke] } })
+        };
+        (0..self.pushes).filter_map(case).collect()
+    }
+
+    /// The same with another number of pushes.
+    pub fn with(&self, pushes: usize) -> Self {
+        Self { pushes: pushes.min(self.pushes), ..*self }
+    }
+}
+
+/// The two solids that single pushes are made on.
+#[derive(Clone, Copy)]
+pub enum Solid {
+    Cylinder,
+    Cuboid,
+}
+
+impl Solid {
+    pub const BOTH: [Self; 2] = [Self::Cylinder, Self::Cuboid];
+
+    /// The base object: 10 cm across, 400 g, of wood.
+    pub fn object(self) -> Object {
+        self.sized(0.10)
+    }
+
+    /// The same with its longest horizontal extent `size` metres.
+    pub fn sized(self, size: f64) -> Object {
+        match self {
+            Self::Cylinder => Object::cylinder("object", 0.5 * size, 0.1),
+            Self::Cuboid => Object::cuboid("object", [size, 0.7 * size, 0.1]),
+        }
+    }
+}
+
+/// A scene and its motion, shifted by `shift` metres.
+pub fn shifted(mut case: Case, shift: Vector) -> Case {
+    use pushplan::scene::JointKind;
+    let objects = case.scene.objects.iter_mut().map(|object| &mut object.pose);
+    let obstacles = case.scene.obstacles.iter_mut().map(|obstacle| &mut obstacle.pose);
+    let strokes = case.motion.strokes.iter_mut().flat_map(|s| [&mut s.from, &mut s.to]);
+    for pose in objects.chain(obstacles).chain(strokes) {
+        pose.position += shift;
+    }
+    for joint in &mut case.scene.joints {
+        if let JointKind::Revolute { at, .. } = &mut joint.kind {
+            *at += shift;
+        }
+    }
+    case
+}
+
+/// A scene and its motion with `turn` radians added to every heading, which turns nothing.
+pub fn wound(mut case: Case, turn: f64) -> Case {
+    for object in &mut case.scene.objects {
+        object.pose.heading += turn;
+    }
+    for stroke in &mut case.motion.strokes {
+        stroke.from.heading += turn;
+        stroke.to.heading += turn;
+    }
+    case
+}

@@ -1,0 +1,48 @@
+//! From the command line of `pushplan-learn` to an exit code.
+
+use std::ffi::OsString;
+
+use clap::{Parser, Subcommand};
+use pushplan::cli::bench::status;
+use pushplan::cli::bench::status::StatusArgs;
+use pushplan::cli::error::CliError;
+use pushplan::cli::groups::Groups;
+use pushplan::cli::session::{GlobalArgs, Session};
+use pushplan::cli::{exit_code, start};
+
+use super::{generate, merge, train};
+
+/// Makes training data by simulation and trains the networks of pushplan on them.
+#[derive(Debug, Parser)]
+#[command(name = "pushplan-learn", version, max_term_width = 100, after_help = exit_code::HELP)]
+struct Cli {
+    #[command(flatten)]
+    global: GlobalArgs,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Generate(generate::GenerateArgs),
+    Merge(merge::MergeArgs),
+    Status(StatusArgs),
+    Train(train::TrainArgs),
+}
+
+/// What the commands are for, in the order of `--help`.
+const GROUPS: Groups = &[("Data", &["generate", "merge", "status"]), ("Weights", &["train"])];
+
+/// Runs the command with the given arguments, the program's name first, and gives its exit code.
+pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
+    start(args, GROUPS, |cli: &Cli| &cli.global, execute)
+}
+
+fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
+    match &cli.command {
+        Command::Generate(args) => generate::run(args, session),
+        Command::Merge(args) => merge::run(args, session),
+        Command::Status(args) => status::run(args, session).map(|()| exit_code::DONE),
+        Command::Train(args) => train::run(args, session),
+    }
+}

@@ -1,0 +1,223 @@
+//! `pushplan-learn generate`: training data in a folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::cli::{exit_code, interrupt};
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::export::{LEVER_SCRIPT, lever_mjcf};
+use pushplan::internals::geometry::Pose3;
+use pushplan::internals::scene::LeverTrajectory;
+use pushplan::internals::store::{Shard, StoreError};
+use serde_json::json;
+
+use crate::cli::words::{DATA, Data, JOINTS, SOLIDS};
+use crate::dataset::{
+    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
+    generate, generate_levers, generate_npz,
+};
+
+/// Make training data: random scenes with pushes or lever-ups, simulated
+#[derive(Args, Debug)]
+#[command(
+    after_help = "The same settings always give the same files. An interrupted run (Ctrl-C) keeps its finished
+episodes; the same command goes on from there. --shard 2/3 makes every third episode, on another
+machine say; `pushplan-learn merge DIR SHARD...` makes of the parts the same files as one run, and
+`pushplan-learn status SHARD...` says which are missing.
+
+A crowd's objects, joints, solids and speed are drawn for training; the options below fix them,
+for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one seed have no random
+shape in common with those of another.
+
+Examples:
+  pushplan-learn generate data/train --preset mixed --episodes 20000 --seed 1
+  pushplan-learn generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
+      --objects 9 --joints mixed --solids cylinders --speed 0.21
+  pushplan-learn generate data/levers --preset levers --episodes 1600 --seed 1
+  pushplan-learn generate data/arrays --episodes 2000 --format npz
+
+mjcf writes every lever-up as a scene of MuJoCo, lever.py, which plays such scenes, and ours.jsonl, where the
+plate comes to here, in the same words.
+
+npz keeps 128 episodes a file, so that an interruption costs up to so many, and writes
+statistics.json and a README.md that says what every array holds: poses, velocities and tool poses
+of all frames, masses, frictions, sizes, scenes and tools, in metres, kilograms, seconds, radians."
+)]
+pub struct GenerateArgs {
+    /// Folder for the data
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Number of episodes: one scene and one sequence of pushes, or one lever-up, each
+    #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().episodes)]
+    episodes: u64,
+    /// Decides every episode; train and held-out data need different ones
+    #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
+    seed: u64,
+    /// Family of scenes
+    #[arg(long, value_parser = words(&DATA), default_value = "tools")]
+    preset: Data,
+    /// Number of objects of a crowd, 2 to 12 [default: any of them]
+    #[arg(long, value_name = "N")]
+    objects: Option<usize>,
+    /// Joints between near neighbours of a crowd [default: redrawn every 25 episodes]
+    #[arg(long, value_parser = words(&JOINTS), value_name = "RULE")]
+    joints: Option<JointRule>,
+    /// Solids of a crowd [default: redrawn every 25 episodes]
+    #[arg(long, value_parser = words(&SOLIDS), value_name = "KIND")]
+    solids: Option<Solids>,
+    /// Files for whom
+    #[arg(long, value_enum, default_value_t = Format::Records)]
+    format: Format,
+    /// Speed of the hand, 0.05 to 0.25 m/s [default: any of them]
+    #[arg(long, value_name = "M/S")]
+    speed: Option<f64>,
+    /// Make only part I of N, in a folder of its own
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Our own training
+    Records,
+    /// MuJoCo: a scene of every lever-up, and what comes of it here
+    Mjcf,
+    /// NumPy: arrays of 128 episodes a file, and their statistics
+    Npz,
+}
+
+impl GenerateArgs {
+    fn constraints(&self) -> Constraints {
+        Constraints {
+            objects: self.objects,
+            joints: self.joints,
+            solids: self.solids,
+            speed: self.speed,
+        }
+    }
+
+    /// Which of the episodes are made.
+    fn shard(&self) -> Shard {
+        self.shard.unwrap_or(Shard::WHOLE)
+    }
+
+    /// Makes the data; the number of episodes and their size in bytes.
+    fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
+        let &Self { seed, episodes, .. } = self;
+        let shard = self.shard();
+        let constraints = self.constraints();
+        match self.preset {
+            Data::Pushes(preset) => {
+                let config = DatasetConfig { seed, episodes, preset, constraints };
+                match self.format {
+                    Format::Mjcf => {
+                        let why = "plans with pushes are written by `pushplan export`";
+                        Err(DatasetError::Constraint(why.to_owned()))
+                    }
+                    Format::Records => generate(&config, shard, &self.folder, following),
+                    Format::Npz if shard != Shard::WHOLE => {
+                        Err(DatasetError::Constraint("npz files cannot be sharded".to_owned()))
+                    }
+                    Format::Npz => {
+                        let bytes = generate_npz(&config, &self.folder, following)?;
+                        Ok((episodes as usize, bytes))
+                    }
+                }
+            }
+            Data::Levers(_) if constraints != Constraints::default() => {
+                let why = "objects, joints, solids and speed can be fixed for crowds only";
+                Err(DatasetError::Constraint(why.to_owned()))
+            }
+            Data::Levers(preset) => {
+                let config = LeverConfig { seed, episodes, preset };
+                match self.format {
+                    Format::Records => generate_levers(&config, shard, &self.folder, following),
+                    Format::Mjcf if shard == Shard::WHOLE => {
+                        twins(&config, &self.folder, following)
+                    }
+                    _ => {
+                        let why = "lever-ups cannot be written as npz, nor their scenes in shards";
+                        Err(DatasetError::Constraint(why.to_owned()))
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Writes a scene of every lever-up, the script that plays them, and `ours.jsonl`, what comes of them
+/// here, as the script says it; how many, and their size in bytes.
+fn twins(
+    config: &LeverConfig,
+    folder: &Path,
+    following: &Following,
+) -> Result<(usize, u64), DatasetError> {
+    let set = LeverDataset::in_memory(config, following)?;
+    let mut size = 0;
+    let mut write = |name: String, text: String| {
+        size += text.len() as u64;
+        write_atomic(folder.join(name), text.as_bytes()).map_err(StoreError::Write)
+    };
+    fs::create_dir_all(folder).map_err(|source| StoreError::Io {
+        doing: "make the folder",
+        path: folder.to_owned(),
+        source,
+    })?;
+    let mut ours = String::new();
+    for episode in set.episodes() {
+        let name = format!("{}-{:05}.xml", config.preset, episode.index);
+        let numbers = |pose: &Pose3| {
+            let ([x, y, z], [i, j, k, w]) = (pose.position.into(), pose.quaternion());
+            [x, y, z, w, i, j, k]
+        };
+        let LeverTrajectory { lift, rest, .. } = &episode.trajectory;
+        let lift: Vec<_> = lift.iter().map(numbers).collect();
+        let slips = episode.trajectory.slipped();
+        let line = json!({"scene": name, "lift": lift, "rest": numbers(rest), "slips": slips});
+        ours += &format!("{line}\n");
+        write(name, lever_mjcf(&episode.job()))?;
+    }
+    write("lever.py".to_owned(), LEVER_SCRIPT.to_owned())?;
+    write("ours.jsonl".to_owned(), ours)?;
+    Ok((set.episodes().len(), size))
+}
+
+pub fn run(args: &GenerateArgs, session: &Session) -> Result<u8, CliError> {
+    interrupt::watch();
+    let following = Following::bar(session, "episodes");
+    let made = session.compute(|| args.make(&following));
+    following.finish()?;
+    let (episodes, bytes) = made.map_err(data_error)?;
+    let part = match args.shard() {
+        Shard::WHOLE => String::new(),
+        shard => format!(", shard {shard}"),
+    };
+    session.print(&format!(
+        "{episodes} episodes of seed {}{part}, {:.1} MB, in {}\n",
+        args.seed,
+        bytes as f64 / 1e6,
+        args.folder.display()
+    ))?;
+    Ok(exit_code::DONE)
+}
+
+/// What a failure to make or read data means for the exit code.
+pub fn data_error(error: DatasetError) -> CliError {
+    match error {
+        DatasetError::Cancelled => CliError::Interrupted(error.to_string()),
+        DatasetError::Empty(_) => CliError::usage(error.to_string(), "ask for at least one"),
+        DatasetError::Constraint(_) => CliError::usage(
+            error.to_string(),
+            "`pushplan-learn generate --help` says what each preset has",
+        ),
+        DatasetError::Foreign { .. } | DatasetError::Shard { .. } => {
+            CliError::File(error.to_string())
+        }
+        DatasetError::Store(error) => error.into(),
+    }
+}

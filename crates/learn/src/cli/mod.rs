@@ -1,0 +1,9 @@
+//! The command `pushplan-learn`: one file per subcommand.
+
+mod app;
+pub mod generate;
+mod merge;
+pub mod train;
+pub mod words;
+
+pub use app::run;

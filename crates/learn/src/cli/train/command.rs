@@ -1,0 +1,117 @@
+//! Which network is trained, and what every training does.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use pushplan::cli::error::CliError;
+use pushplan::cli::follow::Following;
+use pushplan::cli::session::Session;
+use pushplan::cli::{exit_code, interrupt};
+use pushplan::internals::store::FolderLock;
+use pushplan::internals::watch::Watch;
+
+use crate::cli::generate::data_error;
+use crate::dataset::DatasetError;
+use crate::train::{CheckpointError, TrainError};
+
+use super::{lever, predictor, regulator};
+
+/// Make a network's data and weights; the same command goes on with an interrupted run
+#[derive(Args, Debug)]
+#[command(
+    after_help = "One line makes the data and weights of a shipped network from nothing. The folder holds the run: the
+data, if none are given, checkpoint.safetensors to go on from, metrics.jsonl, best.safetensors, the
+weights with the best held-out score, and last.safetensors, those of the last evaluation. Ctrl-C
+saves and stops; the same command then goes on, to the same bits as a run that never stopped.
+
+Examples:
+  pushplan-learn train predictor runs/predictor
+  pushplan-learn train regulator runs/regulator
+  pushplan-learn train lever runs/lever"
+)]
+pub struct TrainArgs {
+    #[command(subcommand)]
+    network: Network,
+}
+
+#[derive(Debug, Subcommand)]
+enum Network {
+    Predictor(predictor::PredictorArgs),
+    Regulator(regulator::RegulatorArgs),
+    Lever(lever::LeverArgs),
+}
+
+pub fn run(args: &TrainArgs, session: &Session) -> Result<u8, CliError> {
+    match &args.network {
+        Network::Predictor(args) => predictor::run(args, session),
+        Network::Regulator(args) => regulator::run(args, session),
+        Network::Lever(args) => lever::run(args, session),
+    }
+}
+
+/// Takes the folder of a run, which no other process may write to meanwhile.
+///
+/// # Errors
+/// If another one does, or it cannot be made.
+pub fn take(folder: &Path, session: &Session) -> Result<FolderLock, CliError> {
+    interrupt::watch();
+    Ok(FolderLock::take(folder, &Following::bar(session, "folder"))?)
+}
+
+/// Makes or reads data, as far as a bar called `name` tells.
+///
+/// # Errors
+/// If that fails or is interrupted.
+pub fn data<D: Send>(
+    session: &Session,
+    name: &str,
+    make: impl FnOnce(&Following) -> Result<D, DatasetError> + Send,
+) -> Result<D, CliError> {
+    let following = Following::bar(session, name);
+    let made = session.compute(|| make(&following));
+    following.finish()?;
+    made.map_err(data_error)
+}
+
+/// Trains, and says where the best weights are.
+///
+/// # Errors
+/// If that fails or is interrupted.
+pub fn weights(
+    session: &Session,
+    train: impl FnOnce(&dyn Watch) -> Result<Option<PathBuf>, TrainError> + Send,
+) -> Result<u8, CliError> {
+    let following = Following::bar(session, "steps");
+    let best = session.compute(|| train(&following));
+    following.finish()?;
+    written(session, best)
+}
+
+/// Says where the best weights are.
+pub(super) fn written(
+    session: &Session,
+    best: Result<Option<PathBuf>, TrainError>,
+) -> Result<u8, CliError> {
+    let best = best.map_err(train_error)?;
+    if interrupt::requested() {
+        let message = "stopped; the run is saved, the same command goes on with it";
+        return Err(CliError::Interrupted(message.to_owned()));
+    }
+    if let Some(best) = best {
+        session.print(&format!("wrote {}\n", best.display()))?;
+    }
+    Ok(exit_code::DONE)
+}
+
+fn train_error(error: TrainError) -> CliError {
+    match error {
+        TrainError::Data(error) => data_error(error),
+        TrainError::Write(faults) => CliError::Output(faults),
+        TrainError::Checkpoint(_, CheckpointError::Other) => CliError::usage(
+            error.to_string(),
+            "the same settings go on with a run; every setting counts",
+        ),
+        TrainError::Checkpoint(..) => CliError::File(error.to_string()),
+        _ => CliError::Unexpected(error.to_string()),
+    }
+}

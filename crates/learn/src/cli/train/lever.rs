@@ -1,0 +1,134 @@
+//! `pushplan-learn train lever`: the network that corrects predicted lever-ups.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::Session;
+use pushplan::internals::store::Shard;
+
+use crate::cli::train::{data, take, weights};
+use crate::dataset::{
+    DatasetError, LeverConfig, LeverDataset, LeverEpisode, LeverPreset, generate_levers,
+};
+use crate::train::{Descent, LeverSettings, train_lever};
+
+/// What the shipped weights have learned from.
+const LEARNED: [LeverConfig; 4] = [
+    LeverConfig { seed: 1, episodes: 14_000, preset: LeverPreset::Varied },
+    LeverConfig { seed: 21, episodes: 16_000, preset: LeverPreset::Varied },
+    LeverConfig { seed: 1, episodes: 8000, preset: LeverPreset::Fixed },
+    LeverConfig { seed: 21, episodes: 8000, preset: LeverPreset::Fixed },
+];
+
+/// What they were chosen by.
+const HELD_OUT: [LeverConfig; 2] = [
+    LeverConfig { seed: 3, episodes: 1500, preset: LeverPreset::Varied },
+    LeverConfig { seed: 3, episodes: 1500, preset: LeverPreset::Fixed },
+];
+
+/// The network that corrects predicted lever-ups
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Networks that correct no prior, are told other features or see images are trained by `pushplan-lab train`.
+
+Examples:
+  pushplan-learn train lever runs/lever
+  pushplan-learn generate data/levers --preset levers --episodes 2000 --seed 1
+  pushplan-learn generate data/held-levers --preset levers --episodes 500 --seed 3
+  pushplan-learn train lever runs/small --data data/levers --held-out data/held-levers --steps 1000"
+)]
+pub struct LeverArgs {
+    /// Folder of the run
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Folders of lever-ups to learn from [default: those of the shipped weights, made in DIR]
+    #[arg(long, value_name = "DIR", num_args = 1.., requires = "held_out")]
+    data: Vec<PathBuf>,
+    /// Folders of held-out lever-ups, of other seeds
+    #[arg(long, value_name = "DIR", num_args = 1.., requires = "data")]
+    held_out: Vec<PathBuf>,
+    /// Steps of the whole schedule
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.steps,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Steps between held-out evaluations and checkpoints
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().descent.evaluate_every,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    evaluate_every: u64,
+    /// Width of the hidden state
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().width as u32,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    width: u32,
+    /// Seed of first weights and batches
+    #[arg(long, value_name = "N", default_value_t = LeverSettings::default().seed)]
+    seed: u64,
+}
+
+pub fn run(args: &LeverArgs, session: &Session) -> Result<u8, CliError> {
+    let folder = take(&args.folder, session)?;
+    let sets = |configs: &[LeverConfig], given: &[PathBuf]| {
+        if given.is_empty() { args.made(configs, session) } else { opened(given, session) }
+    };
+    let held_out = sets(&HELD_OUT, &args.held_out)?;
+    let learned = sets(&LEARNED, &args.data)?;
+    distinct(&learned, &held_out)?;
+    let default = LeverSettings::default();
+    let settings = LeverSettings {
+        width: args.width as usize,
+        seed: args.seed,
+        descent: Descent {
+            evaluate_every: args.evaluate_every,
+            ..default.descent.in_steps(args.steps)
+        },
+        data: learned.iter().map(|set| *set.config()).collect(),
+        ..default
+    };
+    let episodes = |sets: &[LeverDataset]| -> Vec<LeverEpisode> {
+        sets.iter().flat_map(LeverDataset::episodes).cloned().collect()
+    };
+    let (learned, held_out) = (episodes(&learned), episodes(&held_out));
+    weights(session, |watch| train_lever(&settings, &learned, &held_out, &folder, watch))
+}
+
+impl LeverArgs {
+    /// Lever-ups made in the folder of the run, or finished there.
+    fn made(
+        &self,
+        configs: &[LeverConfig],
+        session: &Session,
+    ) -> Result<Vec<LeverDataset>, CliError> {
+        let made = |config: &LeverConfig| {
+            let name = format!("{}-{}", config.preset, config.seed);
+            let folder = self.folder.join("data").join(&name);
+            data(session, &name, |watch| {
+                generate_levers(config, Shard::WHOLE, &folder, watch)?;
+                LeverDataset::open(&folder)
+            })
+        };
+        configs.iter().map(made).collect()
+    }
+}
+
+/// Reads folders of lever-ups.
+///
+/// # Errors
+/// If one holds something else, or not all of them.
+pub fn opened(folders: &[PathBuf], session: &Session) -> Result<Vec<LeverDataset>, CliError> {
+    let open = |folder: &PathBuf| LeverDataset::open(folder);
+    data(session, "data", |_| folders.iter().map(open).collect::<Result<_, DatasetError>>())
+}
+
+/// Refuses held-out lever-ups of the same seeds as others: they have shapes in common.
+///
+/// # Errors
+/// [`CliError::Usage`].
+pub fn distinct(learned: &[LeverDataset], held_out: &[LeverDataset]) -> Result<(), CliError> {
+    let seeds =
+        |sets: &[LeverDataset]| sets.iter().map(|set| set.config().seed).collect::<Vec<_>>();
+    if seeds(learned).iter().any(|seed| seeds(held_out).contains(seed)) {
+        let message = "held-out lever-ups have the seed of others";
+        return Err(CliError::usage(message, "generate them with another --seed"));
+    }
+    Ok(())
+}

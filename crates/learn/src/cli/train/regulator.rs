@@ -1,0 +1,92 @@
+//! `pushplan-learn train regulator`: the belief regulator.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+use pushplan::cli::bench::weights_digest;
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::Session;
+use pushplan::internals::effect::{EffectModels, Network};
+use pushplan::internals::scene::{ModelKind, ModelSpec};
+
+use crate::cli::train::{data, take, weights};
+use crate::dataset::lessons;
+use crate::train::{Descent, RegulatorSettings, train_regulator};
+
+/// The belief regulator
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Lessons are crowds that are seen with noise, some of them without the headings of cylinders, and what
+the filter made of every window; they are kept in the folder's `lessons` and `held-out`. The shipped
+propagation network is not changed.
+
+Examples:
+  pushplan-learn train regulator runs/regulator
+  pushplan-learn train regulator runs/small --lessons 200 --held-out 40 --steps 400"
+)]
+pub struct RegulatorArgs {
+    /// Folder of the run
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Number of lessons
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().lessons,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    lessons: u64,
+    /// Seed of the lessons
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().data_seed)]
+    data_seed: u64,
+    /// Number of held-out lessons
+    #[arg(long, value_name = "N", default_value_t = 500,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    held_out: u64,
+    /// Seed of the held-out lessons; must differ from that of the others
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    held_out_seed: u64,
+    /// Steps of the whole schedule
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.steps,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Steps between held-out evaluations and checkpoints
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().descent.evaluate_every,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    evaluate_every: u64,
+    /// Width of the hidden state
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().width as u32,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    width: u32,
+    /// Seed of first weights and batches
+    #[arg(long, value_name = "N", default_value_t = RegulatorSettings::default().seed)]
+    seed: u64,
+}
+
+pub fn run(args: &RegulatorArgs, session: &Session) -> Result<u8, CliError> {
+    if args.data_seed == args.held_out_seed {
+        let message = "the held-out lessons have the seed of the others";
+        return Err(CliError::usage(message, "choose another --held-out-seed"));
+    }
+    let default = RegulatorSettings::default();
+    let settings = RegulatorSettings {
+        width: args.width as usize,
+        seed: args.seed,
+        descent: Descent {
+            evaluate_every: args.evaluate_every,
+            ..default.descent.in_steps(args.steps)
+        },
+        data_seed: args.data_seed,
+        lessons: args.lessons,
+        ..default
+    };
+    let shipped = EffectModels::weights()
+        .map_err(|error| CliError::unexpected("cannot read the shipped weights", &error))?;
+    let network = Arc::new(Network::new(shipped));
+    let digest = weights_digest(&ModelSpec::from(ModelKind::NETWORK))?.unwrap_or_default();
+    let folder = take(&args.folder, session)?;
+    let draw = |name: &str, of: (u64, u64)| {
+        let directory = args.folder.join(name);
+        data(session, name, |watch| lessons(of, (&network, digest.clone()), &directory, watch))
+    };
+    let held_out = draw("held-out", (args.held_out_seed, args.held_out))?;
+    let all = draw("lessons", (args.data_seed, args.lessons))?;
+    weights(session, |watch| train_regulator(&settings, &all, &held_out, &folder, watch))
+}

@@ -1,0 +1,123 @@
+//! Data sets on disk: runs whose records are episodes, see [`pushplan::internals::store`].
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use pushplan::internals::scene::{Frame, Scene, Stroke, Tool, ToolMotion};
+use pushplan::internals::store::{
+    Form, Journal, RunManifest, Shard, StoreError, merge_runs, read_records,
+};
+use pushplan::internals::watch::{Count, Watch};
+
+use super::config::DatasetConfig;
+use super::episode::Episode;
+use super::error::DatasetError;
+use super::lever::{LEVER_SUITE, LeverConfig};
+use super::set::{Dataset, draw};
+
+/// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about a
+/// second of work (of tools; up to ten seconds of sparse scenes).
+const AT_ONCE: usize = 64;
+
+/// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
+/// a number.
+type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
+
+/// Makes a data set in the folder `dir`, or finishes one that was interrupted: what is there and
+/// whole is kept. The files are the same bits for any number of threads and interruptions. Of a
+/// `shard` only its episodes are made; [`merge_data`] puts shards together. Gives how many episodes
+/// the folder holds, and their size in bytes.
+///
+/// # Errors
+/// If the configuration asks for nothing, the folder holds a data set of other settings or another
+/// process writes to it, a file cannot be written, or `watch` says to stop. Finished episodes are
+/// kept in every case.
+pub fn generate(
+    config: &DatasetConfig,
+    shard: Shard,
+    dir: &Path,
+    watch: &dyn Watch,
+) -> Result<(usize, u64), DatasetError> {
+    config.check()?;
+    let manifest = config.manifest().with_shard(shard);
+    let indices: Vec<u64> = manifest.indices().map(|index| index as u64).collect();
+    let mut journal =
+        Journal::open(dir, manifest, Form::Frames, watch, &mut |record| index(record))?;
+    let count = Count::new(watch, journal.done(), indices.len());
+    while journal.done() < indices.len() {
+        let end = (journal.done() + AT_ONCE).min(indices.len());
+        let drawn = draw(config, &indices[journal.done()..end], &count, watch);
+        // Of what is stopped, the beginning without a hole can be kept.
+        let whole = drawn.iter().map_while(Option::as_ref);
+        let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;
+        journal.append(records.iter().map(Vec::as_slice))?;
+        if journal.done() < end {
+            return Err(DatasetError::Cancelled);
+        }
+    }
+    Ok((journal.done(), journal.bytes()))
+}
+
+/// Merges the finished shards of a data set, given in any order, into one in the folder `out`: the
+/// same bytes as making it in one go. Gives the number of episodes and their seed.
+///
+/// # Errors
+/// Those of [`merge_runs`]; folders of something else than episodes.
+pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<(usize, u64), DatasetError> {
+    for dir in shards {
+        let manifest = RunManifest::expect(dir)?;
+        match manifest.suite.as_str() {
+            LEVER_SUITE => LeverConfig::of(&manifest, dir).map(drop)?,
+            _ => DatasetConfig::of(&manifest, dir).map(drop)?,
+        }
+    }
+    let merged = merge_runs(out, shards, Form::Frames, &mut |record| index(record))?;
+    Ok((merged.tasks, merged.seed))
+}
+
+impl Dataset {
+    /// Reads a finished data set from a folder.
+    ///
+    /// # Errors
+    /// If there is none, it is unfinished, or a file is damaged.
+    pub fn open(dir: &Path) -> Result<Self, DatasetError> {
+        let manifest = RunManifest::expect(dir)?;
+        let config = DatasetConfig::of(&manifest, dir)?;
+        if let Some(shard) = manifest.shard {
+            return Err(DatasetError::Shard { path: dir.to_owned(), shard });
+        }
+        let mut episodes = Vec::new();
+        let held = read_records(dir, &manifest, Form::Frames, &mut |record| {
+            let episode = decode(record)?;
+            let index = episode.index as usize;
+            episodes.push(episode);
+            Ok(index)
+        })?;
+        let (done, total) = (held.count, manifest.tasks);
+        if done < total {
+            return Err(StoreError::Unfinished { path: dir.to_owned(), done, total }.into());
+        }
+        Ok(Self::from_parts(config, episodes))
+    }
+}
+
+fn encode(episode: &Episode) -> Result<Vec<u8>, StoreError> {
+    let Episode { index, scene, motion: ToolMotion { tool, lift, strokes }, frames } = episode;
+    postcard::to_allocvec(&(index, scene, &**tool, lift, strokes, frames))
+        .map_err(|error| StoreError::Record { index: *index as usize, why: error.to_string() })
+}
+
+fn decode(record: &[u8]) -> Result<Episode, String> {
+    let (index, scene, tool, lift, strokes, frames): Fields =
+        postcard::from_bytes(record).map_err(|error| error.to_string())?;
+    let motion = ToolMotion { tool: Arc::new(tool), lift, strokes };
+    Ok(Episode { index, scene, motion, frames })
+}
+
+/// The index of the episode that a record holds, of pushes or of lever-ups: its first number.
+fn index(record: &[u8]) -> Result<usize, String> {
+    match postcard::take_from_bytes::<u64>(record) {
+        Ok((index, _)) => Ok(index as usize),
+        Err(error) => Err(error.to_string()),
+    }
+}

@@ -1,0 +1,115 @@
+//! The round hand that pushes crowds, and the play of its strokes one by one.
+
+use std::sync::Arc;
+
+use pushplan::internals::geometry::{Pose, Shape, Vector};
+use pushplan::internals::scene::{
+    Body, COAST_FRAME, Frame, Job, Part, Ranges, Record, Scene, State, Stroke, Tool, ToolMotion,
+};
+use pushplan::internals::sim::Simulator;
+use rand_pcg::Pcg64;
+
+use super::aim::{SET_DOWN, tool_clearance};
+use super::chance::uniform;
+
+/// Radius of the hand, metres.
+pub const HAND_RADIUS: f64 = 0.05;
+
+/// Height of the hand, metres.
+const HAND_HEIGHT: f64 = 0.10;
+
+/// Height of the hand's underside above the table, metres.
+const LIFT: f64 = 0.002;
+
+/// A scene being pushed, stroke after stroke, by a hand of random friction.
+pub(super) struct HandPlay<'a> {
+    scene: &'a Scene,
+    motion: ToolMotion,
+    frames: Vec<Frame>,
+    touched: Vec<bool>,
+}
+
+impl<'a> HandPlay<'a> {
+    /// Before the first stroke.
+    pub(super) fn new(rng: &mut Pcg64, scene: &'a Scene, ranges: &Ranges) -> Self {
+        let shape = Shape::Cylinder { radius: HAND_RADIUS, height: HAND_HEIGHT };
+        let hand =
+            Tool::assembled("hand", vec![Part::new("hand", shape, Pose::default())], Vec::new())
+                .described("A round hand.")
+                .friction(uniform(rng, ranges.friction.low, ranges.friction.high));
+        Self {
+            scene,
+            motion: ToolMotion { tool: Arc::new(hand), lift: LIFT, strokes: Vec::new() },
+            frames: Vec::new(),
+            touched: vec![false; scene.objects.len()],
+        }
+    }
+
+    /// Where everything is now.
+    pub(super) fn state(&self) -> State {
+        self.frames.last().map_or_else(|| self.scene.start(), |frame| frame.state.clone())
+    }
+
+    /// Which objects the hand has touched.
+    pub(super) fn touched(&self) -> &[bool] {
+        &self.touched
+    }
+
+    /// The straight stroke from `from`, until everything rests; `None` if the hand cannot be
+    /// set down there.
+    pub(super) fn stroke(
+        &self,
+        state: &State,
+        from: Vector,
+        travel: Vector,
+        speed: f64,
+    ) -> Option<Stroke> {
+        let at = |position| Pose { position, heading: 0.0 };
+        let free = self.scene.objects.iter().zip(&state.poses).all(|(object, pose)| {
+            let other = (&object.shape.footprint(), pose);
+            tool_clearance(&self.motion.tool, &at(from), other) >= SET_DOWN
+        });
+        free.then(|| Stroke {
+            from: at(from),
+            to: at(from + travel),
+            duration: travel.norm() / speed,
+            settle: true,
+        })
+    }
+
+    /// Plays one more stroke; `None` if something went wrong, which ends the play.
+    ///
+    /// The simulator begins a fresh world after a settled stroke, so playing strokes one by one
+    /// gives the bits that playing them all at once does.
+    pub(super) fn play(mut self, stroke: Stroke) -> Option<Self> {
+        let one = ToolMotion { strokes: vec![stroke], ..self.motion.clone() };
+        let job = Job { start: self.state(), ..Job::stated(self.scene, one) };
+        let trajectory = Simulator::planar().run(self.scene, &job, Record::Frames);
+        if !trajectory.warnings.is_empty() {
+            return None;
+        }
+        for contact in &trajectory.contacts {
+            if let Body::Part(_) = contact.with {
+                self.touched[contact.object] = true;
+            }
+        }
+        let number = self.motion.strokes.len();
+        let mut time = self.frames.last().map_or(0.0, |frame| frame.time);
+        let known = usize::from(number > 0);
+        for (k, frame) in trajectory.frames.into_iter().enumerate().skip(known) {
+            if k > 0 {
+                // Summed up as the simulator does, to the same rounding.
+                let moving = k <= stroke.frames();
+                time += if moving { stroke.frame(k - 1).duration } else { COAST_FRAME };
+            }
+            self.frames.push(Frame { time, stroke: number, ..frame });
+        }
+        self.motion.strokes.push(stroke);
+        Some(self)
+    }
+
+    /// What was done and what came of it.
+    pub(super) fn finish(self) -> (ToolMotion, Vec<Frame>) {
+        (self.motion, self.frames)
+    }
+}

@@ -1,0 +1,90 @@
+//! Lessons on disk: runs whose records are lessons, see [`pushplan::internals::store`].
+
+use std::path::Path;
+use std::sync::Arc;
+
+use pushplan::internals::effect::{Network, Prior};
+use pushplan::internals::store::{Form, Journal, RunManifest, StoreError, read_records};
+use pushplan::internals::watch::{Count, Watch};
+use rayon::prelude::*;
+
+use super::error::DatasetError;
+use super::lesson::Lesson;
+
+/// The suite of a folder of lessons.
+const SUITE: &str = "lessons";
+
+/// So many lessons are drawn, on all threads, and then kept: a crash loses at most these, some ten
+/// seconds of work.
+const AT_ONCE: u64 = 32;
+
+/// Version of what lessons hold; another one gives others for the same seed.
+const VERSION: u64 = 2;
+
+/// Makes `count` lessons under `seed` in the folder `dir`, or finishes those that were interrupted,
+/// and reads them: the same bits for any number of threads and interruptions. `digest` is that of the
+/// propagation network's weights.
+///
+/// # Errors
+/// If none are asked for, the folder holds other ones, another process writes to it, a file cannot be
+/// written, or `watch` says to stop. Finished lessons are kept in every case.
+pub fn lessons(
+    (seed, count): (u64, u64),
+    (network, digest): (&Arc<Network>, String),
+    dir: &Path,
+    watch: &dyn Watch,
+) -> Result<Vec<Lesson>, DatasetError> {
+    if count == 0 {
+        return Err(DatasetError::Empty("lessons"));
+    }
+    let manifest = RunManifest::new(SUITE, count as usize, seed, "prior")
+        .with_weights(Some(digest))
+        .with_settings(VERSION.into());
+    let mut all = Vec::new();
+    let mut journal = Journal::open(dir, manifest.clone(), Form::Frames, watch, &mut |record| {
+        Ok(decode(record)?.index as usize)
+    })?;
+    let model = Prior::default();
+    let progress = Count::new(watch, journal.done(), count as usize);
+    while (journal.done() as u64) < count {
+        let first = journal.done() as u64;
+        let range = first..(first + AT_ONCE).min(count);
+        let drawn: Vec<Option<Lesson>> = range
+            .clone()
+            .into_par_iter()
+            .map(|index| {
+                if watch.cancelled() {
+                    return None;
+                }
+                let lesson = Lesson::draw(seed, index, network, &model);
+                progress.one();
+                Some(lesson)
+            })
+            .collect();
+        let whole = drawn.iter().map_while(Option::as_ref);
+        let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;
+        journal.append(records.iter().map(Vec::as_slice))?;
+        if (journal.done() as u64) < range.end {
+            return Err(DatasetError::Cancelled);
+        }
+    }
+    drop(journal);
+    read_records(dir, &manifest, Form::Frames, &mut |record| {
+        let lesson = decode(record)?;
+        let index = lesson.index as usize;
+        all.push(lesson);
+        Ok(index)
+    })?;
+    Ok(all)
+}
+
+fn encode(lesson: &Lesson) -> Result<Vec<u8>, StoreError> {
+    postcard::to_allocvec(lesson).map_err(|error| StoreError::Record {
+        index: lesson.index as usize,
+        why: error.to_string(),
+    })
+}
+
+fn decode(record: &[u8]) -> Result<Lesson, String> {
+    postcard::from_bytes(record).map_err(|error| error.to_string())
+}

@@ -1,0 +1,69 @@
+//! Boxes and lying cylinders: rectangles from above, which only their depth tells apart.
+
+use pushplan::internals::geometry::{Pose, Vector};
+use pushplan::internals::scene::{LeverScene, LeverUp, Place, Plate, Slab};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+use super::super::chance::uniform;
+use super::plates::{CLEARANCE, DENSITY, FRICTION, alone, lever, plate};
+
+/// A lying cylinder is a prism of twice so many sides.
+const SIDES: usize = 10;
+
+/// Angle between two of them, radians.
+const STEP: f64 = std::f64::consts::PI / SIDES as f64;
+
+/// A box or a cylinder of the same extents, levered at a long side near its middle.
+pub(super) fn lying(shapes: &mut Pcg64, rng: &mut Pcg64) -> (LeverScene, LeverUp) {
+    let radius = uniform(shapes, 0.025, 0.045);
+    let length = uniform(shapes, 0.10, 0.18);
+    let plate = if shapes.random() {
+        let half_width = radius * (0.5 * STEP).cos();
+        plate(rectangle(length, half_width), 2.0 * radius - CLEARANCE, FRICTION)
+    } else {
+        cylinder(length, radius, FRICTION)
+    };
+    let edge = 2 * rng.random_range(0..2);
+    let place = Place { edge, fraction: uniform(rng, 0.3, 0.7) };
+    // Under the narrowest cylinder the blade finds 8.7 mm.
+    (alone(plate, rng), lever(place, 0.008, 2.0 * radius, 60.0))
+}
+
+/// A cylinder that lies along x. Its widest layer is what the blade goes under, its frame as high
+/// as that of a box on feet.
+fn cylinder(length: f64, radius: f64, friction: f64) -> Plate {
+    // Corners of the prism lie on the circle, at half steps from its lowest point.
+    let at = |k: usize| {
+        let (sin, cos) = (STEP * (k as f64 + 0.5)).sin_cos();
+        (radius * sin, -radius * cos)
+    };
+    // The prism stands on its lowest side, not on the circle.
+    let ground = at(0).1;
+    let layers = (0..SIDES - 1).map(|k| {
+        let ((narrow, low), (wide, high)) = (at(k), at(k + 1));
+        Slab {
+            corners: rectangle(length, narrow.min(wide)),
+            bottom: low - ground - CLEARANCE,
+            height: high - low,
+        }
+    });
+    let mut slabs: Vec<Slab> = layers.collect();
+    slabs.swap(0, SIDES / 2 - 1);
+    let volume = std::f64::consts::PI * radius * radius * length;
+    Plate {
+        name: "cylinder".to_owned(),
+        slabs,
+        mass: DENSITY * volume,
+        friction,
+        // Just less than where it is, as it has no feet.
+        clearance: CLEARANCE - 1e-3,
+        pose: Pose::default(),
+        z: CLEARANCE,
+    }
+}
+
+fn rectangle(length: f64, half_width: f64) -> Vec<Vector> {
+    let (x, y) = (0.5 * length, half_width);
+    [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y)).to_vec()
+}

@@ -1,0 +1,44 @@
+//! A trajectory as a camera sees it: with noise, and perhaps without the headings of what is round.
+
+use pushplan::internals::belief::normal;
+use pushplan::internals::geometry::Vector;
+use pushplan::internals::recording::Recording;
+use pushplan::internals::scene::{Noise, Observation, Scene, Sight};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+
+/// How well a trajectory is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seeing {
+    /// Errors of positions and headings.
+    pub noise: Noise,
+    /// Whether the headings of cylinders are seen: those of an unmarked one are not.
+    pub round_headings: bool,
+}
+
+impl Seeing {
+    /// The scene as it is seen at the start, and all observations of a recording. Truth stays where
+    /// nothing is seen: joints, masses and frictions of the scene are those of the recording.
+    pub fn observe(&self, recording: &Recording, rng: &mut Pcg64) -> (Scene, Vec<Observation>) {
+        let Noise { position, heading } = self.noise;
+        let mut error = |sd: f64| if sd > 0.0 { sd * normal(rng) } else { 0.0 };
+        let mut scene = recording.scene.clone();
+        for object in &mut scene.objects {
+            object.pose.position += Vector::new(error(position), error(position));
+            object.pose.heading += error(heading);
+        }
+        let round: Vec<bool> =
+            scene.objects.iter().map(|object| object.shape.is_cylinder()).collect();
+        let mut observations = recording.observations();
+        for Observation { seen, .. } in &mut observations {
+            for (sight, round) in seen.iter_mut().zip(&round) {
+                let Some(Sight { position: place, heading: turn }) = sight else { continue };
+                *place += Vector::new(error(position), error(position));
+                *turn = turn
+                    .filter(|_| self.round_headings || !round)
+                    .map(|turn| turn + error(heading));
+            }
+        }
+        (scene, observations)
+    }
+}

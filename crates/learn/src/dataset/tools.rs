@@ -1,0 +1,265 @@
+//! Episodes with tools: one to three objects, sometimes obstacles, one to three pushes.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use pushplan::internals::geometry::{Pose, Shape, Vector};
+use pushplan::internals::scene::{
+    Frame, Job, Part, Ranges, Record, Scene, Span, State, Stroke, Tool, ToolMotion, Trajectory,
+};
+use pushplan::internals::sim::Simulator;
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+use super::aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel};
+use super::assembly::random_tool;
+use super::chance::{heading, log_uniform, uniform, weighted};
+use super::jam::{crosses_obstacle, shortened_before_jam};
+use super::novelty::is_shipped;
+use super::obstacle::place_obstacle;
+use super::tabletop::{Crowd, Solids, anywhere, random_scene};
+use super::unseen::{draw_heights, draw_supports, push_height};
+
+/// How often there are one, two or three objects.
+const OBJECT_COUNTS: [f64; 3] = [0.55, 0.30, 0.15];
+
+/// How often there are one, two or three pushes.
+const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
+
+/// Share of objects that are convex polygons.
+const POLYGONS: f64 = 0.2;
+
+/// Share of scenes with obstacles.
+const OBSTACLES: f64 = 0.2;
+
+/// Share of tools that are a single round part, as a finger or a hand is.
+const ROUND: f64 = 0.12;
+
+/// Height of the tool's underside above the table, metres.
+const LIFT: f64 = 0.002;
+
+/// Share of episodes in which the 3-D engine says what is true; it leaves open how high faces press
+/// on each other.
+const SPATIAL: f64 = 0.8;
+
+/// Share of pushes at a tenth to a third of the usual speeds: they take as long to simulate as all
+/// others together.
+const SLOW: f64 = 0.1;
+
+/// Share of strokes in which the tool turns on its way.
+const TURNING: f64 = 0.15;
+
+/// Tries to aim a push before it is given up.
+const TRIES: usize = 30;
+
+/// A stroke shorter than this after being cut short is left out, metres.
+const SHORTEST: f64 = 0.02;
+
+/// A scene and one to three pushes; nothing when no push could be aimed or something did not
+/// come to rest.
+pub(super) fn pushed_by_tool(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+) -> Option<(Scene, ToolMotion, Vec<Frame>)> {
+    let crowd = Crowd {
+        count: 1 + weighted(rng, &OBJECT_COUNTS),
+        solids: Solids::Any,
+        touching: 0.45,
+        polygons: POLYGONS,
+    };
+    let scene = random_scene(rng, ranges, crowd);
+    let mut scene = anywhere(rng, scene);
+    draw_supports(rng, &mut scene);
+    draw_heights(rng, ranges, &mut scene);
+    // Pushes are aimed in the plane, which is faster.
+    scene.push_height = Some(push_height(rng));
+    let tool = Arc::new(new_tool(rng, ranges));
+    let count = 1 + weighted(rng, &PUSH_COUNTS);
+    let placed = rng.random::<bool>();
+
+    let mut motion = ToolMotion { tool, lift: LIFT, strokes: Vec::new() };
+    let mut play = aimed_first(rng, ranges, &scene, &motion)
+        .map(|stroke| motion.strokes.push(stroke))
+        .map(|()| simulate(&scene, &motion))?;
+    if rng.random_bool(OBSTACLES) {
+        for _ in 0..rng.random_range(1..=2) {
+            if let Some(obstacle) = place_obstacle(rng, &scene, &motion, &play.frames) {
+                scene.obstacles.push(obstacle);
+            }
+        }
+        play = cut_short(&scene, &mut motion)?;
+    }
+    while motion.strokes.len() < count {
+        let next = if placed {
+            aimed_next(rng, ranges, &scene, &motion, play.outcome())
+        } else {
+            continued(rng, ranges, &scene, &motion, &play)
+        };
+        let Some(next) = next else { break };
+        let mut longer = motion.clone();
+        if let Some(last) = longer.strokes.last_mut() {
+            last.settle = placed;
+        }
+        longer.strokes.push(next);
+        let Some(trajectory) = cut_short(&scene, &mut longer) else { break };
+        (motion, play) = (longer, trajectory);
+    }
+    if rng.random_bool(SPATIAL) {
+        scene.push_height = None;
+        let job = Job::stated(&scene, motion.clone());
+        play = Simulator::spatial().run(&scene, &job, Record::Frames);
+    }
+    play.warnings.is_empty().then_some((scene, motion, play.frames))
+}
+
+fn simulate(scene: &Scene, motion: &ToolMotion) -> Trajectory {
+    Simulator::planar().run(scene, &Job::stated(scene, motion.clone()), Record::Frames)
+}
+
+/// Plays the motion, its last stroke ended before the tool squeezes anything against an
+/// obstacle, which neither engine nor any real table answers well. `None` if too little of
+/// the stroke is left.
+fn cut_short(scene: &Scene, motion: &mut ToolMotion) -> Option<Trajectory> {
+    let trajectory = simulate(scene, motion);
+    if scene.obstacles.is_empty() {
+        return Some(trajectory);
+    }
+    let Some(shorter) = shortened_before_jam(scene, motion, &trajectory.frames) else {
+        return Some(trajectory);
+    };
+    if shorter.travel() < SHORTEST {
+        return None;
+    }
+    *motion.strokes.last_mut()? = shorter;
+    Some(simulate(scene, motion))
+}
+
+/// A random tool that is none of the shipped ones.
+fn new_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
+    if rng.random_bool(ROUND) {
+        return round_tool(rng, ranges);
+    }
+    loop {
+        let tool = random_tool(rng, ranges);
+        if !is_shipped(&tool) {
+            return tool;
+        }
+    }
+}
+
+fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
+    let shape = Shape::Cylinder {
+        radius: log_uniform(rng, ranges.part_radius),
+        height: uniform(rng, 0.01, 0.06),
+    };
+    let pose = Pose::new(uniform(rng, -0.05, 0.20), 0.0, 0.0);
+    let parts = vec![Part { name: "part-1".to_owned(), shape, pose }];
+    Tool::assembled("finger", parts, Vec::new())
+        .described("A single round part.")
+        .friction(uniform(rng, ranges.friction.low, ranges.friction.high))
+}
+
+fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {
+    let Span { low, high } = ranges.speed;
+    let span =
+        if rng.random_bool(SLOW) { Span::new(low, 3.0 * low) } else { Span::new(3.0 * low, high) };
+    (log_uniform(rng, span), uniform(rng, ranges.travel.low, ranges.travel.high))
+}
+
+/// Gap between tool and object at the start of a placed push, metres: planners stand off by
+/// 5 mm, so half of them lie around that.
+fn stand_off(rng: &mut Pcg64) -> f64 {
+    if rng.random::<bool>() { uniform(rng, 0.004, 0.006) } else { uniform(rng, 2e-4, 0.02) }
+}
+
+/// The first push; it also decides how the tool is turned.
+fn aimed_first(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+    scene: &Scene,
+    motion: &ToolMotion,
+) -> Option<Stroke> {
+    let state = scene.start();
+    (0..TRIES).find_map(|_| {
+        let direction = random_direction(rng, &scene.objects, &state);
+        let heading = random_heading(rng, direction);
+        let (speed, travel) = speed_travel(rng, ranges);
+        let gap =
+            if rng.random_bool(0.85) { stand_off(rng) } else { uniform(rng, 0.02, 0.6 * travel) };
+        let aim = Aim { direction, heading, gap, travel, speed };
+        let stroke = aimed_stroke(rng, &motion.tool, scene, &state, &aim)?;
+        Some(turning(rng, ranges, stroke))
+    })
+}
+
+/// The stroke, in some cases with a tool that turns on its way.
+fn turning(rng: &mut Pcg64, ranges: &Ranges, mut stroke: Stroke) -> Stroke {
+    let rate = uniform(rng, -ranges.turn, ranges.turn);
+    if rng.random_bool(TURNING) {
+        stroke.to.heading += rate * stroke.travel();
+    }
+    stroke
+}
+
+/// A further placed push, aimed at where the objects came to rest.
+fn aimed_next(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+    scene: &Scene,
+    motion: &ToolMotion,
+    state: &State,
+) -> Option<Stroke> {
+    let heading = motion.strokes.last()?.to.heading;
+    (0..TRIES).find_map(|_| {
+        let direction = if rng.random_bool(0.65) {
+            heading + FRAC_PI_2 * f64::from(rng.random_range(0..4u8))
+        } else {
+            random_direction(rng, &scene.objects, state)
+        };
+        let (speed, travel) = speed_travel(rng, ranges);
+        let aim = Aim { direction, heading, gap: stand_off(rng), travel, speed };
+        aimed_stroke(rng, &motion.tool, scene, state, &aim)
+            .map(|stroke| turning(rng, ranges, stroke))
+            .filter(|stroke| !crosses_obstacle(scene, &motion.tool, stroke))
+    })
+}
+
+/// A further chained push: on from where the tool is, preferably to where something stands.
+fn continued(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+    scene: &Scene,
+    motion: &ToolMotion,
+    play: &Trajectory,
+) -> Option<Stroke> {
+    let last = motion.strokes.last()?;
+    let before = (last.to.position - last.from.position).normalize();
+    let mut found = None;
+    for _ in 0..TRIES {
+        let turn = match weighted(rng, &[0.5, 0.15, 0.35]) {
+            0 => FRAC_PI_2 * if rng.random::<bool>() { 1.0 } else { -1.0 },
+            1 => std::f64::consts::PI,
+            _ => heading(rng),
+        };
+        let along: Vector = Pose::new(0.0, 0.0, turn).vector(before);
+        let (speed, travel) = speed_travel(rng, ranges);
+        let stroke = Stroke {
+            from: last.to,
+            to: Pose { position: last.to.position + along * travel, ..last.to },
+            duration: travel / speed,
+            settle: true,
+        };
+        if crosses_obstacle(scene, &motion.tool, &stroke) {
+            continue;
+        }
+        let meets = scene.objects.iter().zip(&play.outcome().poses).any(|(object, pose)| {
+            let other = (&object.shape.footprint(), pose);
+            tool_travel(&motion.tool, &last.to, along, other).is_some_and(|t| t < 0.8 * travel)
+        });
+        found = Some(stroke);
+        if meets {
+            break;
+        }
+    }
+    found
+}

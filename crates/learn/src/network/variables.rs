@@ -1,0 +1,21 @@
+//! Parameters as what a candle graph differentiates by.
+
+use std::collections::BTreeMap;
+
+use candle_core::{Device, Result, Tensor, Var, bail};
+use pushplan::internals::network::{Layout, Parameters};
+
+/// A variable for every parameter of a layout, by name.
+///
+/// # Errors
+/// If a parameter is missing or has another shape than the layout says.
+pub fn variables(layout: Layout, parameters: &Parameters) -> Result<BTreeMap<String, Var>> {
+    let variable = |(name, shape): (&str, Vec<usize>)| {
+        let Some(values) = parameters.values.get(name) else {
+            bail!("the parameter {name} is missing")
+        };
+        let tensor = Tensor::from_slice(values, shape.as_slice(), &Device::Cpu)?;
+        Ok((name.to_owned(), Var::from_tensor(&tensor)?))
+    };
+    layout.into_iter().map(variable).collect()
+}

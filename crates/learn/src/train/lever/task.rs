@@ -1,0 +1,129 @@
+//! What the trainer asks of a network of lever-ups.
+
+use std::path::PathBuf;
+
+use pushplan::internals::effect::{LeverModel, LeverNetwork};
+use pushplan::internals::network::{LeverCard, LeverWeights, Parameters, Statistics, fresh_lever};
+use pushplan::internals::scene::LeverJob;
+use pushplan::internals::seeded::generator;
+use pushplan::internals::store::FolderLock;
+use pushplan::internals::watch::Watch;
+use rand::Rng;
+
+use crate::dataset::LeverEpisode;
+use crate::judge::lever_error;
+use crate::network::LeverGraph;
+use crate::train::{Descent, REPLICAS, TrainError, Trainable, Trainer, gradients_of};
+
+use super::{LeverBatch, LeverExample, LeverScore, LeverSettings};
+
+/// Trains in `folder`, see [`Trainer::run`].
+///
+/// # Errors
+/// [`TrainError`]; whatever was saved before stays.
+pub fn train_lever(
+    settings: &LeverSettings,
+    episodes: &[LeverEpisode],
+    held_out: &[LeverEpisode],
+    folder: &FolderLock,
+    watch: &dyn Watch,
+) -> Result<Option<PathBuf>, TrainError> {
+    let examples = LeverExample::all(settings, episodes);
+    let held_out = settings.judged_on(held_out);
+    Trainer::open(Task { settings, examples, held_out }, folder)?.run(watch)
+}
+
+struct Task<'a> {
+    settings: &'a LeverSettings,
+    examples: Vec<LeverExample>,
+    held_out: Vec<LeverEpisode>,
+}
+
+impl Trainable for Task<'_> {
+    const KEY: &'static str = "pushplan-lever-checkpoint";
+    type Settings = LeverSettings;
+    /// Of features of a lever-up, and of a frame.
+    type Scales = [Statistics; 2];
+    type Score = LeverScore;
+    type Card = LeverCard;
+
+    fn settings(&self) -> LeverSettings {
+        self.settings.clone()
+    }
+
+    fn descent(&self) -> Descent {
+        self.settings.descent
+    }
+
+    fn is_empty(&self) -> bool {
+        self.examples.is_empty()
+    }
+
+    fn scales(&self) -> [Statistics; 2] {
+        LeverExample::scales(self.examples.iter(), &self.settings.sizes())
+    }
+
+    fn fresh(&self, _: &[Statistics; 2]) -> Parameters {
+        fresh_lever(&self.settings.sizes(), self.settings.seed)
+    }
+
+    fn gradient(
+        &self,
+        weights: &Parameters,
+        scales: &[Statistics; 2],
+        (step, replica): (u64, usize),
+    ) -> candle_core::Result<(f64, Parameters)> {
+        let LeverSettings { seed, descent, .. } = *self.settings;
+        let drawn = drawn(&self.examples, descent.batch, (seed, step, replica));
+        let sizes = self.settings.sizes();
+        let network = LeverGraph::new(&sizes, weights)?;
+        let loss = LeverBatch::new(&drawn, scales, &sizes)?.loss(&network, None)?;
+        gradients_of(&loss, network.variables())
+    }
+
+    fn score(&self, weights: &LeverWeights) -> LeverScore {
+        // Weights that cannot be used have no error.
+        let network = LeverNetwork::new(weights);
+        network.map_or_else(|_| LeverScore::default(), |network| score(&network, &self.held_out))
+    }
+
+    fn is_better(score: &LeverScore, than: &LeverScore) -> bool {
+        score.lift < than.lift
+    }
+
+    fn card(&self, scales: &[Statistics; 2], step: u64, _: Option<&LeverScore>) -> LeverCard {
+        let [still, moving] = scales.clone();
+        LeverCard {
+            features: self.settings.features,
+            prior: self.settings.prior,
+            sizes: self.settings.sizes(),
+            still,
+            moving,
+            episodes: self.examples.len() as u64,
+            steps: step,
+        }
+    }
+}
+
+/// One replica's share of `batch` examples, drawn by seed and step alone.
+pub fn drawn<T>(examples: &[T], batch: usize, (seed, step, replica): (u64, u64, usize)) -> Vec<&T> {
+    let mut rng = generator(seed, step);
+    let all = (0..batch).map(|_| &examples[rng.random_range(0..examples.len())]);
+    let (from, to) = (replica * batch / REPLICAS, (replica + 1) * batch / REPLICAS);
+    all.take(to).skip(from).collect()
+}
+
+/// Errors of a network on held-out lever-ups.
+pub fn score(network: &dyn LeverModel, held_out: &[LeverEpisode]) -> LeverScore {
+    let jobs: Vec<LeverJob> = held_out.iter().map(|episode| episode.job()).collect();
+    let share = 1.0 / jobs.len().max(1) as f64;
+    let mut score = LeverScore::default();
+    for ((episode, job), said) in held_out.iter().zip(&jobs).zip(network.rollout(&jobs)) {
+        let error = lever_error(job, &episode.trajectory, &said);
+        score.lift += share * error.lift;
+        score.last += share * error.last;
+        score.slips += share * f64::from(u8::from(error.same_slip));
+        score.endings += share * f64::from(u8::from(error.same_ending));
+    }
+    score
+}

@@ -1,0 +1,33 @@
+//! Training: one loop, optimiser, schedule, checkpoint and log for every network.
+//!
+//! A run is a folder: `checkpoint.safetensors` (everything needed to resume bit-exactly),
+//! `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
+//! `last.safetensors`, those of the last evaluation. A network is what [`Trainable`] asks: its
+//! examples, loss and score stand in a folder of its own. Data come from `dataset`; nothing is
+//! generated or drawn here.
+
+mod checkpoint;
+mod descent;
+mod gradients;
+mod lever;
+mod log;
+mod optimiser;
+mod predictor;
+mod regulator;
+mod trainable;
+mod trainer;
+
+pub use checkpoint::{Checkpoint, CheckpointError};
+pub use descent::Descent;
+pub use gradients::gradients_of;
+pub use lever::{
+    LeverBatch, LeverExample, LeverScore, LeverSettings, drawn, score as lever_score, train_lever,
+};
+pub use log::Line;
+pub use optimiser::AdamW;
+pub use predictor::{
+    Examples, Exposure, HeldOutError, Noise, PredictorSettings, rollout_error, train_predictor,
+};
+pub use regulator::{RegulatorScore, RegulatorSettings, score, train_regulator};
+pub use trainable::Trainable;
+pub use trainer::{REPLICAS, TrainError, Trainer};

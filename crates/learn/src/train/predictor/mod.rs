@@ -1,0 +1,12 @@
+//! Training of the physics predictor on single frames of episodes, see [`crate::dataset::Episode`].
+
+mod example;
+mod loss;
+mod rollout_error;
+mod settings;
+mod task;
+
+pub use example::{Examples, Exposure, Noise};
+pub use rollout_error::{HeldOutError, rollout_error};
+pub use settings::PredictorSettings;
+pub use task::train_predictor;

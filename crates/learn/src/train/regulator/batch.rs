@@ -1,0 +1,107 @@
+//! Lessons side by side, as tensors.
+
+use candle_core::{Device, Result, Tensor};
+use pushplan::internals::belief::{JointType, Testimony};
+use pushplan::internals::network::{LEAST, Statistics, TYPES};
+
+use crate::dataset::Lesson;
+use crate::network::{RegulatorGraph, Unrolled};
+
+/// Weight of the first and of the last window in the loss (thesis 8.1.3, which begins at none): late
+/// beliefs must be right, early ones may still be open.
+const WEIGHT: [f32; 2] = [0.2, 2.0];
+
+/// Weight of squared changes of hidden states in the loss, as the authors': memories that jump about
+/// are not smoothed away by time.
+const CHANGES: f64 = 1e-6;
+
+/// Normalised features beyond this are cut off, as the cell does.
+const BOUND: f32 = 10.0;
+
+/// A lesson, and those of its windows that are learned from.
+pub(super) type Heard<'a> = (&'a Lesson, Vec<&'a Testimony>);
+
+/// Of what a loss is made besides the network's answer.
+pub(super) struct Examples {
+    unrolled: Unrolled,
+    /// T tensors [P, 4]: logarithms of the filter's probabilities.
+    filtered: Vec<Tensor>,
+    /// T tensors [P, 4]: the weight at the true type, else 0.
+    wanted: Vec<Tensor>,
+    /// Sum of all weights.
+    weight: f64,
+}
+
+impl Examples {
+    /// Lays `lessons` side by side; shorter ones are told nothing at their end.
+    pub fn new(lessons: &[Heard], scales: &Statistics) -> Result<Self> {
+        let windows = lessons.iter().map(|(_, windows)| windows.len()).max().unwrap_or(0);
+        let pairs: usize = lessons.iter().map(|(lesson, _)| lesson.pairs.len()).sum();
+        let f = scales.mean.len();
+        let mut ends = [Vec::with_capacity(pairs), Vec::with_capacity(pairs)];
+        let mut objects = 0;
+        for (lesson, _) in lessons {
+            for pair in &lesson.pairs {
+                for (ends, object) in ends.iter_mut().zip(pair) {
+                    ends.push((objects + object) as u32);
+                }
+            }
+            objects += lesson.objects;
+        }
+        let tensor = |values: Vec<f32>, columns: usize| {
+            Tensor::from_vec(values, (pairs, columns), &Device::Cpu)
+        };
+        let [mut features, mut told, mut filtered, mut wanted] =
+            [const { Vec::<Tensor>::new() }; 4];
+        let mut weight = 0.0;
+        for t in 0..windows {
+            let mut rows = vec![0.0; pairs * f];
+            let [mut known, mut before, mut right] =
+                [vec![0.0; pairs], vec![0.0; pairs * TYPES], vec![0.0; pairs * TYPES]];
+            let mut first = 0;
+            for (lesson, windows) in lessons {
+                let through = windows.len().saturating_sub(1).max(1) as f32;
+                if let Some(window) = windows.get(t) {
+                    let late = WEIGHT[0] + (WEIGHT[1] - WEIGHT[0]) * t as f32 / through;
+                    for p in (0..lesson.pairs.len()).filter(|p| window.told[*p]) {
+                        let row = first + p;
+                        known[row] = 1.0;
+                        let from = &window.features[p * f..][..f];
+                        for (k, (into, x)) in rows[row * f..][..f].iter_mut().zip(from).enumerate()
+                        {
+                            let x = (x - scales.mean[k]) / scales.deviation[k];
+                            *into = x.clamp(-BOUND, BOUND);
+                        }
+                        for kind in JointType::ALL {
+                            let k = kind as usize;
+                            before[row * TYPES + k] = window.filtered[p][k].max(LEAST).ln() as f32;
+                        }
+                        right[row * TYPES + lesson.types[p] as usize] = late;
+                        weight += f64::from(late);
+                    }
+                }
+                first += lesson.pairs.len();
+            }
+            features.push(tensor(rows, f)?);
+            told.push(tensor(known, 1)?);
+            filtered.push(tensor(before, TYPES)?);
+            wanted.push(tensor(right, TYPES)?);
+        }
+        let ends = ends.map(|ends| Tensor::from_vec(ends, pairs, &Device::Cpu));
+        let [a, b] = ends;
+        let unrolled = Unrolled { features, told, ends: [a?, b?], objects };
+        Ok(Self { unrolled, filtered, wanted, weight })
+    }
+
+    /// Cross entropy of the regulated beliefs, weighed over time, and the smoothness of memories.
+    pub fn loss(&self, network: &RegulatorGraph) -> Result<Tensor> {
+        let (outputs, changes) = network.forward(&self.unrolled)?;
+        let mut loss = (changes * CHANGES)?;
+        for ((outputs, filtered), wanted) in outputs.iter().zip(&self.filtered).zip(&self.wanted) {
+            let logits = RegulatorGraph::corrected(outputs, filtered)?;
+            let shares = logits.broadcast_sub(&logits.log_sum_exp(1)?.unsqueeze(1)?)?;
+            loss = (loss - ((shares * wanted)?.sum_all()? / self.weight.max(1e-9))?)?;
+        }
+        Ok(loss)
+    }
+}

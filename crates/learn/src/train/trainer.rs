@@ -1,0 +1,212 @@
+//! The training loop: differentiate on two replicas, step, evaluate, save.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use pushplan::internals::asset::{Faults, write_atomic};
+use pushplan::internals::network::{Parameters, Weights, WeightsError};
+use pushplan::internals::store::FolderLock;
+use pushplan::internals::watch::Watch;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::dataset::DatasetError;
+
+use super::log::Log;
+use super::{Checkpoint, CheckpointError, Line, Trainable};
+
+/// A step's examples are split into this many parts, differentiated in parallel and added in
+/// order. Fixed, so that the bits do not depend on the number of threads; two, because the
+/// machines this is made for have two cores.
+pub const REPLICAS: usize = 2;
+
+/// Steps after which a run looks whether it is to stop.
+const LOOK: u64 = 20;
+
+/// The file in a run's folder from which it goes on.
+const CHECKPOINT: &str = "checkpoint.safetensors";
+
+/// The file with the best weights.
+const BEST: &str = "best.safetensors";
+
+/// Why training stopped short.
+#[derive(Debug, Error)]
+pub enum TrainError {
+    /// A file could not be read or written.
+    #[error("{0}: {1}")]
+    File(PathBuf, std::io::Error),
+    /// A file could not be written.
+    #[error(transparent)]
+    Write(#[from] Faults),
+    /// The folder's checkpoint is no use.
+    #[error("{0}: {1}")]
+    Checkpoint(PathBuf, CheckpointError),
+    /// The weights could not be encoded.
+    #[error(transparent)]
+    Weights(#[from] WeightsError),
+    /// The data could not be made or read.
+    #[error(transparent)]
+    Data(#[from] DatasetError),
+    /// candle failed.
+    #[error("the network failed: {0}")]
+    Candle(#[from] candle_core::Error),
+    /// The data have nothing to learn from.
+    #[error("no example: in none of the episodes is there anything to learn")]
+    NoExamples,
+    /// Loss or gradient left the finite numbers.
+    #[error(
+        "loss or gradient became infinite or undefined at step {0}; the checkpoint before it is kept"
+    )]
+    NotFinite(u64),
+}
+
+/// A run in its folder: `checkpoint.safetensors`, everything needed to go on to the same bits,
+/// `metrics.jsonl`, `best.safetensors`, the weights with the best held-out score, and
+/// `last.safetensors`, those of the last evaluation.
+pub struct Trainer<'a, T: Trainable> {
+    task: T,
+    folder: &'a Path,
+    run: Checkpoint<T>,
+    log: Log,
+    started: Instant,
+    since: Since,
+}
+
+/// What has happened since the last line.
+struct Since {
+    at: Instant,
+    steps: f64,
+    loss: f64,
+    norm: f64,
+}
+
+impl<'a, T: Trainable> Trainer<'a, T> {
+    /// Starts from scratch, or from the folder's checkpoint if there is one.
+    ///
+    /// # Errors
+    /// [`TrainError`] if there are no examples, or if the checkpoint is damaged or of another run.
+    pub fn open(task: T, folder: &'a FolderLock) -> Result<Self, TrainError> {
+        if task.is_empty() {
+            return Err(TrainError::NoExamples);
+        }
+        // Parallel matrix products inside parallel replicas only wait for each other.
+        gemm::set_threading_threshold(usize::MAX);
+        let folder = folder.path();
+        let path = folder.join(CHECKPOINT);
+        let run = match fs::read(&path) {
+            Ok(bytes) => Checkpoint::from_bytes(&task, &bytes)
+                .map_err(|error| TrainError::Checkpoint(path, error))?,
+            Err(error) if error.kind() == ErrorKind::NotFound => Checkpoint::fresh(&task),
+            Err(error) => return Err(TrainError::File(path, error)),
+        };
+        let log = Log::open(folder, run.optimiser.step)?;
+        Ok(Self { task, folder, run, log, started: Instant::now(), since: Since::now() })
+    }
+
+    /// Trains until the schedule ends or `watch` says to stop. Returns the file of the best weights,
+    /// or `None` if stopped before the first evaluation.
+    ///
+    /// # Errors
+    /// [`TrainError`]; whatever was saved before stays.
+    pub fn run(mut self, watch: &dyn Watch) -> Result<Option<PathBuf>, TrainError> {
+        let descent = self.task.descent();
+        let mut followed = false;
+        while self.run.optimiser.step < descent.steps {
+            let step = self.run.optimiser.step;
+            if step.is_multiple_of(LOOK) && watch.cancelled() {
+                break;
+            }
+            if self.task.refreshes(step) {
+                self.run.lead = Some(self.run.optimiser.average.clone());
+                followed = false;
+            }
+            if let (Some(lead), false) = (&self.run.lead, followed) {
+                self.task.follow(lead, &self.run.scales);
+                followed = true;
+            }
+            let (loss, gradient) = self.gradient()?;
+            let norm = self.run.optimiser.update(&descent, &gradient);
+            if !loss.is_finite() || !norm.is_finite() {
+                return Err(TrainError::NotFinite(step));
+            }
+            let Since { at, steps, loss: losses, norm: norms } = self.since;
+            self.since = Since { at, steps: steps + 1.0, loss: losses + loss, norm: norms + norm };
+            let step = self.run.optimiser.step;
+            watch.progress(step, descent.steps);
+            if step.is_multiple_of(descent.evaluate_every) || step == descent.steps {
+                watch.line(&self.evaluate()?);
+            }
+        }
+        self.save()?;
+        Ok(self.run.best.is_some().then(|| self.folder.join(BEST)))
+    }
+
+    /// Mean loss and gradient of the next step.
+    fn gradient(&self) -> Result<(f64, Parameters), TrainError> {
+        let (task, Checkpoint { scales, optimiser, .. }) = (&self.task, &self.run);
+        let replica = |k| task.gradient(&optimiser.weights, scales, (optimiser.step, k));
+        let parts = (0..REPLICAS)
+            .into_par_iter()
+            .map(replica)
+            .collect::<Result<Vec<_>, candle_core::Error>>()?;
+        let share = 1.0 / REPLICAS as f32;
+        let (mut total, mut sum) = (0.0, Parameters::default());
+        for (loss, gradient) in parts {
+            total += loss * f64::from(share);
+            for (name, values) in gradient.values {
+                let sum = sum.values.entry(name).or_insert_with(|| vec![0.0; values.len()]);
+                sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += share * value);
+            }
+        }
+        Ok((total, sum))
+    }
+
+    /// Judges the averaged weights and saves everything; the line that says so.
+    fn evaluate(&mut self) -> Result<String, TrainError> {
+        let (step, descent) = (self.run.optimiser.step, self.task.descent());
+        let score = self.task.score(&self.weights(None));
+        let bytes = self.weights(Some(&score)).to_bytes()?;
+        write_atomic(self.folder.join("last.safetensors"), &bytes)?;
+        if self.run.best.as_ref().is_none_or(|best| T::is_better(&score, best)) {
+            self.run.best = Some(score.clone());
+            write_atomic(self.folder.join(BEST), &bytes)?;
+        }
+        let Since { at, steps, loss, norm } = std::mem::replace(&mut self.since, Since::now());
+        let line = Line {
+            step,
+            loss: loss / steps,
+            gradient: norm / steps,
+            learning_rate: descent.learning_rate(step),
+            examples_per_second: steps * descent.batch as f64 / at.elapsed().as_secs_f64(),
+            seconds: self.started.elapsed().as_secs_f64(),
+            held_out: score,
+        };
+        self.log.write(&line)?;
+        self.save()?;
+        Ok(line.to_string())
+    }
+
+    /// The averaged weights with their card.
+    fn weights(&self, score: Option<&T::Score>) -> Weights<T::Card> {
+        let Checkpoint { scales, optimiser, .. } = &self.run;
+        Weights {
+            card: self.task.card(scales, optimiser.step, score),
+            parameters: optimiser.average.clone(),
+        }
+    }
+
+    fn save(&self) -> Result<(), TrainError> {
+        let path = self.folder.join(CHECKPOINT);
+        let bytes = self.run.to_bytes(&self.task);
+        let bytes = bytes.map_err(|error| TrainError::Checkpoint(path.clone(), error))?;
+        Ok(write_atomic(path, &bytes)?)
+    }
+}
+
+impl Since {
+    fn now() -> Self {
+        Self { at: Instant::now(), steps: 0.0, loss: 0.0, norm: 0.0 }
+    }
+}

@@ -1,0 +1,154 @@
+//! Training: resumable to the bit, the same on any number of threads, and it learns.
+
+use std::{
+    fs,
+    path::Path,
+    sync::atomic::{AtomicU64, Ordering},
+};
+
+use pushplan::network::{Config, PredictorWeights, file_metadata};
+use pushplan::store::{FolderLock, StoreError};
+use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{Dataset, DatasetConfig};
+use pushplan_learn::train::{
+    CheckpointError, Descent, Exposure, HeldOutError, Line, Noise, PredictorSettings, TrainError,
+    train_predictor,
+};
+
+fn settings(steps: u64) -> PredictorSettings {
+    let default = PredictorSettings::default();
+    PredictorSettings {
+        config: Config { width: 16, steps: 2 },
+        descent: Descent {
+            batch: 32,
+            evaluate_every: 50.min(steps),
+            learning_rate: 5e-3,
+            ..default.descent.in_steps(steps)
+        },
+        // Nearly clean: what a network of this size can learn in 200 steps is small.
+        noise: Noise { shift: 1e-5, lead: 1, ..Noise::default() },
+        ..default
+    }
+}
+
+fn data(seed: u64, episodes: u64) -> Dataset {
+    let config = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
+    Dataset::in_memory(&config, &Unwatched).expect("data")
+}
+
+/// Counts the lines, and stops at a step.
+#[derive(Default)]
+struct Listener {
+    stop_at: Option<u64>,
+    step: AtomicU64,
+    lines: AtomicU64,
+}
+
+impl Watch for Listener {
+    fn line(&self, text: &str) {
+        assert!(text.starts_with("step "), "{text}");
+        self.lines.fetch_add(1, Ordering::SeqCst);
+    }
+
+    fn progress(&self, step: u64, _: u64) {
+        self.step.store(step, Ordering::SeqCst);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.stop_at.is_some_and(|stop| self.step.load(Ordering::SeqCst) >= stop)
+    }
+}
+
+fn lock(folder: &Path) -> FolderLock {
+    FolderLock::take(folder, &Unwatched).expect("the folder is free")
+}
+
+/// Trains until a step, and gives the number of lines that were told.
+fn run(folder: &Path, data: &Dataset, held_out: &Dataset, stop_at: Option<u64>) -> u64 {
+    let listener = Listener { stop_at, ..Listener::default() };
+    train_predictor(&settings(200), data, held_out, &lock(folder), &listener).expect("training");
+    listener.lines.into_inner()
+}
+
+/// The lines of a run's `metrics.jsonl`.
+fn metrics(folder: &Path) -> Vec<Line<HeldOutError>> {
+    let written = fs::read_to_string(folder.join("metrics.jsonl")).expect("metrics");
+    written.lines().map(|line| serde_json::from_str(line).expect("a metric line")).collect()
+}
+
+fn files(folder: &Path) -> (Vec<u8>, Vec<u8>) {
+    let read = |name| fs::read(folder.join(name)).expect(name);
+    (read("checkpoint.safetensors"), read("best.safetensors"))
+}
+
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
+    let (data, held_out) = (data(1, 40), data(2, 10));
+    let folder = tempfile::tempdir().expect("folder");
+    let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+    let pool =
+        |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+    assert_eq!(pool(2).install(|| run(&whole, &data, &held_out, None)), 4);
+    pool(1).install(|| run(&parts, &data, &held_out, Some(70)));
+    let stopped = fs::read(parts.join("checkpoint.safetensors")).expect("checkpoint");
+    // Between two refreshes of what leads up to examples, which is kept as well.
+    let header =
+        file_metadata(&stopped, "pushplan-checkpoint").expect("readable").expect("a header");
+    let header: serde_json::Value = serde_json::from_str(&header).expect("JSON");
+    assert_eq!(header["step"], 80);
+    pool(1).install(|| run(&parts, &data, &held_out, None));
+    assert!(files(&whole) == files(&parts), "the resumed run ended with other bits");
+
+    for folder in [&whole, &parts] {
+        let lines = metrics(folder);
+        assert_eq!(lines.iter().map(|line| line.step).collect::<Vec<_>>(), [50, 100, 150, 200]);
+        assert!(lines[3].loss < lines[0].loss, "{} {}", lines[0].loss, lines[3].loss);
+    }
+
+    let best = PredictorWeights::from_bytes(&files(&whole).1).expect("weights");
+    assert_eq!(best.card.data_seed, 1);
+    let errors = best.card.errors.expect("held-out pushes were measured");
+    assert!(errors.pushes > 0 && errors.p95 > 0.0);
+}
+
+#[test]
+fn every_exposure_to_own_states_resumes_to_the_same_bits() {
+    let (data, held_out) = (data(1, 20), data(2, 4));
+    for exposure in [Exposure::Scheduled, Exposure::MultiStep] {
+        let noise = Noise { exposure, ..Noise::default() };
+        let settings = PredictorSettings { noise, ..settings(100) };
+        let folder = tempfile::tempdir().expect("folder");
+        let (whole, parts) = (folder.path().join("whole"), folder.path().join("parts"));
+        let run = |folder: &Path, stop_at| {
+            let listener = Listener { stop_at, ..Listener::default() };
+            train_predictor(&settings, &data, &held_out, &lock(folder), &listener)
+                .expect("training");
+        };
+        run(&whole, None);
+        run(&parts, Some(20));
+        run(&parts, None);
+        assert!(files(&whole) == files(&parts), "{exposure:?} ended with other bits");
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_run_or_a_damaged_one_is_refused_and_kept() {
+    let (data, held_out) = (data(1, 5), data(2, 2));
+    let folder = tempfile::tempdir().expect("folder");
+    let short = settings(1);
+    let lock = lock(folder.path());
+    assert!(matches!(FolderLock::take(folder.path(), &Unwatched), Err(StoreError::Busy { .. })));
+    train_predictor(&short, &data, &held_out, &lock, &Unwatched).expect("training");
+    let path = folder.path().join("checkpoint.safetensors");
+    let before = fs::read(&path).expect("checkpoint");
+
+    let other = PredictorSettings { seed: 9, ..short.clone() };
+    let error = train_predictor(&other, &data, &held_out, &lock, &Unwatched);
+    assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Other))));
+    assert_eq!(fs::read(&path).expect("checkpoint"), before);
+
+    fs::write(&path, &before[..100]).expect("damage");
+    let error = train_predictor(&short, &data, &held_out, &lock, &Unwatched);
+    assert!(matches!(error, Err(TrainError::Checkpoint(_, CheckpointError::Format(_)))));
+    assert_eq!(fs::read(&path).expect("checkpoint").len(), 100, "nothing was overwritten");
+}

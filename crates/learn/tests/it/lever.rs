@@ -1,0 +1,207 @@
+//! Networks of lever-ups: candle differentiates the cell that predicts, and training resumes exactly.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use candle_core::{Device, Tensor};
+use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
+use pushplan::network::{
+    LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverWeights, Parameters, Statistics,
+    fresh_lever, lever_layout,
+};
+use pushplan::scene::{LEVER_FRAMES, LeverFeatures, LeverJob};
+use pushplan::store::FolderLock;
+use pushplan::watch::{Unwatched, Watch};
+use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
+use pushplan_learn::judge::lever_error;
+use pushplan_learn::network::{LeverGraph, LeverTensors};
+use pushplan_learn::train::{LeverSettings, train_lever};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Scales that change nothing.
+fn as_is(columns: usize) -> Statistics {
+    Statistics { mean: vec![0.0; columns], deviation: vec![1.0; columns] }
+}
+
+fn weights(features: LeverFeatures, sizes: LeverSizes, parameters: Parameters) -> LeverWeights {
+    let card = LeverCard {
+        features,
+        prior: true,
+        sizes,
+        still: as_is(sizes.still),
+        moving: as_is(sizes.moving),
+        episodes: 0,
+        steps: 0,
+    };
+    LeverWeights { card, parameters }
+}
+
+#[test]
+fn the_cell_computes_what_training_differentiates() {
+    let plain = LeverSizes { still: 7, moving: 4, width: 11, ..LeverSizes::default() };
+    for sizes in [plain, LeverSizes { feedback: true, ..plain }] {
+        computes_what_training_differentiates(sizes);
+    }
+}
+
+fn computes_what_training_differentiates(sizes: LeverSizes) {
+    let mut rng = Pcg64::seed_from_u64(3);
+    let mut draw =
+        |count: usize| (0..count).map(|_| rng.random_range(-0.5f32..0.5)).collect::<Vec<f32>>();
+    let values = lever_layout(&sizes)
+        .into_iter()
+        .map(|(name, shape)| (name.to_owned(), draw(shape.iter().product())));
+    let parameters = Parameters { values: values.collect() };
+    let (still, moving) = (draw(sizes.still), draw(sizes.moving * LEVER_FRAMES));
+    let cell = LeverCell::new(&weights(LeverFeatures::Nothing, sizes, parameters.clone()));
+    let told = cell.predict(&still, &moving);
+
+    let tensor = |values: &[f32]| {
+        Tensor::from_slice(values, (1, values.len()), &Device::Cpu).expect("a tensor")
+    };
+    let tensors = LeverTensors {
+        still: tensor(&still),
+        moving: moving.chunks_exact(sizes.moving).map(tensor).collect(),
+        // What the cell feeds back to itself.
+        before: if sizes.feedback {
+            let poses = told.poses.chunks_exact(LEVER_POSE);
+            std::iter::once(&[0.0; LEVER_POSE][..]).chain(poses).map(tensor).collect()
+        } else {
+            Vec::new()
+        },
+    };
+    let graph = LeverGraph::new(&sizes, &parameters).expect("a graph");
+    let (poses, end) = graph.forward(&tensors, None).expect("predictions");
+    let mut wanted: Vec<f32> =
+        poses.iter().flat_map(|pose| pose.to_vec2::<f32>().expect("a row").concat()).collect();
+    assert_eq!([wanted.len(), told.poses.len()], [LEVER_POSE * LEVER_FRAMES; 2]);
+    wanted.extend(end.to_vec2::<f32>().expect("a row").concat());
+    assert_eq!(wanted.len(), LEVER_POSE * LEVER_FRAMES + LEVER_ENDS);
+    for (a, b) in told.poses.iter().chain(&told.end).zip(&wanted) {
+        assert!((a - b).abs() < 1e-5, "{a} {b}");
+    }
+}
+
+fn episodes(seed: u64, count: u64) -> Vec<LeverEpisode> {
+    let config = LeverConfig { seed, episodes: count, preset: LeverPreset::Varied };
+    LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups").episodes().to_vec()
+}
+
+#[test]
+fn an_untrained_network_leaves_the_way_of_the_prior_as_it_is() {
+    let jobs: Vec<LeverJob> = episodes(5, 6).iter().map(LeverEpisode::job).collect();
+    let features = LeverFeatures::Shape;
+    let sizes = LeverInputs::sizes(features, true, 8);
+    let network = LeverNetwork::new(&weights(features, sizes, fresh_lever(&sizes, 1)));
+    let network = network.expect("a network");
+    for (a, b) in network.rollout(&jobs).iter().zip(LeverNetwork::PRIOR.rollout(&jobs)) {
+        for (a, b) in a.lift.iter().zip(&b.lift) {
+            // Single precision.
+            let apart = (a.position - b.position).norm();
+            assert!(apart < 1e-6 && a.angle_to(b) < 1e-3, "{apart} m, {} rad", a.angle_to(b));
+        }
+    }
+    let others = LeverSizes { still: sizes.still + 1, ..sizes };
+    assert!(LeverNetwork::new(&weights(features, others, fresh_lever(&others, 1))).is_err());
+}
+
+fn settings(prior: bool) -> LeverSettings {
+    let mut settings = LeverSettings {
+        features: LeverFeatures::Support,
+        prior,
+        width: 8,
+        ..LeverSettings::default()
+    };
+    settings.descent.steps = 120;
+    settings.descent.batch = 16;
+    settings.descent.evaluate_every = 40;
+    settings.descent.warm_up = 10;
+    settings
+}
+
+/// Stops at a step.
+struct Until(u64, AtomicU64);
+
+impl Watch for Until {
+    fn progress(&self, step: u64, _: u64) {
+        self.1.store(step, Ordering::SeqCst);
+    }
+
+    fn cancelled(&self) -> bool {
+        self.1.load(Ordering::SeqCst) >= self.0
+    }
+}
+
+#[test]
+fn training_learns_and_resumes_to_the_same_bits() {
+    let (data, held_out) = (episodes(1, 96), episodes(2, 24));
+    let train = |folder: &Path, settings: &LeverSettings, watch: &dyn Watch| {
+        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
+        train_lever(settings, &data, &held_out, &lock, watch).expect("training");
+        fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint")
+    };
+    let settings = settings(false);
+    let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+    let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
+    // Stopped between two evaluations and gone on with.
+    assert!(train(parts.path(), &settings, &Until(60, AtomicU64::new(0))) != wanted);
+    assert!(train(parts.path(), &settings, &Unwatched) == wanted);
+
+    let network = LeverNetwork::load(&whole.path().join("last.safetensors")).expect("weights");
+    let jobs: Vec<LeverJob> = data.iter().map(LeverEpisode::job).collect();
+    let error = |model: &dyn LeverModel| -> f64 {
+        let told = model.rollout(&jobs);
+        let off = data.iter().zip(&jobs).zip(&told);
+        off.map(|((episode, job), told)| lever_error(job, &episode.trajectory, told).lift).sum()
+    };
+    let features = LeverFeatures::Support;
+    let sizes = LeverInputs::sizes(features, false, 8);
+    let mut fresh = weights(features, sizes, fresh_lever(&sizes, 1));
+    fresh.card.prior = false;
+    let fresh = LeverNetwork::new(&fresh).expect("a network");
+    // An untrained network without a prior moves nothing.
+    assert!(error(&network) < 0.6 * error(&fresh), "{} {}", error(&network), error(&fresh));
+
+    // A run goes on under its own settings only.
+    let other = LeverSettings { seed: 2, ..settings };
+    let lock = FolderLock::take(whole.path(), &Unwatched).expect("a lock");
+    assert!(train_lever(&other, &data, &held_out, &lock, &Unwatched).is_err());
+}
+
+/// As in the thesis: fed with its own predictions, up to the first slip.
+#[test]
+fn what_is_fed_back_resumes_to_the_same_bits() {
+    let (data, held_out) = (episodes(1, 48), episodes(2, 12));
+    let mut settings = LeverSettings {
+        features: LeverFeatures::ShapeContext,
+        feedback: true,
+        cut: true,
+        ..settings(false)
+    };
+    settings.descent.steps = 60;
+    settings.descent.evaluate_every = 20;
+    let train = |folder: &Path, watch: &dyn Watch| {
+        let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
+        let best = train_lever(&settings, &data, &held_out, &lock, watch).expect("training");
+        (best, fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint"))
+    };
+    let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let (best, wanted) = train(whole.path(), &Unwatched);
+    train(parts.path(), &Until(40, AtomicU64::new(0)));
+    assert!(train(parts.path(), &Unwatched).1 == wanted);
+    let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
+    assert_eq!(network.name(), "LSTM, shape context, fed back");
+}
+
+#[test]
+fn a_correction_is_saved_with_its_prior() {
+    let (data, held_out) = (episodes(1, 32), episodes(2, 12));
+    let folder = tempfile::tempdir().expect("a folder");
+    let lock = FolderLock::take(folder.path(), &Unwatched).expect("a lock");
+    let best = train_lever(&settings(true), &data, &held_out, &lock, &Unwatched).expect("training");
+    let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
+    assert_eq!(network.name(), "prior + LSTM, support points");
+}

@@ -1,0 +1,48 @@
+//! The propagation network that candle differentiates is the one that plans use.
+
+use pushplan::contact::{Bodies, FrameProblem};
+use pushplan::graph::Batch;
+use pushplan::network::{Buffers, Forward};
+use pushplan::scene::Physics;
+use pushplan::watch::Unwatched;
+use pushplan_learn::dataset::{Dataset, DatasetConfig};
+use pushplan_learn::network::{Inputs, Predictor};
+
+use crate::random_network::{add_graph, weights};
+
+#[test]
+fn fused_inference_equals_the_candle_graph() {
+    let data = DatasetConfig { seed: 11, episodes: 20, ..DatasetConfig::default() };
+    let data = Dataset::in_memory(&data, &Unwatched).expect("data");
+    let mut batch = Batch::default();
+    for (k, episode) in data.episodes().iter().enumerate() {
+        let bodies = Bodies::new(
+            &episode.scene,
+            &episode.motion.tool,
+            0.002,
+            &Physics::stated(&episode.scene),
+        );
+        let stroke = &episode.motion.strokes[0];
+        let axis = (stroke.to.position - stroke.from.position).normalize();
+        for index in 0..stroke.frames().min(episode.frames.len()) {
+            let (state, step) = (&episode.frames[index].state, stroke.frame(index));
+            let problem = FrameProblem { bodies: &bodies, state, step: &step, axis };
+            add_graph(&mut batch, k as u32, problem);
+        }
+    }
+    assert!(batch.node_count() > 100);
+    for width in [32, 128] {
+        let weights = weights(width);
+        let reference = Predictor::new(weights.card.config, &weights.parameters)
+            .and_then(|net| net.forward(&Inputs::new(&batch, &weights.card.normaliser)?))
+            .and_then(|out| out.to_vec2::<f32>())
+            .expect("candle");
+        let mut fused = Vec::new();
+        Forward::new(&weights).run(&batch, &mut Buffers::default(), &mut fused);
+        assert_eq!(reference.len(), fused.len());
+        let scale = reference.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
+        for (a, b) in reference.iter().flatten().zip(fused.iter().flatten()) {
+            assert!((f64::from(*a) - b).abs() < 2e-5 * f64::from(scale), "{a} {b}");
+        }
+    }
+}

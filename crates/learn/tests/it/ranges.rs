@@ -1,0 +1,41 @@
+//! What data cover: the shipped tasks, and all that the prior is measured on.
+
+use pushplan::asset::{ToolLibrary, load_task};
+use pushplan::effect::PRIOR_RANGES;
+use pushplan::geometry::Pose;
+use pushplan::scene::{Job, Push, ToolMotion};
+use pushplan_learn::dataset::Preset;
+
+use crate::ROOT;
+
+#[test]
+fn the_priors_ranges_are_those_of_the_scenes_that_it_is_measured_on() {
+    assert_eq!(PRIOR_RANGES, Preset::Mixed.ranges());
+}
+
+#[test]
+fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
+    let library = ToolLibrary::embedded().unwrap();
+    let files = std::fs::read_dir(format!("{ROOT}/tasks")).unwrap();
+    let files = files.map(|entry| entry.unwrap().path());
+    for path in files.filter(|path| path.extension().is_some_and(|end| end == "yaml")) {
+        let task = load_task(path, &library).unwrap();
+        let jointed = !task.scene.joints.is_empty();
+        let ranges = if jointed { Preset::Mixed.ranges() } else { Preset::Tools.ranges() };
+        let start = Pose::default().position;
+        let (length, speed) = (task.pushes.length, task.pushes.speed);
+        let push = Push { start, direction: 0.0, length, speed };
+        for tool in task.tools(&library).unwrap() {
+            let motion = ToolMotion::pushes(tool, task.pushes.lift, 0.0, &[push], true);
+            let mut warnings = ranges.warnings(&task.scene, &Job::stated(&task.scene, motion));
+            if task.name == "glide" {
+                // Its point is to slide farther than nearly all training pushes do.
+                assert_eq!(warnings.len(), 1);
+                warnings.retain(|warning| !warning.to_string().contains("sliding on"));
+            }
+            // Data sets hold no prisms.
+            warnings.retain(|warning| !warning.to_string().contains("corner off a right angle"));
+            assert_eq!(warnings, [], "{}", task.name);
+        }
+    }
+}

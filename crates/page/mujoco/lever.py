@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+"""Plays lever-ups and plans in space of pushplan in MuJoCo and says what comes of them.
+
+    python3 lever.py SCENE.xml ... > results.jsonl
+    python3 lever.py --against ours.jsonl --played results.jsonl
+
+Needs Python 3.11 and `pip install mujoco`. A line of JSON for each scene: `lift`, the levered plate at
+the end of each of equal times of the last turn, and `rest`, as x, y, z and the quaternion w, x, y, z; of a
+plan with a goal `reached`, too. With
+`--against` (what `pushplan-learn generate --format mjcf` says of the same scenes) it ends with how far both are
+from each other, on standard error; `--played` takes lines that were written before.
+"""
+
+import argparse
+import json
+import math
+import os
+import statistics
+import sys
+
+import mujoco
+import numpy as np
+
+REST = 1e-3  # slower than this, m/s, is at rest
+STILL = 0.1  # for so long, seconds
+PATIENCE = 4.0  # and never waited for longer, seconds
+
+
+def turned(a, b):
+    """The quaternion of turn b, then a."""
+    found = np.zeros(4)
+    mujoco.mju_mulQuat(found, np.array(a), np.array(b))
+    return found
+
+
+def rotated(vector, quaternion):
+    found = np.zeros(3)
+    mujoco.mju_rotVecQuat(found, np.array(vector, dtype=float), np.array(quaternion))
+    return found
+
+
+class Hand:
+    """A body that goes where it is told: a blade, or a tool that pushes."""
+
+    def __init__(self, scene, name):
+        self.scene = scene
+        joint = scene.model.body(name).jntadr[0]
+        self.position = scene.model.jnt_qposadr[joint]
+        self.velocity = scene.model.jnt_dofadr[joint]
+
+    def put(self, at, turn, speed=(0, 0, 0), spin=(0, 0, 0)):
+        data = self.scene.data
+        data.qpos[self.position : self.position + 7] = [*at, *turn]
+        data.qvel[self.velocity : self.velocity + 6] = [*speed, *spin]
+
+    def away(self):
+        """Laid aside, where it meets nothing."""
+        self.put([50 + self.position, 0, 0], [1, 0, 0, 0])
+
+    def go(self, pose, time, dt):
+        """Before a step from `time`, along `pose` (a time to a position and a turn)."""
+        (at, turn), (later, after) = pose(time), pose(time + dt)
+        if np.dot(turn, after) < 0:
+            after = -after
+        spin = np.zeros(3)
+        mujoco.mju_subQuat(spin, np.array(after), np.array(turn))
+        self.put(at, turn, (np.array(later) - np.array(at)) / dt, spin / dt)
+
+
+class Scene:
+    """One scene and what is done in it."""
+
+    def __init__(self, path):
+        self.model = mujoco.MjModel.from_xml_path(path)
+        self.data = mujoco.MjData(self.model)
+        self.numbers = {}
+        for k in range(self.model.nnumeric):
+            numeric = self.model.numeric(k)
+            self.numbers[numeric.name] = numeric.data
+        plate = next(n.removeprefix("levered ") for n in self.numbers if n.startswith("levered "))
+        self.plate = self.model.body(plate).id
+        self.plates = [
+            k for k in range(self.model.nbody) if self.model.body(k).name.startswith("plate/")
+        ]
+        steps = [n.split() for n in self.numbers if n.startswith(("lever ", "pushes "))]
+        self.steps = sorted((int(k), kind) for kind, k in steps)
+        self.step = STEP
+        self.time = 0.0
+        self.hand = None
+        self.way = None
+
+    def blade(self, k):
+        """Position and turn of a blade's centre over time."""
+        keys = "depth pivot angle turn hold retreat speed frames".split()
+        lever = dict(zip(keys, self.numbers[f"lever {k}"]))
+        length, thickness = self.numbers[f"blade {k}"]
+        frame, frame_turn = self.numbers[f"frame {k}"][:3], self.numbers[f"frame {k}"][3:]
+
+        def pose(time):
+            angle = lever["angle"] * min(max(time / lever["turn"], 0), 1)
+            way = (time - lever["turn"] - lever["hold"]) * lever["speed"]
+            way = min(max(way, 0), lever["retreat"])
+            angle = math.copysign(angle, lever["pivot"])
+            turn = [math.cos(angle / 2), 0, math.sin(angle / 2), 0]
+            pivot = np.array([lever["pivot"], 0, 0])
+            middle = np.array([lever["depth"] - length / 2, 0, -thickness / 2])
+            at = pivot + rotated(middle - pivot, turn) - rotated([way, 0, 0], turn)
+            return frame + rotated(at, frame_turn), turned(frame_turn, turn)
+
+        return lever, pose
+
+    def pose(self):
+        return [*self.data.xpos[self.plate].tolist(), *self.data.xquat[self.plate].tolist()]
+
+    def speed(self):
+        fastest = 0.0
+        for plate in self.plates:
+            found = np.zeros(6)
+            mujoco.mj_objectVelocity(
+                self.model, self.data, mujoco.mjtObj.mjOBJ_BODY, plate, found, 0
+            )
+            speed = np.linalg.norm(found[3:]) + 0.1 * np.linalg.norm(found[:3])
+            fastest = max(fastest, speed)
+        return fastest
+
+    def until(self, end):
+        steps = max(1, math.ceil((end - self.time) / self.step - 1e-9))
+        began, dt = self.time, (end - self.time) / steps
+        self.model.opt.timestep = dt
+        for k in range(steps):
+            if self.hand:
+                self.hand.go(self.way, began + k * dt, dt)
+            mujoco.mj_step(self.model, self.data)
+        mujoco.mj_forward(self.model, self.data)
+        self.time = end
+
+    def rest(self):
+        began = moved = self.time
+        while self.time - moved < STILL and self.time - began < PATIENCE:
+            self.until(self.time + 0.01)
+            if self.speed() > REST:
+                moved = self.time
+
+    def lever(self, k):
+        lever, pose = self.blade(k)
+        began, lift = self.time, []
+        before = self.edge(k)
+        self.hand = Hand(self, f"blade/{k}")
+        self.way = lambda time: pose(time - began)
+        count = round(lever["frames"])
+        for frame in range(1, count + 1):
+            self.until(began + lever["turn"] * frame / count)
+            lift.append(self.pose())
+        self.raised = self.edge(k, before[0])[1][2] - before[1][2]
+        self.until(began + lever["turn"] + lever["hold"] + lever["retreat"] / lever["speed"])
+        self.rest()
+        self.hand.away()
+        self.hand = None
+        return lift
+
+    def edge(self, k, local=None):
+        """The lever point in the plate's frame and in the world."""
+        mujoco.mj_forward(self.model, self.data)
+        at, turn = self.data.xpos[self.plate].copy(), self.data.xquat[self.plate].copy()
+        if local is None:
+            back = turn * np.array([1, -1, -1, -1])
+            local = rotated(np.array(self.numbers[f"frame {k}"][:3]) - at, back)
+        return local, at + rotated(local, turn)
+
+    def pushes(self, k):
+        lift, *strokes = self.numbers[f"pushes {k}"]
+        for first in range(0, len(strokes), 8):
+            start, end = np.array(strokes[first : first + 3]), np.array(strokes[first + 3 : first + 6])
+            duration, settle = strokes[first + 6 : first + 8]
+            began = self.time
+
+            def pose(time):
+                x, y, heading = start + (end - start) * min((time - began) / duration, 1)
+                return [x, y, lift], [math.cos(heading / 2), 0, 0, math.sin(heading / 2)]
+
+            self.hand, self.way = Hand(self, f"tool/{k}"), pose
+            self.until(began + duration)
+            if settle:
+                self.hand.away()
+                self.hand = None
+                self.rest()
+
+    def run(self):
+        lift = []
+        for k, kind in self.steps:
+            if kind == "lever":
+                lift = self.lever(k)
+            else:
+                self.pushes(k)
+        found = {"lift": lift, "rest": self.pose()}
+        if any(name.startswith("goal ") for name in self.numbers):
+            found["reached"] = bool(self.reached(found["rest"]))
+        return found
+
+    def reached(self, rest):
+        """Whether all of the goal is met; that the edge lies on the blade is not looked at."""
+        goal = {n.removeprefix("goal "): v for n, v in self.numbers.items() if n.startswith("goal ")}
+        up = rotated([0, 0, 1], rest[3:])[2]
+        if "place" in goal and math.dist(rest[:2], goal["place"][:2]) > goal["place"][2]:
+            return False
+        if "outside" in goal:
+            x, y, heading, length, width = goal["outside"]
+            dx, dy = rest[0] - x, rest[1] - y
+            along = dx * math.cos(heading) + dy * math.sin(heading)
+            across = dy * math.cos(heading) - dx * math.sin(heading)
+            if abs(along) <= length / 2 and abs(across) <= width / 2:
+                return False
+        if "raised" in goal and self.raised < goal["raised"][0]:
+            return False
+        if "flipped" in goal:
+            # 15 degrees off its underside, 45 off upside down.
+            return up < -math.cos(math.pi / 4) if goal["flipped"][0] else up > math.cos(math.pi / 12)
+        return True
+
+
+def apart(one, other):
+    """Distance in millimetres and angle in degrees between two poses."""
+    cosine = abs(np.dot(one[3:], other[3:]))
+    return 1e3 * math.dist(one[:3], other[:3]), 2 * math.degrees(math.acos(min(1, cosine)))
+
+
+parser = argparse.ArgumentParser(description="Plays lever-ups in MuJoCo.")
+parser.add_argument("scenes", nargs="*", metavar="SCENE")
+parser.add_argument("--played", metavar="FILE", help="scenes that have been played")
+parser.add_argument("--against", metavar="FILE", help="their outcome in pushplan")
+arguments = parser.parse_args()
+ours = {}
+if arguments.against:
+    with open(arguments.against) as lines:
+        ours = {line["scene"]: line for line in map(json.loads, lines)}
+played = []
+if arguments.played:
+    with open(arguments.played) as lines:
+        played = [json.loads(line) for line in lines]
+for path in arguments.scenes:
+    STEP = mujoco.MjModel.from_xml_path(path).opt.timestep
+    scene = Scene(path)
+    played.append({"scene": path, **scene.run()})
+    print(json.dumps(played[-1]), flush=True)
+differences = []
+for found in played:
+    if other := ours.get(os.path.basename(found["scene"])):
+        end, rest = apart(found["lift"][-1], other["lift"][-1]), apart(found["rest"], other["rest"])
+        squares = [apart(*pair)[0] ** 2 for pair in zip(found["lift"], other["lift"])]
+        differences.append([math.sqrt(statistics.mean(squares)), *end, rest[0]])
+if differences:
+    middle = [statistics.median(column) for column in zip(*differences)]
+    print(
+        "{} lever-ups, medians: over the turn {:.2f} mm, at its end {:.2f} mm and "
+        "{:.2f} degrees, at rest {:.2f} mm".format(len(differences), *middle),
+        file=sys.stderr,
+    )

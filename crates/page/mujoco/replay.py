@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+"""Carries out plans of pushplan in MuJoCo and says whether they reach their goals.
+
+    pushplan export plans/*.plan.json --out mjcf
+    python3 mjcf/replay.py mjcf/pull-back.xml       # one scene
+    python3 mjcf/replay.py mjcf > results.jsonl     # all scenes of a folder, and how many work
+
+Needs Python 3.11 and `pip install mujoco`; the scenes hold everything else. A line of JSON for each
+plan goes to stdout, a table for several to stderr; the exit code is 0 if all of them work.
+
+A plan works if in the end everything rests and the goal's object is within the tolerance (with its
+heading, where one is asked for), and if on the way nothing toppled, the tool was not set down on an
+object, and no object was 2 mm inside an obstacle. Lengths are in metres, angles in radians.
+"""
+
+import argparse
+import json
+import math
+import multiprocessing
+import re
+import statistics
+import sys
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go
+SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
+TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
+KINDS = ["object", "obstacle", "tool", "table"]
+SOLIDS = {
+    mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
+    mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",
+    mujoco.mjtGeom.mjGEOM_MESH: "prism",
+}
+
+
+class Failed(Exception):
+    """The plan fails before its end."""
+
+
+class Replay:
+    """One scene."""
+
+    def __init__(self, path):
+        self.model = mujoco.MjModel.from_xml_path(str(path))
+        self.data = mujoco.MjData(self.model)
+        self.step = self.model.opt.timestep
+        bodies = [self.model.body(k) for k in range(self.model.nbody)]
+        self.objects = {b.name: b.id for b in bodies if b.name.startswith("object/")}
+        self.bodies = list(self.objects.values())
+        geoms = [self.model.geom(k).name for k in range(self.model.ngeom)]
+        self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
+        joints = [self.model.joint("tool x"), self.model.joint("tool y")]
+        self.tool_position = [joint.qposadr[0] for joint in joints]
+        self.tool_velocity = [joint.dofadr[0] for joint in joints]
+        self.deepest = np.zeros(len(KINDS))
+        numerics = [self.model.numeric(k) for k in range(self.model.nnumeric)]
+        self.numbers = {numeric.name: numeric.data for numeric in numerics}
+        self.pushes = [data for name, data in self.numbers.items() if name.startswith("push ")]
+
+    def run(self):
+        """Makes all pushes, in order."""
+        lifted = True
+        for push in self.pushes:
+            start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
+            if lifted:
+                self.set_down(start)
+            steps = math.ceil(duration / self.step - 1e-9)
+            self.model.opt.timestep = duration / steps
+            for k in range(steps):
+                self.move(start + (end - start) * k / steps, (end - start) / duration)
+            if settle:
+                self.coast(end)
+            lifted = settle
+
+    def set_down(self, place):
+        """The tool comes down from above."""
+        self.place(place, 0.0)
+        mujoco.mj_forward(self.model, self.data)
+        contact = self.data.contact
+        touching = self.kind[contact.geom].max(axis=1) == KINDS.index("tool")
+        if np.any(contact.dist[touching] < -SET_DOWN):
+            raise Failed("set down on an object")
+
+    def coast(self, place):
+        """The tool stands still until everything rests."""
+        speed, every, most = self.numbers["rest"]
+        self.model.opt.timestep = self.step
+        waited = 0
+        while not self.is_resting(speed):
+            if waited == most:
+                raise Failed("never rests")
+            for _ in range(round(every / self.step)):
+                self.move(place, 0.0)
+            waited += 1
+
+    def place(self, place, velocity):
+        # A velocity too, or what the tool pushes would rub against it as if it stood still.
+        self.data.qpos[self.tool_position] = place
+        self.data.qvel[self.tool_velocity] = velocity
+
+    def move(self, place, velocity):
+        """One step with the tool at `place`."""
+        self.place(place, velocity)
+        mujoco.mj_step(self.model, self.data)
+        contact = self.data.contact
+        np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), -contact.dist)
+        if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
+            raise Failed("not finite")
+        if self.deepest[KINDS.index("obstacle")] > JAMMED:
+            raise Failed("jams")
+        if self.data.xmat[self.bodies, 8].min() < TOPPLED:
+            raise Failed("topples")
+
+    def is_resting(self, limit):
+        velocity = np.zeros(6)
+        for name, body in self.objects.items():
+            kind = mujoco.mjtObj.mjOBJ_BODY
+            mujoco.mj_objectVelocity(self.model, self.data, kind, body, velocity, 0)
+            shape = self.model.geom(name)
+            box = shape.type[0] == mujoco.mjtGeom.mjGEOM_BOX
+            rim = math.hypot(*shape.size[:2]) if box else shape.size[0]
+            if max(math.hypot(*velocity[3:5]), abs(velocity[2]) * rim) >= limit:
+                return False
+        return True
+
+    def pose(self, body):
+        """x, y and heading."""
+        turn = self.data.xmat[body]
+        return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
+
+
+def replay(path):
+    """Plays the scene of a file; everything worth knowing of it, for JSON."""
+    scene = Replay(path)
+    failure = None
+    try:
+        scene.run()
+    except Failed as failed:
+        failure = str(failed)
+    poses = {name: scene.pose(body) for name, body in scene.objects.items()}
+    name = next(name for name in scene.objects if f"goal of {name}" in scene.numbers)
+    x, y, tolerance, *heading = scene.numbers[f"goal of {name}"]
+    error, heading_error = math.dist(poses[name][:2], (x, y)), None
+    within = error <= tolerance
+    if heading:
+        heading_error = abs(math.remainder(poses[name][2] - heading[0], math.tau / heading[2]))
+        within = within and heading_error <= heading[1]
+    if failure is None and not within:
+        failure = "misses the goal"
+    ours = scene.numbers.get(f"3-D replay of {name}")
+    solid = SOLIDS[mujoco.mjtGeom(scene.model.geom(name).type[0])]
+    return {
+        "scene": str(path),
+        "plan": path.stem,
+        "reached": failure is None,
+        "failure": failure,
+        "error": error,
+        "heading_error": heading_error,
+        # Between the ends of this replay and of pushplan's own in 3-D.
+        "difference": None if ours is None else math.dist(poses[name][:2], ours[:2]),
+        "deepest": dict(zip(KINDS, scene.deepest.tolist())),
+        "poses": poses,
+        "pushes": len(scene.pushes),
+        "obstacles": int(np.sum(scene.kind == KINDS.index("obstacle"))),
+        "goal_object": solid,
+    }
+
+
+def table(results):
+    """How many plans of which kind work, as Markdown."""
+    groups = {"all": results}
+    for result in results:
+        one, walls = result["pushes"] < 2, result["obstacles"]
+        kind = re.sub(r"[-_]?\d+$", "", result["plan"])
+        for group in (
+            *([kind] if kind != result["plan"] else []),  # the tasks of `pushplan-lab random`
+            "with obstacles" if walls else "without obstacles",
+            "one push" if one else "two and more pushes",
+            result["goal_object"] + (", with obstacles" if walls else ", without obstacles"),
+        ):
+            groups.setdefault(group, []).append(result)
+    failures = sorted({result["failure"] for result in results} - {None})
+    lines = [["plans", "number", "work", "difference, median", "p95", *failures]]
+    lines.append(["---"] + ["--:"] * (len(lines[0]) - 1))
+    # Kinds by name first, then what they are.
+    for group in sorted(groups, key=lambda name: (name != "all", " " in name, name)):
+        chosen = groups[group]
+        share = sum(result["reached"] for result in chosen) / len(chosen)
+        apart = sorted(1e3 * r["difference"] for r in chosen if r["difference"] is not None)
+        spread = ["", ""]
+        if apart:
+            high = apart[math.ceil(0.95 * len(apart)) - 1]
+            spread = [f"{statistics.median(apart):.2f} mm", f"{high:.1f} mm"]
+        counts = [str(sum(r["failure"] == failure for r in chosen)) for failure in failures]
+        lines.append([group, str(len(chosen)), f"{share:.1%}", *spread, *counts])
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("scenes", nargs="+", type=Path, help="scenes, or folders of scenes (*.xml)")
+    parser.add_argument("--jobs", type=int, default=None, help="processes; default one per core")
+    arguments = parser.parse_args()
+    scenes = []
+    for path in arguments.scenes:
+        scenes += sorted(path.glob("*.xml")) if path.is_dir() else [path]
+    results = []
+    with multiprocessing.Pool(arguments.jobs) as pool:
+        for result in pool.imap(replay, scenes):
+            print(json.dumps(result), flush=True)
+            results.append(result)
+    if len(results) > 1:
+        print(table(results), file=sys.stderr)
+    return 0 if all(result["reached"] for result in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

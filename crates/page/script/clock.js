@@ -1,0 +1,92 @@
+// What is looked at: which plan, which layers, when. One clock for all that is drawn.
+
+const view = { plan: 0, time: 0, playing: false, speed: 1, hidden: new Set() };
+const whenPlanChanges = [];
+const whenTimeChanges = [];
+/** What keys do, by name. */
+const keys = {};
+
+const plan = () => page.plans[view.plan];
+const replays = () => replaysOf(plan());
+const shown = () => replays().filter((replay) => !view.hidden.has(replay.layer));
+/** The replay that is drawn in full: the one nearest to the truth. */
+const leading = () => shown().at(-1) ?? replays().at(-1);
+const duration = () => Math.max(0, ...replays().map((replay) => replay.end));
+
+function showTime(time) {
+  view.time = Math.min(Math.max(time, 0), duration());
+  for (const draw of whenTimeChanges) draw();
+}
+
+function showPlan(index) {
+  view.plan = index;
+  for (const draw of whenPlanChanges) draw();
+  showTime(view.time);
+}
+
+function play(playing) {
+  view.playing = playing && duration() > 0;
+  if (view.playing && view.time >= duration()) showTime(0);
+  let before = performance.now();
+  const tick = (now) => {
+    if (!view.playing) return;
+    const next = view.time + ((now - before) / 1000) * view.speed;
+    before = now;
+    if (next >= duration()) view.playing = false;
+    showTime(next);
+    if (view.playing) requestAnimationFrame(tick);
+    else keepLink();
+  };
+  if (view.playing) requestAnimationFrame(tick);
+  showTime(view.time);
+  keepLink();
+}
+
+/** Goes on by a number of frames of the leading replay. */
+function step(frames) {
+  play(false);
+  const replay = leading();
+  if (!replay) return;
+  const [frame, share] = replay.place(view.time);
+  // From between two frames, back is to the start of this one.
+  let next = frame + frames + (frames < 0 && share > 1e-9 ? 1 : 0);
+  // Where a run goes on, two frames share a time.
+  while (next > 0 && frames < 0 && replay.time[next] >= view.time) next--;
+  const last = replay.time.length - 1;
+  showTime(next > last ? duration() : replay.time[Math.max(0, next)]);
+  keepLink();
+}
+
+function toggle(layer) {
+  if (!replays().some((replay) => replay.layer === layer)) return;
+  if (!view.hidden.delete(layer)) view.hidden.add(layer);
+  showPlan(view.plan);
+  keepLink();
+}
+
+/** The part of a link behind `#`: `t=1.5&plan=2&hide=planar`. */
+function linkPart() {
+  const parts = [`t=${+view.time.toFixed(3)}`];
+  if (page.plans.length > 1) parts.push(`plan=${view.plan + 1}`);
+  if (view.hidden.size) parts.push(`hide=${[...view.hidden].join(',')}`);
+  return parts.join('&');
+}
+
+function keepLink() {
+  try {
+    history.replaceState(null, '', `#${linkPart()}`);
+  } catch {
+    // Inside some frames an address cannot be changed; nothing is lost but the link.
+  }
+}
+
+function followLink() {
+  const parts = new URLSearchParams(location.hash.slice(1));
+  const index = Number.parseInt(parts.get('plan') ?? '1', 10) - 1;
+  const time = Number.parseFloat(parts.get('t') ?? '0');
+  const hidden = (parts.get('hide') ?? '').split(',').filter((layer) => layer in LAYERS);
+  view.playing = false;
+  view.hidden = new Set(hidden);
+  view.time = Number.isFinite(time) ? time : 0;
+  showPlan(index >= 0 && index < page.plans.length ? index : 0);
+}

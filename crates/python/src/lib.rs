@@ -1,0 +1,70 @@
+//! The Python package `pushplan`: the library behind NumPy arrays, exceptions and notebooks.
+//!
+//! A thin layer. Everything is computed, decided and said in the library; here arguments become its
+//! types (`mapping`, `words`, `push`, `arrays`), long work runs without the GIL and stops at Ctrl-C
+//! (`work`), and results become attributes with their units. The Python side, `python/pushplan`,
+//! holds what reads better in Python: exceptions, the types of files, the Gymnasium environment.
+
+use pyo3::prelude::*;
+
+mod arrays;
+mod belief;
+mod command;
+mod errors;
+mod formats;
+mod json;
+mod mapping;
+mod moved;
+mod page;
+mod plan;
+mod push;
+mod rollouts;
+mod run;
+mod schemas;
+mod solution;
+mod solve;
+mod task;
+mod tool;
+mod trajectory;
+mod verdict;
+mod words;
+mod work;
+
+#[pymodule]
+mod _native {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use super::belief::{PyBelief, PyRecording, infer};
+    #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
+    use super::formats::{export_mcap, export_mjcf, import_task, import_tool};
+    #[pymodule_export]
+    use super::plan::PyPlan;
+    #[pymodule_export]
+    use super::push::PyPush;
+    #[pymodule_export]
+    use super::rollouts::{Rollouts, rollout};
+    #[pymodule_export]
+    use super::run::{PyMotion, PyRun, run};
+    #[pymodule_export]
+    use super::schemas::{recording_schema, task_schema, tool_schema};
+    #[pymodule_export]
+    use super::solution::PySolution;
+    #[pymodule_export]
+    use super::solve::{predict, solve, solve_all, verify};
+    #[pymodule_export]
+    use super::task::PyTask;
+    #[pymodule_export]
+    use super::tool::{PyTool, PyToolLibrary};
+    #[pymodule_export]
+    use super::trajectory::PyTrajectory;
+    #[pymodule_export]
+    use super::verdict::{PyReplay, PyVerdict};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,269 @@
+//! Many candidates rolled out into arrays.
+
+use std::sync::Arc;
+
+use numpy::ndarray::Axis;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArray4};
+use pushplan::effect::EffectModel;
+use pushplan::scene::{PushForm, Situation, Warning};
+use pushplan::watch::{Cancel, Watch};
+use pushplan::{Job, Outcome, Push, Record, Task, ToolMotion, Trajectory, Vector};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use crate::arrays::{self, Numbers};
+use crate::push::MOST;
+use crate::task::PyTask;
+use crate::tool::{PyToolLibrary, tool};
+use crate::{words, work};
+
+/// Candidates rolled out between two checks whether to stop: tens of milliseconds in the prior.
+const AT_ONCE: usize = 256;
+
+/// Columns of a push: x, y, direction, length, speed.
+const COLUMNS: usize = 5;
+
+/// What many candidates do, as arrays.
+///
+/// Candidates take different numbers of frames; those that are over repeat their last one, at which
+/// everything rests.
+#[pyclass(name = "Rollouts", module = "pushplan", frozen, get_all)]
+pub struct Rollouts {
+    /// Poses of all objects, `[candidates, frames, objects, 3]`: x and y in metres, heading in
+    /// radians (which counts its turns).
+    poses: Py<PyArray4<f64>>,
+    /// Poses of the tool frame, `[candidates, frames, 3]`.
+    tool_poses: Py<PyArray3<f64>>,
+    /// Time of every frame since the start, seconds: `[candidates, frames]`.
+    times: Py<PyArray2<f64>>,
+    /// How many frames each candidate takes: `[candidates]`.
+    frames: Py<PyArray1<i64>>,
+    /// Distance of the goal's object from the goal at the end, metres: `[candidates]`.
+    errors: Py<PyArray1<f64>>,
+    /// Heading error at the end, radians, NaN where none is asked for: `[candidates]`.
+    heading_errors: Py<PyArray1<f64>>,
+    /// Whether the goal is reached, at rest and with nothing gone wrong: `[candidates]`.
+    reached: Py<PyArray1<bool>>,
+    /// Names of the objects.
+    objects: Vec<String>,
+    /// What lowers the trust in each candidate's rollout.
+    warnings: Vec<Vec<String>>,
+}
+
+#[pymethods]
+impl Rollouts {
+    fn __len__(&self) -> usize {
+        self.warnings.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Rollouts of {} candidates>", self.warnings.len())
+    }
+}
+
+/// Rolls out many candidates with one tool, `pushes` `[candidates, pushes, 5]` or, of one push each,
+/// `[candidates, 5]`: x and y of the end effector at the start (metres), direction (radians from
+/// world +x), length (metres) and speed (m/s).
+///
+/// `grip_yaw` (radians from world +x) is one for all or `[candidates]`. Everything begins at rest at
+/// `start`, `[objects, 3]` or `[candidates, objects, 3]`, by default as the task states it. `model`
+/// is "network", "prior", "planar", "3d" and so on. With `record` "outcome" there is one frame, the
+/// last.
+#[pyfunction]
+#[pyo3(signature = (task, tool, pushes, *, grip_yaw = None, start = None, model = "network",
+                    outside = "warn", record = "frames", tools = None, threads = 0))]
+#[allow(clippy::too_many_arguments)] // keywords in Python
+pub fn rollout(
+    py: Python<'_>,
+    task: &PyTask,
+    tool: &Bound<'_, PyAny>,
+    pushes: Numbers<'_>,
+    grip_yaw: Option<Numbers<'_>>,
+    start: Option<Numbers<'_>>,
+    model: &str,
+    outside: &str,
+    record: &str,
+    tools: Option<Py<PyToolLibrary>>,
+    threads: usize,
+) -> PyResult<Rollouts> {
+    let tool = self::tool(py, tool, tools.as_ref())?;
+    let model = words::model(py, model, words::outside(outside)?)?;
+    let record = match record {
+        "frames" => Record::Frames,
+        "outcome" => Record::Outcome,
+        _ => return Err(PyValueError::new_err("`record` is \"frames\" or \"outcome\"")),
+    };
+    let task = Arc::clone(&task.task);
+    let pushes = candidates(&pushes)?;
+    let yaws = yaws(grip_yaw.as_ref(), pushes.len())?;
+    let starts = starts(start.as_ref(), &task, pushes.len())?;
+    let threads = words::threads(threads)?;
+    let packed = work::run(py, threads, |cancel| {
+        let (rules, scene) = (&task.pushes, &task.scene);
+        let placed = rules.form == PushForm::Placed;
+        let stated = Situation::stated(scene);
+        let job = |k: usize| {
+            let motion =
+                ToolMotion::pushes(Arc::clone(&tool), rules.lift, yaws[k], &pushes[k], placed);
+            let mut job = Job::new(&stated, motion);
+            if let Some(starts) = &starts {
+                job.start = starts[k % starts.len()].clone();
+            }
+            job
+        };
+        let jobs: Vec<Job> = (0..pushes.len()).map(job).collect();
+        roll(&model, &task, &jobs, record, cancel)
+    })?;
+    packed.ok_or_else(|| PyKeyboardInterrupt::new_err(""))?.arrays(py)
+}
+
+/// Numbers of all rollouts, in the order of the arrays.
+struct Packed {
+    frames: usize,
+    poses: Vec<f64>,
+    tool_poses: Vec<f64>,
+    times: Vec<f64>,
+    counts: Vec<i64>,
+    outcomes: Vec<Outcome>,
+    objects: Vec<String>,
+    warnings: Vec<Vec<String>>,
+}
+
+/// `None` if it was stopped.
+fn roll(
+    model: &dyn EffectModel,
+    task: &Task,
+    jobs: &[Job],
+    record: Record,
+    cancel: &Cancel,
+) -> Option<Packed> {
+    let mut rolled: Vec<Trajectory> = Vec::with_capacity(jobs.len());
+    for some in jobs.chunks(AT_ONCE) {
+        if cancel.cancelled() {
+            return None;
+        }
+        rolled.extend(model.rollout(&task.scene, some, record));
+    }
+    let frames = rolled.iter().map(|trajectory| trajectory.frames.len()).max().unwrap_or(0);
+    let objects = task.scene.objects.len();
+    let mut packed = Packed {
+        frames,
+        poses: Vec::with_capacity(rolled.len() * frames * objects * 3),
+        tool_poses: Vec::with_capacity(rolled.len() * frames * 3),
+        times: Vec::with_capacity(rolled.len() * frames),
+        counts: Vec::with_capacity(rolled.len()),
+        outcomes: Vec::with_capacity(rolled.len()),
+        objects: task.scene.objects.iter().map(|object| object.name.clone()).collect(),
+        warnings: Vec::with_capacity(rolled.len()),
+    };
+    for trajectory in &rolled {
+        packed.add(task, trajectory);
+    }
+    Some(packed)
+}
+
+impl Packed {
+    fn add(&mut self, task: &Task, trajectory: &Trajectory) {
+        let count = trajectory.frames.len();
+        let last = trajectory.frames.last();
+        let repeated = std::iter::repeat_n(last, self.frames - count).flatten();
+        for frame in trajectory.frames.iter().chain(repeated) {
+            self.poses.extend(frame.state.poses.iter().flat_map(arrays::numbers));
+            self.tool_poses.extend(arrays::numbers(&frame.tool));
+            self.times.push(frame.time);
+        }
+        self.counts.push(count as i64);
+        self.outcomes.push(Outcome::judge(&task.scene, &task.goal, trajectory));
+        self.warnings.push(trajectory.warnings.iter().map(Warning::to_string).collect());
+    }
+
+    fn arrays(self, py: Python<'_>) -> PyResult<Rollouts> {
+        let (candidates, frames, objects) = (self.outcomes.len(), self.frames, self.objects.len());
+        let of = |value: &dyn Fn(&Outcome) -> f64| -> Vec<f64> {
+            self.outcomes.iter().map(value).collect()
+        };
+        let errors = of(&|outcome| outcome.error);
+        let headings = of(&|outcome| outcome.heading_error.unwrap_or(f64::NAN));
+        let reached: Vec<bool> = self.outcomes.iter().map(|outcome| outcome.reached).collect();
+        Ok(Rollouts {
+            poses: arrays::array(py, self.poses, [candidates, frames, objects, 3])?.unbind(),
+            tool_poses: arrays::array(py, self.tool_poses, [candidates, frames, 3])?.unbind(),
+            times: arrays::array(py, self.times, [candidates, frames])?.unbind(),
+            frames: PyArray1::from_vec(py, self.counts).unbind(),
+            errors: PyArray1::from_vec(py, errors).unbind(),
+            heading_errors: PyArray1::from_vec(py, headings).unbind(),
+            reached: PyArray1::from_vec(py, reached).unbind(),
+            objects: self.objects,
+            warnings: self.warnings,
+        })
+    }
+}
+
+/// The pushes of every candidate.
+fn candidates(pushes: &Numbers<'_>) -> PyResult<Vec<Vec<Push>>> {
+    let all = pushes.as_array();
+    let all = match all.ndim() {
+        2 => all.insert_axis(Axis(1)),
+        _ => all,
+    };
+    if all.ndim() != 3 || all.len_of(Axis(2)) != COLUMNS || all.len_of(Axis(1)) == 0 {
+        let message = format!(
+            "`pushes` is [candidates, pushes, 5] or [candidates, 5] (x, y, direction, length, \
+             speed), found {:?}",
+            pushes.as_array().shape()
+        );
+        return Err(PyValueError::new_err(message));
+    }
+    arrays::finite("pushes", &all)?;
+    for (column, name) in [(3, "lengths"), (4, "speeds")] {
+        let sound = |value: &f64| *value > 0.0 && *value <= MOST;
+        if !all.index_axis(Axis(2), column).iter().all(sound) {
+            let message = format!("{name} of pushes must be above 0 and at most {MOST}");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    let push = |row: numpy::ndarray::ArrayViewD<'_, f64>| Push {
+        start: Vector::new(row[[0]], row[[1]]),
+        direction: row[[2]],
+        length: row[[3]],
+        speed: row[[4]],
+    };
+    Ok(all.axis_iter(Axis(0)).map(|one| one.axis_iter(Axis(0)).map(push).collect()).collect())
+}
+
+/// A grip yaw for every candidate.
+fn yaws(given: Option<&Numbers<'_>>, candidates: usize) -> PyResult<Vec<f64>> {
+    let Some(given) = given else { return Ok(vec![0.0; candidates]) };
+    let given = given.as_array();
+    arrays::finite("grip_yaw", &given)?;
+    match given.shape() {
+        [] => Ok(vec![given.first().copied().unwrap_or_default(); candidates]),
+        [count] if *count == candidates => Ok(given.iter().copied().collect()),
+        other => Err(PyValueError::new_err(format!(
+            "`grip_yaw` is one number or [candidates], found {other:?}"
+        ))),
+    }
+}
+
+/// Where everything begins: nothing said, one for all, or one for every candidate.
+fn starts(
+    given: Option<&Numbers<'_>>,
+    task: &Task,
+    candidates: usize,
+) -> PyResult<Option<Vec<pushplan::State>>> {
+    let Some(given) = given else { return Ok(None) };
+    let given = given.as_array();
+    arrays::finite("start", &given)?;
+    let objects = task.scene.objects.len();
+    match *given.shape() {
+        [count, 3] if count == objects => Ok(Some(vec![arrays::state(given)])),
+        [all, count, 3] if count == objects && all == candidates => {
+            Ok(Some(given.axis_iter(Axis(0)).map(arrays::state).collect()))
+        }
+        ref other => Err(PyValueError::new_err(format!(
+            "`start` is [objects, 3] or [candidates, objects, 3] with {objects} objects, found \
+             {other:?}"
+        ))),
+    }
+}

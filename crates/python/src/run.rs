@@ -1,0 +1,302 @@
+//! The closed loop, in a drawn world or in one that Python acts in.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use numpy::PyArray2;
+use pushplan::act::{ActError, End, Look, SimulatedWorld, World, WorldError};
+use pushplan::report::{PageView, Recipe, run_document, run_page};
+use pushplan::scene::Sight;
+use pushplan::{Noise, RunSettings, Runner, ToolMotion, Trace, Vector, hidden};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use crate::arrays::{self, Numbers};
+use crate::push::PyPush;
+use crate::solve::Asked;
+use crate::task::PyTask;
+use crate::tool::{PyTool, PyToolLibrary, given};
+use crate::{errors, json, page, words, work};
+
+/// What a world is asked to do: the tool is set down where the first stroke begins, moves along all
+/// strokes, waits until everything rests and is lifted.
+#[pyclass(name = "Motion", module = "pushplan", frozen)]
+pub struct PyMotion(ToolMotion);
+
+#[pymethods]
+impl PyMotion {
+    /// The tool.
+    #[getter]
+    fn tool(&self) -> PyTool {
+        PyTool(Arc::clone(&self.0.tool))
+    }
+
+    /// Height of the tool's underside above the table, metres.
+    #[getter]
+    fn lift(&self) -> f64 {
+        self.0.lift
+    }
+
+    /// The end effector at start and end of every stroke, `[strokes, 6]`: x, y (metres), heading
+    /// (radians), x, y, heading.
+    #[getter]
+    fn end_effector<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let grip = self.0.tool.grip;
+        let ends = self.0.strokes.iter().flat_map(|stroke| [stroke.from * grip, stroke.to * grip]);
+        let numbers = ends.flat_map(|pose| arrays::numbers(&pose)).collect();
+        arrays::array(py, numbers, [self.0.strokes.len(), 6])
+    }
+
+    /// The same of the tool frame.
+    #[getter]
+    fn tool_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let ends = self.0.strokes.iter().flat_map(|stroke| [stroke.from, stroke.to]);
+        let numbers = ends.flat_map(|pose| arrays::numbers(&pose)).collect();
+        arrays::array(py, numbers, [self.0.strokes.len(), 6])
+    }
+
+    /// How long each stroke takes, seconds.
+    #[getter]
+    fn durations(&self) -> Vec<f64> {
+        self.0.strokes.iter().map(|stroke| stroke.duration).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Motion of {} strokes with {}>", self.0.strokes.len(), self.0.tool.name)
+    }
+}
+
+/// What happened in a run: what was seen, thought and done.
+#[pyclass(name = "Run", module = "pushplan", frozen)]
+pub struct PyRun(Trace);
+
+#[pymethods]
+impl PyRun {
+    /// `"reached"`, as far as can be seen; `"used_up"`: all pushes are made; `"no_push"`: none brings
+    /// the object nearer.
+    #[getter]
+    fn end(&self) -> &'static str {
+        match self.0.end {
+            Some(End::Reached) => "reached",
+            Some(End::UsedUp) => "used_up",
+            Some(End::NoPush) | None => "no_push",
+        }
+    }
+
+    /// Whether the goal is reached, as far as can be seen.
+    #[getter]
+    fn reached(&self) -> bool {
+        self.0.end == Some(End::Reached)
+    }
+
+    /// The pushes that were made, in order.
+    #[getter]
+    fn pushes(&self) -> Vec<PyPush> {
+        let steps = self.0.steps.iter();
+        let made = steps.flat_map(|step| step.plan.pushes().into_iter().take(step.pushes));
+        made.map(|push| PyPush::from(&push)).collect()
+    }
+
+    /// Where everything is believed to be in the end, `[objects, 3]`: x and y in metres, heading in
+    /// radians.
+    #[getter]
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        match self.0.steps.last() {
+            Some(step) => arrays::poses(py, &step.state.poses),
+            None => arrays::poses(py, &self.0.task.scene.start().poses),
+        }
+    }
+
+    /// What was wrong with what was seen, in words.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.0.steps.iter().flat_map(|step| &step.notes).map(ToString::to_string).collect()
+    }
+
+    /// Writes the trace, `*.run.json`, as the command does; a partial file is never left behind.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.0.write(&path).map_err(|faults| errors::files(py, &faults, None))
+    }
+
+    /// Everything, in the keys of the trace.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let trace = serde_json::to_string(&self.0);
+        json::text(py, &trace.map_err(|error| PyRuntimeError::new_err(error.to_string()))?)
+    }
+
+    /// A page that plays the run, with what was predicted and believed: one HTML file, without server
+    /// or network.
+    fn page(&self) -> String {
+        // Whoever asks made it in Python.
+        run_page(&self.0, &[], Recipe::default(), PageView::Above)
+    }
+
+    fn _repr_html_(&self) -> String {
+        page::frame(&self.page())
+    }
+
+    fn __str__(&self) -> String {
+        run_document(&self.0).to_text()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Run of {}: {} after {} pushes>", self.0.task.name, self.end(), self.0.pushes())
+    }
+}
+
+/// Carries out a task in a world that is only partly known: plans under samples of what is
+/// believed, pushes, looks, corrects the belief and plans again.
+///
+/// `world` is a seed, from which the hidden truth is drawn, or an object with two methods. `look()`
+/// returns where the objects are seen at rest: `[objects, 3]`, x and y in metres, heading in
+/// radians, NaN where a number is not seen. `act(motion)` carries out a `Motion` and returns what
+/// was seen meanwhile and at rest: a list of pairs of a time since it began, seconds, and an array
+/// as that of `look`. What they raise ends the run.
+///
+/// `pushes` is the most that are made, `probes` the most of these only to learn something; plans are
+/// judged under `samples` samples and carried out without doubt if they reach the goal in the share
+/// `enough` of them. `noise` is the standard deviation of what is seen, metres and radians.
+#[pyfunction]
+#[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, outside = "warn",
+                    seed = 0, pushes = 12, samples = 16, enough = 0.8, probes = 3, noise = None,
+                    threads = 0))]
+#[allow(clippy::too_many_arguments)] // keywords in Python
+pub fn run(
+    py: Python<'_>,
+    task: &PyTask,
+    world: Bound<'_, PyAny>,
+    tools: Option<Py<PyToolLibrary>>,
+    effort: &str,
+    model: Option<&str>,
+    outside: &str,
+    seed: u64,
+    pushes: usize,
+    samples: usize,
+    enough: f64,
+    probes: usize,
+    noise: Option<(f64, f64)>,
+    threads: usize,
+) -> PyResult<PyRun> {
+    let planner =
+        Asked { effort, model, outside, seed, disturbed: None, time_limit: None }.planner(py)?;
+    let library = given(py, tools.as_ref())?;
+    if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
+        let message = "`enough` is a share from 0 to 1, `samples` 1 to 1000, `pushes` at most 1000";
+        return Err(PyValueError::new_err(message));
+    }
+    let defaults = RunSettings::default();
+    let noise = match noise {
+        Some((position, heading)) if position > 0.0 && heading > 0.0 => Noise { position, heading },
+        Some(_) => return Err(PyValueError::new_err("`noise` is two numbers above 0")),
+        None => defaults.noise,
+    };
+    let settings = RunSettings { pushes, samples, enough, probes, noise, seed, ..defaults };
+    let mut place = match world.extract::<u64>() {
+        Ok(number) => {
+            let truth = hidden(&task.task, &library, number);
+            let truth = truth.map_err(|faults| errors::files(py, &faults, None))?;
+            Place::Drawn(Box::new(SimulatedWorld::new(truth)))
+        }
+        Err(_) if world.hasattr("look")? && world.hasattr("act")? => {
+            Place::Theirs { object: world.unbind(), raised: None }
+        }
+        Err(_) => {
+            let message = "`world` is a whole number, or has the methods `look` and `act`";
+            return Err(PyTypeError::new_err(message));
+        }
+    };
+    let planned_by = format!("{}, effort {effort}, outside {outside}", model.unwrap_or("default"));
+    let mut trace = Trace::new(task.task.as_ref().clone(), settings, planned_by, None);
+    let threads = words::threads(threads)?;
+    let ran = work::run(py, threads, |cancel| {
+        let runner = Runner::new(&planner, &library);
+        runner.run(&mut trace, &mut place, &mut |_| Ok(()), cancel)
+    })?;
+    if let Place::Theirs { raised: Some(error), .. } = place {
+        return Err(error);
+    }
+    match ran {
+        Ok(()) => Ok(PyRun(trace)),
+        Err(ActError::Solve(error)) => Err(errors::solve(py, &error)),
+        Err(error @ ActError::Objects { .. }) => Err(PyValueError::new_err(error.to_string())),
+        Err(error) => Err(PyRuntimeError::new_err(error.to_string())),
+    }
+}
+
+/// What is acted in.
+enum Place {
+    /// One of ours.
+    Drawn(Box<SimulatedWorld>),
+    /// An object of Python, and what it raised.
+    Theirs { object: Py<PyAny>, raised: Option<PyErr> },
+}
+
+impl Place {
+    /// Asks the object of Python; what it raises is kept for whoever called.
+    fn ask<T>(
+        &mut self,
+        ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
+    ) -> Result<T, WorldError> {
+        let Place::Theirs { object, raised } = self else {
+            return Err(WorldError("nobody acts here".to_owned()));
+        };
+        Python::attach(|py| {
+            ask(py, object.bind(py)).map_err(|error| {
+                let words = WorldError(error.to_string());
+                *raised = Some(error);
+                words
+            })
+        })
+    }
+}
+
+impl World for Place {
+    fn look(&mut self) -> Result<Look, WorldError> {
+        match self {
+            Place::Drawn(world) => world.look(),
+            Place::Theirs { .. } => self.ask(|_, world| {
+                let seen = sights(&world.call_method0("look")?)?;
+                Ok(Look { time: 0.0, seen })
+            }),
+        }
+    }
+
+    fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
+        match self {
+            Place::Drawn(world) => world.act(motion),
+            Place::Theirs { .. } => self.ask(|_, world| {
+                let looks = world.call_method1("act", (PyMotion(motion.clone()),))?;
+                let look = |pair: Bound<'_, PyAny>| {
+                    let (time, poses): (f64, Bound<'_, PyAny>) = pair.extract()?;
+                    Ok(Look { time, seen: sights(&poses)? })
+                };
+                looks.try_iter()?.map(|pair| look(pair?)).collect()
+            }),
+        }
+    }
+
+    fn save(&self) -> Option<pushplan::act::WorldState> {
+        match self {
+            Place::Drawn(world) => world.save(),
+            Place::Theirs { .. } => None,
+        }
+    }
+}
+
+/// What an array `[objects, 3]` says is seen.
+fn sights(array: &Bound<'_, PyAny>) -> PyResult<Vec<Option<Sight>>> {
+    let numbers: Numbers<'_> = array.extract()?;
+    let numbers = numbers.as_array();
+    if numbers.ndim() != 2 || numbers.shape()[1] != 3 {
+        let message = format!("what is seen is [objects, 3], found {:?}", numbers.shape());
+        return Err(PyValueError::new_err(message));
+    }
+    let sight = |k: usize| {
+        let [x, y, heading] = [0, 1, 2].map(|column| numbers[[k, column]]);
+        let heading = heading.is_finite().then_some(heading);
+        let seen = x.is_finite() && y.is_finite();
+        seen.then_some(Sight { position: Vector::new(x, y), heading })
+    };
+    Ok((0..numbers.shape()[0]).map(sight).collect())
+}

@@ -1,0 +1,115 @@
+//! The result of solving a task.
+
+use std::sync::Arc;
+
+use pushplan::report::{Origin, PageView, solution_document, solution_page};
+use pushplan::scene::{Situation, Warning};
+use pushplan::solve::PlanStatus;
+use pushplan::{RankedPlan, Solution, Task};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use crate::plan::PyPlan;
+use crate::task::PyTask;
+use crate::{json, page, work};
+
+/// How solving a task ended, with the plans that were found.
+#[pyclass(name = "Solution", module = "pushplan", frozen)]
+pub struct PySolution {
+    pub task: Arc<Task>,
+    pub task_file: String,
+    pub solution: Solution,
+}
+
+#[pymethods]
+impl PySolution {
+    /// `"solved"`: the first plan passes. `"fragile"`: it works as written, but in too few of the
+    /// disturbed replays. `"no_plan"`: no candidate comes near enough; the first plan is the
+    /// nearest. `"failed_verification"`: none of the plans that were replayed works.
+    #[getter]
+    fn status(&self) -> &'static str {
+        match self.solution.status {
+            PlanStatus::Solved => "solved",
+            PlanStatus::Fragile => "fragile",
+            PlanStatus::NoPlan => "no_plan",
+            PlanStatus::FailedVerification => "failed_verification",
+        }
+    }
+
+    /// Whether the first plan passes.
+    #[getter]
+    fn solved(&self) -> bool {
+        self.solution.status == PlanStatus::Solved
+    }
+
+    /// Whether its time limit stopped it before the search was over: the plans are the best so far.
+    #[getter]
+    fn stopped(&self) -> bool {
+        self.solution.stopped
+    }
+
+    /// The plan to use: the verified one if solved, otherwise the nearest; `None` only if no push
+    /// can be made at all.
+    #[getter]
+    fn best(&self) -> Option<PyPlan> {
+        self.solution.best().map(|best| self.plan(best))
+    }
+
+    /// Ranked plans, the one to use first.
+    #[getter]
+    fn plans(&self) -> Vec<PyPlan> {
+        self.solution.plans.iter().map(|ranked| self.plan(ranked)).collect()
+    }
+
+    /// The task.
+    #[getter]
+    fn task(&self) -> PyTask {
+        PyTask { task: Arc::clone(&self.task), file: Some(self.task_file.clone()) }
+    }
+
+    /// What lowers the trust in the predictions of the first plan.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.solution.warnings.iter().map(Warning::to_string).collect()
+    }
+
+    /// Everything, in the keys of `pushplan solve --json`; times are wall-clock seconds.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        json::text(py, &solution_document(&self.task, &self.solution).to_json())
+    }
+
+    /// The page of the solution: one HTML file that plays its plans and shows why the others lost,
+    /// without server or network.
+    fn page(&self, py: Python<'_>) -> PyResult<String> {
+        let Self { task, solution, task_file } = self;
+        let Some(best) = solution.best() else {
+            return Ok(solution_document(task, solution).to_html());
+        };
+        let situation = Situation::stated(&task.scene);
+        let replays = work::run(py, 0, |_| best.replays(task, &situation))?;
+        let recipe = |ranked: &RankedPlan| {
+            let model = Some(ranked.predicted.by.clone());
+            let task = task_file.clone();
+            Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
+        };
+        Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(page::frame(&self.page(py)?))
+    }
+
+    fn __str__(&self) -> String {
+        solution_document(&self.task, &self.solution).to_text()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Solution {}>", solution_document(&self.task, &self.solution).title)
+    }
+}
+
+impl PySolution {
+    fn plan(&self, ranked: &RankedPlan) -> PyPlan {
+        PyPlan::ranked(&self.task, &self.task_file, ranked)
+    }
+}

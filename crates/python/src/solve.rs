@@ -1,0 +1,224 @@
+//! Solving, predicting and verifying.
+
+use std::sync::Arc;
+
+use pushplan::asset::PlanFile;
+use pushplan::effect::{EffectModel, EffectModels, Routed};
+use pushplan::scene::{ModelKind, Situation, Warning};
+use pushplan::verify::VerifySettings;
+use pushplan::watch::{Cancel, Until};
+use pushplan::{
+    Job, Planner, Pose, Record, Simulator, Solution, SolveError, Task, ToolLibrary, Trajectory,
+    Verifier,
+};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::plan::PyPlan;
+use crate::solution::PySolution;
+use crate::task::PyTask;
+use crate::tool::{PyToolLibrary, given};
+use crate::trajectory::PyTrajectory;
+use crate::verdict::PyVerdict;
+use crate::{errors, words, work};
+
+/// Chooses a tool and pushes for a task and verifies them.
+///
+/// `tools` are those to choose from, by default the ones that come with the package; `effort` is
+/// "draft", "standard" or "thorough"; `model` predicts effects, by default that of the
+/// effort; `outside` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
+/// `seed` is that of refinement's samples and of the disturbances; `disturbed` is the number of
+/// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
+/// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
+/// the best plan so far is returned then; `threads` is a number of worker threads, 0 one for each
+/// core, and changes no result.
+#[pyfunction]
+#[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, outside = "warn",
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
+#[allow(clippy::too_many_arguments)] // keywords in Python
+pub fn solve(
+    py: Python<'_>,
+    task: &PyTask,
+    tools: Option<Py<PyToolLibrary>>,
+    effort: &str,
+    model: Option<&str>,
+    outside: &str,
+    seed: u64,
+    disturbed: Option<usize>,
+    robustness: Option<f64>,
+    time_limit: Option<f64>,
+    threads: usize,
+) -> PyResult<PySolution> {
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
+    let planner = asked.planner(py)?;
+    let library = given(py, tools.as_ref())?;
+    let stated = task.robust(robustness)?;
+    let threads = words::threads(threads)?;
+    let solved = work::run(py, threads, |cancel| planner.solve_with(&stated, &library, cancel))?;
+    solution(py, stated, task.path(), solved)
+}
+
+/// Solves tasks side by side, with the results of `solve`, in the order of the tasks. Raises for the
+/// first task that cannot be tried.
+#[pyfunction]
+#[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, outside = "warn",
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
+#[allow(clippy::too_many_arguments)] // keywords in Python
+pub fn solve_all(
+    py: Python<'_>,
+    tasks: Vec<Py<PyTask>>,
+    tools: Option<Py<PyToolLibrary>>,
+    effort: &str,
+    model: Option<&str>,
+    outside: &str,
+    seed: u64,
+    disturbed: Option<usize>,
+    robustness: Option<f64>,
+    time_limit: Option<f64>,
+    threads: usize,
+) -> PyResult<Vec<PySolution>> {
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
+    let planner = asked.planner(py)?;
+    let library = given(py, tools.as_ref())?;
+    let stated: PyResult<Vec<Arc<Task>>> =
+        tasks.iter().map(|task| task.get().robust(robustness)).collect();
+    let stated = stated?;
+    let threads = words::threads(threads)?;
+    let solved = work::run(py, threads, |cancel| solve_each(&planner, &stated, &library, cancel))?;
+    let results = stated.into_iter().zip(&tasks).zip(solved);
+    results
+        .map(|((stated, task), solved)| solution(py, stated, task.get().path(), solved))
+        .collect()
+}
+
+fn solve_each(
+    planner: &Planner,
+    tasks: &[Arc<Task>],
+    library: &ToolLibrary,
+    cancel: &Cancel,
+) -> Vec<Result<Solution, SolveError>> {
+    tasks.par_iter().map(|task| planner.solve_with(task, library, cancel)).collect()
+}
+
+/// How to solve, in words.
+pub struct Asked<'a> {
+    pub effort: &'a str,
+    pub model: Option<&'a str>,
+    pub outside: &'a str,
+    pub seed: u64,
+    pub disturbed: Option<usize>,
+    pub time_limit: Option<f64>,
+}
+
+impl Asked<'_> {
+    pub fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
+        let effort = words::effort(self.effort)?;
+        let spec = match self.model {
+            Some(text) => words::spec(py, text)?,
+            None => effort.spec(),
+        };
+        let model = EffectModels::build(&spec).map_err(|error| errors::model(py, &error))?;
+        let outside = words::outside(self.outside)?;
+        let settings = match self.disturbed {
+            Some(count) => effort.settings().replaying(count),
+            None => effort.settings(),
+        };
+        let builder = Planner::builder(model).settings(settings).seed(self.seed).outside(outside);
+        Ok(match words::limit(self.time_limit)? {
+            Some(limit) => builder.time_limit(limit).build(),
+            None => builder.build(),
+        })
+    }
+}
+
+fn solution(
+    py: Python<'_>,
+    task: Arc<Task>,
+    task_file: String,
+    solved: Result<Solution, SolveError>,
+) -> PyResult<PySolution> {
+    let solution = solved.map_err(|error| errors::solve(py, &error))?;
+    Ok(PySolution { task, task_file, solution })
+}
+
+/// What `model` predicts for a plan, frame by frame: "network", "prior", "planar", "3d" and so on.
+/// Raises `RefusedError` where the model should not be trusted and `outside` is "refuse".
+#[pyfunction]
+#[pyo3(signature = (plan, model = "network", *, outside = "warn", threads = 0))]
+pub fn predict(
+    py: Python<'_>,
+    plan: &PyPlan,
+    model: &str,
+    outside: &str,
+    threads: usize,
+) -> PyResult<PyTrajectory> {
+    let model = words::model(py, model, words::outside(outside)?)?;
+    let file = &plan.file;
+    let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
+    if trajectory.warnings.contains(&Warning::Refused) {
+        let message = format!("{} gives no prediction for this plan", trajectory.by);
+        return Err(errors::refused(py, &message, &trajectory.warnings));
+    }
+    Ok(PyTrajectory::new(&Arc::new(file.task.clone()), trajectory))
+}
+
+/// What a model predicts for a plan, with what lowers the trust in it.
+pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
+    let scene = &file.task.scene;
+    let motions = file.plan.motions(&file.tools).unwrap_or_default();
+    let job = match &motions[..] {
+        [] => {
+            let home = Pose { position: file.task.robot.home, heading: 0.0 };
+            let tool = file.tools.first().map_or(home, |tool| tool.pose(home));
+            return Trajectory::standing(ModelKind::Still.into(), tool, scene.start());
+        }
+        [motion] => Job::stated(scene, motion.clone()),
+        // What several tools do in turn is for the engine alone.
+        motions => return Simulator::spatial().run_plan(scene, motions, Record::Frames),
+    };
+    let rolled = model.rollout(scene, std::slice::from_ref(&job), Record::Frames).pop();
+    let mut trajectory = rolled.unwrap_or_else(|| {
+        Trajectory::standing(model.spec().clone(), Pose::default(), scene.start())
+    });
+    for warning in model.trust(scene, &job).warnings() {
+        if !trajectory.warnings.contains(&warning) {
+            trajectory.warnings.push(warning);
+        }
+    }
+    trajectory
+}
+
+/// Replays a plan in both engines, as written and `disturbed` times in each with starts and
+/// frictions slightly off.
+///
+/// `robustness` is the share of the disturbed replays that must reach the goal, by default the
+/// task's; `time_limit` is in seconds, and replays that are not over then do not pass.
+#[pyfunction]
+#[pyo3(signature = (plan, *, disturbed = 16, seed = 0, robustness = None, time_limit = None,
+                    threads = 0))]
+pub fn verify(
+    py: Python<'_>,
+    plan: &PyPlan,
+    disturbed: usize,
+    seed: u64,
+    robustness: Option<f64>,
+    time_limit: Option<f64>,
+    threads: usize,
+) -> PyResult<PyVerdict> {
+    if disturbed > 100_000 {
+        let message = "`disturbed` is at most 100000";
+        return Err(pyo3::exceptions::PyValueError::new_err(message));
+    }
+    let mut file = plan.file.clone();
+    let task = PyTask { task: Arc::new(file.task.clone()), file: None };
+    file.task = Task::clone(&*task.robust(robustness)?);
+    let settings = VerifySettings { disturbed, seed };
+    let limit = words::limit(time_limit)?;
+    let verdict = work::run(py, words::threads(threads)?, |cancel| {
+        let until = Until::new(cancel, limit);
+        let situation = Situation::stated(&file.task.scene);
+        let verifier = Verifier::new(settings).watched(&until);
+        verifier.verify(&file.task, &situation, &file.tools, &file.plan)
+    })?;
+    Ok(PyVerdict { file, verdict })
+}

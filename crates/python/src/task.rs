@@ -1,0 +1,223 @@
+//! Tasks.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use numpy::PyArray2;
+use pushplan::asset::load_task;
+use pushplan::scene::ToolChoice;
+use pushplan::{Pose, State, Task};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use crate::arrays::Numbers;
+use crate::json::{dict, unpickled};
+use crate::mapping::Text;
+use crate::moved::moved;
+use crate::tool::PyToolLibrary;
+use crate::{arrays, errors};
+
+/// A scene, a robot, what pushes are allowed, and a goal.
+///
+/// Lengths are metres, angles radians, masses kilograms; in files and mappings, keys that end in
+/// `_deg` are degrees. x points forward from the robot's base, which is the origin.
+#[pyclass(name = "Task", module = "pushplan", frozen)]
+pub struct PyTask {
+    pub task: Arc<Task>,
+    /// Where it was read from, if it was.
+    pub file: Option<String>,
+}
+
+#[pymethods]
+impl PyTask {
+    /// Reads a task file (YAML). Raises `FileError` with all its faults; names of tools that are
+    /// not among `tools` are faults, too, where those are given.
+    #[staticmethod]
+    #[pyo3(signature = (path, tools = None))]
+    fn load(py: Python<'_>, path: PathBuf, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
+        let task = match tools {
+            Some(tools) => load_task(&path, &tools.0),
+            None => Task::load(&path),
+        };
+        let task = task.map_err(|faults| errors::files(py, &faults, None))?;
+        Ok(Self { task: Arc::new(task), file: Some(path.display().to_string()) })
+    }
+
+    /// Reads the text of a task file; `name` names it in faults, and a task without a name.
+    #[staticmethod]
+    #[pyo3(signature = (text, name = "task"))]
+    fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let task = Task::parse(text, name).map_err(|faults| errors::files(py, &faults, None))?;
+        Ok(Self { task: Arc::new(task), file: None })
+    }
+
+    /// Builds a task from a mapping with the keys of a task file: lengths in metres, masses in
+    /// kilograms, angles in degrees. See `pushplan.files.TaskFile`.
+    #[staticmethod]
+    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
+        Ok(Self { task: Arc::new(task), file: None })
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.task.name
+    }
+
+    /// One line for people.
+    #[getter]
+    fn description(&self) -> &str {
+        &self.task.description
+    }
+
+    /// Names of the objects; arrays of poses are in this order.
+    #[getter]
+    fn objects(&self) -> Vec<&str> {
+        self.task.scene.objects.iter().map(|object| object.name.as_str()).collect()
+    }
+
+    /// Poses of the objects at the start, `[objects, 3]`: x and y in metres, heading in radians.
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let poses: Vec<Pose> = self.task.scene.objects.iter().map(|object| object.pose).collect();
+        arrays::poses(py, &poses)
+    }
+
+    /// Names of the tools to choose from; `None` for all of the library.
+    #[getter]
+    fn tools(&self) -> Option<Vec<String>> {
+        match &self.task.tools {
+            ToolChoice::All => None,
+            ToolChoice::Named(names) => Some(names.clone()),
+        }
+    }
+
+    /// Name of the object to bring to the goal.
+    #[getter]
+    fn goal_object(&self) -> &str {
+        &self.task.scene.objects[self.task.goal.object].name
+    }
+
+    /// Wanted position of its centre, metres.
+    #[getter]
+    fn goal_position(&self) -> (f64, f64) {
+        let goal = self.task.goal.position;
+        (goal.x, goal.y)
+    }
+
+    /// Largest distance from the goal that still counts as success, metres.
+    #[getter]
+    fn tolerance(&self) -> f64 {
+        self.task.goal.tolerance
+    }
+
+    /// Wanted heading, radians, where one is asked for.
+    #[getter]
+    fn goal_heading(&self) -> Option<f64> {
+        self.task.goal.heading.map(|(heading, _)| heading)
+    }
+
+    /// Largest heading error that still counts as success, radians, where one is asked for.
+    #[getter]
+    fn heading_tolerance(&self) -> Option<f64> {
+        self.task.goal.heading.map(|(_, tolerance)| tolerance)
+    }
+
+    /// Turns of the end effector against world +x that a plan may choose from, radians.
+    #[getter]
+    fn grip_yaws(&self) -> Vec<f64> {
+        self.task.pushes.grip_yaws.clone()
+    }
+
+    /// Travel of a push unless it says another, metres.
+    #[getter]
+    fn push_length(&self) -> f64 {
+        self.task.pushes.length
+    }
+
+    /// Speed of a push unless it says another, m/s.
+    #[getter]
+    fn push_speed(&self) -> f64 {
+        self.task.pushes.speed
+    }
+
+    /// Largest number of pushes in a plan.
+    #[getter]
+    fn max_pushes(&self) -> usize {
+        self.task.pushes.max_count
+    }
+
+    /// Smallest and largest distance of the end effector from the robot's base, metres.
+    #[getter]
+    fn reach(&self) -> (f64, f64) {
+        (self.task.robot.reach_min, self.task.robot.reach_max)
+    }
+
+    /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
+    #[getter]
+    fn robustness(&self) -> f64 {
+        self.task.robustness
+    }
+
+    /// The task with its objects at these poses, `[objects, 3]` (x and y in metres, heading in
+    /// radians): to plan on from where they are by now. Joints move along.
+    fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
+        let poses = self.poses(&poses)?;
+        Ok(Self { task: Arc::new(moved(&self.task, &poses)), file: self.file.clone() })
+    }
+
+    /// How far the goal's object is from the goal with the objects at these poses, `[objects, 3]`, in
+    /// units of the tolerance, the larger of position and heading: at most 1 is success.
+    fn score(&self, poses: Numbers<'_>) -> PyResult<f64> {
+        Ok(self.task.goal.score(&State::at_rest(self.poses(&poses)?)))
+    }
+
+    /// The keys of its file, from which `Task.of` makes it again.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        dict(py, &self.task.to_json())
+    }
+
+    /// The text of its file.
+    fn to_yaml(&self, py: Python<'_>) -> PyResult<String> {
+        self.task.to_yaml().map_err(|faults| errors::files(py, &faults, None))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        unpickled(py, "Task", &self.task.to_json())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Task {}>", self.task.name)
+    }
+}
+
+impl PyTask {
+    /// What a command line calls it.
+    pub fn path(&self) -> String {
+        self.file.clone().unwrap_or_else(|| format!("{}.yaml", self.task.name))
+    }
+
+    /// Poses of its objects.
+    fn poses(&self, poses: &Numbers<'_>) -> PyResult<Vec<Pose>> {
+        let (poses, objects) = (poses.as_array(), self.task.scene.objects.len());
+        arrays::finite("poses", &poses)?;
+        if *poses.shape() != [objects, 3] {
+            let message = format!("`poses` is [{objects}, 3], found {:?}", poses.shape());
+            return Err(PyValueError::new_err(message));
+        }
+        Ok(arrays::state(poses).poses)
+    }
+
+    /// The task, which wants this robustness if one is given.
+    pub fn robust(&self, robustness: Option<f64>) -> PyResult<Arc<Task>> {
+        match robustness {
+            None => Ok(Arc::clone(&self.task)),
+            Some(share) if (0.0..=1.0).contains(&share) => {
+                Ok(Arc::new(Task::clone(&self.task).robust(share)))
+            }
+            Some(_) => Err(PyValueError::new_err("`robustness` is a share from 0 to 1")),
+        }
+    }
+}

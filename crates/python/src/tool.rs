@@ -1,0 +1,181 @@
+//! Tools and collections of them.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use pushplan::asset::Faults;
+use pushplan::{Tool, ToolLibrary};
+use pyo3::exceptions::{PyKeyError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use crate::errors;
+use crate::json::{dict, unpickled};
+use crate::mapping::Text;
+
+/// One rigid piece of upright solids, held by the end effector at its grip.
+///
+/// Two tools are equal if all their numbers are.
+#[pyclass(name = "Tool", module = "pushplan", frozen, eq)]
+#[derive(PartialEq)]
+pub struct PyTool(pub Arc<Tool>);
+
+#[pymethods]
+impl PyTool {
+    /// Reads a tool file (YAML). Raises `FileError` with all its faults.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        read(py, Tool::load(path))
+    }
+
+    /// Reads the text of a tool file; `name` names it in faults.
+    #[staticmethod]
+    #[pyo3(signature = (text, name = "tool"))]
+    fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        read(py, Tool::parse(text, name))
+    }
+
+    /// Builds a tool from a mapping with the keys of a tool file: lengths in metres, angles in
+    /// degrees. See `pushplan.files.ToolFile`.
+    #[staticmethod]
+    fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self(Arc::new(Text::of(mapping)?.read(py, "tool", Tool::parse)?)))
+    }
+
+    /// Its name, unique in a library.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// One line for people.
+    #[getter]
+    fn description(&self) -> &str {
+        &self.0.description
+    }
+
+    /// Friction value; the coefficient of a pair is the mean of the two values.
+    #[getter]
+    fn friction(&self) -> f64 {
+        self.0.friction
+    }
+
+    /// Pose of the end effector in the tool frame: x and y in metres, heading in radians.
+    #[getter]
+    fn grip(&self) -> (f64, f64, f64) {
+        let grip = self.0.grip;
+        (grip.position.x, grip.position.y, grip.heading)
+    }
+
+    /// The keys of its file, from which `Tool.of` makes it again.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        dict(py, &self.0.to_json())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        unpickled(py, "Tool", &self.0.to_json())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Tool {}>", self.0.name)
+    }
+}
+
+fn read(py: Python<'_>, tool: Result<Tool, Faults>) -> PyResult<PyTool> {
+    let tool = tool.map_err(|faults| errors::files(py, &faults, None))?;
+    Ok(PyTool(Arc::new(tool)))
+}
+
+/// Tools with unique names, sorted by name.
+#[pyclass(name = "ToolLibrary", module = "pushplan", frozen)]
+pub struct PyToolLibrary(pub ToolLibrary);
+
+#[pymethods]
+impl PyToolLibrary {
+    /// The tools that come with the package, without files.
+    #[staticmethod]
+    fn shipped(py: Python<'_>) -> PyResult<Self> {
+        library(py, ToolLibrary::embedded())
+    }
+
+    /// Every tool file (`.yaml`, `.yml`) of a folder. Raises `FileError` with all faults of all
+    /// files.
+    #[staticmethod]
+    fn load(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        library(py, ToolLibrary::load(folder))
+    }
+
+    /// These tools alone.
+    #[staticmethod]
+    fn of(py: Python<'_>, tools: Vec<Py<PyTool>>) -> PyResult<Self> {
+        let add = |library: ToolLibrary, tool: &Py<PyTool>| library.with(tool.get().0.clone());
+        library(py, tools.iter().try_fold(ToolLibrary::default(), add))
+    }
+
+    /// These tools and one more.
+    fn with_tool(&self, py: Python<'_>, tool: &PyTool) -> PyResult<Self> {
+        library(py, self.0.clone().with(tool.0.clone()))
+    }
+
+    /// These tools and those of a folder.
+    fn with_folder(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        library(py, self.0.clone().with_folder(folder))
+    }
+
+    /// Names of all tools, sorted.
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        self.0.iter().map(|tool| tool.name.as_str()).collect()
+    }
+
+    fn __getitem__(&self, name: &str) -> PyResult<PyTool> {
+        let found = self.0.get(name).cloned().map(PyTool);
+        found.ok_or_else(|| PyKeyError::new_err(unknown(name, &self.0)))
+    }
+
+    fn __contains__(&self, name: &str) -> bool {
+        self.0.get(name).is_some()
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<ToolLibrary {}>", self.names().join(", "))
+    }
+}
+
+fn library(py: Python<'_>, library: Result<ToolLibrary, Faults>) -> PyResult<PyToolLibrary> {
+    library.map(PyToolLibrary).map_err(|faults| errors::files(py, &faults, None))
+}
+
+/// The tools that a caller gives, or those that come with the package.
+pub fn given(py: Python<'_>, tools: Option<&Py<PyToolLibrary>>) -> PyResult<ToolLibrary> {
+    match tools {
+        Some(tools) => Ok(tools.get().0.clone()),
+        None => Ok(PyToolLibrary::shipped(py)?.0),
+    }
+}
+
+/// A tool, or the one of this name.
+pub fn tool(
+    py: Python<'_>,
+    tool: &Bound<'_, PyAny>,
+    tools: Option<&Py<PyToolLibrary>>,
+) -> PyResult<Arc<Tool>> {
+    if let Ok(tool) = tool.cast::<PyTool>() {
+        return Ok(tool.get().0.clone());
+    }
+    let Ok(name) = tool.extract::<String>() else {
+        return Err(PyTypeError::new_err("`tool` is a Tool or the name of one"));
+    };
+    let library = given(py, tools)?;
+    let found = library.get(&name).cloned();
+    found.ok_or_else(|| errors::action(py, &unknown(&name, &library)))
+}
+
+fn unknown(name: &str, library: &ToolLibrary) -> String {
+    let names: Vec<&str> = library.iter().map(|tool| tool.name.as_str()).collect();
+    format!("no tool is called `{name}`; there are {}", names.join(", "))
+}

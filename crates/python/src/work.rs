@@ -1,0 +1,90 @@
+//! Long work without the GIL, on as many threads as asked for, which Ctrl-C stops.
+
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use pushplan::watch::{Cancel, Watch};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// How often Python is asked for signals.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// The pools of a process by their number of threads, 0 being one for each core.
+type Pools = HashMap<usize, Arc<ThreadPool>>;
+
+/// With the process that they belong to: the child of a fork has none of its parent's threads.
+static POOLS: Mutex<Option<(u32, Pools)>> = Mutex::new(None);
+
+/// Does `work` on `threads` threads, 0 being one for each core, while other Python threads run. On
+/// Ctrl-C it is asked to stop; whatever it returns is then given up for the exception.
+pub fn run<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    work: impl FnOnce(&Cancel) -> T + Send,
+) -> PyResult<T> {
+    let pool = pool(threads)?;
+    let done = py.detach(|| watched(&pool, work));
+    match done {
+        Ok(done) => done,
+        Err(panic) => resume_unwind(panic),
+    }
+}
+
+type Caught<T> = Result<T, Box<dyn std::any::Any + Send>>;
+
+fn watched<T: Send>(
+    pool: &ThreadPool,
+    work: impl FnOnce(&Cancel) -> T + Send,
+) -> Caught<PyResult<T>> {
+    let cancel = Cancel::default();
+    let (sender, receiver) = channel();
+    std::thread::scope(|scope| {
+        let own = cancel.clone();
+        scope.spawn(move || {
+            let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&own))));
+            // The receiver outlives this thread.
+            let _ = sender.send(done);
+        });
+        let mut stopped = None;
+        loop {
+            match receiver.recv_timeout(LOOK) {
+                Ok(done) => return done.map(|done| stopped.map_or(Ok(done), Err)),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Ok(Err(PyRuntimeError::new_err("the work ended without a result")));
+                }
+                Err(RecvTimeoutError::Timeout) if cancel.cancelled() => {}
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(signal) = Python::attach(|py| py.check_signals()) {
+                        cancel.cancel();
+                        stopped = Some(signal);
+                    }
+                }
+            }
+        }
+    })
+}
+
+fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
+    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((owner, others)) = pools.take_if(|(owner, _)| *owner != process) {
+        // Dropped, they would wait for threads that this process does not have.
+        std::mem::forget((owner, others));
+    }
+    let (_, pools) = pools.get_or_insert_with(|| (process, HashMap::new()));
+    if let Some(pool) = pools.get(&threads) {
+        return Ok(Arc::clone(pool));
+    }
+    let built = ThreadPoolBuilder::new().num_threads(threads).build();
+    let built = built.map_err(|error| {
+        PyRuntimeError::new_err(format!("cannot start {threads} threads: {error}"))
+    })?;
+    let pool = Arc::new(built);
+    pools.insert(threads, Arc::clone(&pool));
+    Ok(pool)
+}
