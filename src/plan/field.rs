@@ -184,7 +184,7 @@ impl Grid {
     fn index(&self, column: isize, row: isize) -> Option<usize> {
         let inside =
             (0..self.columns as isize).contains(&column) && (0..self.rows as isize).contains(&row);
-        inside.then_some(row as usize * self.columns + column as usize)
+        inside.then(|| row as usize * self.columns + column as usize)
     }
 
     fn centre(&self, cell: usize) -> Vector {

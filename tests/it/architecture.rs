@@ -314,6 +314,8 @@ fn imports(text: &str, start: &str) -> Vec<String> {
             }
         }
     }
+    // After the last comma of a list stands nothing.
+    found.retain(|name| !name.is_empty());
     found
 }
 

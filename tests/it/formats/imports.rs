@@ -154,7 +154,7 @@ fn each_thing_that_cannot_be_said_is_refused() {
         ("<robot name='r'><link name='a'><collision><geometry><box size='1 2'/></geometry></collision></link></robot>".into(), "has 2 numbers instead of 3"),
         ("<robot><link name='a'/><link name='a'/></robot>".into(), "two links are called `a`"),
         ("<robot><link name='a'/><link name='b'/><joint type='fixed'><parent link='a'/><child link='b'/></joint><joint type='fixed'><parent link='b'/><child link='a'/></joint></robot>".into(), "go in a circle"),
-        (mjcf(&format!("{}{}", "<body>".repeat(20_000), "</body>".repeat(20_000))), "more than 200 bodies"),
+        (mjcf(&format!("{}{}", "<body>".repeat(20_000), "</body>".repeat(20_000))), "more than 200 levels of bodies"),
         ("<sdf/>".into(), "<sdf> is neither"),
         ("<mujoco".into(), "this is not XML"),
     ] {
