@@ -26,9 +26,9 @@ pub fn grouped(command: Command, groups: Groups) -> Command {
         let found: Vec<_> =
             names.iter().filter_map(|name| listed.iter().find(|(one, _)| one == name)).collect();
         if !found.is_empty() {
-            let _ = write!(text, "{title}:\n");
+            let _ = writeln!(text, "{title}:");
             for (name, about) in found {
-                let _ = write!(text, "  {name:widest$}  {about}\n");
+                let _ = writeln!(text, "  {name:widest$}  {about}");
             }
             text.push('\n');
         }

@@ -51,9 +51,12 @@ pub struct ReportArgs {
 pub struct Kept {
     suite: &'static str,
     /// None where only the command that measures has all that a report needs.
-    document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
+    document: Option<Show>,
     solved: fn(&Path) -> Result<Option<SolvedRun>, CliError>,
 }
+
+/// Makes the report of the runs in folders.
+pub type Show = fn(&[PathBuf]) -> Result<Document, CliError>;
 
 /// What a run is of, the seed of its disturbed replays, and its solved tasks.
 type SolvedRun = (RunManifest, u64, Vec<SolvedTask>);
@@ -73,10 +76,7 @@ impl Kept {
     }
 
     /// Runs of which `document` is made by itself, if it can be made of what is kept at all.
-    pub const fn apart(
-        suite: &'static str,
-        document: Option<fn(&[PathBuf]) -> Result<Document, CliError>>,
-    ) -> Self {
+    pub const fn apart(suite: &'static str, document: Option<Show>) -> Self {
         Self { suite, document, solved: |_| Ok(None) }
     }
 }

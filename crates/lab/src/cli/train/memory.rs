@@ -105,7 +105,6 @@ impl MemoryArgs {
             cut: self.cut,
             split: self.random_split,
             left_out: self.leave_out,
-            ..default
         }
     }
 

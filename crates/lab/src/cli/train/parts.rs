@@ -55,7 +55,6 @@ pub fn run(args: &PartsArgs, session: &Session) -> Result<u8, CliError> {
             ..default.descent.in_steps(args.steps)
         },
         data: data.iter().map(config).collect(),
-        ..default
     };
     let known: Vec<LeverEpisode> =
         data.iter().flat_map(|set| &set.episodes()[..share(set)]).cloned().collect();

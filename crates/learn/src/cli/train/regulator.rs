@@ -75,7 +75,6 @@ pub fn run(args: &RegulatorArgs, session: &Session) -> Result<u8, CliError> {
         },
         data_seed: args.data_seed,
         lessons: args.lessons,
-        ..default
     };
     let shipped = EffectModels::weights()
         .map_err(|error| CliError::unexpected("cannot read the shipped weights", &error))?;
