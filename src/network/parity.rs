@@ -16,7 +16,7 @@ pub(super) fn rectify(even: f32, odd: f32) -> (f32, f32) {
     (0.5 * (as_is + mirrored), 0.5 * (as_is - mirrored))
 }
 
-/// Rectifies the rows of x [2, M, h] after adding `bias` [h] to the even half: the forward pass of
+/// Rectifies the rows of x [2, M, h] after adding `bias`, `h` numbers, to the even half: the forward pass of
 /// the candle graph's layer and of the fused pass.
 pub fn rectify_rows(x: &mut [f32], bias: &[f32]) {
     Arch::new().dispatch(Rows { x, bias });
@@ -56,9 +56,9 @@ pub struct Sum<'a> {
     pub b: &'a [f32],
     /// What each sender adds, [2, N, h].
     pub c: &'a [f32],
-    /// Receivers, [R].
+    /// Receivers, `[R]`.
     pub receivers: &'a [u32],
-    /// Senders, [R].
+    /// Senders, `[R]`.
     pub senders: &'a [u32],
     /// Half the width.
     pub h: usize,

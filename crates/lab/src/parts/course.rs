@@ -61,7 +61,7 @@ impl LeverCourse {
         describe(&self.bodies, state, &step, graphs)
     }
 
-    /// The state after step `k`, of which the network said this: see [`crate::network::PARTS`].
+    /// The state after step `k`, of which the network said this: see `PARTS`.
     pub fn moved(&self, state: &PartState, k: usize, (even, odd): (&[f32], &[f32])) -> PartState {
         state.moved(&self.base(k), even, odd)
     }
