@@ -3,7 +3,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::builder::StyledStr;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::bench::SolvedTask;
@@ -63,17 +64,43 @@ pub enum Measure<'a, R> {
 }
 
 /// The arguments of a suite, with those that all of them have.
-#[derive(Args, Debug)]
-pub struct SuiteArgs<S: Args> {
+#[derive(Debug)]
+pub struct SuiteArgs<S> {
     /// What is measured.
-    #[command(flatten)]
     pub suite: S,
     /// Where results are kept.
-    #[command(flatten)]
     pub keep: KeepArgs,
     /// How they are shown.
-    #[command(flatten)]
     pub form: Form,
+}
+
+/// Written out, since what is derived would say of every suite what is said of this struct.
+impl<S: Args> Args for SuiteArgs<S> {
+    fn augment_args(command: Command) -> Command {
+        let command = S::augment_args(command);
+        let text = |of: Option<&StyledStr>| of.cloned().unwrap_or_default();
+        let (about, after) = (text(command.get_about()), text(command.get_after_help()));
+        Form::augment_args(KeepArgs::augment_args(command)).about(about).after_help(after)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<S: FromArgMatches> FromArgMatches for SuiteArgs<S> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self {
+            suite: S::from_arg_matches(matches)?,
+            keep: KeepArgs::from_arg_matches(matches)?,
+            form: Form::from_arg_matches(matches)?,
+        })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 impl<S: Suite> SuiteArgs<S> {

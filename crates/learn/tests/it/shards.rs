@@ -89,10 +89,12 @@ fn wrong_shards_are_refused() {
 fn two_commands_never_write_to_one_folder() {
     let folder = TempDir::new().expect("a folder");
     let lock = FolderLock::take(folder.path(), &Unwatched).expect("a free folder");
-    for command in ["generate --episodes 1", "train --episodes 1 --held-out 1 --steps 1"] {
-        let (word, options) = command.split_once(' ').expect("options");
-        let words = [word, folder.path().to_str().expect("UTF-8")].into_iter();
-        let output = run(&words.chain(options.split(' ')).collect::<Vec<_>>());
+    let dir = folder.path().to_str().expect("UTF-8");
+    for command in [
+        format!("generate {dir} --episodes 1"),
+        format!("train predictor {dir} --episodes 1 --held-out 1 --steps 1"),
+    ] {
+        let output = run(&command.split(' ').collect::<Vec<_>>());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         assert!(stderr(&output).starts_with("error: another pushplan is writing to"));
     }
