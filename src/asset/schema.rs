@@ -77,8 +77,8 @@ fn merge(one: &mut Json, other: Json) {
     let is_map = |schema: &Json| schema["properties"].is_object();
     let is_list = |schema: &Json| schema["items"].is_object();
     if is_map(one) && is_map(&other) {
-        if let (Json::Array(own), Json::Array(required)) =
-            (&mut one["required"], &other["required"])
+        if let (Some(Json::Array(own)), Json::Array(required)) =
+            (one.get_mut("required"), &other["required"])
         {
             own.retain(|key| required.contains(key));
         }

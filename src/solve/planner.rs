@@ -31,7 +31,7 @@ use super::{Effort, Settings, Solution, SolveError};
 /// let planner = Planner::builder(model).effort(Effort::Draft).build();
 /// let solution = planner.solve(&task, &library)?;
 /// assert_eq!(solution.status, PlanStatus::Solved);
-/// println!("use the {}", solution.plans[0].plan.tool);
+/// println!("use the {}", solution.plans[0].plan.tool());
 /// # Ok::<(), pushplan::Error>(())
 /// ```
 pub struct Planner {

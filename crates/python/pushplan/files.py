@@ -22,6 +22,8 @@ __all__ = [
     "CuboidKeys",
     "CylinderKeys",
     "FixedKeys",
+    "FixedPrismKeys",
+    "FixedShapeKeys",
     "FrictionKeys",
     "GoalKeys",
     "GripKeys",
@@ -29,6 +31,8 @@ __all__ = [
     "LeversKeys",
     "Numbers",
     "ObjectKeys",
+    "ObjectPrismKeys",
+    "ObjectShapeKeys",
     "ObstacleKeys",
     "PartKeys",
     "PrismKeys",
@@ -66,6 +70,19 @@ class PrismKeys(TypedDict):
     corners: Sequence[Numbers]
     height: float
     centre_of_mass: NotRequired[Numbers]
+
+
+class ObjectPrismKeys(PrismKeys):
+    """The same of an object, with the point of it that is at its position."""
+
+    origin: NotRequired[Numbers]
+
+
+class FixedPrismKeys(TypedDict):
+    """A prism that is fixed on an object, metres."""
+
+    corners: Sequence[Numbers]
+    height: float
     origin: NotRequired[Numbers]
 
 
@@ -75,6 +92,21 @@ class ShapeKeys(TypedDict, total=False):
     cylinder: CylinderKeys
     cuboid: CuboidKeys
     prism: PrismKeys
+
+
+class ObjectShapeKeys(TypedDict, total=False):
+    """The solid of an object: exactly one of the keys."""
+
+    cylinder: CylinderKeys
+    cuboid: CuboidKeys
+    prism: ObjectPrismKeys
+
+
+class FixedShapeKeys(TypedDict, total=False):
+    """A solid that is fixed on an object: exactly one of the keys."""
+
+    cuboid: CuboidKeys
+    prism: FixedPrismKeys
 
 
 class SupportKeys(TypedDict, total=False):
@@ -95,7 +127,7 @@ class TableKeys(TypedDict, total=False):
 class FixedKeys(TypedDict):
     """What is fixed on an object; position [x, y] or [x, y, z] in metres."""
 
-    shape: ShapeKeys
+    shape: FixedShapeKeys
     position: Numbers
     yaw_deg: NotRequired[float]
 
@@ -104,7 +136,7 @@ class ObjectKeys(TypedDict):
     """A movable object; mass in kilograms, position [x, y] and heights in metres."""
 
     name: str
-    shape: ShapeKeys
+    shape: ObjectShapeKeys
     mass: float
     friction: float
     position: Numbers

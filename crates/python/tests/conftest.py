@@ -11,7 +11,7 @@ import pytest
 
 import pushplan
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture
@@ -27,7 +27,17 @@ def task() -> pushplan.Task:
 @pytest.fixture
 def command() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Runs the command in the checkout, which `.ci/run` has built before."""
-    program = os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan"))
+    return runner(os.environ.get("PUSHPLAN", str(ROOT / "target/release/pushplan")))
+
+
+@pytest.fixture
+def learn() -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs the command that makes training data, which `.ci/run` has built, too."""
+    return runner(os.environ.get("PUSHPLAN_LEARN", str(ROOT / "target/release/pushplan-learn")))
+
+
+def runner(program: str) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Runs a program in the checkout."""
 
     def run(*words: Any) -> subprocess.CompletedProcess[str]:
         return subprocess.run(

@@ -154,9 +154,9 @@ def test_a_trajectory_of_another_task_is_refused(task: pushplan.Task, tmp_path: 
 
 
 def test_data_are_read_by_numpy_and_are_what_the_engines_say(
-    tmp_path: Path, command: Callable[..., Any]
+    tmp_path: Path, learn: Callable[..., Any]
 ) -> None:
-    made = command("generate", tmp_path, "--format", "npz", "--episodes", 40, "--seed", 3)
+    made = learn("generate", tmp_path, "--format", "npz", "--episodes", 40, "--seed", 3)
     assert made.returncode == 0, made.stderr
     with np.load(tmp_path / "episodes-00000.npz") as file:
         data = dict(file)

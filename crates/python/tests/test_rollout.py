@@ -54,7 +54,7 @@ def test_predictions_are_those_of_the_command(
     rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
     expected = [[float(word) for word in row[-4:]] for row in rows if row[1] == "prior"]
     plan = pushplan.Plan.of(task, "l-hook", [pushplan.Push.before("can", np.pi)])
-    found = pushplan.predict(plan)
+    found = pushplan.predict(plan, "prior")
     assert np.array_equal(np.column_stack([found.times, found.poses[:, 0]]), expected)
 
 

@@ -167,7 +167,7 @@ def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -
     assert trajectory is not None and trajectory.space is not None
     assert trajectory.space.shape[1:] == (1, 7)
     assert trajectory.raised[0] > 0.02
-    predicted = pushplan.predict(best)
+    predicted = pushplan.predict(best, "prior")
     assert predicted.reached and predicted.model == "prior"
     path = tmp_path / "turn.plan.json"
     best.save(path)

@@ -21,7 +21,7 @@ def test_stubs_are_those_of_the_package(tmp_path: Path) -> None:
 
 
 def test_package_tests_and_examples_are_typed(root: Path) -> None:
-    sources = ["-p", "pushplan", "python/tests", "examples"]
+    sources = ["-p", "pushplan", "crates/python/tests", "examples"]
     checked("mypy", *sources[:2], cwd=root)
     checked("mypy", "--explicit-package-bases", *sources[2:], cwd=root)
 
@@ -43,5 +43,5 @@ def test_everything_public_says_what_it_is() -> None:
 
 
 def test_files_stay_short(root: Path) -> None:
-    for path in [*root.glob("python/**/*.py"), *root.glob("python/**/*.rs")]:
+    for path in [*root.glob("crates/python/**/*.py"), *root.glob("crates/python/**/*.rs")]:
         assert len(path.read_text().splitlines()) <= 400, path
