@@ -107,7 +107,7 @@ fn header(bytes: &[u8], random: &mut Random) -> Vec<u8> {
 
 /// Every file of a folder of the repository, in order; none if there is no such folder.
 fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let Ok(entries) = std::fs::read_dir(root.join(name)) else { return Vec::new() };
     let mut paths: Vec<PathBuf> =
         entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).collect();
@@ -142,7 +142,7 @@ struct Sample {
 
 fn sample(name: &str) -> Option<Sample> {
     let library = ToolLibrary::embedded().ok()?;
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tasks/{name}.yaml"));
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("tasks/{name}.yaml"));
     let task = Task::load(path).ok()?;
     let tool = Arc::clone(task.tools(&library).ok()?.first()?);
     let at = task.scene.objects[task.goal.object].pose.position;
