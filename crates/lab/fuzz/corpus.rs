@@ -142,7 +142,8 @@ struct Sample {
 
 fn sample(name: &str) -> Option<Sample> {
     let library = ToolLibrary::embedded().ok()?;
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("tasks/{name}.yaml"));
+    let path =
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("tasks/{name}.yaml"));
     let task = Task::load(path).ok()?;
     let tool = Arc::clone(task.tools(&library).ok()?.first()?);
     let at = task.scene.objects[task.goal.object].pose.position;

@@ -70,7 +70,8 @@ pub fn plan(file: PlanFile) {
 
 /// Plans of shipped tasks, which need not lead anywhere.
 pub fn plans() -> Vec<(String, Vec<u8>)> {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tasks/levers");
+    let root =
+        std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tasks/levers");
     let library = ToolLibrary::embedded().expect("the shipped tools are sound");
     let plan = |name: &str| {
         let task = Task::load(root.join(format!("{name}.yaml"))).ok()?;
