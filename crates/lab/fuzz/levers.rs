@@ -43,8 +43,9 @@ pub fn task(task: Task) {
     }
     let settings = Settings { levers, ..Settings::FIRST_LOOK };
     let planner = Planner::builder(Simulated::new(Simulator::planar())).settings(settings).build();
-    // Pushes have a target of their own.
-    let alone = task.clone().pushing(pushplan::PushRules::none());
+    // Pushes have a target of their own, and tools that push lever nothing.
+    let blades = tools.iter().map(|tool| tool.name.clone());
+    let alone = task.clone().pushing(pushplan::PushRules::none()).choosing(blades);
     match planner.solve(&alone, &library) {
         Ok(solution) => {
             for ranked in &solution.plans {
