@@ -1,11 +1,11 @@
 //! Plans for other programs: MJCF, the scenes of MuJoCo, an engine that shares no code with ours, and
 //! MCAP, the recordings that viewers of robots play.
 //!
-//! A plan becomes one file that holds all of it, the pushes and the goal included
-//! ([`mjcf()`]), and one script for all such files carries it out and judges it by our rules
-//! ([`REPLAY_SCRIPT`], and [`LEVER_SCRIPT`] where something leaves the plane). An MCAP file holds a plan and what a model says it does. Nothing is simulated
-//! here, nothing is written to disk, and MuJoCo is not a dependency. Reports for people are in
-//! [`crate::report`].
+//! A plan becomes one file that holds all of it, the pushes and the goal included ([`mjcf()`]), and
+//! one script for all such files carries it out and judges it by our rules ([`REPLAY_SCRIPT`], and
+//! [`LEVER_SCRIPT`] where something leaves the plane). An MCAP file holds a plan and what a model
+//! says it does. Nothing is simulated here, nothing is written to disk, and MuJoCo is not a
+//! dependency. Reports for people are in [`crate::report`].
 
 mod error;
 mod forest;

@@ -1,8 +1,9 @@
 //! What recorded pushes say about what caused them.
 //!
-//! How far out an object rests, and how it rubs on the pusher. A grid of two
-//! numbers, the *spread* of the support and the coefficient of friction of pusher and object, and for
-//! every cell how far an effect model told these two ends from what was recorded: with a law of the noise that gives a posterior. It draws nothing and reads no files.
+//! How far out an object rests, and how it rubs on the pusher. For every cell of a grid of two
+//! numbers, the *spread* of the support and the coefficient of friction of pusher and object, it is
+//! measured how far from the recording an effect model that is told them ends; with a model of the
+//! noise, that gives a posterior. It draws nothing and reads no files.
 
 mod grid;
 mod likelihood;

@@ -206,7 +206,7 @@ pub fn check_config(config: Config) -> Result<(), WeightsError> {
     Ok(())
 }
 
-/// Whether a network without propagation can have this width and be told so many numbers.
+/// Whether a network without propagation can have this width and inputs of the sizes `told`.
 ///
 /// # Errors
 /// [`WeightsError::Size`] if not.
@@ -229,7 +229,7 @@ pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), 
     check_scales("normaliser.relation_odd", &normaliser.relation_odd, relation[1])
 }
 
-/// Whether scales are of so many columns, and sound.
+/// Whether scales are sound and have this number of columns.
 ///
 /// # Errors
 /// [`WeightsError::Parameter`] for another number of columns, [`WeightsError::Value`] for a scale

@@ -12,7 +12,8 @@ use super::{
     },
 };
 
-/// One line: tool, grip yaw, number of pushes, or what a lever-up does; for a plan that leaves everything as it is, just that.
+/// One line: tool, grip yaw, number of pushes, or what a lever-up does; for a plan that leaves
+/// everything as it is, just that.
 pub(super) fn plan_line(plan: &Plan) -> String {
     let lines: Vec<String> = rows(plan).into_iter().map(row_line).collect();
     match lines.is_empty() {

@@ -18,11 +18,12 @@ pub struct Goal {
     pub tolerance: f64,
     /// Wanted heading and its tolerance, radians, where one is asked for.
     pub heading: Option<(f64, f64)>,
-    /// Into how many equal turns a full turn falls after each of which the object looks the same,
-    /// where such headings count as the wanted one; else 1.
+    /// The number of equal turns in a full turn after each of which the object looks the same, where
+    /// all those headings count as the wanted one; else 1.
     #[serde(default = "one")]
     pub alike: usize,
-    /// Index into [`Scene::obstacles`](super::Scene::obstacles): the object's centre lies outside of it, seen from above.
+    /// Index into [`Scene::obstacles`](super::Scene::obstacles): the object's centre lies outside of
+    /// it, seen from above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<usize>,
     /// At the end of a lever-up's turn the edge lies on the blade, this much higher than at its
@@ -52,8 +53,8 @@ mod anywhere {
 }
 
 impl Goal {
-    /// The centre of object `object` (an index into [`Scene::objects`](super::Scene::objects)) at (`x`, `y`), off by at
-    /// most `tolerance`; all metres.
+    /// The centre of object `object` (an index into [`Scene::objects`](super::Scene::objects)) at
+    /// (`x`, `y`), off by at most `tolerance`; all metres.
     pub fn new(object: usize, [x, y]: [f64; 2], tolerance: f64) -> Self {
         Self { position: Vector::new(x, y), tolerance, ..Self::of(object) }
     }

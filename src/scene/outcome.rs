@@ -40,7 +40,8 @@ pub struct Lying {
 }
 
 impl Outcome {
-    /// Judges where a trajectory in `scene` ended. One that did not come to rest, became NaN or infinite, or in which an object fell does not count as reaching the goal.
+    /// Judges where a trajectory in `scene` ended. One that did not come to rest, became NaN or
+    /// infinite, or in which an object fell does not count as reaching the goal.
     pub fn judge(scene: &Scene, goal: &Goal, trajectory: &Trajectory) -> Self {
         let state = trajectory.outcome().clone();
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());

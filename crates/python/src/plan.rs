@@ -97,10 +97,11 @@ impl PyPlan {
         PyTask { task: Arc::new(self.file.task.clone()), file: Some(self.task_file.clone()) }
     }
 
-    /// The first tool; `None` of a plan without steps that was read from a file.
+    /// The first tool. A plan without steps, which only a file can hold, has none: `ValueError`.
     #[getter]
-    fn tool(&self) -> Option<PyTool> {
-        self.file.tools.first().map(|tool| PyTool(Arc::clone(tool)))
+    fn tool(&self) -> PyResult<PyTool> {
+        let first = self.file.tools.first().map(|tool| PyTool(Arc::clone(tool)));
+        first.ok_or_else(|| PyValueError::new_err("a plan without steps has no tool"))
     }
 
     /// All tools, in the order in which they are used.

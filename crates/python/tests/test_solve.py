@@ -173,4 +173,4 @@ def test_a_lever_up_is_solved_verified_and_written_like_a_push(tmp_path: Path) -
     best.save(path)
     assert pushplan.Plan.load(path).to_dict() == best.to_dict()
     assert "lever 0" in best.to_mjcf()
-    assert "screwdriver" in solution.page()
+    assert "Edge raised" in solution.page()

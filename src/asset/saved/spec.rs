@@ -11,8 +11,8 @@ use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, SCORE, STEPS};
 /// read the new form.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// The same of plan and trajectory files; those of the first version, which hold pushes of one tool or
-/// one lever-up, are read as well.
+/// The same of plan and trajectory files. Those of the first version, which hold pushes with one tool
+/// or one lever-up, are read as well.
 pub const PLAN_VERSION: u32 = 2;
 
 /// What a plan file may hold.
@@ -62,8 +62,8 @@ static PUSHES_FILE: Value = Value::Map(&[
     JUDGED,
 ]);
 
-/// The first version, of a lever-up and pushes that follow. What was known of its effect was told in
-/// other words; verifying it brings it back.
+/// The first version, of a lever-up and the pushes after it. It described the effect in a form that
+/// is not read any more; verifying the plan finds it again.
 static LEVER_FILE: Value = Value::Map(&[
     Key::required("schema_version", VERSION, "Version of the format."),
     Key::required("kind", Value::Word(&["lever_plan"]), "What the file is."),

@@ -32,7 +32,7 @@ const TURN: f64 = 0.05;
 /// Corners of what is round.
 const ROUND: usize = 16;
 
-/// At most so many pictures of one that moves, and the pause at its end, pictures.
+/// Most frames of an animation, and the frames of its pause after them.
 const PICTURES: usize = 90;
 const PAUSE: usize = 12;
 

@@ -16,7 +16,7 @@ use super::{Autoencoder, ImageSettings, ImageSizes, autoencoder_layout, fresh_au
 /// Images are drawn under another seed than lever-ups.
 const IMAGES: u64 = 0x494d_4147;
 
-/// So many images are judged at a time.
+/// Number of images that are judged at once.
 const AT_ONCE: usize = 64;
 
 /// The weights of an autoencoder of the images that `settings` says, trained on the first and judged on the

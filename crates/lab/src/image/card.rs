@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ImageFeatures, ImageSizes, fresh_bound, image_layout};
 
-/// Numbers that an image is told in.
+/// Length of the code that describes an image.
 pub const CODE: usize = 32;
 
 /// The weights of a network that sees images.

@@ -72,7 +72,8 @@ impl DatasetConfig {
     /// Whether it asks for anything, and for nothing impossible.
     ///
     /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that the preset cannot fulfil.
+    /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that
+    /// the preset cannot fulfil.
     pub fn check(&self) -> Result<(), DatasetError> {
         match self.episodes {
             0 => Err(DatasetError::Empty("episodes")),

@@ -57,8 +57,8 @@ pub trait Trainable: Sync + Sized {
     /// Whether the one score is better than the other.
     fn is_better(score: &Self::Score, than: &Self::Score) -> bool;
 
-    /// The card of weights after so many steps, with what they were judged at, if they were. What
-    /// it says of names and shapes depends on the scales alone.
+    /// The card of the weights after `step` steps, with their score, if they have one. The names and
+    /// shapes that it states depend on the scales alone.
     fn card(&self, scales: &Self::Scales, step: u64, score: Option<&Self::Score>) -> Self::Card;
 
     /// Whether examples are taken from rollouts of the averaged weights of this step from here on.

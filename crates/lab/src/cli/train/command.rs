@@ -53,7 +53,7 @@ pub(super) struct RunArgs {
 }
 
 impl RunArgs {
-    /// So many of `count` lever-ups are learned from.
+    /// The number of lever-ups, out of `count`, that are learned from.
     pub fn share(&self, count: usize) -> usize {
         (count * usize::from(self.share)).div_ceil(100)
     }
