@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use pushplan::internals::network::{LeverCard, Parameters, Statistics};
+use pushplan::internals::network::{Parameters, Statistics};
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
 use pushplan_learn::dataset::LeverEpisode;
@@ -133,19 +133,10 @@ impl Trainable for Task<'_> {
     }
 
     fn card(&self, scales: &[Statistics; 2], step: u64, _: Option<&LeverScore>) -> ImageCard {
-        let (memory, [still, moving]) = (&self.settings.memory, scales.clone());
         ImageCard {
             features: self.settings.features,
             image: self.settings.image(),
-            memory: LeverCard {
-                features: memory.features,
-                prior: memory.prior,
-                sizes: memory.sizes(),
-                still,
-                moving,
-                episodes: self.examples.len() as u64,
-                steps: step,
-            },
+            memory: self.settings.memory.card(scales.clone(), self.examples.len(), step),
         }
     }
 }

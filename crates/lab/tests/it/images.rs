@@ -4,7 +4,6 @@
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
 use pushplan::effect::{LeverInputs, LeverModel};
@@ -26,6 +25,8 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::lever_models::is_symmetric;
+
+use crate::until::Until;
 
 fn episodes(preset: LeverPreset, seed: u64, count: u64) -> Vec<LeverEpisode> {
     let config = LeverConfig { seed, episodes: count, preset };
@@ -153,19 +154,6 @@ fn a_networks_file_is_read_back_and_another_one_refused() {
     assert!(matches!(ImageWeights::from_bytes(&larger), Err(WeightsError::Size { .. })));
 }
 
-/// Stops at a step.
-struct Until(u64, AtomicU64);
-
-impl Watch for Until {
-    fn progress(&self, step: u64, _: u64) {
-        self.1.store(step, Ordering::SeqCst);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.1.load(Ordering::SeqCst) >= self.0
-    }
-}
-
 /// Stopped before and after an autoencoder is done; and what is fed with its own predictions.
 #[test]
 fn training_resumes_to_the_same_bits() {
@@ -196,8 +184,8 @@ fn training_resumes_to_the_same_bits() {
         let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
         let best = train(whole.path(), &Unwatched).expect("weights");
         // The autoencoder counts its own steps.
-        train(parts.path(), &Until(40, AtomicU64::new(0)));
-        train(parts.path(), &Until(20, AtomicU64::new(0)));
+        train(parts.path(), &Until::new(40));
+        train(parts.path(), &Until::new(20));
         train(parts.path(), &Unwatched);
         let checkpoint = |folder: &tempfile::TempDir| {
             fs::read(folder.path().join("checkpoint.safetensors")).expect("a checkpoint")

@@ -16,7 +16,7 @@ mod steps;
 mod symmetry;
 mod tradeoff;
 
-// What these tests share with those of the product.
+// What these tests share with others.
 #[path = "../../../../tests/it/fixtures.rs"]
 #[allow(dead_code)]
 mod fixtures;
@@ -29,6 +29,8 @@ mod recorded_pushes;
 #[path = "../../../../tests/it/sharding.rs"]
 #[allow(dead_code)]
 mod sharding;
+#[path = "../../../learn/tests/it/until.rs"]
+mod until;
 
 /// The repository, and the program.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use pushplan::effect::{LeverModel, LeverPrior};
 use pushplan::network::{Buffers, Config, Forward, Normaliser, Parameters};
@@ -17,6 +16,8 @@ use pushplan_lab::parts::{
 use pushplan_learn::dataset::{LeverConfig, LeverDataset, LeverEpisode, LeverPreset};
 use pushplan_learn::judge::lever_error;
 use pushplan_learn::network::{Inputs, Predictor};
+
+use crate::until::Until;
 
 const CONFIG: Config = Config { width: 32, steps: 2 };
 
@@ -81,19 +82,6 @@ fn settings(prior: bool) -> PartsSettings {
     settings
 }
 
-/// Stops at a step.
-struct Until(u64, AtomicU64);
-
-impl Watch for Until {
-    fn progress(&self, step: u64, _: u64) {
-        self.1.store(step, Ordering::SeqCst);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.1.load(Ordering::SeqCst) >= self.0
-    }
-}
-
 /// Mean error over the turn, metres.
 fn error(model: &dyn LeverModel, episodes: &[LeverEpisode]) -> f64 {
     let jobs: Vec<LeverJob> = episodes.iter().map(LeverEpisode::job).collect();
@@ -124,7 +112,7 @@ fn training_learns_resumes_to_the_same_bits_and_predicts() {
     let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
     // Stopped before examples come from rollouts, and after that between two evaluations.
     for steps in [40, 240] {
-        assert!(train(parts.path(), &settings, &Until(steps, AtomicU64::new(0))) != wanted);
+        assert!(train(parts.path(), &settings, &Until::new(steps)) != wanted);
     }
     assert!(train(parts.path(), &settings, &Unwatched) == wanted);
 

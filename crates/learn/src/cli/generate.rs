@@ -19,7 +19,7 @@ use serde_json::json;
 use crate::cli::words::{DATA, Data, JOINTS, SOLIDS};
 use crate::dataset::{
     Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
-    generate, generate_levers, generate_npz,
+    generate, generate_npz,
 };
 
 /// Make training data: random scenes with pushes or lever-ups, simulated
@@ -136,7 +136,7 @@ impl GenerateArgs {
             Data::Levers(preset) => {
                 let config = LeverConfig { seed, episodes, preset };
                 match self.format {
-                    Format::Records => generate_levers(&config, shard, &self.folder, following),
+                    Format::Records => generate(&config, shard, &self.folder, following),
                     Format::Mjcf if shard == Shard::WHOLE => {
                         twins(&config, &self.folder, following)
                     }

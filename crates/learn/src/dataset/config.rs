@@ -1,15 +1,18 @@
 //! What a data set is made of: everything that decides its bits.
 
 use std::path::Path;
+use std::sync::Arc;
 
-use pushplan::internals::scene::Ranges;
-use pushplan::internals::store::RunManifest;
+use pushplan::internals::scene::{Frame, Ranges, Scene, Stroke, Tool, ToolMotion};
+use pushplan::internals::store::{RunManifest, StoreError};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::constraints::Constraints;
+use super::episode::Episode;
 use super::error::DatasetError;
 use super::preset::Preset;
+use super::set::Sampler;
 
 /// The suite of a folder of episodes.
 pub const SUITE: &str = "episodes";
@@ -22,6 +25,10 @@ const TRUTH: &str = "planar and 3d";
 
 /// Version of the sampler: another one draws other episodes for the same settings.
 const SAMPLER: u32 = 7;
+
+/// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
+/// a number.
+type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
 
 /// The settings in a manifest.
 #[derive(Serialize, Deserialize)]
@@ -69,26 +76,6 @@ impl DatasetConfig {
         Self { seed, episodes, ..self.clone() }
     }
 
-    /// Whether it asks for anything, and for nothing impossible.
-    ///
-    /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes; [`DatasetError::Constraint`] for constraints that
-    /// the preset cannot fulfil.
-    pub fn check(&self) -> Result<(), DatasetError> {
-        match self.episodes {
-            0 => Err(DatasetError::Empty("episodes")),
-            _ => self.constraints.check(self.preset),
-        }
-    }
-
-    /// The same as what a folder of episodes holds.
-    pub(super) fn manifest(&self) -> RunManifest {
-        let settings =
-            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
-        RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
-            .with_settings(json!(settings))
-    }
-
     /// The same as what a folder of files with so many episodes each holds.
     pub(super) fn manifest_of_files(&self, files: usize, episodes_a_file: u64) -> RunManifest {
         let sampled =
@@ -98,9 +85,31 @@ impl DatasetConfig {
         settings["episodes_a_file"] = json!(episodes_a_file);
         RunManifest::new(SUITE_OF_FILES, files, self.seed, TRUTH).with_settings(settings)
     }
+}
 
-    /// What the folder `dir` holds according to its manifest.
-    pub(super) fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
+impl Sampler for DatasetConfig {
+    type Episode = Episode;
+    const AT_ONCE: usize = 64;
+
+    fn count(&self) -> u64 {
+        self.episodes
+    }
+
+    fn check(&self) -> Result<(), DatasetError> {
+        match self.episodes {
+            0 => Err(DatasetError::Empty("episodes")),
+            _ => self.constraints.check(self.preset),
+        }
+    }
+
+    fn manifest(&self) -> RunManifest {
+        let settings =
+            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
+        RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
+            .with_settings(json!(settings))
+    }
+
+    fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
         let other = || DatasetError::Foreign { path: dir.to_owned() };
         let settings: Option<Sampled> = serde_json::from_value(manifest.settings.clone()).ok();
         let sampled =
@@ -110,5 +119,22 @@ impl DatasetConfig {
             Self { seed: manifest.seed, episodes: manifest.tasks as u64, preset, constraints };
         config.check()?;
         Ok(config)
+    }
+
+    fn draw(&self, index: u64) -> Episode {
+        Episode::draw(self, index)
+    }
+
+    fn encode(episode: &Episode) -> Result<Vec<u8>, StoreError> {
+        let Episode { index, scene, motion: ToolMotion { tool, lift, strokes }, frames } = episode;
+        postcard::to_allocvec(&(index, scene, &**tool, lift, strokes, frames))
+            .map_err(|error| StoreError::Record { index: *index as usize, why: error.to_string() })
+    }
+
+    fn decode(record: &[u8]) -> Result<Episode, String> {
+        let (index, scene, tool, lift, strokes, frames): Fields =
+            postcard::from_bytes(record).map_err(|error| error.to_string())?;
+        let motion = ToolMotion { tool: Arc::new(tool), lift, strokes };
+        Ok(Episode { index, scene, motion, frames })
     }
 }

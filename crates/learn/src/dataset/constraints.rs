@@ -25,7 +25,7 @@ pub enum JointRule {
 /// What the scenes of a crowd must be; whatever is left open is drawn as for training.
 ///
 /// ```
-/// use pushplan::dataset::{Constraints, DatasetConfig, JointRule, Preset, Solids};
+/// use pushplan_learn::dataset::{Constraints, DatasetConfig, JointRule, Preset, Sampler, Solids};
 ///
 /// let test_set = DatasetConfig {
 ///     seed: 7,

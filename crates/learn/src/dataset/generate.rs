@@ -1,27 +1,16 @@
 //! Data sets on disk: runs whose records are episodes, see [`pushplan::internals::store`].
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use pushplan::internals::scene::{Frame, Scene, Stroke, Tool, ToolMotion};
 use pushplan::internals::store::{
     Form, Journal, RunManifest, Shard, StoreError, merge_runs, read_records,
 };
 use pushplan::internals::watch::{Count, Watch};
 
 use super::config::DatasetConfig;
-use super::episode::Episode;
 use super::error::DatasetError;
 use super::lever::{LEVER_SUITE, LeverConfig};
-use super::set::{Dataset, draw};
-
-/// So many episodes are drawn, on all threads, and then kept: a crash loses at most these, about a
-/// second of work (of tools; up to ten seconds of sparse scenes).
-const AT_ONCE: usize = 64;
-
-/// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
-/// a number.
-type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
+use super::set::{Sampler, Set, draw};
 
 /// Makes a data set in the folder `dir`, or finishes one that was interrupted: what is there and
 /// whole is kept. The files are the same bits for any number of threads and interruptions. Of a
@@ -32,8 +21,8 @@ type Fields = (u64, Scene, Tool, f64, Vec<Stroke>, Vec<Frame>);
 /// If the configuration asks for nothing, the folder holds a data set of other settings or another
 /// process writes to it, a file cannot be written, or `watch` says to stop. Finished episodes are
 /// kept in every case.
-pub fn generate(
-    config: &DatasetConfig,
+pub fn generate<S: Sampler>(
+    config: &S,
     shard: Shard,
     dir: &Path,
     watch: &dyn Watch,
@@ -45,11 +34,11 @@ pub fn generate(
         Journal::open(dir, manifest, Form::Frames, watch, &mut |record| index(record))?;
     let count = Count::new(watch, journal.done(), indices.len());
     while journal.done() < indices.len() {
-        let end = (journal.done() + AT_ONCE).min(indices.len());
+        let end = (journal.done() + S::AT_ONCE).min(indices.len());
         let drawn = draw(config, &indices[journal.done()..end], &count, watch);
         // Of what is stopped, the beginning without a hole can be kept.
         let whole = drawn.iter().map_while(Option::as_ref);
-        let records: Vec<Vec<u8>> = whole.map(encode).collect::<Result<_, _>>()?;
+        let records: Vec<Vec<u8>> = whole.map(S::encode).collect::<Result<_, _>>()?;
         journal.append(records.iter().map(Vec::as_slice))?;
         if journal.done() < end {
             return Err(DatasetError::Cancelled);
@@ -75,23 +64,21 @@ pub fn merge_data(out: &Path, shards: &[PathBuf]) -> Result<(usize, u64), Datase
     Ok((merged.tasks, merged.seed))
 }
 
-impl Dataset {
+impl<S: Sampler> Set<S> {
     /// Reads a finished data set from a folder.
     ///
     /// # Errors
     /// If there is none, it is unfinished, or a file is damaged.
     pub fn open(dir: &Path) -> Result<Self, DatasetError> {
         let manifest = RunManifest::expect(dir)?;
-        let config = DatasetConfig::of(&manifest, dir)?;
+        let config = S::of(&manifest, dir)?;
         if let Some(shard) = manifest.shard {
             return Err(DatasetError::Shard { path: dir.to_owned(), shard });
         }
         let mut episodes = Vec::new();
         let held = read_records(dir, &manifest, Form::Frames, &mut |record| {
-            let episode = decode(record)?;
-            let index = episode.index as usize;
-            episodes.push(episode);
-            Ok(index)
+            episodes.push(S::decode(record)?);
+            index(record)
         })?;
         let (done, total) = (held.count, manifest.tasks);
         if done < total {
@@ -101,20 +88,7 @@ impl Dataset {
     }
 }
 
-fn encode(episode: &Episode) -> Result<Vec<u8>, StoreError> {
-    let Episode { index, scene, motion: ToolMotion { tool, lift, strokes }, frames } = episode;
-    postcard::to_allocvec(&(index, scene, &**tool, lift, strokes, frames))
-        .map_err(|error| StoreError::Record { index: *index as usize, why: error.to_string() })
-}
-
-fn decode(record: &[u8]) -> Result<Episode, String> {
-    let (index, scene, tool, lift, strokes, frames): Fields =
-        postcard::from_bytes(record).map_err(|error| error.to_string())?;
-    let motion = ToolMotion { tool: Arc::new(tool), lift, strokes };
-    Ok(Episode { index, scene, motion, frames })
-}
-
-/// The index of the episode that a record holds, of pushes or of lever-ups: its first number.
+/// The index of the episode that a record holds: its first number.
 fn index(record: &[u8]) -> Result<usize, String> {
     match postcard::take_from_bytes::<u64>(record) {
         Ok((index, _)) => Ok(index as usize),

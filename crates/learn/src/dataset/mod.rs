@@ -51,14 +51,14 @@ pub use heavy::{MASS_RANGES, MassEpisode, MassSetup, Touched};
 pub use lesson::{Lesson, moved, true_type};
 pub use lessons::lessons;
 pub use lever::{
-    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverDataset, LeverEpisode, LeverPart,
-    LeverPreset, generate_levers, lever_job,
+    DISC_PLACES, LEVER_SUITE, LEVERS_PER_SHAPE, LeverConfig, LeverEpisode, LeverPart, LeverPreset,
+    lever_job,
 };
 pub use novelty::is_shipped;
 pub use npz::{A_FILE, FORMAT as NPZ_FORMAT, generate_npz};
 pub use observed::Seeing;
 pub use preset::Preset;
-pub use set::Dataset;
+pub use set::{Dataset, LeverDataset, Sampler, Set};
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
 
 pub use pushplan::internals::scene::{Ranges, Span};

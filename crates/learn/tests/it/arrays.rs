@@ -1,30 +1,15 @@
 //! Data sets of arrays: the same bytes however they came about.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::{fs, io::Read};
 
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::watch::Unwatched;
 use pushplan_learn::dataset::{
     A_FILE, Dataset, DatasetConfig, DatasetError, NPZ_FORMAT, Preset, generate_npz,
 };
 use tempfile::TempDir;
 
-/// Stops after so many episodes.
-struct Stop {
-    after: u64,
-    done: AtomicU64,
-}
-
-impl Watch for Stop {
-    fn progress(&self, done: u64, _total: u64) {
-        self.done.fetch_max(done, Ordering::Relaxed);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.done.load(Ordering::Relaxed) >= self.after
-    }
-}
+use crate::until::Until;
 
 /// Every file of a folder but the lock, by its name.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
@@ -61,7 +46,7 @@ fn files_are_the_same_for_any_number_of_threads_and_interruptions() {
     let [whole, stopped] = [(); 2].map(|()| TempDir::new().unwrap());
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let bytes = pool(3).install(|| generate_npz(&config, whole.path(), &Unwatched)).unwrap();
-    let stop = Stop { after: A_FILE + 1, done: AtomicU64::new(0) };
+    let stop = Until::new(A_FILE + 1);
     let made = pool(1).install(|| generate_npz(&config, stopped.path(), &stop));
     assert!(matches!(made, Err(DatasetError::Cancelled)), "{made:?}");
     let names = |folder: &TempDir| -> Vec<String> {

@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
 use pushplan::effect::{LeverInputs, LeverModel, LeverNetwork};
@@ -19,6 +18,8 @@ use pushplan_learn::network::{LeverGraph, LeverTensors};
 use pushplan_learn::train::{LeverSettings, train_lever};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
+
+use crate::until::Until;
 
 /// Scales that change nothing.
 fn as_is(columns: usize) -> Statistics {
@@ -121,19 +122,6 @@ fn settings(prior: bool) -> LeverSettings {
     settings
 }
 
-/// Stops at a step.
-struct Until(u64, AtomicU64);
-
-impl Watch for Until {
-    fn progress(&self, step: u64, _: u64) {
-        self.1.store(step, Ordering::SeqCst);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.1.load(Ordering::SeqCst) >= self.0
-    }
-}
-
 #[test]
 fn training_learns_and_resumes_to_the_same_bits() {
     let (data, held_out) = (episodes(1, 96), episodes(2, 24));
@@ -147,7 +135,7 @@ fn training_learns_and_resumes_to_the_same_bits() {
     let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let wanted = single.install(|| train(whole.path(), &settings, &Unwatched));
     // Stopped between two evaluations and gone on with.
-    assert!(train(parts.path(), &settings, &Until(60, AtomicU64::new(0))) != wanted);
+    assert!(train(parts.path(), &settings, &Until::new(60)) != wanted);
     assert!(train(parts.path(), &settings, &Unwatched) == wanted);
 
     let network = LeverNetwork::load(&whole.path().join("last.safetensors")).expect("weights");
@@ -190,7 +178,7 @@ fn what_is_fed_back_resumes_to_the_same_bits() {
     };
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     let (best, wanted) = train(whole.path(), &Unwatched);
-    train(parts.path(), &Until(40, AtomicU64::new(0)));
+    train(parts.path(), &Until::new(40));
     assert!(train(parts.path(), &Unwatched).1 == wanted);
     let network = LeverNetwork::load(&best.expect("weights")).expect("weights");
     assert_eq!(network.name(), "LSTM, shape context, fed back");

@@ -2,17 +2,17 @@
 //! seed alone.
 
 use std::fs;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use pushplan::scene::{LeverJob, LeverWarning};
 use pushplan::store::Shard;
-use pushplan::watch::{Unwatched, Watch};
+use pushplan::watch::Unwatched;
 use pushplan_learn::dataset::{
     Dataset, DatasetConfig, DatasetError, LEVERS_PER_SHAPE, LeverConfig, LeverDataset,
-    LeverEpisode, LeverPreset, generate_levers, lever_job,
+    LeverEpisode, LeverPreset, generate, lever_job,
 };
 
 use crate::program;
+use crate::until::Until;
 
 const FAMILIES: [LeverPreset; 6] = [
     LeverPreset::Fixed,
@@ -27,26 +27,13 @@ fn config(preset: LeverPreset, episodes: u64) -> LeverConfig {
     LeverConfig { seed: 5, episodes, preset }
 }
 
-/// Says to stop after so many episodes.
-struct After(u64, AtomicU64);
-
-impl Watch for After {
-    fn progress(&self, done: u64, _: u64) {
-        self.1.store(done, Ordering::Relaxed);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.1.load(Ordering::Relaxed) >= self.0
-    }
-}
-
 /// Those of a drive stand at different heights, which once were lost on the way to the disk.
 #[test]
 fn what_is_read_is_what_was_drawn() {
     for preset in FAMILIES {
         let config = config(preset, 8);
         let folder = tempfile::tempdir().expect("a folder");
-        generate_levers(&config, Shard::WHOLE, folder.path(), &Unwatched).expect("data");
+        generate(&config, Shard::WHOLE, folder.path(), &Unwatched).expect("data");
         let drawn = LeverDataset::in_memory(&config, &Unwatched).expect("lever-ups");
         assert!(LeverDataset::open(folder.path()).expect("data") == drawn, "{preset}");
     }
@@ -59,12 +46,11 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
     let pool =
         |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-    pool(2).install(|| generate_levers(&config, Shard::WHOLE, &whole, &Unwatched)).expect("data");
-    let stopped = pool(1)
-        .install(|| generate_levers(&config, Shard::WHOLE, &parts, &After(280, AtomicU64::new(0))));
+    pool(2).install(|| generate(&config, Shard::WHOLE, &whole, &Unwatched)).expect("data");
+    let stopped = pool(1).install(|| generate(&config, Shard::WHOLE, &parts, &Until::new(280)));
     assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{stopped:?}");
     assert!(matches!(LeverDataset::open(&parts), Err(DatasetError::Store(_))));
-    pool(1).install(|| generate_levers(&config, Shard::WHOLE, &parts, &Unwatched)).expect("data");
+    pool(1).install(|| generate(&config, Shard::WHOLE, &parts, &Unwatched)).expect("data");
     for file in ["manifest.json", "records.bin"] {
         let [whole, parts] = [&whole, &parts].map(|dir| fs::read(dir.join(file)).expect("a file"));
         assert!(whole == parts, "{file}");
@@ -76,7 +62,7 @@ fn any_number_of_threads_and_interruptions_gives_the_same_bits() {
     // Another kind of data is told apart.
     assert!(matches!(Dataset::open(&whole), Err(DatasetError::Foreign { .. })));
     let pushes = DatasetConfig { episodes: 300, seed: 5, ..DatasetConfig::default() };
-    assert!(pushplan_learn::dataset::generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
+    assert!(generate(&pushes, Shard::WHOLE, &whole, &Unwatched).is_err());
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod pruning;
 mod ranges;
 mod regulator;
 mod shards;
+mod until;
 
 // What these tests share with those of the product.
 #[path = "../../../../tests/it/believing.rs"]

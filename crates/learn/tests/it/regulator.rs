@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use candle_core::{Device, Tensor};
 use pushplan::effect::{EffectModels, Network};
@@ -17,6 +16,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 use crate::random_regulator::random_weights;
+use crate::until::Until;
 
 fn network() -> Arc<Network> {
     Arc::new(Network::new(EffectModels::weights().expect("shipped weights")))
@@ -79,19 +79,6 @@ fn the_cell_computes_what_training_differentiates() {
     assert!(compared > 6);
 }
 
-/// Stops at a step.
-struct Until(u64, AtomicU64);
-
-impl Watch for Until {
-    fn progress(&self, step: u64, _: u64) {
-        self.1.store(step, Ordering::SeqCst);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.1.load(Ordering::SeqCst) >= self.0
-    }
-}
-
 fn train(folder: &Path, lessons: &[Lesson], held_out: &[Lesson], watch: &dyn Watch) {
     let lock = FolderLock::take(folder, &Unwatched).expect("a lock");
     train_regulator(&settings(), lessons, held_out, &lock, watch).expect("training");
@@ -107,14 +94,14 @@ fn training_learns_and_resumes_to_the_same_bits_from_lessons_that_are_the_same_b
     };
     let data = draw("data", 1, 40, &Unwatched).expect("lessons");
     // Stopped in the middle and gone on with.
-    assert!(draw("parts", 1, 40, &Until(5, AtomicU64::new(0))).is_err());
+    assert!(draw("parts", 1, 40, &Until::new(5)).is_err());
     assert!(data == draw("parts", 1, 40, &Unwatched).expect("lessons"));
     assert!(data.iter().any(|lesson| !lesson.windows.is_empty()));
     let held_out = draw("held-out", 2, 16, &Unwatched).expect("lessons");
 
     let [whole, parts] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
     train(whole.path(), &data, &held_out, &Unwatched);
-    train(parts.path(), &data, &held_out, &Until(20, AtomicU64::new(0)));
+    train(parts.path(), &data, &held_out, &Until::new(20));
     let step =
         |folder: &Path| fs::read(folder.join("checkpoint.safetensors")).expect("a checkpoint");
     assert_ne!(step(whole.path()), step(parts.path()));

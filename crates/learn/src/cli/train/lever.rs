@@ -9,7 +9,7 @@ use pushplan::internals::store::Shard;
 
 use crate::cli::train::{data, take, weights};
 use crate::dataset::{
-    DatasetError, LeverConfig, LeverDataset, LeverEpisode, LeverPreset, generate_levers,
+    DatasetError, LeverConfig, LeverDataset, LeverEpisode, LeverPreset, generate,
 };
 use crate::train::{Descent, LeverSettings, train_lever};
 
@@ -102,7 +102,7 @@ impl LeverArgs {
             let name = format!("{}-{}", config.preset, config.seed);
             let folder = self.folder.join("data").join(&name);
             data(session, &name, |watch| {
-                generate_levers(config, Shard::WHOLE, &folder, watch)?;
+                generate(config, Shard::WHOLE, &folder, watch)?;
                 LeverDataset::open(&folder)
             })
         };

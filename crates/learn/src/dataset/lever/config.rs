@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use pushplan::internals::store::RunManifest;
+use pushplan::internals::store::{RunManifest, StoreError};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::super::error::DatasetError;
+use super::super::set::Sampler;
+use super::episode::LeverEpisode;
 use super::preset::LeverPreset;
 
 /// The suite of a folder of lever-ups.
@@ -44,24 +46,27 @@ impl LeverConfig {
     pub fn split(&self, seed: u64, episodes: u64) -> Self {
         Self { seed, episodes, ..*self }
     }
+}
 
-    /// Whether it asks for anything.
-    ///
-    /// # Errors
-    /// [`DatasetError::Empty`] for zero episodes.
-    pub fn check(&self) -> Result<(), DatasetError> {
+impl Sampler for LeverConfig {
+    type Episode = LeverEpisode;
+    const AT_ONCE: usize = 256;
+
+    fn count(&self) -> u64 {
+        self.episodes
+    }
+
+    fn check(&self) -> Result<(), DatasetError> {
         if self.episodes == 0 { Err(DatasetError::Empty("episodes")) } else { Ok(()) }
     }
 
-    /// The same as what a folder of lever-ups holds.
-    pub(super) fn manifest(&self) -> RunManifest {
+    fn manifest(&self) -> RunManifest {
         let settings = Sampled { sampler: SAMPLER, preset: self.preset };
         RunManifest::new(LEVER_SUITE, self.episodes as usize, self.seed, TRUTH)
             .with_settings(json!(settings))
     }
 
-    /// What the folder `dir` holds according to its manifest.
-    pub(in crate::dataset) fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
+    fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
         let settings: Option<Sampled> = serde_json::from_value(manifest.settings.clone()).ok();
         let sampled = settings
             .filter(|settings| manifest.suite == LEVER_SUITE && settings.sampler == SAMPLER);
@@ -71,5 +76,27 @@ impl LeverConfig {
         let config = Self { seed: manifest.seed, episodes: manifest.tasks as u64, preset };
         config.check()?;
         Ok(config)
+    }
+
+    fn draw(&self, index: u64) -> LeverEpisode {
+        LeverEpisode::draw(self, index)
+    }
+
+    /// An episode, and the heights of its blocks: obstacles keep theirs only in files that people
+    /// read.
+    fn encode(episode: &LeverEpisode) -> Result<Vec<u8>, StoreError> {
+        let heights: Vec<f64> = episode.scene.blocks.iter().map(|block| block.z).collect();
+        postcard::to_allocvec(&(episode, heights)).map_err(|error| StoreError::Record {
+            index: episode.index as usize,
+            why: error.to_string(),
+        })
+    }
+
+    fn decode(record: &[u8]) -> Result<LeverEpisode, String> {
+        let read = postcard::from_bytes(record).map_err(|error| error.to_string());
+        let (mut episode, heights): (LeverEpisode, Vec<f64>) = read?;
+        let blocks = episode.scene.blocks.iter_mut();
+        blocks.zip(heights).for_each(|(block, height)| block.z = height);
+        Ok(episode)
     }
 }

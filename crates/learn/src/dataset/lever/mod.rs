@@ -6,7 +6,6 @@
 mod config;
 mod drive;
 mod episode;
-mod generate;
 mod lying;
 mod plates;
 mod preset;
@@ -14,6 +13,5 @@ mod split;
 
 pub use config::{LEVER_SUITE, LeverConfig};
 pub use episode::{LEVERS_PER_SHAPE, LeverEpisode, lever_job};
-pub use generate::{LeverDataset, generate_levers};
 pub use preset::{DISC_PLACES, LeverPreset};
 pub use split::LeverPart;

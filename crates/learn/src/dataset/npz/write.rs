@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::dataset::config::DatasetConfig;
 use crate::dataset::error::DatasetError;
-use crate::dataset::set::draw;
+use crate::dataset::set::{Sampler, draw};
 
 use super::FORMAT;
 use super::archive::npz;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use pushplan::internals::effect::LeverInputs;
-use pushplan::internals::network::LeverSizes;
+use pushplan::internals::network::{LeverCard, LeverSizes, Statistics};
 use pushplan::internals::scene::LeverFeatures;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,20 @@ impl LeverSettings {
     pub fn sizes(&self) -> LeverSizes {
         let sizes = LeverInputs::sizes(self.features, self.prior, self.width);
         LeverSizes { feedback: self.feedback, ..sizes }
+    }
+
+    /// The card after `steps` steps on this many `episodes`, with the scales of features of a lever-up
+    /// and of a frame.
+    pub fn card(&self, [still, moving]: [Statistics; 2], episodes: usize, steps: u64) -> LeverCard {
+        LeverCard {
+            features: self.features,
+            prior: self.prior,
+            sizes: self.sizes(),
+            still,
+            moving,
+            episodes: episodes as u64,
+            steps,
+        }
     }
 
     /// Those of `held_out` that came to rest without a jam, as far as their frames count.

@@ -92,16 +92,7 @@ impl Trainable for Task<'_> {
     }
 
     fn card(&self, scales: &[Statistics; 2], step: u64, _: Option<&LeverScore>) -> LeverCard {
-        let [still, moving] = scales.clone();
-        LeverCard {
-            features: self.settings.features,
-            prior: self.settings.prior,
-            sizes: self.settings.sizes(),
-            still,
-            moving,
-            episodes: self.examples.len() as u64,
-            steps: step,
-        }
+        self.settings.card(scales.clone(), self.examples.len(), step)
     }
 }
 
