@@ -42,7 +42,7 @@ pub(super) struct Grade {
     pub class: Class,
     /// Share of the disturbed replays that reach the goal.
     robustness: f64,
-    /// Error in 3-D in units of the tolerance.
+    /// Error in 3-D in units of the tolerance, or the demand that is met worst.
     score: f64,
 }
 
@@ -50,7 +50,7 @@ impl Grade {
     /// Of a plan with this verdict.
     pub fn of(goal: &Goal, verdict: &Verdict) -> Self {
         let spatial = verdict.nominal(Engine::Spatial);
-        let score = spatial.map_or(f64::INFINITY, |e| goal.score(&e.outcome.state));
+        let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(goal));
         let robustness = verdict.robustness.unwrap_or(1.0);
         let class = match (verdict.passed, verdict.works()) {
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,

@@ -11,7 +11,7 @@ use crate::cli::{
 };
 use crate::effect::EffectModel;
 use crate::scene::{ModelKind, ModelSpec};
-use crate::solve::Effort;
+use crate::solve::{Effort, Planner, PlannerBuilder};
 
 /// What every benchmark takes.
 #[derive(Args, Debug)]
@@ -36,6 +36,15 @@ impl Common {
     /// Those of [`model::load`].
     pub fn load_model(&self) -> Result<Arc<dyn EffectModel>, CliError> {
         self.outside.load(&self.model_or_network())
+    }
+
+    /// A planner with the model that is asked for, or else that of the effort.
+    ///
+    /// # Errors
+    /// Those of [`model::load`].
+    pub fn planner(&self, effort: Effort) -> Result<PlannerBuilder, CliError> {
+        let planner = Planner::builder(model::load(&self.spec(effort))?);
+        Ok(planner.effort(effort).outside(self.outside.outside()))
     }
 
     /// The model that is asked for, or else the network: where there is no effort.

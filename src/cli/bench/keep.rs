@@ -1,6 +1,7 @@
 //! Benchmarks that are kept in a folder: resumed, and measured in parts.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use serde::{Serialize, de::DeserializeOwned};
@@ -9,7 +10,7 @@ use crate::cli::{
     error::CliError, follow::Following, form::Form, interrupt, model, output, session::Session,
 };
 use crate::report::Document;
-use crate::scene::ModelSpec;
+use crate::scene::{ModelSpec, Tool};
 use crate::store::{Measured, RunManifest, Shard, Store, StoreError, digest};
 
 /// Names of the files that a report leaves next to the records.
@@ -134,6 +135,14 @@ pub fn value_digest(value: &impl Serialize) -> Result<String, CliError> {
     let text = serde_json::to_vec(value);
     let text = text.map_err(|error| CliError::unexpected("cannot write JSON", &error))?;
     Ok(digest(&text))
+}
+
+/// Tells tools from all others.
+///
+/// # Errors
+/// Those of [`value_digest`].
+pub fn tools_digest<'a>(tools: impl Iterator<Item = &'a Arc<Tool>>) -> Result<String, CliError> {
+    value_digest(&tools.map(|tool| &**tool).collect::<Vec<_>>())
 }
 
 impl From<StoreError> for CliError {

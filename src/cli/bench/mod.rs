@@ -11,4 +11,4 @@ pub mod tasks;
 pub mod tools;
 
 pub use command::{BenchArgs, run};
-pub use keep::{value_digest, weights_digest};
+pub use keep::{tools_digest, weights_digest};

@@ -9,18 +9,17 @@ use crate::asset::load_task;
 use crate::bench::SolvedTask;
 use crate::cli::{
     error::CliError,
-    model,
     session::Session,
     solve::solve_error,
     words::{EFFORTS, words},
 };
 use crate::report::{Document, solved_document};
 use crate::scene::Task;
-use crate::solve::{Effort, Planner};
+use crate::solve::Effort;
 use crate::store::{Measured, RunManifest};
 
 use super::common::Common;
-use super::keep::{self, KeepArgs, value_digest, weights_digest};
+use super::keep::{self, KeepArgs, tools_digest, value_digest, weights_digest};
 use super::suite::{Cases, Measure, Run, Suite, only};
 
 /// Solve task files one after another: success, errors and time of each
@@ -56,15 +55,10 @@ impl Suite for TasksArgs {
             .map(|file| Ok(load_task(file, &library)?))
             .collect::<Result<Vec<Task>, CliError>>()?;
         let spec = self.common.spec(self.effort);
-        let planner = Planner::builder(model::load(&spec)?)
-            .effort(self.effort)
-            .seed(self.seed)
-            .outside(self.common.outside.outside())
-            .build();
-        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
+        let planner = self.common.planner(self.effort)?.seed(self.seed).build();
         let mut settings = json!({
             "budget": planner.settings(),
-            "tools": value_digest(&tools)?,
+            "tools": tools_digest(library.iter())?,
             "files": tasks.iter().map(|task| &task.name).collect::<Vec<_>>(),
             "content": value_digest(&tasks)?,
         });

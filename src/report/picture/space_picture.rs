@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::geometry::{Footprint, Pose3, Vector, Vector3, cross};
 use crate::report::svg::{Font, Style, Svg};
 use crate::scene::{
-    Blade, Frame, Goal, LeverScene, LeverStep, Part, Plan, Plate, Scene, Step, Tool, Trajectory,
-    lever_frame,
+    Blade, Frame, Goal, LeverScene, LeverStep, Part, Plan, Plate, Scene, Slab, Step, Tool,
+    Trajectory, lever_frame,
 };
 
 use super::palette;
@@ -286,9 +286,8 @@ impl SpacePicture<'_> {
     fn slabs(&self, object: usize, frame: &Frame) -> Vec<Corners> {
         let pose = self.pose(object, frame);
         let plate = Plate::of(&self.scene.objects[object]);
-        let solid = |slab: &crate::scene::Slab| {
-            prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], &pose)
-        };
+        let solid =
+            |slab: &Slab| prism(&slab.corners, [slab.bottom, slab.bottom + slab.height], &pose);
         plate.slabs.iter().map(solid).collect()
     }
 

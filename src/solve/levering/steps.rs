@@ -12,6 +12,7 @@ use crate::scene::{
     ToolChoice, Trajectory, Verdict,
 };
 use crate::sim::LeverSimulator;
+use crate::solve::grade::{Class, Grade};
 use crate::solve::solution::LeverStatistics;
 use crate::solve::{PlanStatus, Planner, RankedPlan, Solution, SolveError, Statistics, Timing};
 use crate::verify::{Verifier, VerifySettings};
@@ -107,7 +108,7 @@ impl<'a> Steps<'a> {
         self.timing.total = began.elapsed().as_secs_f64();
         let tools = self.blades.iter().map(|tool| Tool::clone(tool)).collect();
         Ok(Solution {
-            status: status(&plans),
+            status: self.status(&plans),
             stopped: self.until.cancelled(),
             tools,
             candidates: Vec::new(),
@@ -126,7 +127,14 @@ impl<'a> Steps<'a> {
 
     /// Whether nothing more is to be looked for.
     fn is_over(&self, plans: &[RankedPlan]) -> bool {
-        status(plans) == PlanStatus::Solved || self.until.cancelled()
+        self.status(plans) == PlanStatus::Solved || self.until.cancelled()
+    }
+
+    /// How solving ended, by its plans.
+    fn status(&self, plans: &[RankedPlan]) -> PlanStatus {
+        let verdicts = plans.iter().filter_map(|plan| plan.verdict.as_ref());
+        let best = verdicts.map(|verdict| Grade::of(&self.task.goal, verdict).class).max();
+        best.map_or(PlanStatus::NoPlan, Class::status)
     }
 
     /// Lever-ups of `task`, after what was `made` before.
@@ -313,18 +321,4 @@ impl<'a> Steps<'a> {
 /// Whether one of them works as written.
 fn works(plans: &[RankedPlan]) -> bool {
     plans.iter().filter_map(|plan| plan.verdict.as_ref()).any(Verdict::works)
-}
-
-/// How solving ended, by its plans.
-fn status(plans: &[RankedPlan]) -> PlanStatus {
-    let verdicts = || plans.iter().filter_map(|plan| plan.verdict.as_ref());
-    if verdicts().any(|verdict| verdict.passed) {
-        PlanStatus::Solved
-    } else if verdicts().any(Verdict::works) {
-        PlanStatus::Fragile
-    } else if verdicts().next().is_some() {
-        PlanStatus::FailedVerification
-    } else {
-        PlanStatus::NoPlan
-    }
 }

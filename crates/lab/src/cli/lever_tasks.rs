@@ -1,17 +1,17 @@
 //! `pushplan-lab lever-tasks`: generated tasks of levering.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use pushplan::cli::action::LibraryArgs;
 use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest};
+use pushplan::cli::bench::keep::{KeepArgs, tools_digest, weights_digest};
 use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
+use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::words::{EFFORTS, words};
-use pushplan::cli::{interrupt, model, output};
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::{ModelKind, ModelSpec};
 use pushplan::internals::solve::{Effort, Planner};
@@ -19,6 +19,7 @@ use pushplan::internals::store::RunManifest;
 use serde_json::json;
 
 use crate::bench::{LeverRecord, LeverSuite};
+use crate::cli::tasks::save_tasks;
 use crate::report::lever_tasks_document;
 
 /// Solve generated tasks of levering: take the board out of a drive
@@ -62,17 +63,17 @@ impl Suite for LeverTasksArgs {
         let suite = LeverSuite::new(self.seed, count);
         let spec = self.model.clone().unwrap_or(ModelKind::PRIOR.into());
         let planner = Planner::builder(model::load(&spec)?).effort(self.effort).build();
-        let tools: Vec<_> = library.blades().iter().map(|tool| &**tool).collect();
         let settings = json!({
             "effort": self.effort,
             "budget": planner.settings().levers,
             "tasks_version": LeverSuite::VERSION,
-            "tools": value_digest(&tools)?,
+            "tools": tools_digest(library.blades().iter())?,
         });
         let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
             .with_settings(settings);
         if let Some(folder) = &self.save_tasks {
-            save_tasks(folder, &suite, keep.indices(count))?;
+            save_tasks(folder, session, keep.indices(count), |index| Ok(suite.task(index)))?;
         }
         let measure = Measure::InTurn(Box::new(move |index| {
             session.compute(|| suite.measure(&planner, &library, index)).map_err(solve_error)
@@ -83,23 +84,4 @@ impl Suite for LeverTasksArgs {
     fn document(runs: &[Run<LeverRecord>]) -> Result<Document, CliError> {
         only(runs).map(|(manifest, finished)| lever_tasks_document(manifest, finished))
     }
-}
-
-/// Writes the tasks of a run as files.
-fn save_tasks(
-    folder: &Path,
-    suite: &LeverSuite,
-    indices: impl Iterator<Item = usize>,
-) -> Result<(), CliError> {
-    output::prepare(folder)?;
-    interrupt::watch();
-    for index in indices {
-        if interrupt::requested() {
-            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
-        }
-        let task = suite.task(index);
-        let text = task.to_yaml().map_err(CliError::Output)?;
-        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
-    }
-    Ok(())
 }

@@ -16,6 +16,7 @@ mod random;
 mod refinement;
 mod rest_of_way;
 mod run;
+mod tasks;
 mod tradeoff;
 mod train;
 mod words;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 use pushplan::cli::bench::common::Common;
 use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use pushplan::cli::bench::keep::{KeepArgs, tools_digest, weights_digest};
 use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
 use pushplan::cli::model;
@@ -58,11 +58,13 @@ impl Suite for RefinementArgs {
         };
         let without = planner(Settings { refine_rounds: 0, ..budget });
         let with = planner(budget);
-        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
         // Without a tool no task can be made.
-        let count = if tools.is_empty() { 0 } else { self.tasks as usize };
-        let mut settings =
-            json!({ "effort": effort, "budget": with.settings(), "tools": value_digest(&tools)? });
+        let count = if library.iter().next().is_none() { 0 } else { self.tasks as usize };
+        let mut settings = json!({
+            "effort": effort,
+            "budget": with.settings(),
+            "tools": tools_digest(library.iter())?,
+        });
         self.common.outside.note(&mut settings);
         let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
             .with_weights(weights_digest(&spec)?)

@@ -1,25 +1,22 @@
 //! `pushplan-lab run`: the closed loop on random tasks that do not know their scene.
 
 use clap::Args;
-use pushplan::cli::bench::common::Common;
 use pushplan::cli::bench::keep;
-use pushplan::cli::bench::keep::{KeepArgs, value_digest, weights_digest};
+use pushplan::cli::bench::keep::KeepArgs;
 use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite};
 use pushplan::cli::error::CliError;
-use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::words::{EFFORTS, ENGINES, PROBES, words};
 use pushplan::internals::act::{ProbeRule, RunSettings};
 use pushplan::internals::report::Document;
 use pushplan::internals::scene::Engine;
-use pushplan::internals::solve::{Effort, Planner};
-use pushplan::internals::store::RunManifest;
+use pushplan::internals::solve::Effort;
 use serde_json::json;
 
-use crate::bench::{ClosedRecord, HiddenWorld, RandomSuite, TaskKind};
+use crate::bench::{ClosedRecord, HiddenWorld};
 use crate::cli::kept::same_tasks;
 use crate::cli::random::random_error;
-use crate::cli::words::KINDS;
+use crate::cli::tasks::TasksArgs;
 use crate::report::closed_document;
 
 /// Run random tasks with joints, masses, frictions and supports hidden
@@ -31,18 +28,11 @@ use crate::report::closed_document;
 {}", keep::HELP))]
 pub struct RunArgs {
     #[command(flatten)]
-    common: Common,
+    tasks: TasksArgs,
     /// Number of tasks
     #[arg(long, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     count: u32,
-    /// Seed of the tasks
-    #[arg(long, value_name = "N", default_value_t = 7)]
-    seed: u64,
-    /// Only tasks of this kind; may be given several times [default: all that `pushplan-lab random` has, in
-    /// turn]
-    #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
-    kinds: Vec<TaskKind>,
     /// How hard to try with every plan
     #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
     effort: Effort,
@@ -80,16 +70,10 @@ impl Suite for RunArgs {
         _: &KeepArgs,
         session: &'a Session,
     ) -> Result<Cases<'a, ClosedRecord>, CliError> {
-        let library = self.common.library.load()?;
-        let mut kinds: Vec<TaskKind> = self.kinds.clone();
-        kinds.sort_unstable();
-        kinds.dedup();
-        let suite = RandomSuite::new(&library, self.seed, &kinds);
-        let spec = self.common.spec(self.effort);
-        let planner = Planner::builder(model::load(&spec)?)
-            .effort(self.effort)
-            .outside(self.common.outside.outside())
-            .build();
+        let TasksArgs { common, .. } = &self.tasks;
+        let library = common.library.load()?;
+        let suite = self.tasks.suite(&library);
+        let planner = common.planner(self.effort)?.build();
         let settings = RunSettings {
             pushes: self.pushes.into(),
             probes: self.probes.into(),
@@ -98,20 +82,10 @@ impl Suite for RunArgs {
         };
         let world = HiddenWorld { engine: self.engine, tolerance: self.tolerance };
         let count = self.count as usize;
-        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
-        let mut noted = json!({
-            "effort": self.effort,
-            "budget": planner.settings(),
-            "run": settings,
-            "world": world,
-            "kinds": suite.kinds(),
-            "tasks_version": RandomSuite::VERSION,
-            "tools": value_digest(&tools)?,
-        });
-        self.common.outside.note(&mut noted);
-        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
-            .with_weights(weights_digest(&spec)?)
-            .with_settings(noted);
+        let mut manifest =
+            self.tasks.manifest((Self::NAME, count), &suite, (self.effort, &planner))?;
+        manifest.settings["run"] = json!(settings);
+        manifest.settings["world"] = json!(world);
         let measure = Measure::InTurn(Box::new(move |index| {
             session
                 .compute(|| suite.run_hidden(&planner, &library, (settings, world), index))

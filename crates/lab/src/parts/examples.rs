@@ -137,7 +137,7 @@ fn roll(tracks: &[Track], forward: &Forward) -> Vec<Vec<PartState>> {
             }
         }
     }
-    // A rollout that rests too early stays there.
+    // After a rollout that rests too early comes the truth.
     for (states, track) in states.iter_mut().zip(tracks) {
         while states.len() < track.truth.len() {
             states.push(exactly(&track.truth, states.len()));

@@ -1,6 +1,6 @@
 //! What is drawn to be measured on, part by part: kept, resumed and split into shards.
 
-use pushplan::cli::bench::{value_digest, weights_digest};
+use pushplan::cli::bench::{tools_digest, weights_digest};
 use pushplan::cli::error::CliError;
 use pushplan::cli::follow::Following;
 use pushplan::cli::model;
@@ -74,7 +74,6 @@ impl Parts<'_> {
     fn manifest(&self, parts: &[Part]) -> Result<RunManifest, CliError> {
         let EvaluateArgs { pushes, seed, crowd, outside, library, .. } = self.args;
         let library = library.load()?;
-        let tools: Vec<_> = library.iter().map(|tool| &**tool).collect();
         let titles = parts.iter().map(|part| match part {
             Part::Tools(kind) => kind.title().to_owned(),
             Part::Crowd(set) => set.title(),
@@ -84,7 +83,7 @@ impl Parts<'_> {
             "pushes": pushes,
             "trajectories": crowd.count,
             "baselines": !crowd.no_baselines,
-            "tools": value_digest(&tools)?,
+            "tools": tools_digest(library.iter())?,
         });
         outside.note(&mut settings);
         let spec = self.crowds.model;

@@ -1,0 +1,94 @@
+//! Random tasks as commands ask for them, and tasks as files.
+
+use std::path::Path;
+
+use clap::Args;
+use pushplan::cli::bench::common::Common;
+use pushplan::cli::bench::keep::{tools_digest, weights_digest};
+use pushplan::cli::error::CliError;
+use pushplan::cli::session::Session;
+use pushplan::cli::words::words;
+use pushplan::cli::{interrupt, output};
+use pushplan::internals::asset::ToolLibrary;
+use pushplan::internals::scene::Task;
+use pushplan::internals::solve::{Effort, Planner};
+use pushplan::internals::store::RunManifest;
+use serde_json::json;
+
+use crate::bench::{RandomSuite, TaskKind};
+
+use super::words::KINDS;
+
+/// Random tasks, and what solves them.
+#[derive(Args, Debug)]
+pub struct TasksArgs {
+    #[command(flatten)]
+    pub common: Common,
+    /// Seed of the tasks
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    /// Only tasks of this kind; may be given several times [default: all, in turn]
+    #[arg(long = "kind", value_parser = words(&KINDS), value_name = "KIND")]
+    kinds: Vec<TaskKind>,
+}
+
+impl TasksArgs {
+    /// The tasks, in which the kinds take turns in one order however they are given.
+    pub fn suite(&self, library: &ToolLibrary) -> RandomSuite {
+        let mut kinds = self.kinds.clone();
+        kinds.sort_unstable();
+        kinds.dedup();
+        RandomSuite::new(library, self.seed, &kinds)
+    }
+
+    /// What decides a run of the suite `name` on the first `count` of these tasks.
+    ///
+    /// # Errors
+    /// Weights that cannot be read.
+    pub fn manifest(
+        &self,
+        (name, count): (&str, usize),
+        suite: &RandomSuite,
+        (effort, planner): (Effort, &Planner),
+    ) -> Result<RunManifest, CliError> {
+        let spec = self.common.spec(effort);
+        let mut settings = json!({
+            "effort": effort,
+            "budget": planner.settings(),
+            "kinds": suite.kinds(),
+            "tasks_version": RandomSuite::VERSION,
+            "tools": tools_digest(suite.tools().iter())?,
+        });
+        self.common.outside.note(&mut settings);
+        Ok(RunManifest::new(name, count, self.seed, &spec.to_string())
+            .with_weights(weights_digest(&spec)?)
+            .with_settings(settings))
+    }
+}
+
+/// Writes the tasks of a run as files.
+///
+/// # Errors
+/// A task that cannot be made or written; an interruption.
+pub fn save_tasks(
+    folder: &Path,
+    session: &Session,
+    indices: impl ExactSizeIterator<Item = usize>,
+    task: impl Fn(usize) -> Result<Task, CliError>,
+) -> Result<(), CliError> {
+    output::prepare(folder)?;
+    interrupt::watch();
+    let bar = session.bar("saving tasks");
+    bar.set_length(indices.len() as u64);
+    for index in indices {
+        if interrupt::requested() {
+            return Err(CliError::Interrupted("stopped while saving the tasks".to_owned()));
+        }
+        let task = task(index)?;
+        let text = task.to_yaml().map_err(CliError::Output)?;
+        output::write(folder, &format!("{}.yaml", task.name), text.as_bytes())?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
