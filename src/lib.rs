@@ -134,6 +134,7 @@ pub use asset::ToolLibrary;
 pub use effect::{EffectModel, Simulated, Trust};
 pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
+pub use graph::Graph;
 pub use scene::{
     Blade, Goal, Job, Joint, JointKind, LeverRules, LeverStep, LeverUp, ModelSpec, Motion, Noise,
     Object, Obstacle, Outcome, Part, Physics, Pivot, Place, Plan, Push, PushForm, PushRules,

@@ -30,5 +30,8 @@ pub const SOLID: &str = include_str!("script/solid.js");
 /// Plays exported plans in MuJoCo, in Python.
 pub const REPLAY: &str = include_str!("mujoco/replay.py");
 
+/// Plays exported motions in MuJoCo frame by frame, in Python, with the help of [`REPLAY`].
+pub const FRAMES: &str = include_str!("mujoco/frames.py");
+
 /// Plays exported lever-ups in MuJoCo, in Python.
 pub const LEVER: &str = include_str!("mujoco/lever.py");

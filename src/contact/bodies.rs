@@ -136,6 +136,8 @@ pub struct Bodies {
     pub objects: Vec<Movable>,
     /// The pieces of the tool's outline.
     pub parts: Vec<Given>,
+    /// What all pieces of the outline cover, with their poses in the tool frame, whether here or not.
+    pub outline: Arc<[(Footprint, Pose)]>,
     /// Where every piece of the outline can be touched.
     pub rims: Arc<[Option<Rim>]>,
     /// Obstacles.
@@ -144,6 +146,8 @@ pub struct Bodies {
     pub joints: Vec<Jointed>,
     /// What every object of the scene stands on.
     pub feet: Arc<[Arc<Feet>]>,
+    /// Whether that is known.
+    pub supports_known: bool,
     /// Whether it is known how high the tool presses.
     pub push_height_known: bool,
     /// Objects that fixed joints make one rigid body, single ones included.
@@ -239,6 +243,7 @@ impl Bodies {
                 span: (lift, lift + piece.shape.height()),
             })
             .collect();
+        let outline = tool.outline().iter().map(|piece| (piece.footprint(), piece.pose)).collect();
         let rims = tool.outline().iter().map(|piece| piece.rim.clone()).collect();
         let obstacles = scene
             .obstacles
@@ -277,10 +282,12 @@ impl Bodies {
         Self {
             objects,
             parts,
+            outline,
             rims,
             obstacles,
             joints,
             feet,
+            supports_known: physics.supports_known,
             push_height_known,
             groups,
             mechanisms,

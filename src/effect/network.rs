@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
-    graph::Batch,
+    graph::{Batch, Correction},
     network::{Buffers, Forward, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
@@ -74,6 +74,15 @@ impl Network {
 }
 
 impl Network {
+    /// A trajectory with what is expected of any object that was moved.
+    fn with_floor(&self, mut trajectory: Trajectory) -> Trajectory {
+        if let Some(doubt) = self.forward.doubts() {
+            let moved = trajectory.spreads.iter_mut().filter(|spread| spread.position > 0.0);
+            moved.for_each(|spread| *spread += doubt.floor());
+        }
+        trajectory
+    }
+
     /// Number of [`Self::effects`] of a pair.
     pub fn effect_width(&self) -> usize {
         self.forward.half()
@@ -87,7 +96,7 @@ impl Network {
         let mut means = PairMeans::new(scene, job, self.effect_width());
         let mut buffers = Buffers::default();
         let settings = RollSettings { corrected: usize::MAX, ..self.settings };
-        let mut correct = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+        let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
             self.forward.run(batch, &mut buffers, corrections);
             means.add(batch, |k, row| self.forward.add_effect(batch, &buffers, k, row));
         };
@@ -138,6 +147,7 @@ impl EffectModel for Network {
                 },
             )
             .flatten_iter()
+            .map(|trajectory| self.with_floor(trajectory))
             .collect()
     }
 }

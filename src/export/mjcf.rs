@@ -2,7 +2,7 @@
 //!
 //! What our 3-D engine has, the scene has: gravity, the table, obstacles, objects with their
 //! masses, joints and the points that they stand on, friction of every pair as the mean of two
-//! values, and a tool that nothing stops. It is held by two sliding joints, whose positions *and*
+//! values, and a tool that nothing stops. It is held by two sliding joints (and a hinge where it turns), whose positions *and*
 //! velocities the script sets before every step: a `mocap` body has no velocity, so an object that
 //! it pushes rubs against it as if it stood still (a box pushed 10 degrees aside then slips by 35
 //! mm of 200 instead of sticking).
@@ -33,6 +33,10 @@ use super::xml::{Xml, numbers};
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
 /// the package `mujoco`, of which 3.3 and 4.0 were tried.
 pub const REPLAY_SCRIPT: &str = pushplan_page::REPLAY;
+
+/// Plays scenes that [`motion_mjcf()`] wrote, one after another, and says where everything is at the
+/// end of every frame; it imports [`REPLAY_SCRIPT`] as `replay.py` beside it.
+pub const FRAMES_SCRIPT: &str = pushplan_page::FRAMES;
 
 /// Of a step, seconds.
 const STEP: f64 = 2.5e-4;
@@ -71,18 +75,39 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     if file.task.in_space() || file.plan.levers() {
         return plan_mjcf(file);
     }
-    let scene = &file.task.scene;
     let own = file.tools.first().ok_or(ExportError::Tools)?;
-    let trees = forest(scene)?;
     let motion = file.plan.motion(own);
+    written(&file.task.name, &file.task.scene, &motion, |xml| wanted(xml, file))
+}
+
+/// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
+/// Here the tool may turn on its way.
+///
+/// # Errors
+/// [`ExportError::JointLoop`].
+pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
+    written(name, scene, motion, |_| ())
+}
+
+/// The scene, with what `wanted` says of it.
+fn written(
+    name: &str,
+    scene: &Scene,
+    motion: &ToolMotion,
+    wanted: impl FnOnce(&mut Xml),
+) -> Result<String, ExportError> {
+    let trees = forest(scene)?;
     let mut xml = Xml::default();
-    xml.open("mujoco", &[("model", file.task.name.clone())]);
+    xml.open("mujoco", &[("model", name.to_owned())]);
     xml.comment(
         "Written by pushplan. Metres, kilograms, seconds, radians. Play it with replay.py.",
     );
-    let solids = solids(scene, &motion);
+    let solids = solids(scene, motion);
     settings(&mut xml, mesh::are_among(&solids));
-    custom(&mut xml, file, &motion);
+    xml.open("custom", &[]);
+    wanted(&mut xml);
+    strokes(&mut xml, motion);
+    xml.close();
     mesh::meshes(&mut xml, &solids);
     xml.open("worldbody", &[]);
     let friction = numbers(&[scene.table_friction]);
@@ -102,11 +127,11 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     for tree in &trees {
         body(&mut xml, scene, tree);
     }
-    tool(&mut xml, &motion);
+    tool(&mut xml, motion);
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
-    for pair in pairs::pairs(scene, own) {
+    for pair in pairs::pairs(scene, &motion.tool) {
         let friction = numbers(&[pair.friction, pair.friction]);
         let [a, b] = pair.geoms;
         xml.leaf("pair", &[("geom1", a), ("geom2", b), ("friction", friction)]);
@@ -156,10 +181,9 @@ fn settings(xml: &mut Xml, meshes: bool) {
     xml.close();
 }
 
-/// What the script needs to know besides the scene.
-fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
+/// The goal, and what our own replay says.
+fn wanted(xml: &mut Xml, file: &PlanFile) {
     let (goal, scene) = (&file.task.goal, &file.task.scene);
-    xml.open("custom", &[]);
     xml.comment(
         "x, y, tolerance; where it matters, heading, its tolerance, and the number of headings in \
          a turn that look alike.",
@@ -168,17 +192,6 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
     let alike = goal.alike as f64;
     wanted.extend(goal.heading.into_iter().flat_map(|(heading, within)| [heading, within, alike]));
     numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
-    xml.comment(
-        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits.",
-    );
-    for (index, stroke) in motion.strokes.iter().enumerate() {
-        let (from, to) = (stroke.from.position, stroke.to.position);
-        let settle = if stroke.settle { 1.0 } else { 0.0 };
-        let values = [from.x, from.y, to.x, to.y, stroke.duration, settle];
-        numeric(xml, &format!("push {}", index + 1), &values);
-    }
-    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
-    numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");
         for (object, pose) in scene.objects.iter().zip(&evidence.outcome.state.poses) {
@@ -186,7 +199,32 @@ fn custom(xml: &mut Xml, file: &PlanFile, motion: &ToolMotion) {
             numeric(xml, &format!("3-D replay of object/{}", object.name), &values);
         }
     }
-    xml.close();
+}
+
+/// What the tool does.
+fn strokes(xml: &mut Xml, motion: &ToolMotion) {
+    xml.comment(
+        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
+         where it turns, its headings there.",
+    );
+    let turns = turns(motion);
+    for (index, stroke) in motion.strokes.iter().enumerate() {
+        let (from, to) = (stroke.from.position, stroke.to.position);
+        let settle = if stroke.settle { 1.0 } else { 0.0 };
+        let mut values = vec![from.x, from.y, to.x, to.y, stroke.duration, settle];
+        if turns {
+            values.extend([stroke.from.heading, stroke.to.heading]);
+        }
+        numeric(xml, &format!("push {}", index + 1), &values);
+    }
+    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
+    numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
+}
+
+/// Whether the tool has more than one heading. All strokes of a plan have one.
+fn turns(motion: &ToolMotion) -> bool {
+    let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
+    motion.strokes.iter().any(|s| s.from.heading != heading || s.to.heading != heading)
 }
 
 /// An object and everything attached to it.
@@ -268,18 +306,19 @@ fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
 }
 
 fn tool(xml: &mut Xml, motion: &ToolMotion) {
-    // All strokes of a plan have one heading, so the tool slides and never turns.
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let at = start.position;
     xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
     let mass = numbers(&[TOOL_MASS]);
     let inertia = numbers(&[TOOL_MASS; 3]);
     xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
-    for (name, axis, here) in [("tool x", "1 0 0", at.x), ("tool y", "0 1 0", at.y)] {
+    let slides = [("tool x", "slide", "1 0 0", at.x), ("tool y", "slide", "0 1 0", at.y)];
+    let hinge = ("tool heading", "hinge", "0 0 1", start.heading);
+    for (name, kind, axis, here) in slides.into_iter().chain(turns(motion).then_some(hinge)) {
         // `ref` makes the joint's position the tool's on the table.
         let attributes = [
             ("name", name.into()),
-            ("type", "slide".into()),
+            ("type", kind.into()),
             ("axis", axis.into()),
             ("ref", numbers(&[here])),
         ];

@@ -23,5 +23,5 @@ mod xml;
 #[cfg(feature = "formats")]
 pub use self::mcap::mcap;
 pub use error::ExportError;
-pub use mjcf::{REPLAY_SCRIPT, mjcf};
+pub use mjcf::{FRAMES_SCRIPT, REPLAY_SCRIPT, mjcf, motion_mjcf};
 pub use space::{LEVER_SCRIPT, lever_mjcf};

@@ -4,8 +4,9 @@ use crate::contact::{AwakeIndex, FrameForces, FrameSolution, Partner};
 use crate::geometry::{Vector, cross};
 
 use super::{
-    batch::{Batch, KINEMATIC},
+    batch::Batch,
     features::{Underside, node_features, relation_features},
+    given::Given,
     node::{Node, UNIT},
     relation::{Relation, RelationKind, add_contact, add_joint},
 };
@@ -41,22 +42,42 @@ impl Batch {
                 feet: frame.bodies.feet(object),
                 turn: Vector::new(along.dot(&node.axis), cross(node.axis, along)),
                 push_height_known: frame.bodies.push_height_known,
+                supports_known: frame.bodies.supports_known,
             };
             let coast = &frame.coasts[object];
             let (even, odd) = node_features(&node, body, &underside, coast, pressed);
             self.push_node(node, even, odd);
         }
+        self.rows.clear();
+        self.rows.resize(1 + frame.bodies.obstacles.len(), None);
         for relation in &relations {
             let receiver = before + relation.receiver;
             let sender = match relation.sender {
                 Partner::Object(k) => (before + k) as u32,
-                _ => KINEMATIC,
+                Partner::Part(_) => self.given(0, frame, Given::tool),
+                Partner::Obstacle(k) => self.given(1 + k, frame, |frame| Given::obstacle(frame, k)),
             };
             let (even, odd) = relation_features(&self.nodes[receiver], relation);
             self.push_relation(receiver as u32, sender, relation.pair, even, odd);
         }
         self.relations = relations;
         self.node_count() - before
+    }
+
+    /// The sender index of a body whose motion is given, which is added if it is not there yet.
+    fn given(
+        &mut self,
+        place: usize,
+        frame: &FrameSolution,
+        body: impl FnOnce(&FrameSolution) -> Given,
+    ) -> u32 {
+        match self.rows[place] {
+            Some(sender) => sender,
+            None => {
+                let sender = self.push_given(&body(frame), frame.axis);
+                *self.rows[place].insert(sender)
+            }
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::{
 };
 
 use super::{
+    given::Given,
     node::{Node, UNIT},
     relation::{Relation, RelationKind},
 };
@@ -24,9 +25,13 @@ const TIME: f64 = 0.1;
 const NEAR: f64 = 0.05;
 
 /// Even features of a node.
-pub const NODE_EVEN: usize = 19;
+pub const NODE_EVEN: usize = 20;
 /// Odd features of a node.
 pub const NODE_ODD: usize = 11;
+/// Even features of a body whose motion is given.
+pub const GIVEN_EVEN: usize = 5;
+/// Odd features of a body whose motion is given.
+pub const GIVEN_ODD: usize = 2;
 /// Even features of a relation.
 pub const RELATION_EVEN: usize = 26;
 /// Odd features of a relation.
@@ -45,6 +50,7 @@ pub(super) struct Underside<'a> {
     /// Cosine and sine of the turn from the node's x axis to the object's own.
     pub turn: Vector,
     pub push_height_known: bool,
+    pub supports_known: bool,
 }
 
 /// Features of an object that would coast by `coast` and in the prior moves by
@@ -59,7 +65,7 @@ pub(super) fn node_features(
     let [coast_x, coast_vx, coast_y, coast_turn, coast_vy, coast_spin] = node.encode(coast);
     let [x, vx, y, turn, vy, spin] = node.prior;
     let braking = body.deceleration * node.duration * node.duration / UNIT;
-    let Underside { feet, turn: turned, push_height_known } = *underside;
+    let Underside { feet, turn: turned, push_height_known, supports_known } = *underside;
     let [second, third, fourth] = feet.harmonics_turned(turned);
     (
         [
@@ -74,9 +80,10 @@ pub(super) fn node_features(
             (body.height / HEIGHT).ln(),
             body.face_height / BODY,
             body.lean / UNIT,
-            f64::from(u8::from(push_height_known)),
+            flag(push_height_known),
+            flag(supports_known),
             body.deceleration / GRAVITY,
-            f64::from(u8::from(feet.round)),
+            flag(feet.round),
             body.spin.sqrt() - 1.0,
             feet.mean_square.sqrt() / feet.mean_radius - 1.0,
             second.x,
@@ -84,6 +91,25 @@ pub(super) fn node_features(
             fourth.x,
         ],
         [coast_y, coast_turn, coast_vy, coast_spin, y, turn, vy, spin, second.y, third.y, fourth.y],
+    )
+}
+
+fn flag(value: bool) -> f64 {
+    f64::from(u8::from(value))
+}
+
+/// Features of a body whose motion is given, as the scene's bodies see it along `axis`.
+pub(super) fn given_features(given: &Given, axis: Vector) -> ([f64; GIVEN_EVEN], [f64; GIVEN_ODD]) {
+    let Given { tool, half: [along, across], shift, turn, .. } = *given;
+    (
+        [
+            flag(tool),
+            flag(!tool),
+            (along / BODY).ln_1p(),
+            (across / BODY).ln_1p(),
+            axis.dot(&shift) / UNIT,
+        ],
+        [cross(axis, shift) / UNIT, turn * along.max(across) / UNIT],
     )
 }
 

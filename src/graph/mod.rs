@@ -6,9 +6,16 @@
 mod batch;
 mod build;
 mod features;
+mod given;
 mod node;
 mod relation;
+mod view;
 
-pub use batch::{Batch, KINEMATIC};
-pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
-pub use node::Node;
+pub use batch::{Batch, GIVEN, NOBODY};
+pub use features::{
+    GIVEN_EVEN, GIVEN_ODD, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN,
+    RELATION_ODD,
+};
+pub use given::Given;
+pub use node::{Correction, Node};
+pub use view::{Graph, GraphNode, GraphRelation, NodeKind, RelationName};

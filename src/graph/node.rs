@@ -3,7 +3,7 @@
 use crate::{
     contact::{ListIndex, Motion},
     geometry::Vector,
-    scene::FRAME_TRAVEL,
+    scene::{FRAME_TRAVEL, Spread},
 };
 
 /// Unit of displacements and gaps, metres: one frame of tool travel.
@@ -27,7 +27,22 @@ pub struct Node {
     pub prior: [f64; 6],
 }
 
+/// What a network changes of a node's prior, and how far from the truth it expects to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Correction {
+    /// Added to [`Node::prior`], output units.
+    pub output: [f64; 6],
+    /// How much this frame adds to the error that is expected at the end, output units: of the
+    /// position, and of the heading; if the network says so.
+    pub doubt: Option<[f64; 2]>,
+}
+
 impl Node {
+    /// A doubt of position and heading, from output units to metres and radians.
+    pub fn decode_doubt(&self, [position, heading]: [f64; 2]) -> Spread {
+        Spread { position: position * UNIT, heading: heading * UNIT / self.support }
+    }
+
     /// A motion in output units and this node's axes: lengths over `UNIT`, velocities times
     /// the frame's duration over `UNIT`, turns times c over `UNIT`.
     pub fn encode(&self, motion: &Motion) -> [f64; 6] {

@@ -4,10 +4,10 @@
 //! tensors or, but for single rows, allocation. The normaliser is folded into the first layers. Rows lie [2, M, h],
 //! parity first, so every half is one dense matrix.
 
-use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
+use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
+    Config, Doubt, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -18,6 +18,7 @@ pub struct Forward {
     steps: usize,
     relation: Encoder,
     object: Encoder,
+    given: Option<Layer>,
     message_relation: Vec<f32>,
     message_receiver: Vec<f32>,
     message_sender: Vec<f32>,
@@ -29,13 +30,20 @@ pub struct Forward {
     motion_hidden_bias: Vec<f32>,
     motion_even: Vec<f32>,
     motion_odd: Vec<f32>,
+    doubt: Option<Doubt>,
+}
+
+/// Features to a hidden row, with the normaliser folded in.
+#[derive(Clone, Debug)]
+struct Layer {
+    even: Vec<f32>,
+    odd: Vec<f32>,
+    bias: Vec<f32>,
 }
 
 #[derive(Clone, Debug)]
 struct Encoder {
-    even: Vec<f32>,
-    odd: Vec<f32>,
-    bias: Vec<f32>,
+    first: Layer,
     second: Vec<f32>,
     second_bias: Vec<f32>,
 }
@@ -46,6 +54,8 @@ pub struct Buffers {
     relations: Vec<f32>,
     messages: Vec<f32>,
     objects: Vec<f32>,
+    given: Vec<f32>,
+    senders: Vec<u32>,
     keep: Vec<f32>,
     state: Vec<f32>,
     next: Vec<f32>,
@@ -56,10 +66,19 @@ pub struct Buffers {
     odd: Vec<f32>,
 }
 
+impl Buffers {
+    /// The rows [2, N, h] that the last layer read in the last [`Forward::read`].
+    pub fn hidden(&self) -> &[f32] {
+        &self.next
+    }
+}
+
 impl Forward {
     /// Takes the weights apart into the layout of the fused pass.
     pub fn new(weights: &PredictorWeights) -> Self {
-        Self::of(&weights.card.config, &weights.card.normaliser, &weights.parameters)
+        let card = &weights.card;
+        let whole = Self::of(&card.config, &card.normaliser, &weights.parameters);
+        Self { doubt: card.doubt.clone(), ..whole }
     }
 
     /// The same of parameters in the layout that [`super::layout_of`] gives.
@@ -68,21 +87,27 @@ impl Forward {
     /// If one is missing.
     pub fn of(config: &Config, normaliser: &Normaliser, parameters: &Parameters) -> Self {
         let get = |name: &str| parameters.values[name].clone();
-        let encoder = |layer: &str, even: &Statistics, odd: &Statistics| {
-            let mut bias = get(&format!("{layer}.bias"));
-            Encoder {
-                even: fold(get(&format!("{layer}.even")), even, &mut bias),
-                odd: fold(get(&format!("{layer}.odd")), odd, &mut []),
+        let layer = |name: &str, even: &Statistics, odd: &Statistics| {
+            let mut bias = get(&format!("{name}.bias"));
+            Layer {
+                even: fold(get(&format!("{name}.even")), even, &mut bias),
+                odd: fold(get(&format!("{name}.odd")), odd, &mut []),
                 bias,
-                second: get(&format!("{layer}.second")),
-                second_bias: get(&format!("{layer}.second_bias")),
             }
         };
+        let encoder = |name: &str, even: &Statistics, odd: &Statistics| Encoder {
+            first: layer(name, even, odd),
+            second: get(&format!("{name}.second")),
+            second_bias: get(&format!("{name}.second_bias")),
+        };
+        let Normaliser { given_even, given_odd, .. } = normaliser;
+        let has_given = !given_even.mean.is_empty();
         Self {
             half: config.half(),
             steps: config.steps,
             relation: encoder("relation", &normaliser.relation_even, &normaliser.relation_odd),
             object: encoder("object", &normaliser.node_even, &normaliser.node_odd),
+            given: has_given.then(|| layer("given", given_even, given_odd)),
             message_relation: get("message.relation"),
             message_receiver: get("message.receiver"),
             message_sender: get("message.sender"),
@@ -94,6 +119,7 @@ impl Forward {
             motion_hidden_bias: get("motion.hidden_bias"),
             motion_even: get("motion.even"),
             motion_odd: get("motion.odd"),
+            doubt: None,
         }
     }
 
@@ -106,14 +132,15 @@ impl Forward {
     /// last [`Forward::run`], which was on this batch, to `into`.
     pub fn add_effect(&self, batch: &Batch, w: &Buffers, k: usize, into: &mut [f32]) {
         let (n, r, h) = (batch.node_count(), batch.relation_count(), self.half);
-        let (receiver, sender) = (batch.receivers[k] as usize, batch.senders[k] as usize);
+        let (receiver, sender) = (batch.receivers[k] as usize, w.senders[k] as usize);
+        let speakers = w.to_sender.len() / (2 * h);
         let row = |table: &[f32], rows: usize, row: usize, parity: usize, i: usize| {
             table[(parity * rows + row) * h + i]
         };
         for (i, value) in into.iter_mut().enumerate() {
             let part = |parity: usize| {
-                let sent = match sender < n {
-                    true => row(&w.to_sender, n, sender, parity, i),
+                let sent = match sender < speakers {
+                    true => row(&w.to_sender, speakers, sender, parity, i),
                     false => 0.0,
                 };
                 row(&w.messages, r, k, parity, i)
@@ -135,23 +162,37 @@ impl Forward {
     pub fn operations(&self, batch: &Batch) -> u64 {
         let (nodes, relations, h) = (batch.node_count(), batch.relation_count(), self.half);
         let square = 2 * h * h;
-        let per_relation = self.relation.first() + 2 * square;
+        let per_relation = self.relation.first.len() + 2 * square;
+        let given = batch.given_count();
+        let per_given = self.given.as_ref().map_or(0, Layer::len) + square;
         let per_step = if objects_send(&batch.senders) { 4 } else { 3 } * square;
         let read = self.motion_even.len() + self.motion_odd.len();
-        let per_node = self.object.first() + read + 3 * square + self.steps * per_step;
-        2 * (per_relation * relations + per_node * nodes) as u64
+        let per_node = self.object.first.len() + read + 3 * square + self.steps * per_step;
+        2 * (per_relation * relations + per_given * given + per_node * nodes) as u64
     }
 
-    /// The correction of every node's prior in output units, [N, 6], appended to an emptied
-    /// `corrections`.
-    pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<[f64; 6]>) {
+    /// The correction of every node's prior, `[N]`, appended to an emptied `corrections`.
+    pub fn run(&self, batch: &Batch, w: &mut Buffers, corrections: &mut Vec<Correction>) {
         corrections.clear();
         let (even, odd) = self.read(batch, w);
-        corrections.extend(
-            even.chunks_exact(OUTPUT_EVEN)
-                .zip(odd.chunks_exact(OUTPUT_ODD))
-                .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
-        );
+        corrections.extend(even.chunks_exact(OUTPUT_EVEN).zip(odd.chunks_exact(OUTPUT_ODD)).map(
+            |(e, o)| {
+                let output = [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from);
+                Correction { output, doubt: None }
+            },
+        ));
+        if let Some(doubt) = &self.doubt {
+            // Its even half, [N, h].
+            let rows = w.hidden().chunks_exact(self.half);
+            for (correction, row) in corrections.iter_mut().zip(rows) {
+                correction.doubt = Some(doubt.of_frame(row));
+            }
+        }
+    }
+
+    /// Whether it says how far off it expects to be.
+    pub fn doubts(&self) -> Option<&Doubt> {
+        self.doubt.as_ref()
     }
 
     /// What is read from every node, [N, even] and [N, odd].
@@ -162,7 +203,7 @@ impl Forward {
     ) -> (&'w [f32], &'w [f32]) {
         let batch = batch.into();
         let (h, r) = (self.half, batch.receivers.len());
-        let n = batch.node_even.len() * h / self.object.even.len();
+        let n = batch.node_even.len() * h / self.object.first.even.len();
         w.even.clear();
         w.odd.clear();
         if n == 0 {
@@ -178,13 +219,17 @@ impl Forward {
         self.object.run((batch.node_even, batch.node_odd), (n, h), &mut w.next, &mut w.objects);
         product(&w.objects, &self.update_object, n, h, &mut w.keep, false);
         w.state.clone_from(&w.objects);
-        // With a single object per graph only kinematic bodies send anything.
+        // With a single object per graph only bodies whose motion is given send anything.
         let objects_send = objects_send(batch.senders);
-        w.to_sender.resize(2 * n * h, 0.0);
+        // Those speak alike in every step, after the nodes.
+        let m = n + self.given(&batch, w);
+        batch.senders_after(n, &mut w.senders);
         for _ in 0..self.steps {
             product(&w.state, &self.message_receiver, n, h, &mut w.to_receiver, false);
             if objects_send {
-                product(&w.state, &self.message_sender, n, h, &mut w.to_sender, false);
+                let (even, odd) = w.to_sender.split_at_mut(m * h);
+                let into = [&mut even[..n * h], &mut odd[..n * h]];
+                product_into(&w.state, &self.message_sender, n, h, into, false);
             }
             w.sum.clear();
             w.sum.resize(2 * n * h, 0.0);
@@ -193,7 +238,7 @@ impl Forward {
                 b: &w.to_receiver,
                 c: &w.to_sender,
                 receivers: batch.receivers,
-                senders: batch.senders,
+                senders: &w.senders,
                 h,
                 sum: &mut w.sum,
             };
@@ -213,30 +258,58 @@ impl Forward {
     }
 }
 
-/// Whether any relation comes from an object rather than from a body whose motion is given.
-fn objects_send(senders: &[u32]) -> bool {
-    senders.iter().any(|&sender| sender != KINEMATIC)
+impl Forward {
+    /// Writes what bodies with a given motion send, behind the nodes' rows of `to_sender`, which are
+    /// emptied; returns their number.
+    fn given(&self, batch: &Rows<'_>, w: &mut Buffers) -> usize {
+        let h = self.half;
+        let n = batch.node_even.len() * h / self.object.first.even.len();
+        let k =
+            self.given.as_ref().map_or(0, |layer| batch.given_even.len() * h / layer.even.len());
+        let m = n + k;
+        w.to_sender.clear();
+        w.to_sender.resize(2 * m * h, 0.0);
+        if let Some(layer) = self.given.as_ref().filter(|_| k > 0) {
+            layer.run((batch.given_even, batch.given_odd), (k, h), &mut w.given);
+            let (even, odd) = w.to_sender.split_at_mut(m * h);
+            let into = [&mut even[n * h..], &mut odd[n * h..]];
+            product_into(&w.given, &self.message_sender, k, h, into, false);
+        }
+        k
+    }
 }
 
-impl Encoder {
-    /// Numbers of the first layer's matrices.
-    fn first(&self) -> usize {
+/// Whether any relation comes from an object rather than from a body whose motion is given.
+fn objects_send(senders: &[u32]) -> bool {
+    senders.iter().any(|&sender| sender < GIVEN)
+}
+
+impl Layer {
+    /// Numbers of its matrices.
+    fn len(&self) -> usize {
         self.even.len() + self.odd.len()
     }
 
+    /// Features [M, even] and [M, odd] to `out` [2, M, h].
+    fn run(&self, (even, odd): (&[f32], &[f32]), (rows, h): (usize, usize), out: &mut Vec<f32>) {
+        out.resize(2 * rows * h, 0.0);
+        let (to_even, to_odd) = out.split_at_mut(rows * h);
+        multiply(even, &self.even, rows, self.even.len() / h, h, to_even, false);
+        multiply(odd, &self.odd, rows, self.odd.len() / h, h, to_odd, false);
+        rectify_rows(out, &self.bias);
+    }
+}
+
+impl Encoder {
     /// Two layers: features [M, even] and [M, odd] to `out` [2, M, h]; `scratch` is overwritten.
     fn run(
         &self,
-        (even, odd): (&[f32], &[f32]),
+        features: (&[f32], &[f32]),
         (rows, h): (usize, usize),
         scratch: &mut Vec<f32>,
         out: &mut Vec<f32>,
     ) {
-        scratch.resize(2 * rows * h, 0.0);
-        let (to_even, to_odd) = scratch.split_at_mut(rows * h);
-        multiply(even, &self.even, rows, self.even.len() / h, h, to_even, false);
-        multiply(odd, &self.odd, rows, self.odd.len() / h, h, to_odd, false);
-        rectify_rows(scratch, &self.bias);
+        self.first.run(features, (rows, h), scratch);
         product(scratch, &self.second, rows, h, out, false);
         rectify_rows(out, &self.second_bias);
     }
@@ -261,9 +334,21 @@ fn fold(mut matrix: Vec<f32>, statistics: &Statistics, bias: &mut [f32]) -> Vec<
 /// [2, M, h] times [2, h, h], half by half; added to `out` if `add`.
 fn product(x: &[f32], matrix: &[f32], rows: usize, h: usize, out: &mut Vec<f32>, add: bool) {
     out.resize(2 * rows * h, 0.0);
+    let (even, odd) = out.split_at_mut(rows * h);
+    product_into(x, matrix, rows, h, [even, odd], add);
+}
+
+/// The same into halves that lie apart, each [M, h].
+fn product_into(
+    x: &[f32],
+    matrix: &[f32],
+    rows: usize,
+    h: usize,
+    [out_even, out_odd]: [&mut [f32]; 2],
+    add: bool,
+) {
     let (x_even, x_odd) = x.split_at(rows * h);
     let (m_even, m_odd) = matrix.split_at(h * h);
-    let (out_even, out_odd) = out.split_at_mut(rows * h);
     multiply(x_even, m_even, rows, h, h, out_even, add);
     multiply(x_odd, m_odd, rows, h, h, out_odd, add);
 }

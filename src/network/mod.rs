@@ -7,6 +7,7 @@
 //! [`Card`] that says which. Loops over time are not here but in `rollout`.
 
 mod config;
+mod doubt;
 mod forward;
 mod lever;
 mod normaliser;
@@ -19,6 +20,7 @@ mod tensors;
 mod weights;
 
 pub use config::Config;
+pub use doubt::Doubt;
 pub use forward::{Buffers, Forward, matrix_product};
 pub use lever::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
@@ -27,7 +29,7 @@ pub use lever::{
 pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout, layout_of};
 pub use parity::{Sum, rectify_rows};
-pub use predictor::{ErrorCard, PredictorCard, PredictorWeights};
+pub use predictor::{ErrorCard, PredictorCard, PredictorWeights, Source};
 pub use regulator::{
     LEAST, Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator,
     regulator_layout,

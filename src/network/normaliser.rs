@@ -17,8 +17,16 @@ pub struct Statistics {
 pub(super) const MIN_DEVIATION: f32 = 0.02;
 
 impl Statistics {
+    /// Of a table without columns.
+    fn none() -> Self {
+        Self { mean: Vec::new(), deviation: Vec::new() }
+    }
+
     /// Of a table [N, `columns`]; without `centred` means are zero, so that signs survive.
     pub fn measure(table: &[f32], columns: usize, centred: bool) -> Self {
+        if columns == 0 {
+            return Self::none();
+        }
         let rows = (table.len() / columns).max(1) as f64;
         let mut mean = vec![0.0f64; columns];
         let mut square = vec![0.0f64; columns];
@@ -50,13 +58,19 @@ impl Statistics {
     }
 }
 
-/// The scales of all four feature tables.
+/// The scales of all feature tables.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Normaliser {
     /// Of even node features.
     pub node_even: Statistics,
     /// Of odd node features.
     pub node_odd: Statistics,
+    /// Of even features of bodies whose motion is given.
+    #[serde(default = "Statistics::none")]
+    pub given_even: Statistics,
+    /// Of odd features of bodies whose motion is given.
+    #[serde(default = "Statistics::none")]
+    pub given_odd: Statistics,
     /// Of even relation features.
     pub relation_even: Statistics,
     /// Of odd relation features.
@@ -66,11 +80,13 @@ pub struct Normaliser {
 impl Normaliser {
     /// Measures the scales on a large batch.
     pub fn measure<'a>(tables: &Tables, rows: impl Into<Rows<'a>>) -> Self {
-        let Tables { node, relation, .. } = *tables;
+        let Tables { node, given, relation, .. } = *tables;
         let rows = rows.into();
         Self {
             node_even: Statistics::measure(rows.node_even, node[0], true),
             node_odd: Statistics::measure(rows.node_odd, node[1], false),
+            given_even: Statistics::measure(rows.given_even, given[0], true),
+            given_odd: Statistics::measure(rows.given_odd, given[1], false),
             relation_even: Statistics::measure(rows.relation_even, relation[0], true),
             relation_odd: Statistics::measure(rows.relation_odd, relation[1], false),
         }

@@ -26,10 +26,18 @@ pub fn layout(config: &Config) -> Layout {
 /// A matrix `[2, h, h]` acts on the even half and on the odd half separately; biases `[h]` exist
 /// for the even half alone, since a constant cannot change sign under mirroring.
 pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
-    let Tables { node, relation, output } = *tables;
+    let Tables { node, given, relation, output } = *tables;
     let h = config.half();
     let square = || vec![2, h, h];
-    vec![
+    let given = match given {
+        [0, 0] => Vec::new(),
+        [even, odd] => vec![
+            ("given.even", vec![even, h]),
+            ("given.odd", vec![odd, h]),
+            ("given.bias", vec![h]),
+        ],
+    };
+    let others = [
         ("relation.even", vec![relation[0], h]),
         ("relation.odd", vec![relation[1], h]),
         ("relation.bias", vec![h]),
@@ -51,7 +59,8 @@ pub fn layout_of(tables: &Tables, config: &Config) -> Layout {
         ("motion.hidden_bias", vec![h]),
         ("motion.even", vec![h, output[0]]),
         ("motion.odd", vec![h, output[1]]),
-    ]
+    ];
+    given.into_iter().chain(others).collect()
 }
 
 impl Parameters {

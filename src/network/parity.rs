@@ -46,7 +46,7 @@ impl WithSimd for Rows<'_> {
 }
 
 /// Messages summed at their receivers: for every relation k from s to r, `rectify(a_k + b_r + c_s)`;
-/// a [2, R, h], b, c and sum [2, N, h]. A sender past the last node sends nothing of its own.
+/// a [2, R, h], b and sum [2, N, h], c [2, M, h]. A sender past the last row sends nothing of its own.
 /// The forward pass of both the candle graph and the fused pass; `h` is half the width.
 /// `sum` must be zero on entry.
 pub struct Sum<'a> {
@@ -54,7 +54,7 @@ pub struct Sum<'a> {
     pub a: &'a [f32],
     /// What each receiver adds, [2, N, h].
     pub b: &'a [f32],
-    /// What each sender adds, [2, N, h].
+    /// What each sender adds, [2, M, h]: of nodes and of bodies whose motion is given.
     pub c: &'a [f32],
     /// Receivers, `[R]`.
     pub receivers: &'a [u32],
@@ -79,17 +79,17 @@ impl WithSimd for Sum<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { a, b, c, receivers, senders, h, sum } = self;
-        let (relations, nodes) = (receivers.len(), b.len() / (2 * h));
+        let (relations, nodes, speakers) = (receivers.len(), b.len() / (2 * h), c.len() / (2 * h));
         let (a_even, a_odd) = a.split_at(relations * h);
         let (b_even, b_odd) = b.split_at(nodes * h);
-        let (c_even, c_odd) = c.split_at(nodes * h);
+        let (c_even, c_odd) = c.split_at(speakers * h);
         let (sum_even, sum_odd) = sum.split_at_mut(nodes * h);
         for k in 0..relations {
             let (r, s) = (receivers[k] as usize * h, senders[k] as usize);
             let (ae, ao) = (&a_even[k * h..][..h], &a_odd[k * h..][..h]);
             let (be, bo) = (&b_even[r..][..h], &b_odd[r..][..h]);
             let (se, so) = (&mut sum_even[r..][..h], &mut sum_odd[r..][..h]);
-            if s < nodes {
+            if s < speakers {
                 let (ce, co) = (&c_even[s * h..][..h], &c_odd[s * h..][..h]);
                 for i in 0..h {
                     let (e, o) = rectify(ae[i] + be[i] + ce[i], ao[i] + bo[i] + co[i]);

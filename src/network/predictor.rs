@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::Ranges;
 
 use super::{
-    Config, Normaliser, Tables, layout,
+    Config, Doubt, Normaliser, Tables, layout,
     tensors::Layout,
     weights::{Card, Weights, WeightsError, check_config, check_normaliser},
 };
@@ -29,6 +29,19 @@ pub struct ErrorCard {
     pub p95: f64,
 }
 
+/// Data that weights have learned from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// Who said what is true, with the version of an engine that is not ours.
+    pub truth: String,
+    /// Seed of the episodes.
+    pub seed: u64,
+    /// Their number.
+    pub episodes: u64,
+    /// Checksum over all of them, hexadecimal.
+    pub digest: String,
+}
+
 /// What the weights are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PredictorCard {
@@ -38,20 +51,21 @@ pub struct PredictorCard {
     pub normaliser: Normaliser,
     /// Ranges of the training data.
     pub ranges: Ranges,
-    /// Seed of the training data.
-    pub data_seed: u64,
-    /// Training episodes.
-    pub episodes: u64,
+    /// The training data.
+    pub sources: Vec<Source>,
     /// Optimiser steps taken.
     pub steps: u64,
     /// Errors of final positions, one object, on the training's own held-out episodes, if there
     /// were any.
     pub errors: Option<ErrorCard>,
+    /// How far off it expects to be, if that was learned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<Doubt>,
 }
 
 impl Card for PredictorCard {
     const KEY: &'static str = "pushplan";
-    const FORMAT: u32 = 4;
+    const FORMAT: u32 = 5;
 
     fn check(&self) -> Result<(), WeightsError> {
         check_config(self.config)?;
@@ -59,6 +73,9 @@ impl Card for PredictorCard {
         if let Some((name, value)) = self.ranges.unsound() {
             let (name, expected) = (format!("ranges.{name}"), "a number up to its upper end");
             return Err(WeightsError::Value { name, value, expected });
+        }
+        if let Some(doubt) = &self.doubt {
+            doubt.check(self.config.half())?;
         }
         let Some(ErrorCard { mean, median, p95, .. }) = self.errors else { return Ok(()) };
         for (name, value) in [("mean", mean), ("median", median), ("p95", p95)] {

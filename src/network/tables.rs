@@ -1,7 +1,8 @@
 //! Graphs as flat feature tables, whatever they are graphs of.
 
 use crate::graph::{
-    Batch, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD,
+    Batch, GIVEN, GIVEN_EVEN, GIVEN_ODD, NOBODY, NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD,
+    RELATION_EVEN, RELATION_ODD,
 };
 
 /// Columns of the tables, each `[even, odd]`.
@@ -9,6 +10,8 @@ use crate::graph::{
 pub struct Tables {
     /// Features of a node.
     pub node: [usize; 2],
+    /// Features of a body whose motion is given; none where there are no such bodies.
+    pub given: [usize; 2],
     /// Features of a relation.
     pub relation: [usize; 2],
     /// What is read from a node after propagation.
@@ -19,26 +22,45 @@ impl Tables {
     /// Those of pushes.
     pub const PUSHES: Self = Self {
         node: [NODE_EVEN, NODE_ODD],
+        given: [GIVEN_EVEN, GIVEN_ODD],
         relation: [RELATION_EVEN, RELATION_ODD],
         output: [OUTPUT_EVEN, OUTPUT_ODD],
     };
 }
 
-/// Graphs side by side: N nodes, R relations.
+/// Graphs side by side: N nodes, K bodies whose motion is given, R relations.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
     /// [N, even].
     pub node_even: &'a [f32],
     /// [N, odd].
     pub node_odd: &'a [f32],
+    /// [K, even].
+    pub given_even: &'a [f32],
+    /// [K, odd].
+    pub given_odd: &'a [f32],
     /// [R, even].
     pub relation_even: &'a [f32],
     /// [R, odd].
     pub relation_odd: &'a [f32],
     /// `[R]`, node index of every relation's receiver.
     pub receivers: &'a [u32],
-    /// `[R]`, node index of every relation's sender, or [`crate::graph::KINEMATIC`].
+    /// `[R]`, node index of every relation's sender; from [`crate::graph::GIVEN`] on, the row of a body
+    /// whose motion is given; [`crate::graph::NOBODY`] for neither.
     pub senders: &'a [u32],
+}
+
+impl Rows<'_> {
+    /// Fills `senders` with rows of a table in which bodies with a given motion follow `nodes` nodes;
+    /// [`crate::graph::NOBODY`] stays past its end.
+    pub fn senders_after(&self, nodes: usize, senders: &mut Vec<u32>) {
+        senders.clear();
+        senders.extend(self.senders.iter().map(|&sender| match sender {
+            NOBODY => NOBODY,
+            given if given >= GIVEN => nodes as u32 + (given - GIVEN),
+            node => node,
+        }));
+    }
 }
 
 impl<'a> From<&'a Batch> for Rows<'a> {
@@ -46,6 +68,8 @@ impl<'a> From<&'a Batch> for Rows<'a> {
         Self {
             node_even: &batch.node_even,
             node_odd: &batch.node_odd,
+            given_even: &batch.given_even,
+            given_odd: &batch.given_odd,
             relation_even: &batch.relation_even,
             relation_odd: &batch.relation_odd,
             receivers: &batch.receivers,

@@ -217,14 +217,16 @@ pub fn check_widths(width: usize, told: &[usize]) -> Result<(), WeightsError> {
     Ok(())
 }
 
-/// Whether the scales of all four `tables` of a graph are sound.
+/// Whether the scales of all `tables` of a graph are sound.
 ///
 /// # Errors
 /// As those of [`check_scales`].
 pub fn check_normaliser(normaliser: &Normaliser, tables: &Tables) -> Result<(), WeightsError> {
-    let Tables { node, relation, .. } = tables;
+    let Tables { node, given, relation, .. } = tables;
     check_scales("normaliser.node_even", &normaliser.node_even, node[0])?;
     check_scales("normaliser.node_odd", &normaliser.node_odd, node[1])?;
+    check_scales("normaliser.given_even", &normaliser.given_even, given[0])?;
+    check_scales("normaliser.given_odd", &normaliser.given_odd, given[1])?;
     check_scales("normaliser.relation_even", &normaliser.relation_even, relation[0])?;
     check_scales("normaliser.relation_odd", &normaliser.relation_odd, relation[1])
 }

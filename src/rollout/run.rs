@@ -5,7 +5,7 @@ use crate::{
     geometry::{Pose, Vector},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, REST_SPEED,
-        Record, Scene, State, Stroke, Trajectory, Velocity, Warning,
+        Record, Scene, Spread, State, Stroke, Trajectory, Velocity, Warning,
     },
 };
 
@@ -373,6 +373,11 @@ impl Walk for Run<'_> {
         self.work.graphs += u64::from(!self.idle);
         self.work.nodes += found.awake as u64;
         self.work.relations += found.relations as u64;
+        for &(object, spread) in found.doubts {
+            let object = self.memory.subset.objects[object.0].0;
+            self.trajectory.spreads.resize(self.scene.objects.len(), Spread::default());
+            self.trajectory.spreads[object] += spread;
+        }
         found.touches.iter().for_each(|touch| self.touch(touch));
     }
 

@@ -1,13 +1,13 @@
 //! One frame of many rollouts side by side: solved, corrected by the network, applied.
 
 use crate::{
-    contact::{Frame, FrameProblem, FrameSolver, Motion, Tally, Touch},
-    graph::Batch,
+    contact::{Frame, FrameProblem, FrameSolver, ListIndex, Motion, Tally, Touch},
+    graph::{Batch, Correction},
+    scene::Spread,
 };
 
-/// Corrects the prior of every node of a batch: fills the vector with one entry per node, in
-/// output units (see [`crate::graph::Node::encode`]).
-pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<[f64; 6]>) + 'a;
+/// Corrects the prior of every node of a batch: fills the vector with one entry per node.
+pub type Corrector<'a> = dyn FnMut(&Batch, &mut Vec<Correction>) + 'a;
 
 /// What goes on frame by frame.
 pub trait Walk {
@@ -30,6 +30,8 @@ pub struct Found<'a> {
     pub relations: usize,
     /// What touches, or comes to.
     pub touches: &'a [Touch],
+    /// What the frame adds to the error that is expected at the end, of corrected objects.
+    pub doubts: &'a [(ListIndex, Spread)],
 }
 
 /// Steps many walks by a frame at a time, on memory that it keeps from one step to the next.
@@ -38,7 +40,7 @@ pub struct Stepper {
     most: usize,
     solver: FrameSolver,
     batch: Batch,
-    corrections: Vec<[f64; 6]>,
+    corrections: Vec<Correction>,
     /// Of every walk.
     frames: Vec<Frame>,
     steps: Vec<Step>,
@@ -51,6 +53,7 @@ struct Step {
     walking: bool,
     motions: Vec<Motion>,
     touches: Vec<Touch>,
+    doubts: Vec<(ListIndex, Spread)>,
     awake: usize,
     relations: usize,
 }
@@ -81,7 +84,7 @@ impl Stepper {
     pub fn step<W: Walk>(
         &mut self,
         walks: &mut [W],
-        correct: Option<&mut (impl FnMut(&Batch, &mut Vec<[f64; 6]>) + ?Sized)>,
+        correct: Option<&mut (impl FnMut(&Batch, &mut Vec<Correction>) + ?Sized)>,
     ) -> bool {
         let Self { most, solver, batch, corrections, frames, steps } = self;
         batch.clear();
@@ -103,6 +106,7 @@ impl Stepper {
             }
             frame.fill(&mut step.motions);
             step.touches.clear();
+            step.doubts.clear();
             step.touches.extend(frame.touches());
             step.awake = frame.motions.len();
             step.relations = batch.relation_count() - relations;
@@ -115,8 +119,8 @@ impl Stepper {
             apply(batch, corrections, steps);
         }
         for (walk, step) in walks.iter_mut().zip(steps).filter(|(_, step)| step.walking) {
-            let Step { awake, relations, ref touches, .. } = *step;
-            walk.note(Found { awake, relations, touches });
+            let Step { awake, relations, ref touches, ref doubts, .. } = *step;
+            walk.note(Found { awake, relations, touches, doubts });
             walk.advance(&step.motions);
         }
         true
@@ -124,12 +128,14 @@ impl Stepper {
 }
 
 /// Puts the corrected motion of every node in its graph's list.
-fn apply(batch: &Batch, corrections: &[[f64; 6]], steps: &mut [Step]) {
+fn apply(batch: &Batch, corrections: &[Correction], steps: &mut [Step]) {
     for (node, correction) in batch.nodes.iter().zip(corrections) {
         let mut output = node.prior;
-        for (value, change) in output.iter_mut().zip(correction) {
+        for (value, change) in output.iter_mut().zip(&correction.output) {
             *value += change;
         }
-        steps[node.graph as usize].motions[node.object.0] = node.decode(&output);
+        let step = &mut steps[node.graph as usize];
+        step.motions[node.object.0] = node.decode(&output);
+        step.doubts.extend(correction.doubt.map(|doubt| (node.object, node.decode_doubt(doubt))));
     }
 }

@@ -52,6 +52,7 @@ mod tests {
             table_friction: 0.4,
             pairs: Vec::new(),
             feet: Vec::new(),
+            supports_known: true,
             push_height: None,
             joints: [[4, 5], [3, 4], [0, 3]].map(joint).to_vec(),
         };

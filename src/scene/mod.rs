@@ -80,7 +80,7 @@ pub use state::{State, Velocity};
 pub use support::Support;
 pub use task::{Directions, Offsets, PushForm, PushRules, Robot, Task, ToolChoice};
 pub use tool::{Part, Tool, ToolError};
-pub use trajectory::{Body, Contact, Force, Frame, Lift, Record, TOUCHING, Trajectory};
+pub use trajectory::{Body, Contact, Force, Frame, Lift, Record, Spread, TOUCHING, Trajectory};
 pub use truth::Truth;
 pub use unknowns::Unknowns;
 pub use verdict::{Disturbance, Evidence, Reason, Verdict};

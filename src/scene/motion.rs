@@ -12,6 +12,9 @@ use super::{LeverUp, Part, Plate, Scene, State, TOUCHING, Tool};
 /// this travel, so a slow and a fast push cost the same number of frames.
 pub const FRAME_TRAVEL: f64 = 0.010;
 
+/// How far the tips of a usual tool are from its frame, metres: what travels when it turns.
+const TIPS: f64 = 0.1;
+
 /// Duration of a frame while the tool stands still and objects come to rest, seconds.
 pub const COAST_FRAME: f64 = 0.050;
 
@@ -75,10 +78,13 @@ impl Stroke {
         (length > 1e-9).then(|| travel / length)
     }
 
-    /// Number of equal frames that the stroke is cut into.
+    /// Number of equal frames that the stroke is cut into: by the travel of the frame, and of the
+    /// tips around it where the tool turns.
     pub fn frames(&self) -> usize {
+        let turn = (self.to.heading - self.from.heading).abs();
+        let travel = self.travel() + TIPS * turn;
         // The small part keeps 0.2 / 0.01 at twenty frames however it is rounded.
-        ((self.travel() / FRAME_TRAVEL - 1e-6).ceil() as usize).max(1)
+        ((travel / FRAME_TRAVEL - 1e-6).ceil() as usize).max(1)
     }
 
     /// Frame `index` of the stroke.

@@ -21,6 +21,8 @@ pub struct Physics {
     pub pairs: Vec<PairFriction>,
     /// What every object stands on.
     pub feet: Vec<Arc<Feet>>,
+    /// Whether that is known, rather than one guess of many.
+    pub supports_known: bool,
     /// How high the tool presses on objects, as a share of the mean height of where their faces
     /// meet: 0 at the table, 1 in the middle. `None` where flat faces leave it open. The higher,
     /// the more of the weight moves ahead, see [`Self::lean`].
@@ -43,6 +45,7 @@ impl Physics {
             table_friction: scene.table_friction,
             pairs: scene.frictions.clone(),
             feet: scene.objects.iter().map(|object| Arc::new(object.feet())).collect(),
+            supports_known: true,
             push_height: scene.push_height,
             joints: scene.joints.clone(),
         }

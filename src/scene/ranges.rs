@@ -16,8 +16,9 @@ const SLACK: f64 = 1e-2;
 /// three times those of ordinary pushes (`crates/lab/results/extremes.md`, corners).
 pub const TRAINED_SLIDE: f64 = 0.020;
 
-/// Most that the tool turns in training for each metre of travel, rad/m: 34 degrees in 20 cm.
-pub const TRAINED_TURN: f64 = 3.0;
+/// Most that the tool turns in training for each metre of travel, rad/m: a blade that turns about one
+/// of its tips while it pushes.
+pub const TRAINED_TURN: f64 = 20.0;
 
 /// How far a corner may be from a right angle, radians: training draws corners of any angle, down to
 /// about five degrees.

@@ -92,6 +92,32 @@ pub struct Force {
     pub lasting: f64,
 }
 
+/// How far from the truth a prediction of an object's end is expected to be, on average.
+///
+/// Errors have long tails, about those of an exponential distribution: see [`Self::within_90`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Of its position, metres.
+    pub position: f64,
+    /// Of its heading, radians.
+    pub heading: f64,
+}
+
+impl Spread {
+    /// What 90 % of errors stay within, where they are exponential: ln 10 times the mean.
+    pub fn within_90(&self) -> Self {
+        let factor = std::f64::consts::LN_10;
+        Self { position: factor * self.position, heading: factor * self.heading }
+    }
+}
+
+impl std::ops::AddAssign for Spread {
+    fn add_assign(&mut self, other: Self) {
+        self.position += other.position;
+        self.heading += other.heading;
+    }
+}
+
 /// The effect of a tool motion.
 ///
 /// `frames` begins with the start and ends at rest (or when waiting was given up, with a
@@ -109,6 +135,10 @@ pub struct Trajectory {
     /// How hard the tool pressed; `None` where the model does not say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<Force>,
+    /// How far off the end of every object is expected to be, in the order of the scene; empty where
+    /// the model does not say.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spreads: Vec<Spread>,
     /// What each lever-up has come to, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lifts: Vec<Lift>,
@@ -123,6 +153,7 @@ impl Trajectory {
             contacts: Vec::new(),
             warnings: Vec::new(),
             force: None,
+            spreads: Vec::new(),
             lifts: Vec::new(),
         }
     }

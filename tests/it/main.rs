@@ -49,6 +49,7 @@ mod shards;
 mod simulation;
 mod solving;
 mod tool_choice;
+mod tool_graph;
 mod verification;
 
 /// The repository, and its program.

@@ -27,10 +27,10 @@ pub fn weights(width: usize) -> PredictorWeights {
             config,
             normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
             ranges: PRIOR_RANGES,
-            data_seed: 0,
-            episodes: 0,
+            sources: Vec::new(),
             steps: 0,
             errors: None,
+            doubt: None,
         },
         parameters,
     }

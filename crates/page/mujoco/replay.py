@@ -43,8 +43,8 @@ class Failed(Exception):
 class Replay:
     """One scene."""
 
-    def __init__(self, path):
-        self.model = mujoco.MjModel.from_xml_path(str(path))
+    def __init__(self, model):
+        self.model = model
         self.data = mujoco.MjData(self.model)
         self.step = self.model.opt.timestep
         bodies = [self.model.body(k) for k in range(self.model.nbody)]
@@ -52,7 +52,8 @@ class Replay:
         self.bodies = list(self.objects.values())
         geoms = [self.model.geom(k).name for k in range(self.model.ngeom)]
         self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
-        joints = [self.model.joint("tool x"), self.model.joint("tool y")]
+        joints = [self.model.joint(k) for k in range(self.model.njnt)]
+        joints = [joint for joint in joints if joint.name.startswith("tool ")]
         self.tool_position = [joint.qposadr[0] for joint in joints]
         self.tool_velocity = [joint.dofadr[0] for joint in joints]
         self.deepest = np.zeros(len(KINDS))
@@ -134,7 +135,7 @@ class Replay:
 
 def replay(path):
     """Plays the scene of a file; everything worth knowing of it, for JSON."""
-    scene = Replay(path)
+    scene = Replay(mujoco.MjModel.from_xml_path(str(path)))
     failure = None
     try:
         scene.run()

@@ -9,7 +9,7 @@ use pushplan::report::{Origin, PageView, verdict_page};
 use pushplan::scene::{Engine, PushForm, Situation};
 use pushplan::solve::{AskedPush, asked_plan};
 use pushplan::verify::VerifySettings;
-use pushplan::{RankedPlan, Task, Trajectory, Verdict, Verifier};
+use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -168,6 +168,27 @@ impl PyPlan {
     fn trajectory(&self) -> Option<PyTrajectory> {
         let trajectory = self.trajectory.clone()?;
         Some(PyTrajectory::new(&Arc::new(self.file.task.clone()), trajectory))
+    }
+
+    /// The graph that the network reads, between frames `frame` and `frame + 1` of `trajectory`: a
+    /// dictionary with `nodes` (objects, the parts of the tool, obstacles: name, kind, pose, size, and
+    /// how they move) and `relations` (contacts and joints between them, by the nodes' indices); `None`
+    /// past the last frame, and where something is levered or nothing was predicted.
+    fn graph<'py>(&self, py: Python<'py>, frame: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let (Some(trajectory), Some(tool)) = (&self.trajectory, self.file.tools.first()) else {
+            return Ok(None);
+        };
+        let PlanFile { task, plan, .. } = &self.file;
+        if task.in_space() || plan.levers() {
+            return Ok(None);
+        }
+        let job = Job::stated(&task.scene, plan.motion(tool));
+        let graph = Graph::at(&task.scene, &job, trajectory, frame);
+        let text = graph.map(|graph| serde_json::to_string(&graph)).transpose();
+        match text.map_err(|error| PyValueError::new_err(error.to_string()))? {
+            Some(text) => json::text(py, &text).map(Some),
+            None => Ok(None),
+        }
     }
 
     /// Whether replays confirm it, where that was tried.

@@ -7,7 +7,7 @@ use pushplan::asset::{
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
     Body, Contact, Disturbance, Engine, Evidence, Force, Frame, ModelKind, Outcome, Plan, Push,
-    Step, Task, Tool, Trajectory, Verdict, Warning,
+    Spread, Step, Task, Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -60,6 +60,7 @@ pub fn trajectory_file(name: &str) -> TrajectoryFile {
     let contact = Contact { frame: 1, object: 0, with: Body::Part(0) };
     let trajectory = Trajectory {
         lifts: Vec::new(),
+        spreads: vec![Spread { position: 1e-3, heading: 0.02 }],
         by: ModelKind::PLANAR.into(),
         frames: vec![frame(0.0, 0), frame(0.1, 0), frame(0.3, 1)],
         contacts: vec![contact],

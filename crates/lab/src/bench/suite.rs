@@ -7,8 +7,8 @@ use pushplan::internals::asset::ToolLibrary;
 use pushplan::internals::scene::{Scene, Span, ToolMotion};
 use pushplan::internals::seeded::generator;
 use pushplan_learn::dataset::{
-    Aim, Constraints, Crowd, DatasetConfig, JointRule, Preset, Solids, aimed_stroke, anywhere,
-    log_uniform, random_direction, random_heading, random_scene, sample,
+    Aim, Constraints, Crowd, DatasetConfig, Episode, JointRule, Preset, Solids, aimed_stroke,
+    anywhere, log_uniform, random_direction, random_heading, random_scene,
 };
 use serde::{Deserialize, Serialize};
 
@@ -106,7 +106,8 @@ pub(super) fn jointed_crowd_cases(
     };
     let families = [Preset::Sparse, Preset::Dense].map(config);
     let case = |index: usize| {
-        let (scene, mut motion) = sample(&families[index % 2], index as u64);
+        let Episode { scene, mut motion, .. } =
+            Episode::of_crowd(&families[index % 2], index as u64);
         motion.strokes.truncate(1);
         Case { scene, motion }
     };

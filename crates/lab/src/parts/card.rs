@@ -15,7 +15,8 @@ pub type PartsWeights = Weights<PartsCard>;
 
 /// Columns of its tables. What is read from a node is how the body moves: of ways x and z and of the
 /// turn y are even, of ways y and of the turn x and z are odd.
-pub const PARTS: Tables = Tables { node: [19, 13], relation: [24, 8], output: [3, 3] };
+pub const PARTS: Tables =
+    Tables { node: [19, 13], given: [0, 0], relation: [24, 8], output: [3, 3] };
 
 /// What the weights are and how they came about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! Graphs of levered bodies side by side, as the network reads them.
 
-use pushplan::internals::graph::KINEMATIC;
+use pushplan::internals::graph::NOBODY;
 use pushplan::internals::network::Rows;
 
 use super::card::PARTS;
@@ -38,6 +38,8 @@ impl PartGraphs {
         Rows {
             node_even: &self.node_even,
             node_odd: &self.node_odd,
+            given_even: &[],
+            given_odd: &[],
             relation_even: &self.relation_even,
             relation_odd: &self.relation_odd,
             receivers: &self.receivers,
@@ -69,7 +71,7 @@ impl PartGraphs {
     ) {
         let first = self.firsts.last().copied().unwrap_or(0);
         self.receivers.push(first + receiver as u32);
-        self.senders.push(sender.map_or(KINEMATIC, |sender| first + sender as u32));
+        self.senders.push(sender.map_or(NOBODY, |sender| first + sender as u32));
         self.relation_even.extend(even.map(bounded));
         self.relation_odd.extend(odd.map(bounded));
     }

@@ -79,14 +79,14 @@ fn sets_differ_from_each_other_and_from_training_and_threads_change_nothing() {
         assert!(scenes[..k].iter().all(|other| other.objects != scene.objects));
     }
     let training = DatasetConfig { seed: 3, preset: Preset::Dense, ..DatasetConfig::default() };
-    let seen = Episode::draw(&training, 0).scene;
+    let seen = Episode::of_crowd(&training, 0).scene;
     assert!(scenes.iter().all(|scene| scene.objects[0] != seen.objects[0]));
 }
 
 #[test]
 fn a_recorded_simulation_is_judged_like_the_simulation() {
     let config = DatasetConfig { seed: 5, preset: Preset::Sparse, ..DatasetConfig::default() };
-    let episode = Episode::draw(&config, 1);
+    let episode = Episode::of_crowd(&config, 1);
     let recording =
         Recording::of_frames("sparse", &episode.scene, &episode.motion, &episode.frames);
     let trial = Trial::of_recording(&recording);

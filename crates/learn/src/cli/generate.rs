@@ -16,9 +16,9 @@ use pushplan::internals::scene::LeverTrajectory;
 use pushplan::internals::store::{Shard, StoreError};
 use serde_json::json;
 
-use crate::cli::words::{DATA, Data, JOINTS, SOLIDS};
+use crate::cli::words::{DATA, Data, JOINTS, SOLIDS, TRUTHS};
 use crate::dataset::{
-    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids,
+    Constraints, DatasetConfig, DatasetError, JointRule, LeverConfig, LeverDataset, Solids, Truth,
     generate, generate_npz,
 };
 
@@ -35,7 +35,7 @@ for test sets such as the published ones (hand at 0.21 m/s). Lever-ups of one se
 shape in common with those of another.
 
 Examples:
-  pushplan-learn generate data/train --preset mixed --episodes 20000 --seed 1
+  pushplan-learn generate data/train --episodes 20000 --seed 1
   pushplan-learn generate data/dense-9 --preset dense --episodes 200 --seed 7 \\
       --objects 9 --joints mixed --solids cylinders --speed 0.21
   pushplan-learn generate data/levers --preset levers --episodes 1600 --seed 1
@@ -61,6 +61,9 @@ pub struct GenerateArgs {
     /// Family of scenes
     #[arg(long, value_parser = words(&DATA), default_value = "tools")]
     preset: Data,
+    /// Who says what is true of pushes with tools
+    #[arg(long, value_parser = words(&TRUTHS), default_value = "both")]
+    truth: Truth,
     /// Number of objects of a crowd, 2 to 12 [default: any of them]
     #[arg(long, value_name = "N")]
     objects: Option<usize>,
@@ -108,12 +111,12 @@ impl GenerateArgs {
 
     /// Makes the data; the number of episodes and their size in bytes.
     fn make(&self, following: &Following) -> Result<(usize, u64), DatasetError> {
-        let &Self { seed, episodes, .. } = self;
+        let &Self { seed, episodes, truth, .. } = self;
         let shard = self.shard();
         let constraints = self.constraints();
         match self.preset {
             Data::Pushes(preset) => {
-                let config = DatasetConfig { seed, episodes, preset, constraints };
+                let config = DatasetConfig { seed, episodes, preset, constraints, truth };
                 match self.format {
                     Format::Mjcf => {
                         let why = "plans with pushes are written by `pushplan export`";
@@ -218,6 +221,10 @@ pub fn data_error(error: DatasetError) -> CliError {
         DatasetError::Foreign { .. } | DatasetError::Shard { .. } => {
             CliError::File(error.to_string())
         }
+        DatasetError::Player(_) => CliError::usage(
+            error.to_string(),
+            "pip install mujoco, or make data of another --truth",
+        ),
         DatasetError::Store(error) => error.into(),
     }
 }

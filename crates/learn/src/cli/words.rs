@@ -1,6 +1,6 @@
 //! Words for data and networks, each with its line in `--help`.
 
-use crate::dataset::{JointRule, LeverPreset, Preset, Solids};
+use crate::dataset::{JointRule, LeverPreset, Preset, Solids, Truth};
 use crate::train::Exposure;
 
 /// Families of training scenes.
@@ -9,7 +9,15 @@ pub static PRESETS: [(&str, Preset, &str); 5] = [
     ("sparse", Preset::Sparse, "Scattered objects, seven or eight strokes of a round hand"),
     ("sparse-line", Preset::SparseLine, "Scattered objects, one long stroke through them"),
     ("dense", Preset::Dense, "Objects almost touching, one stroke into them"),
-    ("mixed", Preset::Mixed, "All of the above: what the shipped weights are trained on"),
+    ("crowds", Preset::Crowds, "Crowds of all three kinds"),
+];
+
+/// Who says what is true of pushes with tools.
+pub static TRUTHS: [(&str, Truth, &str); 4] = [
+    ("both", Truth::Both, "The 3-D engine in four of five episodes, else the planar one"),
+    ("planar", Truth::Planar, "The planar engine"),
+    ("3d", Truth::Spatial, "The 3-D engine"),
+    ("mujoco", Truth::Mujoco, "MuJoCo, by the Python that PUSHPLAN_PYTHON names or `python3`"),
 ];
 
 /// Families of lever-ups.

@@ -8,6 +8,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 use super::chance::{log_uniform, sign, uniform, weighted};
+use super::tabletop::random_friction;
 
 /// How often a tool has one to five parts.
 const PART_COUNTS: [f64; 5] = [0.20, 0.25, 0.20, 0.20, 0.15];
@@ -44,7 +45,7 @@ pub fn random_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
             parts.push(Part::cuboid(format!("part-{}", parts.len() + 1), size, pose));
         }
     }
-    let friction = uniform(rng, ranges.friction.low, ranges.friction.high);
+    let friction = random_friction(rng, ranges);
     Tool::assembled("assembly", parts, joints)
         .described("Random cuboids glued face to face.")
         .friction(friction)

@@ -11,8 +11,10 @@ use serde_json::json;
 use super::constraints::Constraints;
 use super::episode::Episode;
 use super::error::DatasetError;
+use super::mujoco;
 use super::preset::Preset;
 use super::set::Sampler;
+use super::truth::Truth;
 
 /// The suite of a folder of episodes.
 pub const SUITE: &str = "episodes";
@@ -20,11 +22,8 @@ pub const SUITE: &str = "episodes";
 /// The suite of a folder of `.npz` files.
 const SUITE_OF_FILES: &str = "episodes as npz";
 
-/// What the episodes show: the 3-D engine in most of those with tools.
-const TRUTH: &str = "planar and 3d";
-
 /// Version of the sampler: another one draws other episodes for the same settings.
-const SAMPLER: u32 = 7;
+const SAMPLER: u32 = 8;
 
 /// An episode as a record: index, scene, tool, lift, strokes, frames. `postcard` keeps every bit of
 /// a number.
@@ -37,6 +36,8 @@ struct Sampled {
     sampler: u32,
     preset: Preset,
     constraints: Constraints,
+    #[serde(default)]
+    truth: Truth,
 }
 
 /// Everything that decides the bits of a data set.
@@ -52,6 +53,9 @@ pub struct DatasetConfig {
     /// What is fixed rather than sampled.
     #[serde(default)]
     pub constraints: Constraints,
+    /// Who says what is true of pushes with tools.
+    #[serde(default)]
+    pub truth: Truth,
 }
 
 impl Default for DatasetConfig {
@@ -61,6 +65,7 @@ impl Default for DatasetConfig {
             episodes: 60_000,
             preset: Preset::Tools,
             constraints: Constraints::default(),
+            truth: Truth::default(),
         }
     }
 }
@@ -78,12 +83,26 @@ impl DatasetConfig {
 
     /// The same as what a folder of files with so many episodes each holds.
     pub(super) fn manifest_of_files(&self, files: usize, episodes_a_file: u64) -> RunManifest {
-        let sampled =
-            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
-        let mut settings = json!(sampled);
+        let mut settings = json!(self.sampled());
         settings["episodes"] = json!(self.episodes);
         settings["episodes_a_file"] = json!(episodes_a_file);
-        RunManifest::new(SUITE_OF_FILES, files, self.seed, TRUTH).with_settings(settings)
+        RunManifest::new(SUITE_OF_FILES, files, self.seed, &self.played_by())
+            .with_settings(settings)
+    }
+
+    fn sampled(&self) -> Sampled {
+        let &Self { preset, constraints, truth, .. } = self;
+        Sampled { sampler: SAMPLER, preset, constraints, truth }
+    }
+
+    /// What the episodes show, with the version of what is not ours.
+    pub fn played_by(&self) -> String {
+        match self.truth {
+            Truth::Both => "planar and 3d".to_owned(),
+            Truth::Planar => "planar".to_owned(),
+            Truth::Spatial => "3d".to_owned(),
+            Truth::Mujoco => format!("mujoco {}", mujoco::version().unwrap_or("?")),
+        }
     }
 }
 
@@ -98,15 +117,17 @@ impl Sampler for DatasetConfig {
     fn check(&self) -> Result<(), DatasetError> {
         match self.episodes {
             0 => Err(DatasetError::Empty("episodes")),
+            _ if self.truth != Truth::Both && self.preset.is_crowd() => {
+                let why = "crowds are played by the planar engine, whatever the truth of others";
+                Err(DatasetError::Constraint(why.to_owned()))
+            }
             _ => self.constraints.check(self.preset),
         }
     }
 
     fn manifest(&self) -> RunManifest {
-        let settings =
-            Sampled { sampler: SAMPLER, preset: self.preset, constraints: self.constraints };
-        RunManifest::new(SUITE, self.episodes as usize, self.seed, TRUTH)
-            .with_settings(json!(settings))
+        RunManifest::new(SUITE, self.episodes as usize, self.seed, &self.played_by())
+            .with_settings(json!(self.sampled()))
     }
 
     fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError> {
@@ -114,14 +135,14 @@ impl Sampler for DatasetConfig {
         let settings: Option<Sampled> = serde_json::from_value(manifest.settings.clone()).ok();
         let sampled =
             settings.filter(|settings| manifest.suite == SUITE && settings.sampler == SAMPLER);
-        let Sampled { preset, constraints, .. } = sampled.ok_or_else(other)?;
-        let config =
-            Self { seed: manifest.seed, episodes: manifest.tasks as u64, preset, constraints };
+        let Sampled { preset, constraints, truth, .. } = sampled.ok_or_else(other)?;
+        let (seed, episodes) = (manifest.seed, manifest.tasks as u64);
+        let config = Self { seed, episodes, preset, constraints, truth };
         config.check()?;
         Ok(config)
     }
 
-    fn draw(&self, index: u64) -> Episode {
+    fn draw(&self, index: u64) -> Result<Episode, DatasetError> {
         Episode::draw(self, index)
     }
 

@@ -20,6 +20,9 @@ pub enum DatasetError {
     /// The folder cannot be read or written, or holds something else.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// Another engine cannot be asked.
+    #[error("{0}; PUSHPLAN_PYTHON names a Python with the package `mujoco`")]
+    Player(String),
     /// The folder holds something else than episodes, or those of another version.
     #[error("{} does not hold data of this version of pushplan", path.display())]
     Foreign {

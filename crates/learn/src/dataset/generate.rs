@@ -37,12 +37,10 @@ pub fn generate<S: Sampler>(
         let end = (journal.done() + S::AT_ONCE).min(indices.len());
         let drawn = draw(config, &indices[journal.done()..end], &count, watch);
         // Of what is stopped, the beginning without a hole can be kept.
-        let whole = drawn.iter().map_while(Option::as_ref);
+        let whole = drawn.iter().map_while(|episode| episode.as_ref().ok());
         let records: Vec<Vec<u8>> = whole.map(S::encode).collect::<Result<_, _>>()?;
         journal.append(records.iter().map(Vec::as_slice))?;
-        if journal.done() < end {
-            return Err(DatasetError::Cancelled);
-        }
+        drawn.into_iter().collect::<Result<Vec<_>, _>>()?;
     }
     Ok((journal.done(), journal.bytes()))
 }

@@ -77,8 +77,14 @@ impl Lesson {
         let solids = alone.then_some(Solids::Cylinders);
         let constraints = Constraints { joints, solids, ..Constraints::default() };
         // Numbered by themselves: scenes must not follow from which presets came before.
-        let config = DatasetConfig { seed, episodes: u64::MAX, preset, constraints };
-        let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
+        let config = DatasetConfig {
+            seed,
+            episodes: u64::MAX,
+            preset,
+            constraints,
+            ..DatasetConfig::default()
+        };
+        let Episode { scene, motion, frames, .. } = Episode::of_crowd(&config, index);
         let recording = Recording::of_frames("drawn", &scene, &motion, &frames);
         let (seen, observations) = seeing.observe(&recording, &mut rng);
         let settings = BeliefSettings::new(seeing.noise);

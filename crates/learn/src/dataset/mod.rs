@@ -1,5 +1,5 @@
 //! Training data: random scenes and pushes with what an engine says they do: the 3-D one for most
-//! of those with tools, the planar one for the others.
+//! of those with tools, the planar one for the others, or MuJoCo where it is asked for.
 //!
 //! Every episode is a pure function of the configuration's seed and its own index, so data are
 //! never committed but made again, in memory or in a folder, resumable, with the same
@@ -26,6 +26,7 @@ mod joints;
 mod lesson;
 mod lessons;
 mod lever;
+mod mujoco;
 mod novelty;
 mod npz;
 mod observed;
@@ -35,6 +36,7 @@ mod set;
 mod sparse;
 mod tabletop;
 mod tools;
+mod truth;
 mod unseen;
 
 pub use aim::{Aim, SET_DOWN, aimed_stroke, random_direction, random_heading};
@@ -43,7 +45,7 @@ pub use chance::log_uniform;
 pub use config::{DatasetConfig, SUITE};
 pub use constraints::{Constraints, JointRule, TEST_SPEED};
 pub use controlled::Controlled;
-pub use episode::{Episode, sample};
+pub use episode::Episode;
 pub use error::DatasetError;
 pub use generate::{generate, merge_data};
 pub use hand::HAND_RADIUS;
@@ -60,5 +62,6 @@ pub use observed::Seeing;
 pub use preset::Preset;
 pub use set::{Dataset, LeverDataset, Sampler, Set};
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
+pub use truth::Truth;
 
 pub use pushplan::internals::scene::{Ranges, Span};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pushplan::internals::store::{RunManifest, StoreError};
+use pushplan::internals::store::{RunManifest, StoreError, digest};
 use pushplan::internals::watch::{Count, Watch};
 use rayon::prelude::*;
 
@@ -41,7 +41,10 @@ pub trait Sampler: Clone + Sync {
     fn of(manifest: &RunManifest, dir: &Path) -> Result<Self, DatasetError>;
 
     /// Draws and simulates an episode.
-    fn draw(&self, index: u64) -> Self::Episode;
+    ///
+    /// # Errors
+    /// [`DatasetError::Player`] if another engine is asked, and ends.
+    fn draw(&self, index: u64) -> Result<Self::Episode, DatasetError>;
 
     /// An episode as a record: every bit of its numbers, its index first.
     ///
@@ -80,7 +83,7 @@ impl<S: Sampler> Set<S> {
         let count = Count::new(watch, 0, config.count() as usize);
         let indices: Vec<u64> = (0..config.count()).collect();
         let drawn = draw(config, &indices, &count, watch);
-        let episodes = drawn.into_iter().collect::<Option<_>>().ok_or(DatasetError::Cancelled)?;
+        let episodes = drawn.into_iter().collect::<Result<_, _>>()?;
         Ok(Self { config: config.clone(), episodes })
     }
 
@@ -93,27 +96,33 @@ impl<S: Sampler> Set<S> {
         &self.config
     }
 
+    /// Checksum over all episodes as records, hexadecimal.
+    pub fn digest(&self) -> String {
+        let records = self.episodes.iter().filter_map(|episode| S::encode(episode).ok());
+        digest(&records.map(|record| digest(&record)).collect::<String>().into_bytes())
+    }
+
     /// All episodes, in order of their index.
     pub fn episodes(&self) -> &[S::Episode] {
         &self.episodes
     }
 }
 
-/// Draws the episodes with these indices in parallel, counting them; `None` for those that were
-/// left when `watch` said to stop.
+/// Draws the episodes with these indices in parallel, counting them; [`DatasetError::Cancelled`]
+/// for those that were left when `watch` said to stop.
 pub(super) fn draw<S: Sampler>(
     config: &S,
     indices: &[u64],
     count: &Count,
     watch: &dyn Watch,
-) -> Vec<Option<S::Episode>> {
+) -> Vec<Result<S::Episode, DatasetError>> {
     let draw = |&index: &u64| {
         if watch.cancelled() {
-            return None;
+            return Err(DatasetError::Cancelled);
         }
-        let episode = config.draw(index);
+        let episode = config.draw(index)?;
         count.one();
-        Some(episode)
+        Ok(episode)
     };
     indices.par_iter().map(draw).collect()
 }

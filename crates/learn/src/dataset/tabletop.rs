@@ -18,6 +18,12 @@ pub(super) const USUAL_HEIGHT: Span = Span::new(0.05, 0.15);
 /// Gaps of neighbours that do not touch, metres.
 const GAP: Span = Span::new(1e-3, 0.06);
 
+/// Share of friction values above 1, where there are any.
+const STICKY: f64 = 0.15;
+
+/// From this ratio of its sides on a cuboid is long; this share of them is drawn so, if any may be.
+const LONG: (f64, f64) = (3.0, 0.2);
+
 /// Which solids are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -45,7 +51,7 @@ pub struct Crowd {
 
 /// A table with `crowd` around the origin and no obstacles.
 pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
-    let friction = |rng: &mut Pcg64| uniform(rng, ranges.friction.low, ranges.friction.high);
+    let friction = |rng: &mut Pcg64| random_friction(rng, ranges);
     let (middle, masses) = mass_span(rng, ranges);
     let mut scene = Scene::new([]).on_table(friction(rng));
     for index in 0..crowd.count {
@@ -67,6 +73,15 @@ pub fn random_scene(rng: &mut Pcg64, ranges: &Ranges, crowd: Crowd) -> Scene {
         });
     }
     scene
+}
+
+/// A friction value within the ranges, above 1 in a few cases.
+pub(super) fn random_friction(rng: &mut Pcg64, ranges: &Ranges) -> f64 {
+    let Span { low, high } = ranges.friction;
+    match high > 1.0 && rng.random_bool(STICKY) {
+        true => uniform(rng, 1.0, high),
+        false => uniform(rng, low, high.min(1.0)),
+    }
 }
 
 /// The scene turned by any angle and put anywhere on the table.
@@ -100,6 +115,12 @@ pub(super) fn random_shape(rng: &mut Pcg64, ranges: &Ranges, solids: Solids) -> 
             radius: uniform(rng, ranges.radius.low, ranges.radius.high),
             height,
         };
+    }
+    let (long, share) = LONG;
+    if ranges.aspect > long && rng.random_bool(share) {
+        let x = uniform(rng, 0.5 * ranges.side.high, ranges.side.high);
+        let y = (x / uniform(rng, long, ranges.aspect)).max(ranges.side.low);
+        return Shape::Cuboid { size: [x, y, height] };
     }
     let x = log_uniform(rng, ranges.side);
     let others = Span::new(

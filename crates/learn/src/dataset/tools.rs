@@ -14,10 +14,13 @@ use rand_pcg::Pcg64;
 use super::aim::{Aim, aimed_stroke, random_direction, random_heading, tool_travel};
 use super::assembly::random_tool;
 use super::chance::{heading, log_uniform, uniform, weighted};
+use super::error::DatasetError;
 use super::jam::{crosses_obstacle, shortened_before_jam};
+use super::mujoco;
 use super::novelty::is_shipped;
 use super::obstacle::place_obstacle;
-use super::tabletop::{Crowd, Solids, anywhere, random_scene};
+use super::tabletop::{Crowd, Solids, anywhere, random_friction, random_scene};
+use super::truth::Truth;
 use super::unseen::{draw_heights, draw_supports, push_height};
 
 /// How often there are one, two or three objects.
@@ -29,8 +32,9 @@ const PUSH_COUNTS: [f64; 3] = [0.70, 0.20, 0.10];
 /// Share of objects that are convex polygons.
 const POLYGONS: f64 = 0.2;
 
-/// Share of scenes with obstacles.
-const OBSTACLES: f64 = 0.2;
+/// Share of scenes with obstacles, where both of our engines, one of them, or MuJoCo say what is
+/// true.
+const OBSTACLES: [f64; 3] = [0.2, 0.0, 0.35];
 
 /// Share of tools that are a single round part, as a finger or a hand is.
 const ROUND: f64 = 0.12;
@@ -49,6 +53,16 @@ const SLOW: f64 = 0.1;
 /// Share of strokes in which the tool turns on its way.
 const TURNING: f64 = 0.15;
 
+/// Half of these turn by no more than this, rad/m: 34 degrees in 20 cm.
+const USUAL_TURN: f64 = 3.0;
+
+/// Most that a tool turns in a stroke, radians.
+const MOST_TURN: f64 = 1.2;
+
+/// Speeds that MuJoCo plays, m/s: slower ones take it minutes, at faster ones objects on many feet
+/// burst.
+const MUJOCO_SPEED: Span = Span::new(0.04, 0.2);
+
 /// Tries to aim a push before it is given up.
 const TRIES: usize = 30;
 
@@ -57,10 +71,44 @@ const SHORTEST: f64 = 0.02;
 
 /// A scene and one to three pushes; nothing when no push could be aimed or something did not
 /// come to rest.
+///
+/// # Errors
+/// [`DatasetError::Player`](super::DatasetError::Player) if MuJoCo is to be asked and cannot.
 pub(super) fn pushed_by_tool(
     rng: &mut Pcg64,
     ranges: &Ranges,
-) -> Option<(Scene, ToolMotion, Vec<Frame>)> {
+    truth: Truth,
+) -> Result<Option<(Scene, ToolMotion, Vec<Frame>)>, DatasetError> {
+    let Some((mut scene, motion, planar)) = planned(rng, ranges, truth) else { return Ok(None) };
+    let spatial = match truth {
+        Truth::Both => rng.random_bool(SPATIAL),
+        Truth::Planar => false,
+        Truth::Spatial | Truth::Mujoco => true,
+    };
+    if !spatial {
+        return Ok(planar.warnings.is_empty().then_some((scene, motion, planar.frames)));
+    }
+    scene.push_height = None;
+    if truth == Truth::Mujoco {
+        let frames = mujoco::play(&scene, &motion)?;
+        return Ok(frames.map(|frames| (scene, motion, frames)));
+    }
+    let job = Job::stated(&scene, motion.clone());
+    let play = Simulator::spatial().run(&scene, &job, Record::Frames);
+    Ok(play.warnings.is_empty().then_some((scene, motion, play.frames)))
+}
+
+/// A scene, one to three pushes that are aimed in the plane, which is faster, and what they do there.
+fn planned(
+    rng: &mut Pcg64,
+    ranges: &Ranges,
+    truth: Truth,
+) -> Option<(Scene, ToolMotion, Trajectory)> {
+    let mut ranges = ranges.clone();
+    if truth == Truth::Mujoco {
+        ranges.speed = MUJOCO_SPEED;
+    }
+    let ranges = &ranges;
     let crowd = Crowd {
         count: 1 + weighted(rng, &OBJECT_COUNTS),
         solids: Solids::Any,
@@ -71,7 +119,6 @@ pub(super) fn pushed_by_tool(
     let mut scene = anywhere(rng, scene);
     draw_supports(rng, &mut scene);
     draw_heights(rng, ranges, &mut scene);
-    // Pushes are aimed in the plane, which is faster.
     scene.push_height = Some(push_height(rng));
     let tool = Arc::new(new_tool(rng, ranges));
     let count = 1 + weighted(rng, &PUSH_COUNTS);
@@ -81,7 +128,13 @@ pub(super) fn pushed_by_tool(
     let mut play = aimed_first(rng, ranges, &scene, &motion)
         .map(|stroke| motion.strokes.push(stroke))
         .map(|()| simulate(&scene, &motion))?;
-    if rng.random_bool(OBSTACLES) {
+    let [both, ours, theirs] = OBSTACLES;
+    let obstacles = match truth {
+        Truth::Both => both,
+        Truth::Planar | Truth::Spatial => ours,
+        Truth::Mujoco => theirs,
+    };
+    if rng.random_bool(obstacles) {
         for _ in 0..rng.random_range(1..=2) {
             if let Some(obstacle) = place_obstacle(rng, &scene, &motion, &play.frames) {
                 scene.obstacles.push(obstacle);
@@ -104,12 +157,7 @@ pub(super) fn pushed_by_tool(
         let Some(trajectory) = cut_short(&scene, &mut longer) else { break };
         (motion, play) = (longer, trajectory);
     }
-    if rng.random_bool(SPATIAL) {
-        scene.push_height = None;
-        let job = Job::stated(&scene, motion.clone());
-        play = Simulator::spatial().run(&scene, &job, Record::Frames);
-    }
-    play.warnings.is_empty().then_some((scene, motion, play.frames))
+    Some((scene, motion, play))
 }
 
 fn simulate(scene: &Scene, motion: &ToolMotion) -> Trajectory {
@@ -156,13 +204,15 @@ fn round_tool(rng: &mut Pcg64, ranges: &Ranges) -> Tool {
     let parts = vec![Part { name: "part-1".to_owned(), shape, pose }];
     Tool::assembled("finger", parts, Vec::new())
         .described("A single round part.")
-        .friction(uniform(rng, ranges.friction.low, ranges.friction.high))
+        .friction(random_friction(rng, ranges))
 }
 
 fn speed_travel(rng: &mut Pcg64, ranges: &Ranges) -> (f64, f64) {
     let Span { low, high } = ranges.speed;
+    // Of MuJoCo's, which are few, none are slow.
+    let usual = Span::new((3.0 * low).min(MUJOCO_SPEED.low), high);
     let span =
-        if rng.random_bool(SLOW) { Span::new(low, 3.0 * low) } else { Span::new(3.0 * low, high) };
+        if low < usual.low && rng.random_bool(SLOW) { Span::new(low, 3.0 * low) } else { usual };
     (log_uniform(rng, span), uniform(rng, ranges.travel.low, ranges.travel.high))
 }
 
@@ -194,9 +244,10 @@ fn aimed_first(
 
 /// The stroke, in some cases with a tool that turns on its way.
 fn turning(rng: &mut Pcg64, ranges: &Ranges, mut stroke: Stroke) -> Stroke {
-    let rate = uniform(rng, -ranges.turn, ranges.turn);
+    let most = if rng.random::<bool>() { USUAL_TURN.min(ranges.turn) } else { ranges.turn };
+    let rate = uniform(rng, -most, most);
     if rng.random_bool(TURNING) {
-        stroke.to.heading += rate * stroke.travel();
+        stroke.to.heading += (rate * stroke.travel()).clamp(-MOST_TURN, MOST_TURN);
     }
     stroke
 }

@@ -67,8 +67,8 @@ impl CustomOp2 for BiasRectify {
 }
 
 /// Messages summed at their receivers: for every relation k from s to r,
-/// `rectify(a_k + b_r + c_s)`; a [2, R, h], b and c [2, N, h], result [2, N, h].
-/// A sender past the last node sends nothing of its own.
+/// `rectify(a_k + b_r + c_s)`; a [2, R, h], b [2, N, h], c [2, M, h], result [2, N, h].
+/// A sender past the last row of c sends nothing of its own.
 pub(super) struct Messages {
     pub receivers: Arc<[u32]>,
     pub senders: Arc<[u32]>,
@@ -127,7 +127,8 @@ impl Messages {
         gradient: &[f32],
         h: usize,
     ) -> (Vec<f32>, Vec<f32>, Vec<f32>) {
-        let (relations, nodes) = (a.len() / (2 * h), b.len() / (2 * h));
+        let (relations, nodes, speakers) =
+            (a.len() / (2 * h), b.len() / (2 * h), c.len() / (2 * h));
         let mut of_a = vec![0.0; a.len()];
         let mut of_b = vec![0.0; b.len()];
         let mut of_c = vec![0.0; c.len()];
@@ -139,7 +140,7 @@ impl Messages {
                 let start = (parity * rows + index) * h;
                 start..start + h
             };
-            let sender = |parity| if s < nodes { &c[row(parity, s, nodes)] } else { none };
+            let sender = |parity| if s < speakers { &c[row(parity, s, speakers)] } else { none };
             let (a_e, a_o) = (&a[row(0, k, relations)], &a[row(1, k, relations)]);
             let (b_e, b_o) = (&b[row(0, r, nodes)], &b[row(1, r, nodes)]);
             let (c_e, c_o) = (sender(0), sender(1));
@@ -155,10 +156,10 @@ impl Messages {
                     g_o[i],
                 );
             }
-            for (target, index) in [(&mut of_b, r), (&mut of_c, s)] {
-                if index < nodes {
-                    add(&mut target[row(0, index, nodes)], d_e);
-                    add(&mut target[row(1, index, nodes)], d_o);
+            for (target, index, rows) in [(&mut of_b, r, nodes), (&mut of_c, s, speakers)] {
+                if index < rows {
+                    add(&mut target[row(0, index, rows)], d_e);
+                    add(&mut target[row(1, index, rows)], d_o);
                 }
             }
         }

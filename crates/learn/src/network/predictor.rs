@@ -27,6 +27,7 @@ use crate::network::variables::variables;
 pub struct Inputs {
     node_even: Tensor,
     node_odd: Tensor,
+    given: Option<[Tensor; 2]>,
     relation_even: Tensor,
     relation_odd: Tensor,
     receivers: Arc<[u32]>,
@@ -45,13 +46,24 @@ impl Inputs {
             let shape = (values.len() / columns, columns);
             Tensor::from_vec(scales.apply(values), shape, &Device::Cpu)
         };
+        let nodes = rows.node_even.len() / normaliser.node_even.mean.len();
+        let mut senders = Vec::new();
+        rows.senders_after(nodes, &mut senders);
+        let given = match rows.given_even.is_empty() {
+            true => None,
+            false => Some([
+                table(rows.given_even, &normaliser.given_even)?,
+                table(rows.given_odd, &normaliser.given_odd)?,
+            ]),
+        };
         Ok(Self {
+            given,
             node_even: table(rows.node_even, &normaliser.node_even)?,
             node_odd: table(rows.node_odd, &normaliser.node_odd)?,
             relation_even: table(rows.relation_even, &normaliser.relation_even)?,
             relation_odd: table(rows.relation_odd, &normaliser.relation_odd)?,
             receivers: rows.receivers.into(),
-            senders: rows.senders.into(),
+            senders: senders.into(),
         })
     }
 }
@@ -111,11 +123,17 @@ impl Predictor {
         }
         let relation = self.relation(inputs)?.matmul(self.get("message.relation"))?;
         let keep = h.matmul(self.get("update.object"))?;
+        let given = self.given(inputs)?;
         let mut p = h;
         for _ in 0..self.config.steps {
+            let sent = p.matmul(self.get("message.sender"))?;
+            let sent = match &given {
+                Some(given) => Tensor::cat(&[&sent, given], 1)?,
+                None => sent,
+            };
             let sum = relation.apply_op3(
                 &p.matmul(self.get("message.receiver"))?,
-                &p.matmul(self.get("message.sender"))?,
+                &sent,
                 Messages { receivers: inputs.receivers.clone(), senders: inputs.senders.clone() },
             )?;
             let own = p.matmul(self.get("update.own"))?;
@@ -126,6 +144,13 @@ impl Predictor {
         let even = hidden.get(0)?.matmul(self.get("motion.even"))?;
         let odd = hidden.get(1)?.matmul(self.get("motion.odd"))?;
         Tensor::cat(&[even, odd], 1)
+    }
+
+    /// What bodies with a given motion send, [2, K, h], alike in every step.
+    fn given(&self, inputs: &Inputs) -> Result<Option<Tensor>> {
+        let Some([even, odd]) = &inputs.given else { return Ok(None) };
+        let row = self.first(even, odd, "given")?;
+        row.matmul(self.get("message.sender")).map(Some)
     }
 
     fn relation(&self, inputs: &Inputs) -> Result<Tensor> {

@@ -30,4 +30,4 @@ pub use predictor::{
 };
 pub use regulator::{RegulatorScore, RegulatorSettings, score, train_regulator};
 pub use trainable::Trainable;
-pub use trainer::{REPLICAS, TrainError, Trainer};
+pub use trainer::{BEST, LAST, REPLICAS, TrainError, Trainer};

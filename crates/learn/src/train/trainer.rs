@@ -28,8 +28,11 @@ const LOOK: u64 = 20;
 /// The file in a run's folder from which it goes on.
 const CHECKPOINT: &str = "checkpoint.safetensors";
 
-/// The file with the best weights.
-const BEST: &str = "best.safetensors";
+/// File of the weights with the best held-out score.
+pub const BEST: &str = "best.safetensors";
+
+/// File of those of the last evaluation.
+pub const LAST: &str = "last.safetensors";
 
 /// Why training stopped short.
 #[derive(Debug, Error)]
@@ -168,7 +171,7 @@ impl<'a, T: Trainable> Trainer<'a, T> {
         let (step, descent) = (self.run.optimiser.step, self.task.descent());
         let score = self.task.score(&self.weights(None));
         let bytes = self.weights(Some(&score)).to_bytes()?;
-        write_atomic(self.folder.join("last.safetensors"), &bytes)?;
+        write_atomic(self.folder.join(LAST), &bytes)?;
         if self.run.best.as_ref().is_none_or(|best| T::is_better(&score, best)) {
             self.run.best = Some(score.clone());
             write_atomic(self.folder.join(BEST), &bytes)?;

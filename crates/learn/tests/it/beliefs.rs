@@ -10,10 +10,11 @@ use crate::believing::{EXACT, believed};
 /// numbers were not chosen on.
 fn told_apart(preset: Preset, count: u64, solids: Solids, headings: bool) -> (usize, usize) {
     let constraints = Constraints::test(9, JointRule::Mixed, solids);
-    let config = DatasetConfig { seed: 7, episodes: count, preset, constraints };
+    let config =
+        DatasetConfig { seed: 7, episodes: count, preset, constraints, ..DatasetConfig::default() };
     let (mut right, mut all) = (0, 0);
     for index in 0..count {
-        let Episode { scene, motion, frames, .. } = Episode::draw(&config, index);
+        let Episode { scene, motion, frames, .. } = Episode::of_crowd(&config, index);
         let mut recording = Recording::of_frames("drawn", &scene, &motion, &frames);
         recording.headings.fill(headings);
         let belief = believed(&recording, EXACT, index);

@@ -34,7 +34,7 @@ fn bodies(episode: &Episode) -> Vec<(Footprint, Pose)> {
 
 #[test]
 fn every_draw_is_within_the_stated_ranges_finite_and_at_rest() {
-    for preset in CROWDS.into_iter().chain([Preset::Mixed]) {
+    for preset in CROWDS.into_iter().chain([Preset::Tools]) {
         let config = config(preset, 30);
         let ranges = config.ranges();
         for Episode { index, scene, motion, frames } in drawn(&config) {
@@ -43,7 +43,7 @@ fn every_draw_is_within_the_stated_ranges_finite_and_at_rest() {
             assert!(ranges.pushes.contains(motion.strokes.len() as f64), "{preset:?} {index}");
             let last = &frames[frames.len() - 1].state;
             assert!(last.is_finite() && scene.is_resting(last), "{preset:?} {index}");
-            if preset != Preset::Mixed {
+            if preset != Preset::Tools {
                 assert_eq!(motion.tool.parts().len(), 1);
                 let Shape::Cylinder { radius, .. } = motion.tool.parts()[0].shape else {
                     panic!("the hand is round")
@@ -186,7 +186,7 @@ fn impossible_constraints_are_refused() {
     assert!(refused(with(Preset::Dense, Some(13), None)).contains("2 to 12"));
     assert!(refused(with(Preset::Sparse, None, Some(f64::NAN))).contains("0.05 to 0.25"));
     assert!(refused(with(Preset::Tools, Some(2), None)).contains("sparse"));
-    assert!(refused(with(Preset::Mixed, None, Some(0.21))).contains("sparse"));
+    assert!(refused(with(Preset::Tools, None, Some(0.21))).contains("sparse"));
 }
 
 #[test]

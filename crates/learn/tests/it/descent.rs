@@ -9,7 +9,7 @@ use std::{
 use pushplan::network::{Config, PredictorWeights, file_metadata};
 use pushplan::store::{FolderLock, StoreError};
 use pushplan::watch::{Unwatched, Watch};
-use pushplan_learn::dataset::{Dataset, DatasetConfig};
+use pushplan_learn::dataset::{Dataset, DatasetConfig, Preset};
 use pushplan_learn::train::{
     CheckpointError, Descent, Exposure, HeldOutError, Line, Noise, PredictorSettings, TrainError,
     train_predictor,
@@ -31,9 +31,11 @@ fn settings(steps: u64) -> PredictorSettings {
     }
 }
 
-fn data(seed: u64, episodes: u64) -> Dataset {
-    let config = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
-    Dataset::in_memory(&config, &Unwatched).expect("data")
+/// Pushes with tools, and a crowd.
+fn data(seed: u64, episodes: u64) -> Vec<Dataset> {
+    let tools = DatasetConfig { seed, episodes, ..DatasetConfig::default() };
+    let crowd = DatasetConfig { preset: Preset::Dense, episodes: 1, ..tools.clone() };
+    [tools, crowd].map(|set| Dataset::in_memory(&set, &Unwatched).expect("data")).into()
 }
 
 /// Counts the lines, and stops at a step.
@@ -64,7 +66,7 @@ fn lock(folder: &Path) -> FolderLock {
 }
 
 /// Trains until a step, and gives the number of lines that were told.
-fn run(folder: &Path, data: &Dataset, held_out: &Dataset, stop_at: Option<u64>) -> u64 {
+fn run(folder: &Path, data: &[Dataset], held_out: &[Dataset], stop_at: Option<u64>) -> u64 {
     let listener = Listener { stop_at, ..Listener::default() };
     train_predictor(&settings(200), data, held_out, &lock(folder), &listener).expect("training");
     listener.lines.into_inner()
@@ -106,7 +108,7 @@ fn an_interrupted_run_goes_on_to_the_same_bits_on_any_number_of_threads() {
     }
 
     let best = PredictorWeights::from_bytes(&files(&whole).1).expect("weights");
-    assert_eq!(best.card.data_seed, 1);
+    assert_eq!(best.card.sources[0].seed, 1);
     let errors = best.card.errors.expect("held-out pushes were measured");
     assert!(errors.pushes > 0 && errors.p95 > 0.0);
 }

@@ -68,7 +68,7 @@ fn wild() -> PredictorWeights {
 
 #[test]
 fn crowds_pushed_again_and_again() {
-    for (preset, seed) in [(Preset::Sparse, 5), (Preset::Dense, 6), (Preset::Mixed, 7)] {
+    for (preset, seed) in [(Preset::Sparse, 5), (Preset::Dense, 6), (Preset::Tools, 7)] {
         let config = DatasetConfig { seed, preset, episodes: 12, ..DatasetConfig::default() };
         let data = Dataset::in_memory(&config, &Unwatched).expect("data");
         for weights in [shipped(), wild()] {

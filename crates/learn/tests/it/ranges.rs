@@ -3,14 +3,19 @@
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::Pose;
-use pushplan::scene::{Job, Push, ToolMotion};
+use pushplan::scene::{Job, Push, Ranges, ToolMotion};
 use pushplan_learn::dataset::Preset;
 
 use crate::ROOT;
 
+/// Pushes with tools and crowds.
+fn all() -> Ranges {
+    Preset::Tools.ranges().hull(&Preset::Crowds.ranges())
+}
+
 #[test]
 fn the_priors_ranges_are_those_of_the_scenes_that_it_is_measured_on() {
-    assert_eq!(PRIOR_RANGES, Preset::Mixed.ranges());
+    assert_eq!(PRIOR_RANGES, all());
 }
 
 #[test]
@@ -21,7 +26,7 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
     for path in files.filter(|path| path.extension().is_some_and(|end| end == "yaml")) {
         let task = load_task(path, &library).unwrap();
         let jointed = !task.scene.joints.is_empty();
-        let ranges = if jointed { Preset::Mixed.ranges() } else { Preset::Tools.ranges() };
+        let ranges = if jointed { all() } else { Preset::Tools.ranges() };
         let start = Pose::default().position;
         let (length, speed) = (task.pushes.length, task.pushes.speed);
         let push = Push { start, direction: 0.0, length, speed };

@@ -113,8 +113,9 @@ impl CrowdSet {
             episodes: index + 1,
             preset,
             constraints: Constraints::test(self.objects, self.joints, self.solids),
+            ..DatasetConfig::default()
         };
-        Episode::draw(&config, index)
+        Episode::of_crowd(&config, index)
     }
 
     /// Different for every set of a family.

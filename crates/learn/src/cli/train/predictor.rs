@@ -13,26 +13,33 @@ use pushplan::internals::store::Shard;
 use pushplan::internals::watch::Watch;
 
 use crate::cli::train::{data, take, written};
-use crate::cli::words::{EXPOSURES, PRESETS};
-use crate::dataset::{Dataset, DatasetConfig, Preset, generate};
+use crate::cli::words::EXPOSURES;
+use crate::dataset::{Dataset, DatasetConfig, Preset, Truth, generate};
 use crate::report::training_document;
 use crate::train::{Descent, Exposure, HeldOutError, Line, PredictorSettings, train_predictor};
 
-/// Episodes that the shipped weights have learned from.
-const EPISODES: u64 = 24_000;
-
-/// Episodes that they were judged on.
-const HELD_OUT: u64 = 300;
+/// Episodes that the shipped weights have learned from: of each truth of pushes with tools, with the
+/// number that they were judged on, and of crowds. Those of MuJoCo take ten times as long.
+const SETS: [(&str, Preset, Truth, u64, u64); 4] = [
+    ("planar", Preset::Tools, Truth::Planar, 8000, 200),
+    ("3d", Preset::Tools, Truth::Spatial, 8000, 200),
+    ("mujoco", Preset::Tools, Truth::Mujoco, 2000, 200),
+    ("crowds", Preset::Crowds, Truth::Both, 1600, 40),
+];
 
 /// The physics predictor
 #[derive(Args, Debug)]
 #[command(
-    after_help = "curves.svg in the folder of the run shows the held-out errors. The weights of the last evaluation,
+    after_help = "The data are pushes with tools played by three engines, ours in the plane and in 3-D and MuJoCo, each
+as often in a step as the others, and crowds. MuJoCo needs Python: PUSHPLAN_PYTHON names one with the
+package `mujoco`.
+
+curves.svg in the folder of the run shows the held-out errors. The weights of the last evaluation,
 last.safetensors, are often the better ones once the schedule is through.
 
 Examples:
   pushplan-learn train predictor runs/predictor
-  pushplan-learn train predictor runs/small --episodes 2000 --steps 2000 --width 64
+  pushplan-learn train predictor runs/small --without-mujoco --share 0.1 --steps 2000 --width 64
   pushplan-learn train predictor runs/own --data data/train
   pushplan-lab evaluate --model runs/own/best.safetensors"
 )]
@@ -40,21 +47,18 @@ pub struct PredictorArgs {
     /// Folder of the run
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Folder with data made by `generate` [default: they are made in DIR]
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["episodes", "data_seed"])]
-    data: Option<PathBuf>,
-    /// Family of the episodes made in DIR
-    #[arg(long, value_parser = words(&PRESETS), default_value = "mixed", conflicts_with = "data")]
-    preset: Preset,
-    /// Number of episodes made in DIR
-    #[arg(long, value_name = "N", default_value_t = EPISODES)]
-    episodes: u64,
+    /// Folders with data made by `generate` [default: they are made in DIR]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["share", "data_seed", "without_mujoco"])]
+    data: Vec<PathBuf>,
+    /// Share of the episodes that the shipped weights have learned from, made in DIR
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    share: f64,
+    /// Without those of MuJoCo
+    #[arg(long)]
+    without_mujoco: bool,
     /// Seed of the episodes made in DIR
     #[arg(long, value_name = "N", default_value_t = DatasetConfig::default().seed)]
     data_seed: u64,
-    /// Number of held-out episodes
-    #[arg(long, value_name = "N", default_value_t = HELD_OUT)]
-    held_out: u64,
     /// Seed of the held-out episodes; must differ from that of the data
     #[arg(long, value_name = "N", default_value_t = 2)]
     held_out_seed: u64,
@@ -112,18 +116,30 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
             Dataset::open(&folder)
         })
     };
-    let learned = match &args.data {
-        Some(folder) => data(session, "data", |_| Dataset::open(folder))?,
-        None => {
-            let default = DatasetConfig { preset: args.preset, ..DatasetConfig::default() };
-            made("data", default.split(args.data_seed, args.episodes))?
+    let mut learned = Vec::new();
+    for folder in &args.data {
+        learned.push(data(session, "data", |_| Dataset::open(folder))?);
+    }
+    if learned.is_empty() {
+        for (name, config, _) in args.sets() {
+            learned.push(made(&format!("data-{name}"), config)?);
         }
-    };
-    if learned.config().seed == args.held_out_seed {
+    }
+    if learned.iter().any(|set| set.config().seed == args.held_out_seed) {
         let message = "the held-out episodes have the seed of the data";
         return Err(CliError::usage(message, "choose another --held-out-seed"));
     }
-    let held_out = made("held-out", learned.config().split(args.held_out_seed, args.held_out))?;
+    let mut held_out = Vec::new();
+    for (k, set) in learned.iter().enumerate() {
+        let config = set.config();
+        let known = SETS
+            .iter()
+            .find(|(_, preset, truth, ..)| (*preset, *truth) == (config.preset, config.truth));
+        let count = known.map_or(config.episodes.div_ceil(20).min(300), |set| args.of(set.4));
+        let name = known.map_or_else(|| (k + 1).to_string(), |set| set.0.to_owned());
+        let config = config.split(args.held_out_seed, count);
+        held_out.push(made(&format!("held-out-{name}"), config)?);
+    }
     let followed = Followed { folder: &args.folder, following: Following::bar(session, "steps") };
     let best =
         session.compute(|| train_predictor(&settings, &learned, &held_out, &folder, &followed));
@@ -134,6 +150,20 @@ pub fn run(args: &PredictorArgs, session: &Session) -> Result<u8, CliError> {
 }
 
 impl PredictorArgs {
+    /// The data made in the folder: their name, what they are made of, and the number of held-out ones.
+    fn sets(&self) -> impl Iterator<Item = (&'static str, DatasetConfig, u64)> {
+        let asked = |set: &&(_, _, Truth, _, _)| !self.without_mujoco || set.2 != Truth::Mujoco;
+        SETS.iter().filter(asked).map(|&(name, preset, truth, episodes, held_out)| {
+            let config = DatasetConfig { preset, truth, ..DatasetConfig::default() };
+            (name, config.split(self.data_seed, self.of(episodes)), self.of(held_out))
+        })
+    }
+
+    /// The share that is asked for of so many episodes, at least one.
+    fn of(&self, episodes: u64) -> u64 {
+        ((episodes as f64 * self.share).round() as u64).max(1)
+    }
+
     fn settings(&self) -> Result<PredictorSettings, CliError> {
         let default = PredictorSettings::default();
         let mut settings = PredictorSettings {
@@ -155,6 +185,9 @@ impl PredictorArgs {
                 let message = format!("{name} must be even, not {even}");
                 return Err(CliError::usage(message, format!("try {}", even + 1)));
             }
+        }
+        if !(self.share > 0.0 && self.share <= 100.0) {
+            return Err(CliError::usage("--share must be above 0 and at most 100", "try 0.1"));
         }
         let sound = |value: f64, largest: f64| (0.0..=largest).contains(&value);
         if !sound(self.learning_rate, 1.0) || self.learning_rate == 0.0 {

@@ -78,8 +78,8 @@ impl Sampler for LeverConfig {
         Ok(config)
     }
 
-    fn draw(&self, index: u64) -> LeverEpisode {
-        LeverEpisode::draw(self, index)
+    fn draw(&self, index: u64) -> Result<LeverEpisode, DatasetError> {
+        Ok(LeverEpisode::draw(self, index))
     }
 
     /// An episode, and the heights of its blocks: obstacles keep theirs only in files that people

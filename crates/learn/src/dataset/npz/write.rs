@@ -64,9 +64,7 @@ pub fn generate_npz(
         let range = first..(first + A_FILE).min(config.episodes);
         let indices: Vec<u64> = range.clone().collect();
         let drawn = draw(config, &indices, &count, watch);
-        let Some(episodes) = drawn.into_iter().collect::<Option<Vec<_>>>() else {
-            return Err(DatasetError::Cancelled);
-        };
+        let episodes = drawn.into_iter().collect::<Result<Vec<_>, _>>()?;
         let most = episodes.iter().map(|one| one.scene.objects.len()).fold(most, usize::max);
         let arrays = arrays(&episodes, most);
         let why = |why: String| StoreError::Record { index, why };

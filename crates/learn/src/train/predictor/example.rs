@@ -2,12 +2,13 @@
 
 use pushplan::internals::contact::{Bodies, FrameProblem, FrameSolver, ListIndex, Motion, hold};
 use pushplan::internals::geometry::{Pose, Vector};
-use pushplan::internals::graph::{Batch, Node};
+use pushplan::internals::graph::{Batch, Correction, Node};
 use pushplan::internals::network::{Buffers, Forward};
 use pushplan::internals::rollout::{Stepper, Walk, integrate};
-use pushplan::internals::scene::{COAST_FRAME, FrameStep, Physics, State};
+use pushplan::internals::scene::{COAST_FRAME, FrameStep, Physics, State, Support};
 use rand::Rng;
 use rand_pcg::Pcg64;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::dataset::Episode;
@@ -34,6 +35,10 @@ pub struct Noise {
     /// How that number is drawn.
     #[serde(default)]
     pub exposure: Exposure,
+    /// Share of examples in which the network is not told what objects rest on, and the prior takes
+    /// them to rest evenly: planning often knows no better.
+    #[serde(default)]
+    pub unknown_supports: f64,
 }
 
 /// How the network meets states of its own making in training. No gradient flows from a frame
@@ -66,13 +71,14 @@ impl Default for Noise {
             clean: 0.2,
             lead: 0,
             exposure: Exposure::Pushforward,
+            unknown_supports: 0.15,
         }
     }
 }
 
 /// An example: its episode and the frame before the transition.
-struct Place {
-    episode: u32,
+struct Place<'a> {
+    episode: &'a Episode,
     frame: u32,
     wanted: Box<[Wanted]>,
 }
@@ -83,10 +89,16 @@ struct Wanted {
     correction: [f32; 6],
 }
 
-/// All usable transitions of a set of episodes.
+/// All usable transitions of several sets of episodes.
 pub struct Examples<'a> {
-    episodes: &'a [Episode],
-    places: Vec<Place>,
+    sets: Vec<Places<'a>>,
+}
+
+/// Those of one set.
+struct Places<'a> {
+    places: Vec<Place<'a>>,
+    /// How often an example is of this set, against others.
+    weight: f64,
 }
 
 /// A batch with the corrections wanted, row-major [N, 6], and the loss weights.
@@ -98,28 +110,33 @@ pub(super) struct Supervised {
 }
 
 impl<'a> Examples<'a> {
-    /// Finds every transition in which the network has something to decide.
-    pub fn new(episodes: &'a [Episode]) -> Self {
-        use rayon::prelude::*;
-        let places = episodes
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(e, episode)| {
-                let bodies = bodies(episode);
-                let mut memory = Memory::default();
-                (0..episode.frames.len() - 1).filter_map(move |frame| {
-                    let wanted = wanted(episode, &bodies, frame, &mut memory);
-                    let place = |wanted| Place { episode: e as u32, frame: frame as u32, wanted };
-                    (!wanted.is_empty()).then(|| place(wanted.into()))
-                })
-            })
-            .collect();
-        Self { episodes, places }
+    /// Finds every transition in which the network has something to decide, of sets with the weights
+    /// by which they are drawn from.
+    pub fn new(sets: impl IntoIterator<Item = (&'a [Episode], f64)>) -> Self {
+        let places = |(episodes, weight): (&'a [Episode], f64)| Places {
+            places: episodes.par_iter().flat_map_iter(places).collect(),
+            weight,
+        };
+        let sets = sets.into_iter().map(places).filter(|set| !set.places.is_empty()).collect();
+        Self { sets }
     }
 
     /// Number of examples.
     pub fn count(&self) -> usize {
-        self.places.len()
+        self.sets.iter().map(|set| set.places.len()).sum()
+    }
+
+    /// Any example, all of a set equally likely.
+    fn any(&self, random: &mut Pcg64) -> &Place<'a> {
+        let whole: f64 = self.sets.iter().map(|set| set.weight).sum();
+        // With a single set nothing is drawn that was not drawn for it alone.
+        let mut left = if self.sets.len() > 1 { random.random::<f64>() * whole } else { 0.0 };
+        let chosen = self.sets.iter().position(|set| {
+            left -= set.weight;
+            left < 0.0
+        });
+        let set = &self.sets[chosen.unwrap_or(self.sets.len() - 1)];
+        &set.places[random.random_range(0..set.places.len())]
     }
 
     /// `count` examples drawn with the random numbers of (`seed`, `step`, `part`), `progress`
@@ -142,9 +159,8 @@ impl<'a> Examples<'a> {
         };
         let mut starts: Vec<Start<'_>> = (0..count.div_ceil(multiple))
             .map(|_| {
-                let place = &self.places[random.random_range(0..self.places.len())];
-                let (episode, frame) =
-                    (&self.episodes[place.episode as usize], place.frame as usize);
+                let place = self.any(&mut random);
+                let (episode, frame) = (place.episode, place.frame as usize);
                 let wanted = match (forward, noise.exposure) {
                     (None, _) => 0,
                     (_, Exposure::Pushforward) => random.random_range(0..=noise.lead),
@@ -155,12 +171,16 @@ impl<'a> Examples<'a> {
                 };
                 let lead = wanted.min(frame);
                 let mut state = episode.frames[frame - lead].state.clone();
-                let bodies = bodies(episode);
+                let unknown = noise.unknown_supports > 0.0
+                    && random.random_bool(noise.unknown_supports)
+                    && episode.scene.objects.iter().any(|o| o.support != Support::Even);
+                let bodies = if unknown { guessed(episode) } else { bodies(episode) };
                 if !random.random_bool(noise.clean) {
                     disturb(&mut state, noise, &mut random);
                     hold(&bodies, &mut state, |_| true);
                 }
-                let wanted = &*place.wanted;
+                // Of a guess the prior needs another correction than of the truth.
+                let wanted = (!unknown).then_some(&*place.wanted);
                 let at = frame - lead;
                 let transition = Transition::of(episode, at);
                 Start { episode, bodies, frame, wanted, at, transition, state }
@@ -170,7 +190,7 @@ impl<'a> Examples<'a> {
         let mut memory = Memory::default();
         if let Some(forward) = forward {
             let (mut stepper, mut buffers) = (Stepper::correcting(usize::MAX), Buffers::default());
-            let mut correct = |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+            let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
                 forward.run(batch, &mut buffers, corrections);
             };
             while starts.iter().any(|start| start.at < start.frame) {
@@ -189,14 +209,25 @@ impl<'a> Examples<'a> {
     }
 }
 
+/// The usable transitions of an episode.
+fn places(episode: &Episode) -> impl Iterator<Item = Place<'_>> {
+    let bodies = bodies(episode);
+    let mut memory = Memory::default();
+    (0..episode.frames.len() - 1).filter_map(move |frame| {
+        let wanted = wanted(episode, &bodies, frame, &mut memory);
+        let place = |wanted| Place { episode, frame: frame as u32, wanted };
+        (!wanted.is_empty()).then(|| place(wanted.into()))
+    })
+}
+
 /// An example on its way from the state it was drawn at to the frame it is taken at.
 struct Start<'a> {
     episode: &'a Episode,
     bodies: Bodies,
     /// The frame before the transition to learn.
     frame: usize,
-    /// The corrections wanted there.
-    wanted: &'a [Wanted],
+    /// The corrections wanted there, if they are known.
+    wanted: Option<&'a [Wanted]>,
     /// The frame that `state` belongs to, and what the tool does from there.
     at: usize,
     transition: Transition,
@@ -253,9 +284,9 @@ impl Supervised {
     fn add(&mut self, start: &Start<'_>, memory: &mut Memory) {
         let Start { episode, bodies, at, state, .. } = start;
         let fresh;
-        let wanted = match start.at == start.frame {
-            true => start.wanted,
-            false => {
+        let wanted = match start.wanted.filter(|_| start.at == start.frame) {
+            Some(wanted) => wanted,
+            None => {
                 fresh = wanted(episode, bodies, *at, memory);
                 &fresh
             }
@@ -277,6 +308,14 @@ impl Supervised {
 /// The bodies of an episode.
 fn bodies(episode: &Episode) -> Bodies {
     let physics = Physics::stated(&episode.scene);
+    Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
+}
+
+/// The same where nobody knows what objects rest on.
+fn guessed(episode: &Episode) -> Bodies {
+    let mut physics = Physics::stated(&episode.scene);
+    physics.support_all(&episode.scene, &Support::Even);
+    physics.supports_known = false;
     Bodies::new(&episode.scene, &episode.motion.tool, episode.motion.lift, &physics)
 }
 

@@ -1,5 +1,6 @@
 //! Training of the physics predictor on single frames of episodes, see [`crate::dataset::Episode`].
 
+mod doubt;
 mod example;
 mod loss;
 mod rollout_error;

@@ -7,7 +7,7 @@ use pushplan::internals::judge::{Comparison, ObjectError, Trial, mean, percentil
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::dataset::Episode;
+use crate::dataset::{Dataset, Episode};
 
 /// Cap of a single error in the criterion, metres.
 const CAP: f64 = 0.01;
@@ -36,6 +36,10 @@ pub struct HeldOutError {
     pub single: Option<Box<HeldOutError>>,
     /// The same over episodes with more than three.
     pub crowd: Option<Box<HeldOutError>>,
+    /// The same over each set of episodes, in their order, if there are several; `capped` above is
+    /// then the mean of theirs.
+    #[serde(default)]
+    pub sets: Vec<HeldOutError>,
 }
 
 /// What a person wants to follow.
@@ -47,9 +51,21 @@ impl fmt::Display for HeldOutError {
 }
 
 /// Rolls every episode out from its first frame and compares the last.
-pub fn rollout_error(model: &dyn EffectModel, episodes: &[Episode]) -> HeldOutError {
-    // With the number of objects in its scene.
-    let judged: Vec<(usize, ObjectError)> = episodes
+pub fn rollout_error(model: &dyn EffectModel, sets: &[Dataset]) -> HeldOutError {
+    let judged: Vec<Vec<Judged>> = sets.iter().map(|set| judge(model, set.episodes())).collect();
+    if let [one] = &judged[..] {
+        return summaries(one);
+    }
+    let sets: Vec<HeldOutError> = judged.iter().map(|set| summaries(set)).collect();
+    let capped = mean(&sets.iter().map(|set| set.capped).collect::<Vec<_>>());
+    HeldOutError { capped, sets, ..summaries(&judged.concat()) }
+}
+
+/// An object's error, with the number of objects in its scene.
+type Judged = (usize, ObjectError);
+
+fn judge(model: &dyn EffectModel, episodes: &[Episode]) -> Vec<Judged> {
+    episodes
         .par_iter()
         .filter_map(|episode| Some((episode, episode.frames.last()?)))
         .flat_map_iter(|(episode, last)| {
@@ -59,7 +75,10 @@ pub fn rollout_error(model: &dyn EffectModel, episodes: &[Episode]) -> HeldOutEr
             let objects = errors.len();
             errors.into_iter().filter(ObjectError::moved).map(move |error| (objects, error))
         })
-        .collect();
+        .collect()
+}
+
+fn summaries(judged: &[Judged]) -> HeldOutError {
     let part = |wanted: &dyn Fn(usize) -> bool| -> Vec<ObjectError> {
         let among = judged.iter().filter(|(objects, _)| wanted(*objects));
         among.map(|(_, error)| *error).collect()
@@ -86,5 +105,6 @@ fn summary(errors: &[ObjectError]) -> HeldOutError {
         heading: mean(&headings),
         single: None,
         crowd: None,
+        sets: Vec::new(),
     }
 }

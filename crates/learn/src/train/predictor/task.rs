@@ -1,18 +1,20 @@
 //! What the trainer asks of the physics predictor.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use pushplan::internals::effect::Network;
+use pushplan::internals::asset::write_atomic;
+use pushplan::internals::effect::{Network, PRIOR_RANGES};
 use pushplan::internals::network::{
-    ErrorCard, Forward, Normaliser, Parameters, PredictorCard, PredictorWeights, Tables,
+    ErrorCard, Forward, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
 };
 use pushplan::internals::store::FolderLock;
 use pushplan::internals::watch::Watch;
 
 use crate::dataset::{Dataset, DatasetConfig};
 use crate::network::{Inputs, Predictor};
-use crate::train::{Descent, REPLICAS, TrainError, Trainable, Trainer, gradients_of};
+use crate::train::{BEST, Descent, LAST, REPLICAS, TrainError, Trainable, Trainer, gradients_of};
 
+use super::doubt::fit_doubt;
 use super::loss::loss;
 use super::{Examples, HeldOutError, PredictorSettings, rollout_error};
 
@@ -22,26 +24,56 @@ const NORMALISER_GRAPHS: usize = 4096;
 /// Steps between refreshes of the network that leads up to examples (see `Noise::lead`).
 const REFRESH: u64 = 50;
 
+/// How often an example is of a crowd, against those of each truth of pushes with tools: of tools are
+/// then as many objects in frames as in crowds.
+const CROWDS: f64 = 0.7;
+
 /// Trains in `folder`, see [`Trainer::run`].
 ///
 /// # Errors
 /// [`TrainError`]; whatever was saved before stays.
 pub fn train_predictor(
     settings: &PredictorSettings,
-    data: &Dataset,
-    held_out: &Dataset,
+    data: &[Dataset],
+    held_out: &[Dataset],
     folder: &FolderLock,
     watch: &dyn Watch,
 ) -> Result<Option<PathBuf>, TrainError> {
-    let examples = Examples::new(data.episodes());
+    let examples = Examples::new(data.iter().map(|set| (set.episodes(), weight(set))));
     let task = Task { settings, data, held_out, examples, lead: None };
-    Trainer::open(task, folder)?.run(watch)
+    let best = Trainer::open(task, folder)?.run(watch)?;
+    for name in [BEST, LAST] {
+        learn_doubt(&folder.path().join(name), settings.descent.steps, data)?;
+    }
+    Ok(best)
+}
+
+/// Adds to the weights in a file how far off they are, once the schedule is through.
+fn learn_doubt(path: &Path, steps: u64, data: &[Dataset]) -> Result<(), TrainError> {
+    let Ok(mut weights) = PredictorWeights::load(path) else { return Ok(()) };
+    let last = path.with_file_name(LAST);
+    let done = PredictorWeights::load(last).is_ok_and(|last| last.card.steps >= steps);
+    if done && weights.card.doubt.is_none() {
+        weights.card.doubt = Some(fit_doubt(&weights, data));
+        write_atomic(path, &weights.to_bytes()?)?;
+    }
+    Ok(())
+}
+
+/// How often an example is of this set, against others.
+fn weight(set: &Dataset) -> f64 {
+    if set.config().preset.is_crowd() { CROWDS } else { 1.0 }
+}
+
+fn source(set: &Dataset) -> Source {
+    let DatasetConfig { seed, episodes, .. } = *set.config();
+    Source { truth: set.config().played_by(), seed, episodes, digest: set.digest() }
 }
 
 struct Task<'a> {
     settings: &'a PredictorSettings,
-    data: &'a Dataset,
-    held_out: &'a Dataset,
+    data: &'a [Dataset],
+    held_out: &'a [Dataset],
     examples: Examples<'a>,
     /// What leads up to examples.
     lead: Option<Forward>,
@@ -49,13 +81,13 @@ struct Task<'a> {
 
 impl Trainable for Task<'_> {
     const KEY: &'static str = "pushplan-checkpoint";
-    type Settings = (PredictorSettings, DatasetConfig);
+    type Settings = (PredictorSettings, Vec<DatasetConfig>);
     type Scales = Normaliser;
     type Score = HeldOutError;
     type Card = PredictorCard;
 
     fn settings(&self) -> Self::Settings {
-        (self.settings.clone(), self.data.config().clone())
+        (self.settings.clone(), self.data.iter().map(|set| set.config().clone()).collect())
     }
 
     fn descent(&self) -> Descent {
@@ -94,7 +126,7 @@ impl Trainable for Task<'_> {
     }
 
     fn score(&self, weights: &PredictorWeights) -> HeldOutError {
-        rollout_error(&Network::new(weights.clone()), self.held_out.episodes())
+        rollout_error(&Network::new(weights.clone()), self.held_out)
     }
 
     fn is_better(score: &HeldOutError, than: &HeldOutError) -> bool {
@@ -102,14 +134,13 @@ impl Trainable for Task<'_> {
     }
 
     fn card(&self, scales: &Normaliser, step: u64, score: Option<&HeldOutError>) -> PredictorCard {
-        let data = self.data.config();
+        let ranges = self.data.iter().map(|set| set.config().ranges());
         let single = score.and_then(|score| score.single.as_deref());
         PredictorCard {
             config: self.settings.config,
             normaliser: scales.clone(),
-            ranges: data.ranges(),
-            data_seed: data.seed,
-            episodes: data.episodes,
+            ranges: ranges.reduce(|a, b| a.hull(&b)).unwrap_or(PRIOR_RANGES),
+            sources: self.data.iter().map(source).collect(),
             steps: step,
             errors: single.map(|single| ErrorCard {
                 pushes: single.objects,
@@ -117,6 +148,7 @@ impl Trainable for Task<'_> {
                 median: single.median,
                 p95: single.p95,
             }),
+            doubt: None,
         }
     }
 

@@ -1,0 +1,192 @@
+//! How far off the network will be: fitted to its own rollouts once its weights are trained, see
+//! [`Doubt`].
+
+use pushplan::internals::effect::Network;
+use pushplan::internals::geometry::Pose;
+use pushplan::internals::graph::{Batch, Correction, Node};
+use pushplan::internals::network::{Buffers, Doubt, Forward, PredictorWeights};
+use pushplan::internals::rollout::{RollSettings, Roller};
+use pushplan::internals::scene::{Job, ModelKind, ModelSpec, Record};
+use rayon::prelude::*;
+
+use crate::dataset::{Dataset, Episode};
+
+/// Most episodes of a set that are rolled out, and fewer of crowds, which have more objects.
+const EPISODES: [usize; 2] = [1500, 150];
+
+/// An object that moves less is no test, metres.
+const MOVED: f64 = 0.01;
+
+/// Steps down the likelihood, and how long they are in the beginning.
+const STEPS: usize = 400;
+const RATE: f64 = 0.03;
+
+/// Pulls weights towards zero.
+const DECAY: f64 = 1e-4;
+
+/// Errors below this count as this, metres and radians: recordings know no better.
+const LEAST: [f64; 2] = [2e-5, 2e-4];
+
+/// An object of an episode: how far off it ends, and its hidden rows.
+struct Case {
+    /// Of its position, metres; of its heading, radians, unless it is round.
+    errors: [Option<f64>; 2],
+    /// From output units to metres and radians.
+    units: [f64; 2],
+    /// The even half of each of its frames, [T, h].
+    rows: Vec<f32>,
+    /// How much it counts.
+    weight: f64,
+}
+
+/// The doubt of these weights, from rollouts of `sets`.
+pub(super) fn fit_doubt(weights: &PredictorWeights, sets: &[Dataset]) -> Doubt {
+    let network = Network::new(weights.clone());
+    let cases: Vec<Case> = sets.iter().flat_map(|set| cases(&network, set)).collect();
+    let half = weights.card.config.half();
+    let [position, heading] = [0, 1].map(|k| fit(&cases, k, half));
+    Doubt {
+        bias: [position.bias as f32, heading.bias as f32],
+        floor: [position.floor() as f32, heading.floor() as f32],
+        weights: [position, heading]
+            .map(|fitted| fitted.weights.iter().map(|w| *w as f32).collect()),
+    }
+}
+
+/// All objects of a set that count, which together have the same weight as those of any other.
+fn cases(network: &Network, set: &Dataset) -> Vec<Case> {
+    let most = EPISODES[usize::from(set.config().preset.is_crowd())];
+    let episodes = &set.episodes()[..set.episodes().len().min(most)];
+    let forward = Forward::new(network.weights());
+    let mut cases: Vec<Case> =
+        episodes.par_iter().flat_map_iter(|episode| rolled(&forward, episode)).collect();
+    let weight = 1.0 / cases.len().max(1) as f64;
+    cases.iter_mut().for_each(|case| case.weight = weight);
+    cases
+}
+
+fn rolled(forward: &Forward, episode: &Episode) -> Vec<Case> {
+    let half = forward.half();
+    let count = episode.scene.objects.len();
+    let mut rows: Vec<(Vec<f32>, Option<Node>)> = vec![(Vec::new(), None); count];
+    let mut buffers = Buffers::default();
+    let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
+        forward.run(batch, &mut buffers, corrections);
+        for (k, node) in batch.nodes.iter().enumerate() {
+            let (own, last) = &mut rows[node.object.0];
+            own.extend_from_slice(&buffers.hidden()[k * half..(k + 1) * half]);
+            *last = Some(*node);
+        }
+    };
+    let job = Job::stated(&episode.scene, episode.motion.clone());
+    // Nothing left out, so that objects have the numbers of the scene.
+    let settings = RollSettings { pruned: false, ..RollSettings::default() };
+    let spec = ModelSpec::from(ModelKind::NETWORK);
+    let found = Roller::new(spec, settings).roll(
+        &episode.scene,
+        std::slice::from_ref(&job),
+        Record::Outcome,
+        Some(&mut correct),
+    );
+    let (Some(predicted), Some(truth)) = (found.first(), episode.frames.last()) else {
+        return Vec::new();
+    };
+    let (start, end) = (&episode.frames[0].state, predicted.outcome());
+    let case = |(k, (rows, node)): (usize, (Vec<f32>, Option<Node>))| {
+        let unit = node?.decode_doubt([1.0, 1.0]);
+        let [start, end, truth] = [start, end, &truth.state].map(|state| state.poses[k]);
+        let travel = |pose: &Pose| (pose.position - start.position).norm();
+        let round = episode.scene.objects[k].shape.is_cylinder();
+        let turned = (end.heading - truth.heading).abs();
+        (travel(&truth).max(travel(&end)) > MOVED).then_some(Case {
+            errors: [Some((end.position - truth.position).norm()), (!round).then_some(turned)],
+            units: [unit.position, unit.heading],
+            rows,
+            weight: 1.0,
+        })
+    };
+    rows.into_iter().enumerate().filter_map(case).collect()
+}
+
+/// What is fitted of one of the two.
+#[derive(Clone)]
+struct Fitted {
+    weights: Vec<f64>,
+    bias: f64,
+    /// Logarithm of the floor.
+    low: f64,
+}
+
+impl Fitted {
+    fn floor(&self) -> f64 {
+        self.low.exp()
+    }
+
+    fn values(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.weights.iter_mut().chain([&mut self.bias, &mut self.low])
+    }
+}
+
+/// Adam (Kingma and Ba 2015) on the mean of ln S + r / S.
+fn fit(cases: &[Case], k: usize, half: usize) -> Fitted {
+    let cases: Vec<&Case> =
+        cases.iter().filter(|case| case.errors[k].is_some() && !case.rows.is_empty()).collect();
+    let whole: f64 = cases.iter().map(|case| case.weight).sum();
+    let mean = |value: &dyn Fn(&Case) -> f64| {
+        cases.iter().map(|case| case.weight * value(case)).sum::<f64>() / whole.max(1e-12)
+    };
+    let error = mean(&|case| case.errors[k].unwrap_or(0.0)).max(LEAST[k]);
+    let frames = mean(&|case| case.rows.len() as f64 / half as f64 * case.units[k]);
+    let mut fitted = Fitted {
+        weights: vec![0.0; half],
+        bias: (error / frames.max(1e-12)).ln(),
+        low: (0.1 * error).ln(),
+    };
+    let mut moments = vec![[0.0f64; 2]; half + 2];
+    for step in 1..=STEPS {
+        let gradients: Vec<Vec<f64>> = cases
+            .par_chunks(256)
+            .map(|chunk| {
+                let mut sum = vec![0.0; half + 2];
+                chunk.iter().for_each(|case| gradient(case, k, &fitted, &mut sum));
+                sum
+            })
+            .collect();
+        let rate = RATE * (1.0 - step as f64 / (STEPS + 1) as f64);
+        let (old1, old2) = (0.9f64, 0.99f64);
+        for (n, value) in fitted.values().enumerate() {
+            let decay = if n < half { DECAY * *value } else { 0.0 };
+            let slope = gradients.iter().map(|part| part[n]).sum::<f64>() / whole + decay;
+            let [first, second] = &mut moments[n];
+            *first = old1 * *first + (1.0 - old1) * slope;
+            *second = old2 * *second + (1.0 - old2) * slope * slope;
+            let up = *first / (1.0 - old1.powi(step as i32));
+            let size = (*second / (1.0 - old2.powi(step as i32))).sqrt();
+            *value -= rate * up / (size + 1e-9);
+        }
+    }
+    fitted
+}
+
+/// Adds the gradient of a case's share of ln S + r / S.
+fn gradient(case: &Case, k: usize, fitted: &Fitted, sum: &mut [f64]) {
+    let half = fitted.weights.len();
+    let added: Vec<f64> = case
+        .rows
+        .chunks_exact(half)
+        .map(|row| {
+            let dot: f64 = row.iter().zip(&fitted.weights).map(|(x, w)| f64::from(*x) * w).sum();
+            (dot + fitted.bias).min(4.0).exp() * case.units[k]
+        })
+        .collect();
+    let spread = fitted.floor() + added.iter().sum::<f64>();
+    let error = case.errors[k].unwrap_or(0.0).max(LEAST[k]);
+    let slope = case.weight * (1.0 / spread - error / (spread * spread));
+    for (row, added) in case.rows.chunks_exact(half).zip(&added) {
+        for (sum, x) in sum.iter_mut().zip(row) {
+            *sum += slope * added * f64::from(*x);
+        }
+    }
+    sum[half] += slope * added.iter().sum::<f64>();
+    sum[half + 1] += slope * fitted.floor();
+}

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Plays motions that pushplan exported in MuJoCo and says where everything is, frame by frame.
+
+Reads a line of JSON for each from stdin, {"scene": MJCF, "frames": [n, ...]}, the number of frames that
+each push is cut into, and writes one to stdout: {"frames": [...]}, each frame with `time`, `stroke`
+and, for each of the `objects` in the order of the scene, x, y, heading and their velocities; or
+{"failed": why}. The first line of stdout is the version of MuJoCo. `replay.py`
+lies beside this script. Metres, seconds, radians.
+"""
+
+import json
+import math
+import sys
+
+import mujoco
+import numpy as np
+from replay import Failed, Replay
+
+class Film(Replay):
+    """One scene, every frame of which is kept."""
+
+    def __init__(self, model):
+        super().__init__(model)
+        self.time = 0.0
+        self.headings = None
+        self.frames = []
+
+    def play(self, counts):
+        """Makes all pushes, each in so many frames."""
+        lifted = True
+        for stroke, (push, count) in enumerate(zip(self.pushes, counts, strict=True)):
+            start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
+            if len(push) > 6:  # it turns
+                start, end = np.append(start, push[6]), np.append(end, push[7])
+            if lifted:
+                self.set_down(start)
+            if not self.frames:
+                self.keep(stroke)
+            # No step is longer than the scene's, and every frame ends with one.
+            steps = math.ceil(duration / count / self.step - 1e-9)
+            self.model.opt.timestep = duration / count / steps
+            for k in range(count * steps):
+                share = k / (count * steps)
+                self.move(start + (end - start) * share, (end - start) / duration)
+                if (k + 1) % steps == 0:
+                    self.time += duration / count
+                    self.keep(stroke)
+            if settle:
+                self.wait(stroke, end)
+            lifted = settle
+
+    def wait(self, stroke, place):
+        """The tool stands still until everything rests."""
+        speed, every, most = self.numbers["rest"]
+        self.model.opt.timestep = self.step
+        waited = 0
+        while not self.is_resting(speed):
+            if waited == most:
+                raise Failed("never rests")
+            for _ in range(round(every / self.step)):
+                self.move(place, 0.0)
+            waited += 1
+            self.time += every
+            self.keep(stroke)
+
+    def keep(self, stroke):
+        """Notes where everything is."""
+        # The last step moved bodies, not yet what is derived from where they are.
+        mujoco.mj_forward(self.model, self.data)
+        poses = np.array([self.pose(body) for body in self.bodies])
+        if self.headings is not None:
+            # Without jumps by whole turns.
+            turned = np.remainder(poses[:, 2] - self.headings + math.pi, math.tau) - math.pi
+            poses[:, 2] = self.headings + turned
+        self.headings = poses[:, 2].copy()
+        objects = []
+        for body, pose in zip(self.bodies, poses):
+            velocity, kind = np.zeros(6), mujoco.mjtObj.mjOBJ_BODY
+            mujoco.mj_objectVelocity(self.model, self.data, kind, body, velocity, 0)
+            objects.append([*pose.tolist(), velocity[3], velocity[4], velocity[2]])
+        self.frames.append({"time": self.time, "stroke": stroke, "objects": objects})
+
+
+def film(request):
+    """The frames of one motion."""
+    scene = Film(mujoco.MjModel.from_xml_string(request["scene"]))
+    try:
+        scene.play(request["frames"])
+    except Failed as failed:
+        return {"failed": str(failed)}
+    return {"frames": scene.frames}
+
+
+def main():
+    print(json.dumps(mujoco.__version__), flush=True)
+    for line in sys.stdin:
+        print(json.dumps(film(json.loads(line))), flush=True)
+
+
+if __name__ == "__main__":
+    main()

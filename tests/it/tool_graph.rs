@@ -1,0 +1,162 @@
+//! Tools as subgraphs: every part is a node, fixed joints hold them together, and how a tool is built
+//! of parts changes nothing.
+
+use std::sync::Arc;
+
+use pushplan::asset::ToolLibrary;
+use pushplan::effect::{EffectModel, EffectModels, Network, Prior};
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::graph::{Batch, GIVEN, Graph, NodeKind, RelationName};
+use pushplan::network::{Buffers, Forward};
+use pushplan::scene::{
+    Job, Object, Obstacle, Part, Record, Scene, State, Stroke, Tool, ToolMotion,
+};
+use rand::seq::SliceRandom;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::random_network::{batch, scene, stroke, weights};
+
+/// What the same tool of other parts may change over 20 cm: metres, radians.
+const SAME: (f64, f64) = (1e-4, 1.745e-3);
+
+/// The tool with one of its cuboids cut in two, and its parts in another order.
+fn cut(tool: &Tool, random: &mut Pcg64) -> Tool {
+    let mut parts = tool.parts().to_vec();
+    let which = random.random_range(0..parts.len());
+    if let Shape::Cuboid { size } = parts[which].shape {
+        let axis = random.random_range(0..2);
+        let share = random.random_range(0.15..0.85);
+        let half = |from: f64, to: f64, name: &str| {
+            let (mut own, mut at) = (size, Vector::zeros());
+            own[axis] = (to - from) * size[axis];
+            at[axis] = ((from + to) / 2.0 - 0.5) * size[axis];
+            let pose = parts[which].pose * Pose { position: at, heading: 0.0 };
+            Part::cuboid(format!("{}-{name}", parts[which].name), own, pose)
+        };
+        let halves = [half(0.0, share, "a"), half(share, 1.0, "b")];
+        parts.splice(which..=which, halves);
+    }
+    parts.shuffle(random);
+    tool.clone().with_parts(parts).expect("one piece")
+}
+
+/// A push of 20 cm by the tool that begins beside its middle, with something in the way now and then.
+fn push(tool: &Tool, random: &mut Pcg64) -> (Scene, Stroke) {
+    let size = [random.random_range(0.04..0.1), random.random_range(0.04..0.1), 0.08];
+    let way = random.random_range(-3.1..3.1f64);
+    let along = Vector::new(way.cos(), way.sin());
+    let from = Pose::new(0.1, 0.05, random.random_range(-3.1..3.1));
+    let ahead = tool.outline().iter().map(|piece| {
+        let pose = from * piece.pose;
+        pose.position.dot(&along) + piece.footprint().extent(pose.local_vector(along))
+    });
+    let front = ahead.fold(f64::NEG_INFINITY, f64::max);
+    let middle = from * tool.outline()[0].pose;
+    let aside = Vector::new(-along.y, along.x);
+    let off = random.random_range(-0.06..0.06);
+    let at = along * (front + 0.075) + aside * (middle.position.dot(&aside) + off);
+    let object =
+        Object::cuboid("box", size).at(at.x, at.y, random.random_range(-3.1..3.1)).friction(0.4);
+    let beyond = at + along * 0.15 + aside * 0.05;
+    let wall = Obstacle::new("wall", [0.05, 0.05, 0.1], Pose::new(beyond.x, beyond.y, way));
+    let scene = Scene::new([object]).on_table(0.5);
+    let scene = if random.random_bool(0.3) { scene.with_obstacle(wall) } else { scene };
+    let turn = if random.random_bool(0.3) { random.random_range(-0.5..0.5) } else { 0.0 };
+    let to = Pose { position: from.position + 0.2 * along, heading: from.heading + turn };
+    (scene, Stroke { from, to, duration: 2.0, settle: true })
+}
+
+fn end(model: &dyn EffectModel, scene: &Scene, tool: Tool, stroke: Stroke) -> State {
+    let motion = ToolMotion { tool: Arc::new(tool), lift: 0.002, strokes: vec![stroke] };
+    model.rollout(scene, &[Job::stated(scene, motion)], Record::Outcome)[0].outcome().clone()
+}
+
+#[test]
+fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let network = Network::new(EffectModels::weights().expect("the shipped weights"));
+    let models: [&dyn EffectModel; 2] = [&network, &Prior::default()];
+    let mut moved = 0;
+    for seed in 0..300 {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let tools: Vec<_> = library.iter().filter(|tool| tool.pushes()).collect();
+        let tool = Tool::clone(tools[seed as usize % tools.len()]);
+        let (scene, stroke) = push(&tool, &mut random);
+        let other = cut(&tool, &mut random);
+        for model in models {
+            let [one, two] =
+                [&tool, &other].map(|tool| end(model, &scene, tool.clone(), stroke).poses[0]);
+            let apart = (one.position - two.position).norm();
+            let turned = (one.heading - two.heading).abs();
+            assert!(apart < SAME.0 && turned < SAME.1, "{seed} {}: {apart} m, {turned}", tool.name);
+            moved += usize::from((one.position - scene.objects[0].pose.position).norm() > 0.01);
+        }
+    }
+    assert!(moved > 300, "{moved}");
+}
+
+#[test]
+fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
+    // What the graph is: a row for every part. What is computed: one for all.
+    let weights = weights(64);
+    let whole = batch(&scene(), &scene().start(), &stroke());
+    let mut apart = Batch { given_even: Vec::new(), given_odd: Vec::new(), ..whole.clone() };
+    for (relation, &sender) in whole.senders.iter().enumerate().filter(|(_, s)| **s >= GIVEN) {
+        let row = (sender - GIVEN) as usize;
+        apart.senders[relation] = GIVEN + apart.given_count() as u32;
+        let columns = [&whole.given_even, &whole.given_odd].map(|t| t.len() / whole.given_count());
+        apart.given_even.extend_from_slice(&whole.given_even[row * columns[0]..][..columns[0]]);
+        apart.given_odd.extend_from_slice(&whole.given_odd[row * columns[1]..][..columns[1]]);
+    }
+    assert!(apart.given_count() > whole.given_count() && whole.given_count() > 1);
+    let forward = Forward::new(&weights);
+    let run = |batch: &Batch| {
+        let mut corrections = Vec::new();
+        forward.run(batch, &mut Buffers::default(), &mut corrections);
+        corrections
+    };
+    assert_eq!(run(&whole), run(&apart));
+
+    // And they do say something.
+    let mut silent = whole.clone();
+    silent.given_even.iter_mut().for_each(|value| *value = 0.0);
+    assert_ne!(run(&whole), run(&silent));
+}
+
+#[test]
+fn the_graph_of_a_moment_names_parts_obstacles_and_what_relates_them() {
+    let library = ToolLibrary::embedded().expect("the shipped tools");
+    let tool = library.iter().find(|tool| tool.parts().len() > 1).expect("a tool of parts");
+    let (scene, stroke) = (0..)
+        .map(|seed| push(tool, &mut Pcg64::seed_from_u64(seed)))
+        .find(|(scene, _)| !scene.obstacles.is_empty())
+        .expect("one with an obstacle");
+    let motion = ToolMotion { tool: Arc::clone(tool), lift: 0.002, strokes: vec![stroke] };
+    let job = Job::stated(&scene, motion);
+    let trajectory =
+        Prior::default().rollout(&scene, std::slice::from_ref(&job), Record::Frames).remove(0);
+    let graphs: Vec<Graph> =
+        (0..).map_while(|frame| Graph::at(&scene, &job, &trajectory, frame)).collect();
+    assert_eq!(graphs.len(), trajectory.frames.len() - 1);
+    for graph in &graphs {
+        let kinds: Vec<NodeKind> = graph.nodes.iter().map(|node| node.kind).collect();
+        let parts = tool.parts().len();
+        assert_eq!(kinds[0], NodeKind::Object);
+        assert!(kinds[1..=parts].iter().all(|kind| *kind == NodeKind::Part));
+        assert_eq!(kinds[parts + 1..], [NodeKind::Obstacle]);
+        let fixed = graph.relations.iter().filter(|r| r.kind == RelationName::Fixed);
+        assert_eq!(fixed.count(), 2 * tool.joints().len());
+        for relation in graph.relations.iter().filter(|r| r.kind == RelationName::Contact) {
+            assert_eq!(graph.nodes[relation.receiver].kind, NodeKind::Object);
+        }
+    }
+    let pushed = |graph: &&Graph| {
+        let contact = graph.relations.iter().find(|r| r.kind == RelationName::Contact);
+        contact.is_some_and(|r| graph.nodes[r.sender].kind == NodeKind::Part)
+    };
+    let touching = graphs.iter().find(pushed).expect("a push that touches");
+    // The end effector moves every part alike.
+    let shift = touching.nodes[1].shift;
+    assert!((shift.norm() - 0.01).abs() < 1e-9 || stroke.to.heading != stroke.from.heading);
+}
