@@ -137,8 +137,8 @@ impl Prior {
         let Scenery { bodies, state, .. } = scenery;
         let Self { system, velocities, gains, .. } = self;
         velocities.quantity = Quantity::Velocity;
-        velocities.continue_from(system, gains, scenery);
         system.unknowns.iter_mut().for_each(|unknown| unknown.look(WHOLE));
+        velocities.continue_from(system, gains, scenery);
         let ended = &system.unknowns;
         let pressing = contacts.iter().zip(&system.constraints);
         let pressing = pressing.filter(|(_, constraint)| constraint.presses());

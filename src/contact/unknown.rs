@@ -4,28 +4,32 @@
 //! Goyal, Ruina and Papadopoulos 1991): a point that moves by d and carries the share n of an
 //! object of mass m answers with mu n m g d / |d|. Written with a weight K that depends on the motion
 //! xi = (shift, turn), that is K xi, the sum of mu n m g / |d| J^T J over all points, J giving d from
-//! xi. Where contacts press, the load moves ahead (see [`crate::scene::Physics::lean`]). Inertia M
-//! adds, with velocities v0 at the start of the frame of T seconds,
+//! xi. All of it is taken where the points are half-way (for the velocity: where they end), as
+//! contacts are: a long object's far points otherwise drag the wrong way by half of its turn. Where
+//! contacts press, the load moves ahead (see [`crate::scene::Physics::lean`]). Inertia M adds, with
+//! velocities v0 at the start of the frame of T seconds, of which it moves for t,
 //!
 //! ```text
-//! (K + 2 M / T^2) xi     = 2 M v0 / T + f      for the displacement
+//! (K + 2 M / t^2) xi     = 2 M v0 / t + f      for the displacement
 //! (K +   M / T^2) (v T)  =   M v0 / T + f      for the velocity at the end
 //! ```
 //!
-//! the first because displacements are the mean of both velocities times T, which keeps their
-//! errors of second order in T. A free object must coast exactly as [`super::coast`] says, even if
-//! it comes to rest within the frame; so 2 m v0 / T is written as what makes it so.
+//! the first because displacements are the mean of both velocities times the time, which keeps their
+//! errors of second order in T. What goes less far than half of v0 T has come to rest on the way, at t
+//! = 2 |xi| / |v0| (lengths weighted by M); anything else moves all the time. Without forces that is
+//! the way v0^2 / (2 mu g) that a free object slides, and [`super::coast`] says it exactly.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
     geometry::{Turn, Vector},
-    scene::Drag,
+    scene::{Drag, Velocity},
 };
 
 use super::{
-    bodies::{Bodies, Movable},
+    bodies::Movable,
     points::Scenery,
+    prior::HALF,
     tally::Tally,
     twist::{along, shift},
 };
@@ -50,16 +54,6 @@ impl Quantity {
             Self::Velocity => 1e-5,
         }
     }
-
-    /// What inertia adds to the resistance of `body` in a frame of that duration, N/m.
-    #[inline]
-    fn inertia_of(self, body: &Movable, duration: f64) -> f64 {
-        let inertia = body.mass / (duration * duration);
-        match self {
-            Self::Displacement => 2.0 * inertia,
-            Self::Velocity => inertia,
-        }
-    }
 }
 
 /// Updates of the weights in which the load follows what presses; then it stays, as where it goes
@@ -67,6 +61,9 @@ impl Quantity {
 /// the mean error against the planar engine is 2.85 mm with 1, 2.33 with 2, 1.70 with 4, 1.60 with
 /// 5, 1.63 with 6 and 1.8 without end.
 pub(super) const FOLLOWING: usize = 5;
+
+/// What comes to rest within a frame moves for at least this share of it, so that inertia stays finite.
+pub(super) const LEAST: f64 = 1e-3;
 
 /// Weights are kept while motion (metres, radians) and pressing have changed by less.
 pub(super) const SAME: f64 = 1e-9;
@@ -76,8 +73,17 @@ pub(super) const SAME: f64 = 1e-9;
 struct Member {
     /// Where its own x axis points at the start of the frame, a unit vector.
     axis: Vector,
-    /// What its inertia adds to the resistance to shifts, N/m, and to turns, N m.
+    /// Its mass, kg, and its moment of inertia, kg m^2.
     inertia: (f64, f64),
+}
+
+/// How a group moves when a frame begins.
+#[derive(Clone, Copy, Debug)]
+struct Momentum {
+    /// Of its centre, kg m/s, and of turning about it, kg m^2/s.
+    sum: Vector3<f64>,
+    /// The sum of m v^2 over its members, J.
+    square: f64,
 }
 
 /// A rigid group and its motion.
@@ -90,8 +96,8 @@ pub(super) struct Unknown {
     pub resistance: Matrix3<f64>,
     /// Displacement per force and torque, the inverse of the resistance.
     pub inverse: Matrix3<f64>,
-    /// The pull on it without contacts and joints, force and torque, if that has been computed.
-    pull: Option<Vector3<f64>>,
+    /// How it moved as the frame began, if that has been computed.
+    momentum: Option<Momentum>,
     /// Its motion without contacts and joints.
     pub free: Vector3<f64>,
     /// Shift of the centre, metres, and turn, radians.
@@ -129,15 +135,19 @@ impl Clone for Unknown {
 
 impl Unknown {
     /// Puts the group where its `members` are; it has not moved yet.
-    pub fn place(&mut self, members: &[usize], Scenery { state, turns, .. }: Scenery) {
+    pub fn place(&mut self, members: &[usize], Scenery { bodies, state, turns, .. }: Scenery) {
         let positions = members.iter().map(|&k| state.poses[k].position);
         self.centre = positions.sum::<Vector>() / members.len() as f64;
         self.members.clear();
-        let member = |&k: &usize| Member { axis: turns[k].axis(), inertia: (0.0, 0.0) };
+        let member = |&k: &usize| {
+            let body = &bodies.objects[k];
+            let turning = body.mass * body.support * body.support / body.spin;
+            Member { axis: turns[k].axis(), inertia: (body.mass, turning) }
+        };
         self.members.extend(members.iter().map(member));
         (self.share, self.turn) = (0.0, Turn::NONE);
         self.updates = 0;
-        self.pull = None;
+        self.momentum = None;
         self.held = members.len() > 1;
     }
 
@@ -185,7 +195,7 @@ impl Unknown {
     /// the table has held the group.
     #[inline]
     pub fn turn_to_another(&mut self) {
-        self.pull = None;
+        self.weighed = None;
         self.held |= self.touched;
     }
 
@@ -208,41 +218,41 @@ impl Unknown {
         self.twist = self.free + self.inverse * self.pressed;
     }
 
-    /// What pulls the group: friction and inertia of members that coast.
-    fn pull(
-        &mut self,
-        members: &[usize],
-        Scenery { bodies, state, step, coasts, .. }: Scenery,
-        quantity: Quantity,
-    ) -> Vector3<f64> {
-        let duration = step.duration;
-        let mut pull = Vector3::zeros();
-        for (&k, member) in members.iter().zip(&mut self.members) {
-            let body = &bodies.objects[k];
-            member.inertia = inertias(body, quantity.inertia_of(body, duration));
-            let (slide, turn) = member.inertia;
+    /// How its `members` move when the frame begins.
+    fn momentum(&self, members: &[usize], Scenery { state, .. }: Scenery) -> Momentum {
+        let mut momentum = Momentum { sum: Vector3::zeros(), square: 0.0 };
+        for (&k, Member { inertia: (mass, inertia), .. }) in members.iter().zip(&self.members) {
+            let Velocity { linear, angular } = state.velocities[k];
             let arm = state.poses[k].position - self.centre;
-            let own = match quantity {
-                Quantity::Displacement => {
-                    let coast = &coasts[k];
-                    let moved = Vector3::new(coast.shift.x, coast.shift.y, coast.turn);
-                    if moved == Vector3::zeros() {
-                        continue;
-                    }
-                    let motion = (coast.shift, coast.turn);
-                    let rub = rub((bodies, k), member.axis, motion, quantity, Vector::zeros());
-                    rub.about(Vector::zeros()) * moved
-                        + Vector3::new(slide, slide, turn).component_mul(&moved)
-                }
-                Quantity::Velocity => {
-                    let start = &state.velocities[k];
-                    let pull = slide * duration * start.linear;
-                    Vector3::new(pull.x, pull.y, turn * duration * start.angular)
+            let turning = inertia * angular;
+            momentum.sum += along(*mass * linear, arm) + Vector3::new(0.0, 0.0, turning);
+            let (x, y) = (linear.x, linear.y);
+            momentum.square += mass * (x * x + y * y) + turning * angular;
+        }
+        momentum
+    }
+
+    /// For how many of the frame's seconds it moves, if it comes as far as it does now or its
+    /// members come by `reach` metres.
+    fn moving(
+        &self,
+        members: &[usize],
+        Scenery { state, step, .. }: Scenery,
+        reach: Option<f64>,
+        start: &Momentum,
+    ) -> f64 {
+        let mut square = 0.0;
+        for (&k, Member { inertia: (mass, inertia), .. }) in members.iter().zip(&self.members) {
+            square += match reach {
+                Some(reach) => mass * reach * reach,
+                None => {
+                    let moved = shift(&self.twist, state.poses[k].position - self.centre);
+                    let (x, y, turn) = (moved.x, moved.y, self.twist.z);
+                    mass * (x * x + y * y) + inertia * turn * turn
                 }
             };
-            pull += along(own.xy(), arm) + Vector3::new(0.0, 0.0, own.z);
         }
-        pull
+        moving(square, start.square, step.duration)
     }
 
     /// Takes resistance and free motion when its members move as they do now, or by `reach`
@@ -256,11 +266,11 @@ impl Unknown {
         tally: &mut Tally,
     ) {
         let Scenery { bodies, state, .. } = scenery;
-        let pull = self.pull.unwrap_or_else(|| {
+        let momentum = self.momentum.unwrap_or_else(|| {
             self.weighed = None;
-            self.pull(members, scenery, quantity)
+            self.momentum(members, scenery)
         });
-        self.pull = Some(pull);
+        self.momentum = Some(momentum);
         let before = self.pressing;
         if self.updates < FOLLOWING {
             let load: f64 = members.iter().map(|&k| bodies.objects[k].load()).sum();
@@ -273,24 +283,39 @@ impl Unknown {
             return;
         }
         self.weighed = reach.is_none().then_some(self.twist);
+        let duration = scenery.step.duration;
+        let (stiff, pull) = match quantity {
+            Quantity::Displacement => {
+                let moving = self.moving(members, scenery, reach, &momentum);
+                (2.0 / (moving * moving), momentum.sum * (2.0 / moving))
+            }
+            Quantity::Velocity => (1.0 / (duration * duration), momentum.sum / duration),
+        };
+        // Velocities are those of where displacements have brought it, at which it is looked already.
+        if let (Quantity::Displacement, None) = (quantity, reach) {
+            self.look(HALF);
+        }
         let mut weight = Matrix3::zeros();
-        for (&k, Member { axis, inertia: (slide, turn) }) in members.iter().zip(&self.members) {
+        for (&k, Member { axis, inertia: (mass, inertia) }) in members.iter().zip(&self.members) {
             let body = &bodies.objects[k];
             tally.weigh(bodies.feet(k).count);
             let arm = state.poses[k].position - self.centre;
-            let mut rub = match reach {
+            let (rub, arm_then) = match reach {
                 Some(moved) => {
-                    Rub::new(body, bodies.feet(k).even_drag(moved.max(quantity.stuck())))
+                    let drag = bodies.feet(k).even_drag(moved.max(quantity.stuck()));
+                    (Rub::new(body, drag), arm)
                 }
                 None => {
-                    let moved = shift(&self.twist, arm);
+                    let (axis, arm) = (self.turn.of(*axis), self.turn.of(arm));
+                    let motion = (shift(&self.twist, arm), self.twist.z);
                     let lean = body.lean * self.pressing;
-                    rub((bodies, k), *axis, (moved, self.twist.z), quantity, lean)
+                    let drag = bodies.feet(k).drag(axis, motion, quantity.stuck(), lean);
+                    (Rub::new(body, drag), arm)
                 }
             };
-            rub.sum += slide;
-            rub.second += turn;
-            weight += rub.about(arm);
+            let (sum, second) = (stiff * mass, stiff * inertia);
+            let slow = Rub { sum, first: Vector::zeros(), second };
+            weight += rub.about(arm_then) + slow.about(arm);
         }
         self.resistance = weight;
         self.inverse = inverse(&weight);
@@ -298,18 +323,15 @@ impl Unknown {
     }
 }
 
-/// How the support of object `k`, whose own x axis points along `axis` and whose load has moved by
-/// `lean`, resists a shift and a turn.
+/// For how many of a frame's seconds a group moves that comes as far as the root of `square`, when
+/// in each of them the speed it began with would bring it as far as the root of `start`; lengths are
+/// weighted by its inertia.
 #[inline]
-fn rub(
-    (bodies, k): (&Bodies, usize),
-    axis: Vector,
-    (shift, turn): (Vector, f64),
-    quantity: Quantity,
-    lean: Vector,
-) -> Rub {
-    let drag = bodies.feet(k).drag(axis, (shift, turn), quantity.stuck(), lean);
-    Rub::new(&bodies.objects[k], drag)
+fn moving(square: f64, start: f64, duration: f64) -> f64 {
+    if start == 0.0 {
+        return duration;
+    }
+    (2.0 * (square / start).sqrt()).max(LEAST * duration).min(duration)
 }
 
 /// The moments of what resists an object, about its centre in world axes: N/m, N, N m.
@@ -355,11 +377,4 @@ fn inverse(weight: &Matrix3<f64>) -> Matrix3<f64> {
         p * turn,
         turn,
     )
-}
-
-/// The part of the resistance to shifts, N/m, and to turns, N m, that inertia makes; `inertia` in
-/// N/m.
-#[inline]
-fn inertias(body: &Movable, inertia: f64) -> (f64, f64) {
-    (inertia, inertia * body.support * body.support / body.spin)
 }

@@ -128,7 +128,7 @@ impl<'a, const N: usize> Frames<'a, N> {
     #[inline(always)]
     fn displace(&self, tally: &mut Tally) -> (Moves<N>, [Pressing<N>; MOST], Which<N>) {
         let Self { present, object, contacts } = self;
-        let mut moves = Moves::begin(object, *present);
+        let mut moves = Moves::begin(object);
         let mut pressing = [Pressing::default(); MOST];
         for (pressing, touching) in pressing.iter_mut().zip(contacts) {
             pressing.present = touching.present;
@@ -137,10 +137,10 @@ impl<'a, const N: usize> Frames<'a, N> {
         let (mut ended, mut presses) = (moves, pressing);
         let (mut left, mut found) = (*present, *present);
         for update in 0..UPDATES {
-            if update > 0 {
-                moves.weigh(object, Quantity::Displacement, left, tally);
-            }
             let look = Look::new(object, &moves, HALF);
+            if update > 0 {
+                moves.weigh(object, Quantity::Displacement, &look.turn, left, tally);
+            }
             for (pressing, touching) in pressing.iter_mut().zip(contacts) {
                 if touching.present.any() {
                     let met = touching.at(object, &look);
@@ -182,9 +182,9 @@ impl<'a, const N: usize> Frames<'a, N> {
     ) -> Moves<N> {
         let Self { object, contacts, .. } = self;
         let (mut moves, mut pressing) = (*ended, *pressed);
-        moves.pull(object, Quantity::Velocity, *found);
-        moves.weigh(object, Quantity::Velocity, *found, tally);
         let look = Look::new(object, ended, WHOLE);
+        moves.turn_to_another();
+        moves.weigh(object, Quantity::Velocity, &look.turn, *found, tally);
         for (pressing, touching) in pressing.iter_mut().zip(contacts) {
             pressing.keep(pressing.presses());
             if pressing.present.any() {
@@ -198,7 +198,7 @@ impl<'a, const N: usize> Frames<'a, N> {
         let (mut end, mut left) = (moves, *found);
         for update in 0..UPDATES {
             if update > 0 {
-                moves.weigh(object, Quantity::Velocity, left, tally);
+                moves.weigh(object, Quantity::Velocity, &look.turn, left, tally);
             }
             let settled = self.settle(&mut moves, &mut pressing, left, tally);
             *found = *found & (settled.found | !left);

@@ -9,9 +9,9 @@ use crate::{
 use super::{
     super::{
         tally::Tally,
-        unknown::{FOLLOWING, Quantity, SAME},
+        unknown::{FOLLOWING, LEAST, Quantity, SAME},
     },
-    lanes::{Lanes, Pair, Triple, Which, minus, norm, plus},
+    lanes::{Lanes, Pair, Triple, Turns, Which, minus, norm, plus, times},
 };
 
 /// The object of each frame.
@@ -62,6 +62,14 @@ impl<const N: usize> Default for Object<'_, N> {
     }
 }
 
+impl<const N: usize> Object<'_, N> {
+    /// Its mass, kg, and its moment of inertia, kg m^2.
+    #[inline(always)]
+    fn inertia(&self) -> (Lanes<N>, Lanes<N>) {
+        (self.mass, self.mass * self.support * self.support / self.spin)
+    }
+}
+
 /// What it does, and how it resists.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moves<const N: usize> {
@@ -72,7 +80,9 @@ pub(super) struct Moves<const N: usize> {
     /// What it does without them.
     pub free: Triple<N>,
     pub inverse: Inverse<N>,
-    pull: Triple<N>,
+    /// How it moved as the frame began, kg m/s and kg m^2/s, and m v^2, J.
+    momentum: Triple<N>,
+    square: Lanes<N>,
     /// How hard contacts press, as a share of the largest friction.
     pressing: Pair<N>,
     /// Updates so far, and the motion that weights were last taken for, where they were.
@@ -102,11 +112,12 @@ struct Rub<const N: usize> {
 }
 
 impl<const N: usize> Rub<N> {
-    /// Of `object` where it moves by `moved` in the frames that are `wanted`, its load having moved
-    /// by `lean`.
+    /// Of `object` where it moves by `moved` in the frames that are `wanted`, its own x axis pointing
+    /// along `axis` and its load having moved by `lean`.
     #[inline(always)]
     fn new(
         object: &Object<N>,
+        axis: Pair<N>,
         moved: Triple<N>,
         stuck: f64,
         lean: Pair<N>,
@@ -117,7 +128,7 @@ impl<const N: usize> Rub<N> {
             if let Some(feet) = object.feet[k].filter(|_| wanted.has(k)) {
                 let at = |pair: &Pair<N>| Vector::new(pair[0].0[k], pair[1].0[k]);
                 let motion = (Vector::new(moved[0].0[k], moved[1].0[k]), moved[2].0[k]);
-                let drag = feet.drag_here(at(&object.axis), motion, stuck, at(&lean));
+                let drag = feet.drag_here(at(&axis), motion, stuck, at(&lean));
                 let Drag { sum: s, first, second: t } = drag;
                 (sum.0[k], x.0[k], y.0[k], second.0[k]) = (s, first.x, first.y, t);
             }
@@ -126,12 +137,6 @@ impl<const N: usize> Rub<N> {
         // Of zeros none is a minus zero.
         let first = [load * x + Lanes::ZERO, load * y + Lanes::ZERO];
         Self { sum: load * sum, first, second: load * second }
-    }
-
-    #[inline(always)]
-    fn times(&self, [u, v, w]: Triple<N>) -> Triple<N> {
-        let [x, y] = self.first;
-        [self.sum * u - y * w, self.sum * v + x * w, x * v - y * u + self.second * w]
     }
 
     /// The inverse of the resistance, in closed form.
@@ -157,9 +162,13 @@ impl<const N: usize> Rub<N> {
 impl<const N: usize> Moves<N> {
     /// At rest, before anything presses.
     #[inline(always)]
-    pub fn begin(object: &Object<N>, of: Which<N>) -> Self {
+    pub fn begin(object: &Object<N>) -> Self {
         let mut moves = Self::default();
-        moves.pull(object, Quantity::Displacement, of);
+        let (mass, inertia) = object.inertia();
+        let [x, y, spin] = object.velocity;
+        let turning = inertia * spin;
+        moves.momentum = plus([mass * x, mass * y, turning], [Lanes::ZERO; 3]);
+        moves.square = mass * (x * x + y * y) + turning * spin;
         moves.updates = Lanes::all(1.0);
         let moved = object.reach.max(Lanes::all(Quantity::Displacement.stuck()));
         let (mut sum, mut second) = (Lanes::ZERO, Lanes::ZERO);
@@ -171,39 +180,26 @@ impl<const N: usize> Moves<N> {
         }
         let first = [Lanes::ZERO; 2];
         let rub = Rub { sum: object.load * sum, first, second: object.load * second };
-        moves.answer(object, rub, Quantity::Displacement);
+        let square = mass * object.reach * object.reach;
+        moves.answer(object, rub, Quantity::Displacement, square);
         moves.twist = moves.free;
         moves
     }
 
-    /// Takes what pulls the object without contacts, in the frames `of` interest.
+    /// Another quantity is wanted now.
     #[inline(always)]
-    pub fn pull(&mut self, object: &Object<N>, quantity: Quantity, of: Which<N>) {
+    pub fn turn_to_another(&mut self) {
         self.known = Which::NONE;
-        let (slide, turn) = inertias(object, quantity);
-        let pull = match quantity {
-            Quantity::Displacement => {
-                let [x, y, z] = object.coast;
-                let none = Lanes::ZERO;
-                let rests = x.equals(none) & y.equals(none) & z.equals(none);
-                let stuck = quantity.stuck();
-                let rub = Rub::new(object, object.coast, stuck, [none; 2], of & !rests);
-                plus(rub.times(object.coast), [slide * x, slide * y, turn * z])
-            }
-            Quantity::Velocity => {
-                let ([x, y, z], duration) = (object.velocity, object.duration);
-                [slide * duration * x, slide * duration * y, turn * duration * z]
-            }
-        };
-        self.pull = plus(pull, [Lanes::ZERO; 3]);
     }
 
-    /// Takes resistance and free motion as it moves now, in the frames `of` interest.
+    /// Takes resistance and free motion as it moves now, in the frames `of` interest, where it has
+    /// made that `turn`.
     #[inline(always)]
     pub fn weigh(
         &mut self,
         object: &Object<N>,
         quantity: Quantity,
+        turn: &Turns<N>,
         of: Which<N>,
         tally: &mut Tally,
     ) {
@@ -234,20 +230,52 @@ impl<const N: usize> Moves<N> {
         self.weighed = near.pick_each(self.weighed, self.twist);
         self.known = Which::ALL;
         let lean = [object.lean * self.pressing[0], object.lean * self.pressing[1]];
-        let rub = Rub::new(object, self.twist, quantity.stuck(), lean, stale);
+        let axis = turn.of(object.axis);
+        let rub = Rub::new(object, axis, self.twist, quantity.stuck(), lean, stale);
         let (kept, free) = (self.inverse.0, self.free);
-        self.answer(object, rub, quantity);
+        let (mass, inertia) = object.inertia();
+        let [x, y, z] = self.twist;
+        self.answer(object, rub, quantity, mass * (x * x + y * y) + inertia * z * z);
         self.inverse.0 = near.pick_each(kept, self.inverse.0);
         self.free = near.pick_each(free, self.free);
     }
 
+    /// Takes resistance and free motion from what rubs. If the displacement is wanted and the object
+    /// comes as far as the root of `square`, lengths being weighted by its inertia.
     #[inline(always)]
-    fn answer(&mut self, object: &Object<N>, mut rub: Rub<N>, quantity: Quantity) {
-        let (slide, turn) = inertias(object, quantity);
-        rub.sum += slide;
-        rub.second += turn;
+    fn answer(
+        &mut self,
+        object: &Object<N>,
+        mut rub: Rub<N>,
+        quantity: Quantity,
+        square: Lanes<N>,
+    ) {
+        let (one, two) = (Lanes::all(1.0), Lanes::all(2.0));
+        let (stiff, pull) = match quantity {
+            Quantity::Displacement => {
+                let moving = self.moving(square, object.duration);
+                (two / (moving * moving), times(self.momentum, two / moving))
+            }
+            Quantity::Velocity => {
+                let duration = object.duration;
+                let [x, y, z] = self.momentum;
+                (one / (duration * duration), [x / duration, y / duration, z / duration])
+            }
+        };
+        let (mass, inertia) = object.inertia();
+        rub.sum += stiff * mass;
+        rub.second += stiff * inertia;
         self.inverse = rub.inverse();
-        self.free = self.inverse.by(self.pull);
+        self.free = self.inverse.by(pull);
+    }
+
+    /// For how many of the frame's seconds it moves.
+    #[inline(always)]
+    fn moving(&self, square: Lanes<N>, duration: Lanes<N>) -> Lanes<N> {
+        let way = Lanes::all(2.0) * (square / self.square).sqrt();
+        let way = way.max(Lanes::all(LEAST) * duration);
+        let rests = way.below(duration) & !self.square.equals(Lanes::ZERO);
+        rests.pick(way, duration)
     }
 
     /// Moves as what presses makes it.
@@ -265,15 +293,4 @@ impl<const N: usize> Moves<N> {
         self.inverse.0 = of.pick_each(other.inverse.0, self.inverse.0);
         self.updates = of.pick(other.updates, self.updates);
     }
-}
-
-/// What inertia adds to the resistance to shifts, N/m, and to turns, N m.
-#[inline(always)]
-fn inertias<const N: usize>(object: &Object<N>, quantity: Quantity) -> (Lanes<N>, Lanes<N>) {
-    let inertia = object.mass / (object.duration * object.duration);
-    let slide = match quantity {
-        Quantity::Displacement => Lanes::all(2.0) * inertia,
-        Quantity::Velocity => inertia,
-    };
-    (slide, slide * object.support * object.support / object.spin)
 }

@@ -38,7 +38,8 @@ pub(super) struct Touching<const N: usize> {
 pub(super) struct Look<const N: usize> {
     share: Lanes<N>,
     shift: Pair<N>,
-    turn: Turns<N>,
+    /// How far it has turned.
+    pub turn: Turns<N>,
     /// Where its centre is then.
     centre: Pair<N>,
 }

@@ -4,7 +4,9 @@ use super::*;
 use crate::{
     contact::{bodies::Bodies, coast::coast, points::find_contacts},
     geometry::{Pose, Shape, Turn, cross},
-    scene::{FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Tool},
+    scene::{
+        FrameStep, Joint, JointKind, Object, Obstacle, Part, Physics, Scene, State, Support, Tool,
+    },
 };
 
 fn cuboid(x: f64, y: f64) -> Object {
@@ -199,4 +201,71 @@ fn where_a_frame_begins_from_makes_it_shorter_and_no_other() {
     }
     assert!(state.poses[0].heading.abs() > 0.1, "{state:?}");
     assert!(5 * followed < 4 * alone, "{followed} {alone}");
+}
+
+/// What is pushed steadily has no need of its momentum: its motion is that of friction alone,
+/// though it would come to rest within a frame if the tool left it.
+#[test]
+fn what_a_steady_push_does_is_what_friction_makes_of_it() {
+    let long =
+        Object::cuboid("long", [0.04, 0.2, 0.1]).mass(0.5).friction(0.5).at(0.02, -0.05, 0.0);
+    let scene = table(vec![Object { support: Support::Corners, ..long }]);
+    let travel = Pose { position: Vector::new(0.006, 0.0), heading: 0.0 };
+    let pushed = |state: &State, duration: f64| {
+        let step = FrameStep { from: Pose::default(), to: travel, duration };
+        let mut prior = Prior::default();
+        in_frame(&scene, state, &step, |scenery, contacts| {
+            prior.solve(scenery, Vector::x(), contacts);
+        });
+        prior.motions[0]
+    };
+    let slow = pushed(&scene.start(), 50.0);
+    assert!(slow.turn < -0.02, "{slow:?}");
+    for duration in [0.2, 0.1, 0.04] {
+        let mut state = scene.start();
+        state.velocities[0].linear = slow.shift / duration;
+        state.velocities[0].angular = slow.turn / duration;
+        let steady = pushed(&state, duration);
+        assert!((steady.shift - slow.shift).norm() < 1e-4, "{duration}: {steady:?} {slow:?}");
+        assert!((steady.turn - slow.turn).abs() < 1e-3, "{duration}: {steady:?} {slow:?}");
+    }
+}
+
+/// Two feet that both move drag alike, with no torque that would balance a push beside the middle.
+/// So one of them stands: the far one.
+#[test]
+fn a_rod_on_two_feet_turns_about_the_far_one() {
+    let feet = [0.09, -0.09].map(|y| Vector::new(0.0, y));
+    for arm in [0.03, 0.06, 0.09] {
+        let rod = Object::cuboid("rod", [0.02, 0.2, 0.1]).mass(0.5).friction(0.1);
+        let support = Support::Points(feet.to_vec());
+        let scene = table(vec![Object { support, ..rod.at(0.01, -arm, 0.0) }]);
+        let [motion] = prior(&scene, Vector::new(0.005, 0.0))[..] else { panic!("one object") };
+        assert!(motion.at(feet[1]).norm() < 4e-4, "{arm}: {motion:?}");
+        assert!((motion.turn + 0.005 / (0.09 + arm)).abs() < 3e-3, "{arm}: {motion:?}");
+    }
+}
+
+/// The feet of a long box, as they lie half-way, balance a push at its end.
+#[test]
+fn four_feet_half_way_balance_a_push_that_turns_the_box() {
+    let long =
+        Object::cuboid("long", [0.04, 0.2, 0.1]).mass(0.5).friction(0.1).at(0.02, -0.08, 0.0);
+    let scene = table(vec![Object { support: Support::Corners, ..long }]);
+    let travel = Vector::new(0.01, 0.0);
+    let [motion] = prior(&scene, travel)[..] else { panic!("one object") };
+    assert!(motion.turn < -0.04, "{motion:?}");
+    let half = Turn::by(0.5 * motion.turn);
+    let (mut force, mut torque) = (Vector::zeros(), 0.0);
+    for [x, y] in [[0.02, 0.1], [-0.02, 0.1], [-0.02, -0.1], [0.02, -0.1]] {
+        let foot = half.of(Vector::new(x, y));
+        let drag = motion.at(foot).normalize() / 4.0;
+        force += drag;
+        torque += cross(foot, drag);
+    }
+    // The finger's own point, along the face's normal from its middle.
+    let finger = Vector::new(-0.01, 0.0) + travel / 2.0 + half.of(Vector::new(0.01, 0.0));
+    let arm = finger - (Vector::new(0.02, -0.08) + motion.shift / 2.0);
+    // Off by the arm of a millimetre.
+    assert!((torque - cross(arm, force)).abs() < 1e-3 * force.norm(), "{torque} {force}");
 }
