@@ -40,6 +40,11 @@ const SCREENED_RADIUS: f64 = 1.0;
 /// first: the others miss by more.
 const DISTURBED_AT_ONCE: usize = 3;
 
+/// Of the plans of one length that may be verified, the share that is replayed with disturbances, at
+/// most: where so many work and none is safe, the task is a fragile one, and these replays are most
+/// of its cost.
+const DISTURBED_SHARE: f64 = 0.375;
+
 /// A plan that was refined, and verified where it was worth that.
 pub(super) struct Tried {
     pub plan: Plan,
@@ -68,6 +73,8 @@ pub(super) struct Solving<'a> {
     /// What the search made of every way to push.
     pub candidates: Vec<ScoredPush>,
     pub tried: Vec<Tried>,
+    /// Plans that were replayed with disturbances.
+    disturbed: usize,
     /// What replays have shown not to work.
     pub refuted: Vec<Way>,
     /// The best plan that was replayed with disturbances.
@@ -97,6 +104,7 @@ impl<'a> Solving<'a> {
             statistics: Statistics::default(),
             candidates: Vec::new(),
             tried: Vec::new(),
+            disturbed: 0,
             refuted: Vec::new(),
             best: None,
         }
@@ -149,6 +157,8 @@ impl<'a> Solving<'a> {
         let at_once = self.at_once();
         let most = settings.verified_at_once.max(1) * settings.verify_batches;
         let candidates = self.choose(&found, settings.refined, &[]);
+        let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
+        let before = self.disturbed;
         let first = self.tried.len();
         let mut queue = self.refined(&candidates, self.task.goal, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
@@ -171,8 +181,9 @@ impl<'a> Solving<'a> {
             self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
+            let enough = self.disturbed - before >= most_disturbed;
             // Where even the most promising plan leads through a wall, a few tries are enough.
-            if safe || is_behind(self.tried[leader].score) {
+            if safe || enough || is_behind(self.tried[leader].score) {
                 break;
             }
             failed = indices;
@@ -322,6 +333,7 @@ impl<'a> Solving<'a> {
         for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
+                self.disturbed += 1;
                 let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
                 let verdict =
                     self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
