@@ -136,8 +136,8 @@ pub use error::Error;
 pub use geometry::{ConvexPolygon, PolygonError, Pose, Shape, Vector};
 pub use graph::Graph;
 pub use scene::{
-    Blade, Goal, Job, Joint, JointKind, LeverRules, LeverStep, LeverUp, ModelSpec, Motion, Noise,
-    Object, Obstacle, Outcome, Part, Physics, Pivot, Place, Plan, Push, PushForm, PushRules,
+    Blade, Goal, Job, Joint, JointKind, LeverRules, LeverStep, LeverUp, ModelSpec, Models, Motion,
+    Noise, Object, Obstacle, Outcome, Part, Physics, Pivot, Place, Plan, Push, PushForm, PushRules,
     PushStep, Record, Robot, Scene, Sight, Situation, State, Step, Task, Tool, ToolMotion,
     Trajectory, Truth, Unknowns, Verdict, Warning,
 };

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::asset::ToolLibrary;
 use crate::report::Origin;
-use crate::scene::{ModelSpec, Plan, Situation, Task, Tool};
+use crate::scene::{Models, Plan, Situation, Task, Tool};
 use crate::solve::{ActionError, AskedLever, AskedPush, asked_lever, asked_plan};
 
 use super::{
@@ -38,8 +38,8 @@ impl LibraryArgs {
         })
     }
 
-    /// What is made from these tools, the task file and, where it is said, a model.
-    pub fn origin(&self, task: &Path, model: Option<ModelSpec>) -> Origin {
+    /// What is made from these tools, the task file and, where it is said, models.
+    pub fn origin(&self, task: &Path, model: Option<Models>) -> Origin {
         let shown = |folder: &PathBuf| folder.display().to_string();
         Origin {
             task: task.display().to_string(),

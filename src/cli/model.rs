@@ -26,8 +26,11 @@ macro_rules! help {
 /// The line for `--help`.
 pub const HELP: &str = help!("");
 
-/// The same where the effort decides unless a model is named.
-pub const HELP_WITH_EFFORT: &str = help!(" [default: that of the effort]");
+/// The same where the effort decides unless models are named.
+pub const HELP_WITH_EFFORT: &str = help!(
+    ". Two with > between them: the first screens the many rollouts of a search, the second decides \
+     among the few, prior>network [default: those of the effort]"
+);
 
 /// The same where it is the network unless a model is named; for lever-ups their own.
 pub const HELP_WITH_NETWORK: &str = help!(" [default: network]");

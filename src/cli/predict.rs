@@ -173,7 +173,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(file, Some(spec)).plan(&plan);
+        let recipe = args.library.origin(file, Some(spec.into())).plan(&plan);
         let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
         let mut written =
             vec![output::write(out, &format!("{}.html", task.name), page.as_bytes())?];

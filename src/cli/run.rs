@@ -10,7 +10,7 @@ use crate::act::{
 use crate::asset::{ToolLibrary, load_task, load_world};
 use crate::effect::Outside;
 use crate::report::{PageView, Recipe, Setting, run_document, run_page};
-use crate::scene::{ModelSpec, Task, Truth};
+use crate::scene::{Models, Task, Truth};
 use crate::solve::{Effort, Planner};
 
 use super::{
@@ -55,7 +55,7 @@ pub struct RunArgs {
     #[arg(long, value_parser = words(&EFFORTS), default_value = "draft")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelSpec>,
+    model: Option<Models>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Most pushes before giving up
@@ -104,8 +104,8 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         ));
     }
     let truth = world(&args.world, &task, &library)?;
-    let spec = args.model.clone().unwrap_or_else(|| args.effort.spec());
-    let planner = Planner::builder(model::load(&spec)?)
+    let models = args.model.clone().unwrap_or_else(|| args.effort.models());
+    let planner = Planner::with_models(&models)?
         .effort(args.effort)
         .seed(args.seed)
         .outside(args.outside.outside())
@@ -122,7 +122,8 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         seed: args.seed,
         ..RunSettings::default()
     };
-    let planned_by = format!("{spec}, effort {}, outside {}", args.effort, args.outside.outside());
+    let planned_by =
+        format!("{models}, effort {}, outside {}", args.effort, args.outside.outside());
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
     let mut world = SimulatedWorld::new(truth);

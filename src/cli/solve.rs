@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::asset::{PlanFile, load_task};
 use crate::report::{PageView, plan_figures, solution_document, solution_page};
-use crate::scene::{ModelSpec, Situation, Task};
+use crate::scene::{Models, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
 use super::{
@@ -41,7 +41,7 @@ pub struct SolveArgs {
     #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelSpec>,
+    model: Option<Models>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
@@ -78,16 +78,14 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let mut task = load_task(&args.task, &library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
-    let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
+    let models = args.model.clone().unwrap_or_else(|| effort.models());
+    let planner = Planner::with_models(&models)?;
     output::prepare(&args.out)?;
     let settings = match args.disturbed {
         Some(count) => effort.settings().replaying(count.into()),
         None => effort.settings(),
     };
-    let planner = Planner::builder(effects)
-        .settings(settings)
-        .seed(args.seed)
-        .outside(args.outside.outside());
+    let planner = planner.settings(settings).seed(args.seed).outside(args.outside.outside());
     let planner = match args.time_limit {
         Some(limit) => planner.time_limit(limit).build(),
         None => planner.build(),
@@ -173,7 +171,7 @@ fn write(
     let figures = plan_figures(task, best, &replays, &name, args.animate);
     written.extend(output::write_figures(&args.out, &figures)?);
     let recipe = |ranked: &RankedPlan| {
-        let model = Some(ranked.predicted.by.clone());
+        let model = Some(ranked.predicted.by.clone().into());
         args.library.origin(origin, model).plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, args.page);

@@ -16,7 +16,11 @@ pub type Words<T> = [(&'static str, T, &'static str)];
 pub static EFFORTS: [(&str, Effort, &str); 3] = [
     ("draft", Effort::Draft, "A first look"),
     ("standard", Effort::Standard, "Enough for most tasks"),
-    ("thorough", Effort::Thorough, "Longer: by simulation, with more replays to tell robustness"),
+    (
+        "thorough",
+        Effort::Thorough,
+        "Longer: the network in every rollout, more replays to tell robustness",
+    ),
 ];
 
 /// What to do where a model should not be trusted.

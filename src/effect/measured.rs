@@ -27,6 +27,12 @@ const PRIOR: Errors = Errors {
     several: Quantiles { median: 1.09e-3, p95: 7.35e-3 },
 };
 
+/// The same pushes: the shipped network, frame by frame.
+const NETWORK: Errors = Errors {
+    one: Quantiles { median: 0.68e-3, p95: 5.94e-3 },
+    several: Quantiles { median: 0.61e-3, p95: 4.66e-3 },
+};
+
 /// `pushplan-lab tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.
 const COARSE_PLANAR: [(u16, Errors); 3] = [
     (
@@ -57,6 +63,7 @@ const COARSE_PLANAR: [(u16, Errors); 3] = [
 pub(super) fn measured(kind: &ModelKind, objects: impl FnOnce() -> usize) -> Option<Quantiles> {
     let errors = match *kind {
         ModelKind::PRIOR => &PRIOR,
+        ModelKind::NETWORK => &NETWORK,
         ModelKind::Simulated { rate: Rate::DEFAULT, .. } => {
             return Some(Quantiles { median: 0.0, p95: 0.0 });
         }

@@ -7,22 +7,24 @@ use rayon::prelude::*;
 use crate::{
     graph::{Batch, Correction},
     network::{Buffers, Forward, PredictorWeights},
-    rollout::{PairMeans, RollSettings, Roller},
+    rollout::{PairMeans, RollSettings, Roller, reachable},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
 
-use super::{EffectModel, Quantiles, Trust, trust::outside};
+use super::{EffectModel, Quantiles, Trust, measured::measured, trust::outside};
 
 /// Jobs that share a network batch: enough rows to keep the matrix products busy, few enough
-/// that two cores share a coarse search evenly. Fixed, so that results do not depend on the
-/// number of threads.
-pub(super) const CHUNK: usize = 32;
+/// that the cores share a search evenly. In solves in which the network rolls out everything it
+/// adds 46 us a rollout with 32, 44 with 64, 40 with 128 and 42 with 256; from 128 on a batch of the
+/// search keeps two cores busy at most. Fixed, so that results do not depend on the number of
+/// threads.
+const CHUNK: usize = 64;
 
 /// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
 /// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
 /// --on dense sparse` its mean error is 1.11 (dense) and 0.98 (sparse) times the prior's if it
 /// corrects all, 1.00 and 0.95 with five at most, 1.00 and 0.98 with three.
-const CORRECTED: usize = 5;
+pub const CORRECTED: usize = 5;
 
 /// Predicts with trained weights.
 pub struct Network {
@@ -116,7 +118,8 @@ impl EffectModel for Network {
             return Trust::NotMine;
         }
         let warnings = outside(&self.weights.card.ranges, scene, job);
-        Trust::Mine { error: self.error, warnings }
+        let measured = measured(&self.spec.first().kind, || reachable(scene, job).len());
+        Trust::Mine { error: measured.or(self.error), warnings }
     }
 
     fn takes(&self, _: &Scene, job: &Job) -> bool {

@@ -7,7 +7,11 @@ use crate::{
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
 
-use super::{EffectModel, PRIOR_RANGES, Trust, measured::measured, network::CHUNK, trust::outside};
+use super::{EffectModel, PRIOR_RANGES, Trust, measured::measured, trust::outside};
+
+/// Jobs that one thread rolls out on the same memory: few enough that two cores share a coarse search
+/// evenly.
+const CHUNK: usize = 32;
 
 /// The prior alone, without any network: the cheapest level with physics in it.
 #[derive(Clone, Debug)]

@@ -28,7 +28,7 @@ pub use candidate::{Candidate, CandidatePush, Start};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
-pub use refine::{RefineSettings, Refined, refine};
+pub use refine::{FOUND_RADIUS, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
 pub use scored::ScoredPush;

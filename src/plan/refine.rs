@@ -30,9 +30,9 @@ use super::{
     Workspace, evaluate,
 };
 
-/// Trust radius at the start, in steps: an early stop is off by up to a frame, an offset by up
-/// to half the coarse spacing.
-const FIRST_RADIUS: f64 = 2.0;
+/// Trust radius, in steps, for what a search found: an early stop is off by up to a frame, an
+/// offset by up to half the coarse spacing.
+pub const FOUND_RADIUS: f64 = 2.0;
 
 /// Radii between which the trust region stays, in steps. Below the smallest, changes drown in
 /// the noise of contact.
@@ -57,7 +57,7 @@ const HOPE: f64 = 4.0;
 const DAMPING: f64 = 1e-3;
 
 /// How much to refine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefineSettings {
     /// Rounds of fitting, solving and trying.
     pub rounds: usize,
@@ -69,11 +69,18 @@ pub struct RefineSettings {
     pub enough: usize,
     /// Stop after the round in which this many rollouts are reached.
     pub rollouts: usize,
+    /// The rounds are for this many candidates, the best before the first; of the others it is
+    /// only told where they end.
+    pub short_list: usize,
+    /// Trust radius at the start, in steps.
+    pub radius: f64,
 }
 
 /// What became of a candidate.
 #[derive(Clone, Debug)]
 pub struct Refined {
+    /// Which of the candidates it was.
+    pub index: usize,
     /// The best that was found.
     pub best: Evaluation,
     /// Distances of the middle of its ends on plausible supports from the goal, before and now,
@@ -91,6 +98,8 @@ struct Work {
     /// The best one's ends on plausible supports.
     ends: Ends,
     radius: f64,
+    /// Whether it is on the short list.
+    listed: bool,
     random: Pcg64,
 }
 
@@ -122,16 +131,19 @@ pub fn refine(
         .map(|((index, best), ends)| Work {
             parameters: Parameters::new(workspace, &rollouts.situation().start, &best.candidate),
             refined: Refined {
+                index,
                 off: [off(goal, &best, &ends); 2],
                 worst: ends.worst,
                 rounds: vec![score(goal, &best, &ends)],
                 best,
             },
             ends,
-            radius: FIRST_RADIUS,
+            radius: settings.radius,
+            listed: true,
             random: Pcg64::seed_from_u64(settings.seed.wrapping_add(index as u64)),
         })
         .collect();
+    shorten(&mut work, settings.short_list);
     for round in 0..settings.rounds {
         if watch.cancelled() {
             break;
@@ -153,6 +165,13 @@ pub fn refine(
     work.into_iter().map(|w| w.refined).collect()
 }
 
+/// Leaves only the best `most` open, by the end farthest from the goal; equal ones keep their order.
+fn shorten(work: &mut [Work], most: usize) {
+    let mut order: Vec<usize> = (0..work.len()).collect();
+    order.sort_by(|&a, &b| work[a].refined.worst.total_cmp(&work[b].refined.worst));
+    order.into_iter().skip(most).for_each(|k| work[k].listed = false);
+}
+
 impl Work {
     /// Score of the middle of all ends of the best.
     fn score(&self) -> f64 {
@@ -166,7 +185,7 @@ impl Work {
     /// Whether more rounds, `left` of them, can be worth their rollouts.
     fn is_open(&self, left: usize) -> bool {
         let score = bare(self.score());
-        if self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
+        if !self.listed || self.is_good() || !score.is_finite() || self.radius <= RADII.0 {
             return false;
         }
         let [.., before, _] = self.refined.rounds[..] else { return true };

@@ -2,7 +2,8 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::scene::Task;
+use crate::effect::CORRECTED;
+use crate::scene::{ModelKind, ModelPart, ModelSpec, Task};
 use crate::solve::{PlanStatus, Solution};
 
 use super::document::{Document, Section};
@@ -31,7 +32,10 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
     if solution.status == PlanStatus::NoPlan {
         sections.extend(refusals(solution));
     }
-    sections.push(Section { lines: vec![cost(solution)], ..Section::default() });
+    sections.push(Section {
+        lines: vec![format!("plans: {}", models_words(task, solution)), cost(solution)],
+        ..Section::default()
+    });
     Document {
         title: format!("{}: {}", task.name, headline(solution)),
         notes: vec![format!("goal: {}", goal_line(task))],
@@ -114,12 +118,41 @@ fn alternatives(task: &Task, solution: &Solution) -> Option<Section> {
     })
 }
 
+/// What screened the many rollouts, if that is another model, and what decided among the few.
+fn screened_and_decided(solution: &Solution) -> (Option<ModelKind>, ModelKind) {
+    let models = &solution.models;
+    let by = solution.best().map(|best| &best.predicted.by.first().kind);
+    let took = |part: &&ModelPart| Some(&part.kind) == by;
+    let kind = |part: &ModelPart| part.kind.clone();
+    let decided = models.decided.parts().find(took).unwrap_or(models.decided.first());
+    let same = models.screened.parts().any(|part| part.kind == decided.kind);
+    ((!same).then(|| kind(models.screened.first())), kind(decided))
+}
+
+/// The same in words.
+pub(super) fn models_words(task: &Task, solution: &Solution) -> String {
+    let (screened, decided) = screened_and_decided(solution);
+    let crowd =
+        matches!(decided, ModelKind::Network { .. }) && task.scene.objects.len() > CORRECTED;
+    let decided = ModelSpec::from(decided);
+    let line = match screened.map(ModelSpec::from) {
+        Some(screened) => format!("screened by {screened}, decided by {decided}"),
+        None => format!("decided by {decided}"),
+    };
+    match crowd {
+        true => format!("{line}, its prior alone while more than {CORRECTED} objects move"),
+        false => line,
+    }
+}
+
 fn cost(solution: &Solution) -> String {
     let statistics = &solution.statistics;
     let timing = &statistics.timing;
     format!(
-        "rollouts: {}; verified: {}; time: {}, of which search {}, refinement {}, verification {}",
+        "rollouts: {}, of which {} to decide; verified: {}; time: {}, of which search {}, \
+         refinement {}, verification {}",
         statistics.rollouts,
+        statistics.decided,
         statistics.verified,
         seconds(timing.total),
         seconds(timing.search),
@@ -144,6 +177,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
     json!({
         "task": task.name,
         "model": solution.best().map(|best| &best.predicted.by),
+        "models": solution.models,
         "status": solution.status,
         "stopped": solution.stopped,
         "reason": solution.best().map(|best| verdict_line(task, best.verdict.as_ref())),

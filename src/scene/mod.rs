@@ -59,7 +59,7 @@ pub use lever::{
     Weight, has_slipped, lever_frame,
 };
 pub use model::{
-    Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Rate, SpecError, Stride,
+    Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Models, Rate, SpecError, Stride,
 };
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,

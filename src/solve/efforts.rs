@@ -1,13 +1,13 @@
 //! What the efforts stand for: measured levels of planning.
 //!
 //! `pushplan-lab tradeoff` measures robustness and cost of every level and says which of those on its
-//! front each effort is (`crates/lab/results/tradeoff.json`). A test compares the rows below with that file,
-//! and fails when another measured level is both cheaper and more robust.
+//! front each effort is (`crates/lab/results/tradeoff.json`): of those in which the network decides. A test
+//! compares the rows below with that file, and fails when another such level is both cheaper and more
+//! robust.
 
 use std::num::NonZeroU16;
 
-use crate::effect::{EffectModels, ModelError, Routed};
-use crate::scene::{Engine, ModelKind, ModelSpec, Rate};
+use crate::scene::{Engine, ModelKind, ModelSpec, Models, Rate};
 
 use super::{Effort, LeverSettings, Settings};
 
@@ -34,8 +34,10 @@ const COARSE: Settings = Settings {
     refined: 8,
     refine_rounds: 4,
     refine_extra: 2,
-    verified_at_once: 4,
-    verify_batches: 2,
+    decided_rounds: 1,
+    short_list: 4,
+    verified_at_once: 2,
+    verify_batches: 4,
     disturbed: 4,
     levers: LeverSettings::DRAFT,
 };
@@ -48,27 +50,29 @@ const MEDIUM: Settings = Settings {
     refined: 24,
     refine_rounds: 8,
     refine_extra: 4,
-    verified_at_once: 8,
-    verify_batches: 3,
+    decided_rounds: 2,
+    short_list: 4,
+    verified_at_once: 2,
+    verify_batches: 12,
     disturbed: 8,
     levers: LeverSettings::STANDARD,
 };
 
 impl Effort {
-    /// The model, the budgets, and the disturbed replays of the winning plan in each engine: what a
-    /// first look, a usual answer and a thorough one take. More replays than a level was measured
-    /// with do not make its plans better, but measure their robustness more finely.
-    const fn level(self) -> (ModelKind, Settings, usize) {
+    /// What screens, what decides, the budgets, and the disturbed replays of the winning plan in each
+    /// engine: what a first look, a usual answer and a thorough one take. More replays than a level
+    /// was measured with do not make its plans better, but measure their robustness more finely.
+    const fn level(self) -> (ModelKind, ModelKind, Settings, usize) {
         match self {
-            Effort::Draft => (ModelKind::PRIOR, COARSE, 4),
-            Effort::Standard => (ModelKind::PRIOR, MEDIUM, 8),
-            Effort::Thorough => (planar(30), MEDIUM, 16),
+            Effort::Draft => (ModelKind::PRIOR, ModelKind::NETWORK, COARSE, 4),
+            Effort::Standard => (ModelKind::PRIOR, ModelKind::NETWORK, MEDIUM, 8),
+            Effort::Thorough => (ModelKind::NETWORK, ModelKind::NETWORK, MEDIUM, 16),
         }
     }
 
     /// Its numbers: the budgets of its level, and the replays that tell how robust the plan is.
     pub fn settings(self) -> Settings {
-        let (_, settings, disturbed) = self.level();
+        let (.., settings, disturbed) = self.level();
         let levers = match self {
             Effort::Draft => LeverSettings::DRAFT,
             Effort::Standard => LeverSettings::STANDARD,
@@ -77,21 +81,12 @@ impl Effort {
         Settings { disturbed, levers, ..settings }
     }
 
-    /// The effect model of its level; where that is the prior, the planar engine for pushes that
-    /// reach so many objects that the prior is no longer clearly cheaper.
-    pub fn spec(self) -> ModelSpec {
-        let (model, ..) = self.level();
-        match model {
-            ModelKind::PRIOR => ModelSpec::of(model).up_to(FEW_FOR_PRIOR).or(CROWD_ENGINE),
-            _ => ModelSpec::of(model),
-        }
-    }
-
-    /// [`Effort::spec`], ready to use.
-    ///
-    /// # Errors
-    /// [`ModelError`] if the library was built around a damaged weights file.
-    pub fn model(self) -> Result<Routed, ModelError> {
-        EffectModels::build(&self.spec())
+    /// The effect models of its level: the prior screens, the network decides, and the planar engine
+    /// does both for pushes that reach so many objects that the prior is no longer clearly cheaper.
+    pub fn models(self) -> Models {
+        let (screened, decided, ..) = self.level();
+        let [screened, decided] = [screened, decided]
+            .map(|model| ModelSpec::of(model).up_to(FEW_FOR_PRIOR).or(CROWD_ENGINE));
+        Models { screened, decided }
     }
 }

@@ -7,11 +7,11 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::asset::ToolLibrary;
-use crate::effect::{EffectModel, Job, ModelError, Outside, Routed, consequence};
+use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
 use crate::scene::{
-    ModelKind, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion, Trajectory,
-    Warning,
+    ModelKind, Models, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion,
+    Trajectory, Warning,
 };
 use crate::watch::{Until, Unwatched, Watch};
 
@@ -20,7 +20,8 @@ use super::levering::{self, Steps};
 use super::solving::Solving;
 use super::{Effort, Settings, Solution, SolveError};
 
-/// Finds tools and pushes for tasks, with one effect model and one effort.
+/// Finds tools and pushes for tasks, with one effect model, or one that screens and one that decides,
+/// and one effort.
 ///
 /// ```
 /// use pushplan::{Effort, PlanStatus, Planner, Simulated, Simulator, Task, ToolLibrary};
@@ -36,6 +37,8 @@ use super::{Effort, Settings, Solution, SolveError};
 /// ```
 pub struct Planner {
     model: Routed,
+    /// What screens for it, if that is another.
+    screen: Option<Routed>,
     outside: Outside,
     settings: Settings,
     seed: u64,
@@ -45,6 +48,7 @@ pub struct Planner {
 /// Builds a [`Planner`].
 pub struct PlannerBuilder {
     model: Arc<dyn EffectModel>,
+    screen: Option<Arc<dyn EffectModel>>,
     outside: Outside,
     settings: Settings,
     seed: u64,
@@ -94,11 +98,19 @@ impl PlannerBuilder {
         self
     }
 
+    /// Another model for the many rollouts of the search and the first rounds of refinement: a
+    /// cheaper one, as what it finds is decided on by the planner's own.
+    pub fn screened_by(mut self, screen: impl EffectModel + 'static) -> Self {
+        self.screen = Some(Arc::new(screen));
+        self
+    }
+
     /// The planner.
     pub fn build(self) -> Planner {
-        let Self { model, outside, settings, seed, time_limit } = self;
-        let model = Routed::new(model).outside(outside);
-        Planner { model, outside, settings, seed, time_limit }
+        let Self { model, screen, outside, settings, seed, time_limit } = self;
+        let trusted = |model| Routed::new(model).outside(outside);
+        let (model, screen) = (trusted(model), screen.map(trusted));
+        Planner { model, screen, outside, settings, seed, time_limit }
     }
 }
 
@@ -107,20 +119,47 @@ impl Planner {
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
         let (model, outside) = (Arc::new(model), Outside::default());
-        PlannerBuilder { model, outside, settings, seed: 0, time_limit: None }
+        PlannerBuilder { model, screen: None, outside, settings, seed: 0, time_limit: None }
     }
 
-    /// Starts building the planner that an effort stands for, effect model included.
+    /// Starts building a planner with the models that `models` describes.
+    ///
+    /// # Errors
+    /// [`ModelError`] if they need weights that cannot be used.
+    pub fn with_models(models: &Models) -> Result<PlannerBuilder, ModelError> {
+        let planner = Self::builder(EffectModels::build(&models.decided)?);
+        Ok(match models.is_one() {
+            true => planner,
+            false => planner.screened_by(EffectModels::build(&models.screened)?),
+        })
+    }
+
+    /// Starts building the planner that an effort stands for, effect models included.
     ///
     /// # Errors
     /// [`ModelError`] if the library was built around a damaged weights file.
     pub fn for_effort(effort: Effort) -> Result<PlannerBuilder, ModelError> {
-        Ok(Self::builder(effort.model()?).effort(effort))
+        Ok(Self::with_models(&effort.models())?.effort(effort))
     }
 
-    /// The effect model.
+    /// The effect model that decides.
     pub fn model(&self) -> &dyn EffectModel {
         &self.model
+    }
+
+    /// The effect model of the many rollouts: the one that decides, unless another screens for it.
+    pub fn screen(&self) -> &dyn EffectModel {
+        self.screen.as_ref().unwrap_or(&self.model)
+    }
+
+    /// Whether another model screens for the one that decides.
+    pub(super) fn is_screened(&self) -> bool {
+        self.screen.is_some()
+    }
+
+    /// What its models are.
+    pub fn models(&self) -> Models {
+        Models::from(self.model.spec().clone()).screened_by(self.screen().spec().clone())
     }
 
     /// The budgets.

@@ -42,7 +42,17 @@ impl Solving<'_> {
         let plans: Vec<(&Plan, &Arc<Tool>)> =
             order.iter().map(|(_, t)| (&t.plan, &t.tool)).collect();
         let predictions = self.planner.predict_all(self.task, self.situation, &plans);
-        self.statistics.rollouts = self.rollouts.used() + plans.len();
+        let screened = self.rollouts.used();
+        self.statistics.decided = plans.len()
+            + match &self.deciding {
+                Some(deciding) => deciding.used(),
+                None => screened,
+            };
+        self.statistics.rollouts = self.statistics.decided
+            + match self.deciding {
+                Some(_) => screened,
+                None => 0,
+            };
         let warnings = predictions.first().map(|p| p.warnings.clone()).unwrap_or_default();
         let plans = order
             .into_iter()
@@ -60,6 +70,7 @@ impl Solving<'_> {
         Solution {
             status,
             stopped: self.watch.cancelled(),
+            models: self.planner.models(),
             plans,
             tools: self.workspace.tools.iter().map(|tool| Tool::clone(tool)).collect(),
             candidates: self.candidates,

@@ -175,7 +175,7 @@ impl Solving<'_> {
         let goal = self.task.goal;
         match wider.is_empty() {
             true => Vec::new(),
-            false => self.refined(&wider, goal, pushes),
+            false => self.refined_again(&wider, goal, pushes),
         }
     }
 
@@ -196,7 +196,7 @@ impl Solving<'_> {
                 continue;
             };
             if let Some(aim) = aim(&goal, &tried.aim, verdict) {
-                next.extend(self.refined(&[candidate], aim, pushes));
+                next.extend(self.refined_again(&[candidate], aim, pushes));
             }
         }
         next

@@ -19,8 +19,7 @@ pub enum Effort {
     /// The default: a one-push task in well under half a second on two cores.
     #[default]
     Standard,
-    /// Half as expensive again, by simulation: plans hold a little more often when the world is a
-    /// little different, and twice as many replays check it.
+    /// The network in every rollout, and twice as many replays to tell how robust the plan is.
     Thorough,
 }
 
@@ -60,8 +59,17 @@ pub struct Settings {
     pub refine_rounds: usize,
     /// Random samples a round besides two for each parameter: they average out contact noise.
     pub refine_extra: usize,
-    /// Plans verified together: about as many as there are threads lose no time. Fewer where there are more
-    /// than four objects, in more batches.
+    /// Of the rounds of refinement, how many are left to the model that decides, where another one
+    /// screens; the rounds before are the screening model's. Measured files from before that may
+    /// lack it.
+    #[serde(default)]
+    pub decided_rounds: usize,
+    /// Candidates that go through these rounds: the best after the model that decides has predicted
+    /// them all.
+    #[serde(default)]
+    pub short_list: usize,
+    /// Plans verified together. The nearest two nearly always hold one that works, and replays are a
+    /// third to a half of the cost. Fewer where there are more than sixteen objects.
     pub verified_at_once: usize,
     /// Batches verified for each number of pushes before giving up on it.
     pub verify_batches: usize,
@@ -97,6 +105,8 @@ impl Settings {
         refined: 3,
         refine_rounds: 2,
         refine_extra: 0,
+        decided_rounds: 1,
+        short_list: 1,
         verified_at_once: 1,
         verify_batches: 1,
         disturbed: 0,

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Vector;
 use crate::plan::lever::LeverSearchStatistics;
 use crate::plan::{RefineStatistics, ScoredPush, SearchStatistics};
-use crate::scene::{Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning};
+use crate::scene::{
+    Models, Outcome, Physics, Plan, Situation, Task, Tool, Trajectory, Verdict, Warning,
+};
 use crate::verify::{Verifier, VerifySettings};
 
 /// How solving ended.
@@ -131,8 +133,11 @@ pub struct Statistics {
     pub search: SearchStatistics,
     /// Of the refinement.
     pub refinement: RefineStatistics,
-    /// All rollouts of the effect model.
+    /// All rollouts of the effect models.
     pub rollouts: usize,
+    /// Of these, how many are of the model that decides; all, where no other one screens.
+    #[serde(default)]
+    pub decided: usize,
     /// Plans replayed in the simulator.
     pub verified: usize,
     /// Pushes of the longest plans that were looked at.
@@ -152,6 +157,8 @@ pub struct Solution {
     /// Whether it was stopped, by its time limit or from outside, before the search was over: the
     /// plans are the best so far.
     pub stopped: bool,
+    /// What screened the many and what decided among the few.
+    pub models: Models,
     /// Ranked plans, the one to use first. Empty only if no push can be made at all.
     pub plans: Vec<RankedPlan>,
     /// The tools that were offered; candidates name them by index.

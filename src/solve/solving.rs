@@ -5,9 +5,10 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use crate::effect::EffectModel;
 use crate::plan::{
-    Candidate, Evaluation, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace, bare,
-    behind, is_behind, refine,
+    Candidate, Evaluation, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search,
+    Workspace, bare, behind, is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -28,9 +29,21 @@ const MOST_ROOM_FOR_MODEL: f64 = 0.02;
 /// gain much; with up to four objects the rounds end first.
 const REFINE_WORK: usize = 20_000;
 
+/// Sets the samples of the model that decides apart from those of the one that screens.
+const DECIDING: u64 = 1 << 15;
+
+/// Trust radius, in steps, for what was refined with another model: its optimum is off by as much as
+/// the two differ.
+const SCREENED_RADIUS: f64 = 1.0;
+
 /// How many of the plans that were replayed together and work are replayed with disturbances, best
 /// first: the others miss by more.
 const DISTURBED_AT_ONCE: usize = 3;
+
+/// Of the plans of one length that may be verified, the share that is replayed with disturbances, at
+/// most: where so many work and none is safe, the task is a fragile one, and these replays are most
+/// of its cost.
+const DISTURBED_SHARE: f64 = 0.375;
 
 /// A plan that was refined, and verified where it was worth that.
 pub(super) struct Tried {
@@ -50,13 +63,18 @@ pub(super) struct Solving<'a> {
     pub task: &'a Task,
     pub situation: &'a Situation,
     pub workspace: Workspace<'a>,
+    /// Of the model that screens.
     pub rollouts: Rollouts<'a>,
+    /// Of the one that decides, if that is another.
+    pub deciding: Option<Rollouts<'a>>,
     verifier: Verifier<'a>,
     pub watch: &'a dyn Watch,
     pub statistics: Statistics,
     /// What the search made of every way to push.
     pub candidates: Vec<ScoredPush>,
     pub tried: Vec<Tried>,
+    /// Plans that were replayed with disturbances.
+    disturbed: usize,
     /// What replays have shown not to work.
     pub refuted: Vec<Way>,
     /// The best plan that was replayed with disturbances.
@@ -71,19 +89,22 @@ impl<'a> Solving<'a> {
         tools: &'a [Arc<Tool>],
         watch: &'a dyn Watch,
     ) -> Self {
-        let (model, settings) = (planner.model(), planner.settings());
+        let settings = planner.settings();
+        let rollouts = |model| Rollouts::new(model, situation.clone());
         let verify = VerifySettings { disturbed: settings.disturbed, seed: planner.seed() };
         Self {
             planner,
             task,
             situation,
             workspace: Workspace { task, tools },
-            rollouts: Rollouts::new(model, situation.clone()),
+            rollouts: rollouts(planner.screen()),
+            deciding: planner.is_screened().then(|| rollouts(planner.model())),
             verifier: Verifier::new(verify).watched(watch),
             watch,
             statistics: Statistics::default(),
             candidates: Vec::new(),
             tried: Vec::new(),
+            disturbed: 0,
             refuted: Vec::new(),
             best: None,
         }
@@ -99,7 +120,7 @@ impl<'a> Solving<'a> {
         let errors = self.workspace.tools.iter().map(|tool| {
             let start = &self.situation.start;
             let job = Job::new(self.situation, typical(self.task, start, tool));
-            error_p95(self.planner, self.situation, &job).unwrap_or(f64::INFINITY)
+            error_p95(self.planner.screen(), self.situation, &job).unwrap_or(f64::INFINITY)
         });
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
         let settings = self.planner.settings().search(error);
@@ -136,6 +157,8 @@ impl<'a> Solving<'a> {
         let at_once = self.at_once();
         let most = settings.verified_at_once.max(1) * settings.verify_batches;
         let candidates = self.choose(&found, settings.refined, &[]);
+        let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
+        let before = self.disturbed;
         let first = self.tried.len();
         let mut queue = self.refined(&candidates, self.task.goal, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
@@ -158,8 +181,9 @@ impl<'a> Solving<'a> {
             self.verify(&indices);
             self.statistics.timing.verification += began.elapsed().as_secs_f64();
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
+            let enough = self.disturbed - before >= most_disturbed;
             // Where even the most promising plan leads through a wall, a few tries are enough.
-            if safe || is_behind(self.tried[leader].score) {
+            if safe || enough || is_behind(self.tried[leader].score) {
                 break;
             }
             failed = indices;
@@ -177,39 +201,101 @@ impl<'a> Solving<'a> {
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
-    /// Refines candidates towards `aim`, the task's goal or one next to it, keeps the results, and
-    /// returns the indices of those worth verifying, best first.
+    /// Refines candidates that the search found towards `aim`, the task's goal or one next to it, keeps
+    /// the results, and returns the indices of those worth verifying, best first. Where one model
+    /// screens and another decides, the last rounds are the other's.
     pub(super) fn refined(
         &mut self,
         candidates: &[Candidate],
         aim: Goal,
         pushes: usize,
     ) -> Vec<usize> {
-        let task = Task { goal: aim, ..self.task.clone() };
-        let settings = *self.planner.settings();
         self.tell("refine", pushes);
-        let refine_settings = RefineSettings {
+        let settings = *self.planner.settings();
+        let last = if self.deciding.is_some() { settings.decided_rounds } else { 0 };
+        let all = self.refine_settings(pushes);
+        let task = Task { goal: aim, ..self.task.clone() };
+        let screened = refine(
+            &Workspace { task: &task, ..self.workspace },
+            &mut self.rollouts,
+            candidates,
+            RefineSettings { rounds: settings.refine_rounds.saturating_sub(last), ..all },
+            &mut self.statistics.refinement,
+            self.watch,
+        );
+        let refined = match self.deciding {
+            Some(_) => {
+                let candidates: Vec<Candidate> =
+                    screened.iter().map(|one| one.best.candidate.clone()).collect();
+                let decided = self.decided(&candidates, aim, pushes);
+                decided.into_iter().map(|one| after(&screened[one.index], one)).collect()
+            }
+            None => screened,
+        };
+        self.worth_verifying(refined, aim)
+    }
+
+    /// The same for changed candidates of plans that were replayed already: what was decided on is not
+    /// screened again.
+    pub(super) fn refined_again(
+        &mut self,
+        candidates: &[Candidate],
+        aim: Goal,
+        pushes: usize,
+    ) -> Vec<usize> {
+        if self.deciding.is_none() {
+            return self.refined(candidates, aim, pushes);
+        }
+        self.tell("refine", pushes);
+        let decided = self.decided(candidates, aim, pushes);
+        self.worth_verifying(decided, aim)
+    }
+
+    /// Where the model that decides says candidates end, the best of them refined by it.
+    fn decided(&mut self, candidates: &[Candidate], aim: Goal, pushes: usize) -> Vec<Refined> {
+        let settings = *self.planner.settings();
+        let all = self.refine_settings(pushes);
+        let task = Task { goal: aim, ..self.task.clone() };
+        let Some(rollouts) = &mut self.deciding else { return Vec::new() };
+        refine(
+            &Workspace { task: &task, ..self.workspace },
+            rollouts,
+            candidates,
+            RefineSettings {
+                rounds: settings.decided_rounds.min(settings.refine_rounds),
+                seed: all.seed ^ DECIDING,
+                short_list: settings.short_list,
+                radius: SCREENED_RADIUS,
+                ..all
+            },
+            &mut self.statistics.refinement,
+            self.watch,
+        )
+    }
+
+    fn refine_settings(&self, pushes: usize) -> RefineSettings {
+        let settings = self.planner.settings();
+        RefineSettings {
             rounds: settings.refine_rounds,
             extra: settings.refine_extra,
             // Each length has a stream of its own, so that no two share samples.
             seed: self.planner.seed().wrapping_mul(0x9E37_79B9).wrapping_add(pushes as u64) << 16,
             enough: self.at_once(),
             rollouts: REFINE_WORK / self.situation.scene.objects.len().max(1),
-        };
-        let mut refined = refine(
-            &Workspace { task: &task, ..self.workspace },
-            &mut self.rollouts,
-            candidates,
-            refine_settings,
-            &mut self.statistics.refinement,
-            self.watch,
-        );
+            short_list: usize::MAX,
+            radius: FOUND_RADIUS,
+        }
+    }
+
+    /// Keeps what was refined towards `aim`; the indices of those worth verifying, best first.
+    fn worth_verifying(&mut self, mut refined: Vec<Refined>, aim: Goal) -> Vec<usize> {
         sort(&mut refined);
         let mut worth = Vec::new();
         for refined in refined {
             let tool = &self.workspace.tools[refined.best.candidate.tool];
             let motion = self.plan(tool, &refined.best).motion(tool);
-            let error = error_p95(self.planner, self.situation, &Job::new(self.situation, motion));
+            let job = Job::new(self.situation, motion);
+            let error = error_p95(self.planner.model(), self.situation, &job);
             if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error) {
                 worth.push(self.tried.len());
             }
@@ -247,6 +333,7 @@ impl<'a> Solving<'a> {
         for (_, k) in working.into_iter().take(DISTURBED_AT_ONCE) {
             let tried = &mut self.tried[k];
             if let Some(verdict) = tried.verdict.take() {
+                self.disturbed += 1;
                 let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
                 let verdict =
                     self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
@@ -314,7 +401,14 @@ impl<'a> Solving<'a> {
     }
 }
 
-/// 95th percentile of the effect model's error on pushes like this one, metres, if it was measured.
-fn error_p95(planner: &Planner, situation: &Situation, job: &Job) -> Option<f64> {
-    planner.model().trust(&situation.scene, job).error().map(|error| error.p95)
+/// What the model that decides made of a candidate after the one that screens had refined it.
+fn after(screened: &Refined, decided: Refined) -> Refined {
+    let mut rounds = screened.rounds.clone();
+    rounds.extend(decided.rounds);
+    Refined { off: [screened.off[0], decided.off[1]], rounds, ..decided }
+}
+
+/// 95th percentile of an effect model's error on pushes like this one, metres, if it was measured.
+fn error_p95(model: &dyn EffectModel, situation: &Situation, job: &Job) -> Option<f64> {
+    model.trust(&situation.scene, job).error().map(|error| error.p95)
 }

@@ -10,7 +10,7 @@
   byId('measure').textContent = measured;
   byId('task').textContent = page.task;
   const { goal } = page.stage;
-  byId('goal').textContent = [page.description, goal && `Goal: ${goal.words}.`].filter(Boolean).join(' ');
+  byId('goal').textContent = [page.description, goal && `Goal: ${goal.words}.`, page.models].filter(Boolean).join(' ');
 
   function head() {
     const { standing, verdict } = plan();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
-use pushplan::effect::{EffectModel, EffectModels, Routed};
+use pushplan::effect::{EffectModel, Routed};
 use pushplan::scene::{ModelKind, Situation, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
@@ -25,8 +25,8 @@ use crate::{errors, words, work};
 /// Chooses a tool and pushes for a task and verifies them.
 ///
 /// `tools` are those to choose from, by default the ones that come with the package; `effort` is
-/// "draft", "standard" or "thorough"; `model` predicts effects, by default that of the
-/// effort; `outside` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
+/// "draft", "standard" or "thorough"; `model` predicts effects, or two with ">" between them do, the
+/// first screening and the second deciding, by default those of the effort; `outside` says what to do where it should not be trusted: "warn", "simulate" or "refuse";
 /// `seed` is that of refinement's samples and of the disturbances; `disturbed` is the number of
 /// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
 /// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
@@ -113,17 +113,17 @@ pub struct Asked<'a> {
 impl Asked<'_> {
     pub fn planner(&self, py: Python<'_>) -> PyResult<Planner> {
         let effort = words::effort(self.effort)?;
-        let spec = match self.model {
-            Some(text) => words::spec(py, text)?,
-            None => effort.spec(),
+        let models = match self.model {
+            Some(text) => words::models(py, text)?,
+            None => effort.models(),
         };
-        let model = EffectModels::build(&spec).map_err(|error| errors::model(py, &error))?;
+        let planner = Planner::with_models(&models).map_err(|error| errors::model(py, &error))?;
         let outside = words::outside(self.outside)?;
         let settings = match self.disturbed {
             Some(count) => effort.settings().replaying(count),
             None => effort.settings(),
         };
-        let builder = Planner::builder(model).settings(settings).seed(self.seed).outside(outside);
+        let builder = planner.settings(settings).seed(self.seed).outside(outside);
         Ok(match words::limit(self.time_limit)? {
             Some(limit) => builder.time_limit(limit).build(),
             None => builder.build(),

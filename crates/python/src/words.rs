@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use pushplan::effect::{EffectModels, Outside, Routed};
 use pushplan::scene::Engine;
-use pushplan::{Effort, ModelSpec};
+use pushplan::{Effort, ModelSpec, Models};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -31,6 +31,11 @@ fn one_of<T: Display + Copy>(what: &str, word: &str, all: &[T]) -> PyResult<T> {
 
 /// What a text names as an effect model.
 pub fn spec(py: Python<'_>, text: &str) -> PyResult<ModelSpec> {
+    text.parse().map_err(|error| errors::spec(py, &error))
+}
+
+/// What a text names as the effect models of a planner.
+pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
     text.parse().map_err(|error| errors::spec(py, &error))
 }
 

@@ -10,14 +10,14 @@ use crate::cli::{
     model::{self, OutsideArgs},
 };
 use crate::effect::EffectModel;
-use crate::scene::{ModelKind, ModelSpec};
+use crate::scene::{ModelKind, ModelSpec, Models};
 use crate::solve::{Effort, Planner, PlannerBuilder};
 
 /// What every benchmark takes.
 #[derive(Args, Debug)]
 pub struct Common {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
-    model: Option<ModelSpec>,
+    model: Option<Models>,
     #[command(flatten)]
     pub outside: OutsideArgs,
     #[command(flatten)]
@@ -25,9 +25,9 @@ pub struct Common {
 }
 
 impl Common {
-    /// The model that is asked for, or else that of the effort.
-    pub fn spec(&self, effort: Effort) -> ModelSpec {
-        self.model.clone().unwrap_or_else(|| effort.spec())
+    /// The models that are asked for, or else those of the effort.
+    pub fn models(&self, effort: Effort) -> Models {
+        self.model.clone().unwrap_or_else(|| effort.models())
     }
 
     /// The model that is asked for, or else the network, used only where it can be trusted.
@@ -38,17 +38,17 @@ impl Common {
         self.outside.load(&self.model_or_network())
     }
 
-    /// A planner with the model that is asked for, or else that of the effort.
+    /// A planner with the models that are asked for, or else those of the effort.
     ///
     /// # Errors
-    /// Those of [`model::load`].
+    /// Weights that cannot be used.
     pub fn planner(&self, effort: Effort) -> Result<PlannerBuilder, CliError> {
-        let planner = Planner::builder(model::load(&self.spec(effort))?);
+        let planner = Planner::with_models(&self.models(effort))?;
         Ok(planner.effort(effort).outside(self.outside.outside()))
     }
 
-    /// The model that is asked for, or else the network: where there is no effort.
+    /// The model that is asked for, or else the network: where nothing is planned.
     pub fn model_or_network(&self) -> ModelSpec {
-        self.model.clone().unwrap_or(ModelKind::NETWORK.into())
+        self.model.clone().map_or(ModelKind::NETWORK.into(), |models| models.decided)
     }
 }

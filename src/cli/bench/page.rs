@@ -9,7 +9,7 @@ use crate::asset::{PlanFile, load_task};
 use crate::bench::{End, SolvedTask};
 use crate::cli::{action::LibraryArgs, error::CliError, output, page, session::Session};
 use crate::report::PageView;
-use crate::scene::{Engine, ModelSpec, Situation};
+use crate::scene::{Engine, Models, Situation};
 use crate::store::RunManifest;
 use crate::verify::{Verifier, VerifySettings};
 
@@ -71,8 +71,9 @@ impl PageArgs {
                 "name exactly the task and tools that were measured, and use the same program",
             ));
         }
-        let model: Option<ModelSpec> = run.model.parse().ok();
-        let recipe = self.library.origin(path, model.clone()).plan(&plan);
+        let models: Option<Models> = run.model.parse().ok();
+        let model = models.map(|models| models.decided);
+        let recipe = self.library.origin(path, model.clone().map(Models::from)).plan(&plan);
         let file = PlanFile {
             task,
             tools: vec![Arc::clone(tool)],

@@ -11,13 +11,13 @@ use crate::bench::{
 };
 use crate::cli::{
     error::CliError,
-    model::{self, OutsideArgs},
+    model::OutsideArgs,
     session::Session,
     solve::solve_error,
     words::{EFFORTS, LAYOUTS, words},
 };
 use crate::report::{Document, single_document, tools_document};
-use crate::scene::{ModelKind, ModelSpec};
+use crate::scene::{ModelKind, ModelSpec, Models};
 use crate::solve::{Effort, Planner, Settings};
 use crate::store::RunManifest;
 
@@ -30,7 +30,7 @@ use super::suite::{Cases, Measure, Run, Suite, SuiteArgs, only};
 pub struct ToolsArgs {
     /// Effect model of all rows; by default the network, and for the planner that of the effort
     #[arg(long, value_name = "MODEL")]
-    model: Option<ModelSpec>,
+    model: Option<Models>,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Where the cylinder starts
@@ -97,7 +97,7 @@ pub fn run(args: &SuiteArgs<ToolsArgs>, session: &Session) -> Result<(), CliErro
 impl ToolsArgs {
     /// The model of all rows.
     fn spec(&self) -> ModelSpec {
-        self.model.clone().unwrap_or_else(|| ModelKind::NETWORK.into())
+        self.model.clone().map_or(ModelKind::NETWORK.into(), |models| models.decided)
     }
 }
 
@@ -117,8 +117,8 @@ impl Suite for ToolsArgs {
         let spec = self.spec();
         let model = self.outside.load(&spec)?;
         let effort = self.effort;
-        let planner = self.model.clone().unwrap_or_else(|| effort.spec());
-        let planner = Planner::builder(model::load(&planner)?)
+        let models = self.model.clone().unwrap_or_else(|| effort.models());
+        let planner = Planner::with_models(&models)?
             // Disturbed replays tell how robust a plan is and change nothing in its choice.
             .settings(Settings { disturbed: 0, ..effort.settings() })
             .seed(self.seed)
@@ -127,7 +127,7 @@ impl Suite for ToolsArgs {
         let mut settings = json!({
             "layout": layout,
             "goals": value_digest(&goals)?,
-            "planner": format!("effort {effort} with {}", planner.model().spec()),
+            "planner": format!("effort {effort} with {}", planner.models()),
             "budget": planner.settings(),
         });
         self.outside.note(&mut settings);

@@ -38,6 +38,8 @@ pub struct Data {
     /// How it ended, in a line; the title of the file says it.
     #[serde(skip)]
     pub headline: String,
+    /// What screened and what decided, in a sentence; empty where nothing was searched for.
+    pub models: String,
     pub stage: Stage,
     /// The measured quantity over time, where that is not the distance from the goal.
     pub measure: Option<Measure>,

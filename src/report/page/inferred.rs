@@ -54,6 +54,7 @@ pub fn recording_page(
     let data = Data {
         task: recording.name.clone(),
         description: recording.description.clone(),
+        models: String::new(),
         headline: document.title.clone(),
         stage: stage::table(&recording.scene),
         measure: None,

@@ -1,6 +1,6 @@
 //! How to make a page's replays again: a command line, and a script in Python.
 
-use crate::scene::{ModelSpec, Plan, Push, PushForm, Span};
+use crate::scene::{Models, Plan, Push, PushForm, Span};
 
 /// Files and models that a page was made from, as people name them.
 #[derive(Clone, Debug, Default)]
@@ -11,8 +11,8 @@ pub struct Origin {
     pub tools: Option<String>,
     /// Folder of further tools.
     pub more_tools: Option<String>,
-    /// The model that predicted, where it must be named.
-    pub model: Option<ModelSpec>,
+    /// The models that predicted, where they must be named.
+    pub model: Option<Models>,
 }
 
 /// A setting of a run.

@@ -125,6 +125,7 @@ impl<'a> Making<'a> {
         let data = Data {
             task: task.name.clone(),
             description: task.description.clone(),
+            models: String::new(),
             headline,
             stage: stage::stage(task),
             measure: None,

@@ -3,7 +3,7 @@
 use crate::plan::{ScoredPush, bare, is_behind};
 use crate::report::number::millimetres;
 use crate::report::plan_text::{engine_name, plan_line};
-use crate::report::solution::headline;
+use crate::report::solution::{headline, models_words};
 use crate::report::table::NONE;
 use crate::report::verdict::verdict_line;
 use crate::scene::{Engine, Outcome, Task, Verdict};
@@ -51,6 +51,7 @@ pub fn solution_page(
         plan.replays = list;
     }
     making.data.columns = COLUMNS.to_vec();
+    making.data.models = format!("Plans were {}.", models_words(task, solution));
     // Of lever-ups nothing but the plans is kept.
     if solution.statistics.levers.is_none() {
         making.data.choice = choice(solution);

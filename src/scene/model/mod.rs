@@ -2,9 +2,11 @@
 //! benchmarks and in files. What the models do is in `effect`.
 
 mod assumption;
+mod models;
 mod spec;
 mod text;
 
 pub use assumption::{Assumptions, JointBelief};
+pub use models::Models;
 pub use spec::{ModelKind, ModelPart, ModelSpec, Rate, Stride};
 pub use text::SpecError;

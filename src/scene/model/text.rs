@@ -279,7 +279,7 @@ fn parsed<T>(
 }
 
 /// The pieces between separators that are not in quotes, trimmed of blanks.
-fn split(text: &str, separator: char) -> Vec<&str> {
+pub(super) fn split(text: &str, separator: char) -> Vec<&str> {
     let mut inside = false;
     let pieces = text.split(|c| {
         inside ^= c == '"';
@@ -290,7 +290,7 @@ fn split(text: &str, separator: char) -> Vec<&str> {
 
 /// In quotes if it could be mistaken for something else.
 fn quoted(text: &str) -> String {
-    let plain = !text.is_empty() && text.trim() == text && !text.contains([',', '|', '"']);
+    let plain = !text.is_empty() && text.trim() == text && !text.contains([',', '|', '>', '"']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }
 

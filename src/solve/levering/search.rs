@@ -32,7 +32,7 @@ impl Steps<'_> {
     /// What comes of jobs by the model, or by coarse simulation where it leaves out something that
     /// matters.
     fn predict(&self, scene: &Scene, jobs: &[Job]) -> Vec<Trajectory> {
-        let model = self.planner.model();
+        let model = self.planner.screen();
         if jobs.iter().all(|job| model.takes(scene, job)) {
             model.rollout(scene, jobs, Record::Outcome)
         } else {

@@ -8,7 +8,7 @@ use std::time::Instant;
 use crate::asset::ToolLibrary;
 use crate::geometry::{Pose3, Solid, Vector};
 use crate::scene::{
-    Goal, LeverScene, Obstacle, Outcome, Plan, Plate, Record, Scene, Situation, Task, Tool,
+    Goal, LeverScene, Models, Obstacle, Outcome, Plan, Plate, Record, Scene, Situation, Task, Tool,
     ToolChoice, Trajectory, Verdict,
 };
 use crate::sim::LeverSimulator;
@@ -110,6 +110,9 @@ impl<'a> Steps<'a> {
         Ok(Solution {
             status: self.status(&plans),
             stopped: self.until.cancelled(),
+            // Of lever-ups the coarse simulation decides.
+            models: Models::from(LeverSimulator::COARSE.spec())
+                .screened_by(self.planner.screen().spec().clone()),
             tools,
             candidates: Vec::new(),
             statistics: Statistics {

@@ -1,14 +1,11 @@
 //! `pushplan-lab refinement`: what refinement brings.
 
-use std::sync::Arc;
-
 use clap::Args;
 use pushplan::cli::bench::common::Common;
 use pushplan::cli::bench::keep;
 use pushplan::cli::bench::keep::{KeepArgs, tools_digest, weights_digest};
 use pushplan::cli::bench::suite::{Cases, Measure, Run, Suite, only};
 use pushplan::cli::error::CliError;
-use pushplan::cli::model;
 use pushplan::cli::session::Session;
 use pushplan::cli::solve::solve_error;
 use pushplan::cli::words::{EFFORTS, words};
@@ -49,15 +46,13 @@ impl Suite for RefinementArgs {
     ) -> Result<Cases<'a, RefinedTask>, CliError> {
         let library = self.common.library.load()?;
         let effort = self.effort;
-        let spec = self.common.spec(effort);
-        let model = Arc::new(model::load(&spec)?);
+        let models = self.common.models(effort);
         let budget = Settings { disturbed: 0, ..effort.settings() };
-        let planner = |settings| {
-            let planner = Planner::builder(Arc::clone(&model)).settings(settings);
-            planner.outside(self.common.outside.outside()).build()
+        let planner = |settings| -> Result<Planner, CliError> {
+            Ok(self.common.planner(effort)?.settings(settings).build())
         };
-        let without = planner(Settings { refine_rounds: 0, ..budget });
-        let with = planner(budget);
+        let without = planner(Settings { refine_rounds: 0, ..budget })?;
+        let with = planner(budget)?;
         // Without a tool no task can be made.
         let count = if library.iter().next().is_none() { 0 } else { self.tasks as usize };
         let mut settings = json!({
@@ -66,8 +61,8 @@ impl Suite for RefinementArgs {
             "tools": tools_digest(library.iter())?,
         });
         self.common.outside.note(&mut settings);
-        let manifest = RunManifest::new(Self::NAME, count, self.seed, &spec.to_string())
-            .with_weights(weights_digest(&spec)?)
+        let manifest = RunManifest::new(Self::NAME, count, self.seed, &models.to_string())
+            .with_weights(weights_digest(&models.decided)?)
             .with_settings(settings);
         let measure = Measure::InTurn(Box::new(move |index| {
             session

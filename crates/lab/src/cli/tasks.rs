@@ -51,7 +51,7 @@ impl TasksArgs {
         suite: &RandomSuite,
         (effort, planner): (Effort, &Planner),
     ) -> Result<RunManifest, CliError> {
-        let spec = self.common.spec(effort);
+        let models = self.common.models(effort);
         let mut settings = json!({
             "effort": effort,
             "budget": planner.settings(),
@@ -60,8 +60,8 @@ impl TasksArgs {
             "tools": tools_digest(suite.tools().iter())?,
         });
         self.common.outside.note(&mut settings);
-        Ok(RunManifest::new(name, count, self.seed, &spec.to_string())
-            .with_weights(weights_digest(&spec)?)
+        Ok(RunManifest::new(name, count, self.seed, &models.to_string())
+            .with_weights(weights_digest(&models.decided)?)
             .with_settings(settings))
     }
 }

@@ -7,11 +7,12 @@ use pushplan::internals::report::{
 };
 use serde_json::json;
 
-use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport};
+use crate::bench::{PlanRow, PredictorRow, SuiteErrors, SuiteKind, TradeOffReport, prior_instead};
 use crate::report::length;
 
-/// Families of levels: name, and how the names of their models begin.
-const FAMILIES: [(&str, &[&str]); 5] = [
+/// Families of levels: name, and how the names of their models begin. The first that fits counts.
+const FAMILIES: [(&str, &[&str]); 6] = [
+    ("prior screens, network decides", &["prior>"]),
     ("network", &["network"]),
     ("prior alone", &["prior"]),
     ("planar simulation", &["planar"]),
@@ -32,7 +33,7 @@ pub fn tradeoff_document(report: &TradeOffReport) -> Document {
             Section { figures: vec![push], ..section("Predictors", predictor_table(report)) },
             section("A push by number of objects", object_table(report)),
             Section { figures: vec![task], ..section("Levels of planning", plan_table(report)) },
-            section("Efforts", effort_table(report)),
+            Section { lines: prior_alone(report), ..section("Efforts", effort_table(report)) },
         ],
         json: json!(report),
         ..Document::default()
@@ -147,6 +148,31 @@ fn effort_table(report: &TradeOffReport) -> Table {
     )
 }
 
+/// Where a level with the prior alone would do as well as an effort, and for how much less.
+fn prior_alone(report: &TradeOffReport) -> Vec<String> {
+    let chosen = report.efforts.iter().filter_map(|(effort, choice)| {
+        let row = report.plans.iter().find(|row| row.level.name == choice.name)?;
+        Some((effort, row))
+    });
+    let line = |(effort, row): (_, &PlanRow)| {
+        let other = prior_instead(&report.plans, row, report.noise);
+        other.map_or_else(
+            || format!("No level with the prior alone is cheaper than `{effort}` and as robust."),
+            |other| {
+                format!(
+                    "The prior alone is cheaper than `{effort}` and as robust: {:.2} of its cost, \
+                     {} works against {} ({}).",
+                    other.seconds / row.seconds,
+                    percent(other.robustness),
+                    percent(row.robustness),
+                    other.level.name,
+                )
+            },
+        )
+    };
+    chosen.map(line).collect()
+}
+
 /// Error against cost of a push, with the front.
 fn push_chart(report: &TradeOffReport) -> Chart {
     // The truth has no error against itself; what it is good for is its own spread.
@@ -176,7 +202,7 @@ fn task_chart(report: &TradeOffReport) -> Chart {
         let chosen = report.efforts.iter().filter(|(_, choice)| choice.name == row.level.name);
         let efforts: Vec<String> = chosen.map(|(effort, _)| effort.to_string()).collect();
         Dot {
-            model: row.level.model.to_string(),
+            model: row.level.models().to_string(),
             label: efforts.join(", "),
             at: [row.seconds, 1e2 * row.robustness],
             front: row.on_front,
@@ -208,11 +234,12 @@ fn chart(title: &str, x: Axis, y: Axis, dots: &[Dot], label_all: bool) -> Chart 
         mark: Mark::Line,
         labels: Vec::new(),
     }];
-    for (name, beginnings) in FAMILIES {
-        let members: Vec<&Dot> = dots
-            .iter()
-            .filter(|dot| beginnings.iter().any(|beginning| dot.model.starts_with(beginning)))
-            .collect();
+    let family = |dot: &Dot| {
+        let begins = |beginning: &&str| dot.model.starts_with(beginning);
+        FAMILIES.iter().position(|(_, beginnings)| beginnings.iter().any(begins))
+    };
+    for (k, (name, _)) in FAMILIES.into_iter().enumerate() {
+        let members: Vec<&Dot> = dots.iter().filter(|dot| family(dot) == Some(k)).collect();
         let labels = members
             .iter()
             .enumerate()

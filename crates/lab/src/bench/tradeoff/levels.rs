@@ -4,7 +4,7 @@ use std::num::{NonZeroU8, NonZeroU16};
 use std::sync::Arc;
 
 use pushplan::internals::effect::{EffectModel, EffectModels, ModelError};
-use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Rate, Stride};
+use pushplan::internals::scene::{Engine, ModelKind, ModelSpec, Models, Rate, Stride};
 use pushplan::internals::solve::Settings;
 use serde::{Deserialize, Serialize};
 
@@ -103,48 +103,65 @@ pub fn levels(other: &[String]) -> Result<Vec<Level>, ModelError> {
 pub struct PlanLevel {
     /// Model and budgets in words.
     pub name: String,
-    /// The effect model.
+    /// The effect model that decides.
     pub model: ModelSpec,
+    /// The one that screens, if it is another.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub screen: Option<ModelSpec>,
     /// The budgets.
     pub settings: Settings,
+}
+
+impl PlanLevel {
+    /// What screens and what decides.
+    pub fn models(&self) -> Models {
+        let models = Models::from(self.model.clone());
+        match &self.screen {
+            Some(screen) => models.screened_by(screen.clone()),
+            None => models,
+        }
+    }
 }
 
 /// Density of a search: its name, lateral offsets, beam and rollouts.
 type Search = (&'static str, usize, usize, usize);
 
-/// Refinement: its name, candidates, rounds and extra samples.
-type Refinement = (&'static str, usize, usize, usize);
+/// Refinement: its name, candidates, rounds and extra samples; and, where another model screens, the
+/// rounds of the one that decides and the candidates that go through them.
+type Refinement = (&'static str, usize, usize, usize, (usize, usize));
 
 const COARSE: Search = ("coarse", 3, 8, 500);
 const MEDIUM: Search = ("medium", 5, 24, 2000);
 const FINE: Search = ("fine", 9, 64, 8000);
 
-const LIGHT: Refinement = ("light", 3, 2, 0);
-const USUAL: Refinement = ("usual", 8, 4, 2);
-const STRONG: Refinement = ("strong", 24, 8, 4);
+const LIGHT: Refinement = ("light", 3, 2, 0, (1, 2));
+const USUAL: Refinement = ("usual", 8, 4, 2, (1, 4));
+const STRONG: Refinement = ("strong", 24, 8, 4, (2, 4));
 
 /// Plans verified at once, batches of them, and disturbed replays of those that work, in each
 /// engine. One plan at least: without one it is unknown whether the plan works.
 type Verified = (usize, usize, usize);
 
-/// What the shipped network and its prior are planned with.
-const EVERY: [(Search, Refinement, Verified); 8] = [
+/// What the shipped network, alone or screened for by its prior, and the prior are planned with.
+const EVERY: [(Search, Refinement, Verified); 7] = [
     (COARSE, LIGHT, (1, 1, 0)),
-    (COARSE, LIGHT, (4, 1, 0)),
-    (COARSE, LIGHT, (4, 1, 4)),
-    (COARSE, USUAL, (4, 2, 4)),
-    (COARSE, USUAL, (4, 2, 8)),
-    (MEDIUM, USUAL, (4, 2, 8)),
-    (MEDIUM, STRONG, (8, 3, 8)),
-    (FINE, STRONG, (8, 3, 16)),
+    (COARSE, LIGHT, (2, 2, 4)),
+    (COARSE, USUAL, (2, 4, 4)),
+    (COARSE, USUAL, (2, 4, 8)),
+    (MEDIUM, USUAL, (2, 4, 8)),
+    (MEDIUM, STRONG, (2, 12, 8)),
+    (FINE, STRONG, (2, 12, 16)),
 ];
+
+/// The prior once more with more plans verified at once.
+const MANY_AT_ONCE: (Search, Refinement, Verified) = (MEDIUM, STRONG, (8, 3, 8));
 
 /// What other networks and the planar engine at a coarse step are planned with.
 const SOME: [(Search, Refinement, Verified); 3] =
-    [(COARSE, LIGHT, (4, 1, 4)), (COARSE, USUAL, (4, 2, 8)), (MEDIUM, STRONG, (8, 3, 8))];
+    [(COARSE, LIGHT, (2, 2, 4)), (COARSE, USUAL, (2, 4, 8)), (MEDIUM, STRONG, (2, 12, 8))];
 
 /// What the planar engine at its usual step is planned with.
-const FEW: [(Search, Refinement, Verified); 1] = [(COARSE, LIGHT, (4, 1, 4))];
+const FEW: [(Search, Refinement, Verified); 1] = [(COARSE, LIGHT, (2, 2, 4))];
 
 /// The levels of planning with those of `levels` that are worth it.
 pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
@@ -157,21 +174,34 @@ pub fn plan_levels(levels: &[Level]) -> Vec<PlanLevel> {
             ModelKind::Simulated { engine: Engine::Planar, rate } if rate.0.get() <= 60 => &SOME,
             _ => &[],
         };
-        plans.extend(budgets.iter().map(|budget| plan_level(spec, *budget)));
+        let models = Models::from(spec.clone());
+        plans.extend(budgets.iter().map(|budget| plan_level(&models, *budget)));
+        match spec.first().kind {
+            ModelKind::NETWORK => {
+                let models = models.screened_by(ModelKind::PRIOR);
+                plans.extend(EVERY.iter().map(|budget| plan_level(&models, *budget)));
+            }
+            ModelKind::PRIOR => plans.push(plan_level(&models, MANY_AT_ONCE)),
+            _ => {}
+        }
     }
     plans
 }
 
-fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> PlanLevel {
+fn plan_level(models: &Models, budget: (Search, Refinement, Verified)) -> PlanLevel {
     let (search, refinement, (verified_at_once, verify_batches, disturbed)) = budget;
     let (density, offsets, beam, search_rollouts) = search;
-    let (effort, refined, refine_rounds, refine_extra) = refinement;
+    let (effort, refined, refine_rounds, refine_extra, last) = refinement;
+    let (decided_rounds, short_list) = if models.is_one() { (0, 0) } else { last };
     PlanLevel {
         name: format!(
-            "{model}: {density} search, {effort} refinement, up to {} verified, {disturbed} disturbed",
-            verified_at_once * verify_batches
+            "{models}: {density} search, {effort} refinement, up to {} verified, {} at a time, {} disturbed",
+            verified_at_once * verify_batches,
+            verified_at_once,
+            disturbed
         ),
-        model: model.clone(),
+        model: models.decided.clone(),
+        screen: (!models.is_one()).then(|| models.screened.clone()),
         settings: Settings {
             levers: pushplan::internals::solve::LeverSettings::STANDARD,
             offsets,
@@ -180,6 +210,8 @@ fn plan_level(model: &ModelSpec, budget: (Search, Refinement, Verified)) -> Plan
             refined,
             refine_rounds,
             refine_extra,
+            decided_rounds,
+            short_list,
             verified_at_once,
             verify_batches,
             disturbed,

@@ -167,7 +167,7 @@ impl TradeOffReport {
                 &fastest,
             ),
             predictors,
-            efforts: choose_efforts(&plans),
+            efforts: choose_efforts(&plans, noise),
             plans,
         }
     }
