@@ -229,6 +229,7 @@ impl Particles {
                 physics.feet[k] = Arc::new(feet);
             }
         }
+        physics.supports_known &= !self.unknown.support;
         if self.unknown.frictions {
             physics.table_friction = friction(physics.table_friction, place[3 * self.objects]);
         }

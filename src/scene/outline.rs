@@ -62,7 +62,23 @@ pub(super) fn pieces(parts: &[Part]) -> Vec<Piece> {
             _ => pieces.extend(merged(&alike)),
         }
     }
+    number(&mut pieces);
     pieces
+}
+
+/// Numbers pieces of one name, of which a part with shares in several makes some: files of engines
+/// tell bodies apart by their names.
+fn number(pieces: &mut [Piece]) {
+    for k in 1..pieces.len() {
+        let (before, own) = pieces.split_at_mut(k);
+        let name = own[0].name.clone();
+        let own = &mut own[0].name;
+        let mut count = 1;
+        while before.iter().any(|other| other.name == *own) {
+            count += 1;
+            *own = format!("{name} ({count})");
+        }
+    }
 }
 
 /// Whether both are cuboids of one height with sides along the same axes.

@@ -198,8 +198,7 @@ impl Planner {
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
-        let mut solution =
-            self.solve_from(&Situation::stated(&task.scene), task, library, watch)?;
+        let mut solution = self.solve_from(&stated(task), task, library, watch)?;
         if task.unknown.any() {
             solution.warnings.push(Warning::Guessed { unknown: task.unknown });
         }
@@ -257,7 +256,7 @@ impl Planner {
         tool: &Arc<Tool>,
         plan: &Plan,
     ) -> Result<Prediction, SolveError> {
-        let situation = Situation::stated(&task.scene);
+        let situation = stated(task);
         check(task, &situation, std::slice::from_ref(tool))?;
         self.refuse(task, &situation, std::iter::once(plan.motion(tool)))?;
         Ok(self.predict_all(task, &situation, &[(plan, tool)]).remove(0))
@@ -328,6 +327,15 @@ impl Planner {
             })
             .collect()
     }
+}
+
+/// What a task states, and whether it says what objects rest on.
+fn stated(task: &Task) -> Situation {
+    let mut situation = Situation::stated(&task.scene);
+    if task.unknown.support {
+        Arc::make_mut(&mut situation.physics).supports_known = false;
+    }
+    situation
 }
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
