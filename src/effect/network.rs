@@ -8,7 +8,7 @@ use crate::{
     graph::{Batch, Correction},
     network::{Buffers, Forward, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller, reachable},
-    scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
+    scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory, Warning},
 };
 
 use super::{EffectModel, Quantiles, Trust, measured::measured, trust::outside};
@@ -19,6 +19,10 @@ use super::{EffectModel, Quantiles, Trust, measured::measured, trust::outside};
 /// search keeps two cores busy at most. Fixed, so that results do not depend on the number of
 /// threads.
 const CHUNK: usize = 64;
+
+/// Where nine of ten pushes like one end within no less than this, metres, a warning says so: three
+/// times what is usual.
+const DOUBTFUL: f64 = 0.02;
 
 /// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
 /// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
@@ -76,11 +80,18 @@ impl Network {
 }
 
 impl Network {
-    /// A trajectory with what is expected of any object that was moved.
-    fn with_floor(&self, mut trajectory: Trajectory) -> Trajectory {
-        if let Some(doubt) = self.forward.doubts() {
-            let moved = trajectory.spreads.iter_mut().filter(|spread| spread.position > 0.0);
-            moved.for_each(|spread| *spread += doubt.floor());
+    /// A trajectory with what is expected of any object that was moved, and a warning where that is
+    /// much.
+    fn doubted(&self, scene: &Scene, mut trajectory: Trajectory) -> Trajectory {
+        let Some(doubt) = self.forward.doubts() else { return trajectory };
+        let Trajectory { spreads, warnings, .. } = &mut trajectory;
+        let all = scene.objects.iter().zip(spreads);
+        for (object, spread) in all.filter(|(_, spread)| spread.position > 0.0) {
+            *spread += doubt.floor();
+            let within = spread.within_90().position;
+            if within > DOUBTFUL {
+                warnings.push(Warning::Doubtful { object: object.name.clone(), within });
+            }
         }
         trajectory
     }
@@ -150,7 +161,7 @@ impl EffectModel for Network {
                 },
             )
             .flatten_iter()
-            .map(|trajectory| self.with_floor(trajectory))
+            .map(|trajectory| self.doubted(scene, trajectory))
             .collect()
     }
 }

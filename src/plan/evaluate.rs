@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::effect::Job;
-use crate::scene::{Push, Record, State, ToolMotion};
+use crate::scene::{Push, Record, Spread, State, ToolMotion};
 
 use super::rollouts::single_push;
 use super::score::{behind, final_score, is_behind};
@@ -21,6 +21,9 @@ pub struct Evaluation {
     pub margins: Vec<Margins>,
     /// Predicted state at rest.
     pub outcome: State,
+    /// How far off the end of the goal's object is expected to be after the last push, if the model
+    /// says so.
+    pub spread: Option<Spread>,
     /// Predicted error in units of the tolerance; infinite if the outcome cannot count, and behind
     /// all others (see [`super::is_behind`]) if something could not pass on the way.
     pub score: f64,
@@ -71,6 +74,7 @@ pub fn evaluate(
                 pushes: Vec::with_capacity(candidate.pushes.len()),
                 margins: Vec::with_capacity(candidate.pushes.len()),
                 outcome: start.clone(),
+                spread: None,
                 score: workspace.task.goal.score(&start),
             })
         })
@@ -164,6 +168,15 @@ fn run(
                 evaluation.score = if blocked { behind(score) } else { score };
             }
             evaluation.outcome = frame.state.clone();
+            let own = trajectory.spreads.get(workspace.task.goal.object).copied();
+            evaluation.spread = match (evaluation.spread, own) {
+                // Errors of one push go on into the next.
+                (Some(mut before), Some(own)) => {
+                    before += own;
+                    Some(before)
+                }
+                (before, own) => own.or(before),
+            };
         }
     }
 }

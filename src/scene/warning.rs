@@ -33,6 +33,13 @@ pub enum Warning {
         /// How long was waited, seconds.
         waited: f64,
     },
+    /// The model expects to be far off.
+    Doubtful {
+        /// Name of the object.
+        object: String,
+        /// What nine of ten ends of such pushes are within, metres.
+        within: f64,
+    },
     /// A number became infinite or undefined and the rollout stopped at the last good frame.
     NotFinite,
     /// The replay was stopped before it was over.
@@ -167,6 +174,7 @@ impl Warning {
             | Warning::Pressed { .. }
             | Warning::Overlap { .. }
             | Warning::LooseJoint { .. }
+            | Warning::Doubtful { .. }
             | Warning::Differs { .. }
             | Warning::Simulated { .. }
             | Warning::Slipped { .. }
@@ -216,6 +224,7 @@ impl Warning {
                 | Warning::Pressed { .. }
                 | Warning::Overlap { .. }
                 | Warning::LooseJoint { .. }
+                | Warning::Doubtful { .. }
                 | Warning::NotFinite
         )
     }
@@ -226,6 +235,7 @@ impl Warning {
             Warning::OutsideRange { .. } => "outside its range",
             Warning::Declined { .. } => "declined",
             Warning::NotAtRest { .. } => "not at rest",
+            Warning::Doubtful { .. } => "doubtful",
             Warning::NotFinite => "not finite",
             Warning::Stopped => "stopped",
             Warning::Toppled { .. } => "toppled",
@@ -269,6 +279,9 @@ impl Warning {
                 let millimetres = distance * 1e3;
                 format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
             }
+            Warning::Doubtful { object, within } => {
+                format!("{object} may end up to {:.0} mm from where it is predicted", within * 1e3)
+            }
             Warning::NotFinite => "the prediction became NaN or infinite".to_owned(),
             other => other.to_string(),
         }
@@ -286,6 +299,11 @@ impl fmt::Display for Warning {
             Warning::Pressed { .. } => write!(
                 f,
                 "{}; its motion is then unpredictable, `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Doubtful { .. } => write!(
+                f,
+                "{}, says the model itself; `--outside simulate` simulates instead",
                 self.fact()
             ),
             Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(

@@ -295,7 +295,9 @@ impl<'a> Solving<'a> {
             let tool = &self.workspace.tools[refined.best.candidate.tool];
             let motion = self.plan(tool, &refined.best).motion(tool);
             let job = Job::new(self.situation, motion);
-            let error = error_p95(self.planner.model(), self.situation, &job);
+            // What the network says of this very push, or else what was measured of many.
+            let spread = refined.best.spread.map(|spread| spread.within_90().position);
+            let error = spread.or_else(|| error_p95(self.planner.model(), self.situation, &job));
             if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error) {
                 worth.push(self.tried.len());
             }

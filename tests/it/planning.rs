@@ -292,7 +292,15 @@ fn refinement_never_makes_a_candidate_worse() {
         }
         let candidates: Vec<Candidate> =
             found.iter().take(6).map(|f| f.candidate.clone()).collect();
-        let settings = RefineSettings { rounds: 3, extra: 2, seed: 1, enough: 6, rollouts: 1000, short_list: usize::MAX, radius: 1.0 };
+        let settings = RefineSettings {
+            rounds: 3,
+            extra: 2,
+            seed: 1,
+            enough: 6,
+            rollouts: 1000,
+            short_list: usize::MAX,
+            radius: 1.0,
+        };
         let mut statistics = RefineStatistics::default();
         let refined =
             refine(&space, &mut rollouts, &candidates, settings, &mut statistics, &Unwatched);
