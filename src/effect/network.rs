@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     graph::Batch,
-    network::{Buffers, Forward, PredictorWeights},
+    network::{Buffers, Forward, Head, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller},
     scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
 };
@@ -25,11 +25,12 @@ pub(super) const CHUNK: usize = 32;
 const CORRECTED: usize = 5;
 
 /// Predicts with trained weights.
+#[derive(Clone)]
 pub struct Network {
-    spec: ModelSpec,
-    forward: Forward,
+    pub(super) spec: ModelSpec,
+    pub(super) forward: Forward,
     weights: PredictorWeights,
-    settings: RollSettings,
+    pub(super) settings: RollSettings,
     error: Option<Quantiles>,
 }
 
@@ -65,6 +66,15 @@ impl Network {
         model.settings.stride = stride.frames();
         model.spec = ModelKind::Network { weights: file, steps, stride }.into();
         model
+    }
+
+    /// The same with `head` added to its last layer; measured errors are those without it.
+    ///
+    /// # Panics
+    /// If it is of another width, see [`Self::effect_width`].
+    pub fn adapted(mut self, head: &Head) -> Self {
+        self.forward = self.forward.with_head(head);
+        self
     }
 
     /// What the weights are.
@@ -151,7 +161,7 @@ fn has_guesses(job: &Job) -> bool {
 /// Where a joint is a guess, neither prior nor projection pulls its objects together again, and the
 /// network's errors add up: on 60 dense and 60 sparse scenes of nine objects it ends 44.5 and 60.4
 /// mm off, with the same geometry taken for known 21.0 and 39.0, as the prior does.
-fn without_guesses(job: &Job) -> Job {
+pub(super) fn without_guesses(job: &Job) -> Job {
     let mut job = job.clone();
     if has_guesses(&job) {
         let physics = Arc::make_mut(&mut job.physics);

@@ -11,4 +11,4 @@ mod relation;
 
 pub use batch::{Batch, KINEMATIC};
 pub use features::{NODE_EVEN, NODE_ODD, OUTPUT_EVEN, OUTPUT_ODD, RELATION_EVEN, RELATION_ODD};
-pub use node::Node;
+pub use node::{Node, UNIT};

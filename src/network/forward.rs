@@ -7,7 +7,7 @@
 use crate::graph::{Batch, KINEMATIC, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
+    Config, Head, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -29,6 +29,7 @@ pub struct Forward {
     motion_hidden_bias: Vec<f32>,
     motion_even: Vec<f32>,
     motion_odd: Vec<f32>,
+    head: Option<Head>,
 }
 
 #[derive(Clone, Debug)]
@@ -54,6 +55,13 @@ pub struct Buffers {
     sum: Vec<f32>,
     even: Vec<f32>,
     odd: Vec<f32>,
+}
+
+impl Buffers {
+    /// The rows [2, N, h] that the last layer read in the last [`Forward::read`].
+    pub fn hidden(&self) -> &[f32] {
+        &self.next
+    }
 }
 
 impl Forward {
@@ -94,6 +102,7 @@ impl Forward {
             motion_hidden_bias: get("motion.hidden_bias"),
             motion_even: get("motion.even"),
             motion_odd: get("motion.odd"),
+            head: None,
         }
     }
 
@@ -130,6 +139,15 @@ impl Forward {
         Self { steps, ..self }
     }
 
+    /// The same with `head` added to its last layer; one that changes nothing leaves every bit.
+    ///
+    /// # Panics
+    /// If it is of another width.
+    pub fn with_head(self, head: &Head) -> Self {
+        assert_eq!(head.half(), self.half, "a head of another width");
+        Self { head: (!head.is_none()).then(|| head.clone()), ..self }
+    }
+
     /// Floating-point operations of the matrix products in one [`Forward::run`], counting a
     /// multiplication and an addition each.
     pub fn operations(&self, batch: &Batch) -> u64 {
@@ -152,6 +170,9 @@ impl Forward {
                 .zip(odd.chunks_exact(OUTPUT_ODD))
                 .map(|(e, o)| [e[0], e[1], o[0], o[1], o[2], o[3]].map(f64::from)),
         );
+        if let Some(head) = &self.head {
+            head.add(&w.next, corrections);
+        }
     }
 
     /// What is read from every node, [N, even] and [N, odd].
@@ -166,6 +187,7 @@ impl Forward {
         w.even.clear();
         w.odd.clear();
         if n == 0 {
+            w.next.clear();
             return (&w.even, &w.odd);
         }
         self.relation.run(
