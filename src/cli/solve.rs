@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::asset::{PlanFile, load_task};
+use crate::effect::EffectModels;
 use crate::report::{PageView, plan_figures, solution_document, solution_page};
 use crate::scene::{ModelSpec, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
@@ -43,6 +44,8 @@ pub struct SolveArgs {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<ModelSpec>,
     #[command(flatten)]
+    table: model::TableArgs,
+    #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -78,7 +81,12 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let mut task = load_task(&args.task, &library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
-    let effects = model::load(&args.model.clone().unwrap_or_else(|| effort.spec()))?;
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
+    let spec = args.model.clone().unwrap_or_else(|| effort.spec());
+    let effects = EffectModels::fitted(&spec, fit.as_ref())?;
     output::prepare(&args.out)?;
     let settings = match args.disturbed {
         Some(count) => effort.settings().replaying(count.into()),

@@ -8,10 +8,12 @@ use crate::{
     graph::Batch,
     network::{Buffers, Forward, Head, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller},
-    scene::{Job, ModelKind, ModelSpec, Record, Scene, Stride, Trajectory},
+    scene::{
+        Job, ModelKind, ModelSpec, OTHER_OBJECTS, Record, Scene, Stride, TableFit, Trajectory,
+    },
 };
 
-use super::{EffectModel, Quantiles, Trust, trust::outside};
+use super::{EffectModel, ModelError, Quantiles, Trust, trust::outside};
 
 /// Jobs that share a network batch: enough rows to keep the matrix products busy, few enough
 /// that two cores share a coarse search evenly. Fixed, so that results do not depend on the
@@ -32,6 +34,14 @@ pub struct Network {
     weights: PredictorWeights,
     pub(super) settings: RollSettings,
     error: Option<Quantiles>,
+    strange: Option<Strange>,
+}
+
+/// What a fit says where it was not learnt.
+#[derive(Clone)]
+struct Strange {
+    fit: TableFit,
+    less: Forward,
 }
 
 impl Network {
@@ -43,6 +53,7 @@ impl Network {
             forward: Forward::new(&weights),
             error: errors.map(|errors| Quantiles { median: errors.median, p95: errors.p95 }),
             weights,
+            strange: None,
             settings: RollSettings { corrected: CORRECTED, ..RollSettings::default() },
         }
     }
@@ -75,6 +86,30 @@ impl Network {
     pub fn adapted(mut self, head: &Head) -> Self {
         self.forward = self.forward.with_head(head);
         self
+    }
+
+    /// The same with what was learnt about a table. Where something on it is like none of the
+    /// objects that this was learnt on, [`OTHER_OBJECTS`] of it counts.
+    ///
+    /// # Errors
+    /// [`ModelError::Fit`] if it was learnt with other weights.
+    pub fn fitted(mut self, fit: &TableFit) -> Result<Self, ModelError> {
+        let foreign = || ModelError::Fit { weights: fit.weights.clone() };
+        let own = self.weights.checksum().map_err(ModelError::Shipped)?;
+        let head = Head::new(fit.head.clone(), self.effect_width());
+        let head = head.filter(|_| own == fit.weights).ok_or_else(foreign)?;
+        let less = self.forward.clone().with_head(&head.scaled(OTHER_OBJECTS));
+        self.strange = Some(Strange { fit: fit.clone(), less });
+        self.forward = self.forward.with_head(&head);
+        Ok(self)
+    }
+
+    /// The forward pass for `scene`.
+    fn forward_in(&self, scene: &Scene) -> &Forward {
+        match &self.strange {
+            Some(Strange { fit, less }) if !fit.strange(scene).is_empty() => less,
+            _ => &self.forward,
+        }
     }
 
     /// What the weights are.
@@ -133,6 +168,7 @@ impl EffectModel for Network {
             }
             false => jobs,
         };
+        let forward = self.forward_in(scene);
         jobs.par_chunks(CHUNK)
             .map_init(
                 || (Roller::new(self.spec.clone(), self.settings), Buffers::default()),
@@ -142,7 +178,7 @@ impl EffectModel for Network {
                         chunk,
                         record,
                         Some(&mut |batch, corrections| {
-                            self.forward.run(batch, buffers, corrections);
+                            forward.run(batch, buffers, corrections);
                         }),
                     )
                 },

@@ -16,10 +16,7 @@ use crate::{
     scene::{COAST_FRAME, Frame, Job, Record, Scene, State, Stroke, Trajectory, Velocity},
 };
 
-use super::{
-    EffectModel, Network,
-    network::without_guesses,
-};
+use super::{EffectModel, Network, network::without_guesses};
 
 /// How far poses are moved to see what becomes of it, metres (turns at the radius of gyration):
 /// more than the width of a touch, less than what recordings show.
@@ -59,12 +56,8 @@ impl Network {
         // The numbers of nodes are those of the scene where nothing is left out.
         let settings = RollSettings { stride: 1, pruned: false, ..self.settings };
         let mut roller = Roller::new(self.spec.clone(), settings);
-        let rolled = roller.roll(
-            scene,
-            std::slice::from_ref(&job),
-            Record::Frames,
-            Some(&mut correct),
-        );
+        let rolled =
+            roller.roll(scene, std::slice::from_ref(&job), Record::Frames, Some(&mut correct));
         let trajectory =
             rolled.into_iter().next().unwrap_or_else(|| Trajectory::new(self.spec.clone()));
         let mut rows = vec![vec![0.0; Head::len_of(half)]; 3 * scene.objects.len()];
@@ -105,7 +98,12 @@ impl Network {
                     for axis in 0..3 {
                         for sign in [1.0, -1.0] {
                             let mut job = rest.clone();
-                            nudge(&mut job.start, node.object, axis, sign * size(scene, node, axis));
+                            nudge(
+                                &mut job.start,
+                                node.object,
+                                axis,
+                                sign * size(scene, node, axis),
+                            );
                             jobs.push(job);
                         }
                     }

@@ -121,7 +121,8 @@ fn choose(regression: &Regression, priors: &[f64]) -> Option<Solved> {
     let gains = |solved: &Solved| -> Vec<f64> {
         solved.left_out.iter().zip(&none.left_out).map(|(with, without)| with - without).collect()
     };
-    let best = solved.into_iter().flatten().max_by(|a, b| mean(&gains(a)).total_cmp(&mean(&gains(b))))?;
+    let best =
+        solved.into_iter().flatten().max_by(|a, b| mean(&gains(a)).total_cmp(&mean(&gains(b))))?;
     let gains = gains(&best);
     let (count, gain) = (gains.len() as f64, mean(&gains));
     let square: f64 = gains.iter().map(|one| (one - gain).powi(2)).sum();

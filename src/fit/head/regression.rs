@@ -164,7 +164,8 @@ mod tests {
     fn the_mean_is_that_of_the_numbers_and_one_wild_end_hardly_moves_it() {
         let mut ends = ends(1e-3);
         ends[7].residual = vec![3.0, 3.0];
-        let of = |law| Regression::new(&ends, &[0.0; 2], law, 1e-6).solve(1.0).expect("a posterior");
+        let of =
+            |law| Regression::new(&ends, &[0.0; 2], law, 1e-6).solve(1.0).expect("a posterior");
         let robust = of(NoiseLaw::Student);
         assert!((robust.mean[0] - 0.3).abs() < 3e-3, "{:?}", robust.mean);
         assert!((robust.mean[1] + 0.2).abs() < 3e-3, "{:?}", robust.mean);
@@ -190,9 +191,9 @@ mod tests {
         .try_inverse()
         .expect("regular");
         let variance = |x: [f64; 2]| {
-            let known = directions.iter().map(|(left, d)| {
-                (1.0 - left) * (x[0] * d[0] + x[1] * d[1]).powi(2)
-            });
+            let known = directions
+                .iter()
+                .map(|(left, d)| (1.0 - left) * (x[0] * d[0] + x[1] * d[1]).powi(2));
             0.25 * (x[0] * x[0] + x[1] * x[1] - known.sum::<f64>())
         };
         assert!((variance([1.0, 0.0]) / exact[(0, 0)] - 1.0).abs() < 0.05);
