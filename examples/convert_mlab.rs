@@ -9,6 +9,10 @@
 //! where its centre of mass is. Frictions are not given: 0.5 between tip and plate, which `pushplan
 //! fit` finds in every file (0.46 to 0.54), and 0.3 between plate and table, which slow pushes do not
 //! feel, as little as the plate's mass and height.
+//!
+//! Pushes by a blade with two tips are files with `head` and `path`. The tips are such cylinders,
+//! behind the points, joined by a bar that lies as deep as the blade is hollowed. The plate was seen
+//! before and after a push, the blade also on the way.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -21,6 +25,8 @@ use serde::Deserialize;
 
 /// Radius of the cylinder that stands for the fingertip, metres.
 const TIP: f64 = 0.002;
+/// Thickness of the bar between the tips of a blade, metres.
+const BAR: f64 = 0.01;
 /// Height of plate and fingertip, metres.
 const HEIGHT: f64 = 0.02;
 /// Coefficients of friction with the fingertip and with the table.
@@ -32,7 +38,15 @@ const ON_TABLE: f64 = 0.3;
 struct Pushes {
     shape: Plate,
     support: Stands,
+    head: Option<Blade>,
     pushes: Vec<Push>,
+}
+
+/// Two tips in the frame of a blade that points along x, and how deep it is hollowed between them.
+#[derive(Deserialize)]
+struct Blade {
+    tips: [[f64; 2]; 2],
+    hollow: f64,
 }
 
 #[derive(Deserialize)]
@@ -50,12 +64,17 @@ enum Stands {
     Word(String),
 }
 
-/// Poses of the plate's frame and path of the fingertip.
+/// Poses of the plate's frame and path of the fingertip or of the blade.
 #[derive(Deserialize)]
 struct Push {
     before: [f64; 3],
     after: [f64; 3],
+    /// Time, x and y of a point.
+    #[serde(default)]
     tip: Vec<[f64; 3]>,
+    /// Time, x, y and heading of a blade.
+    #[serde(default)]
+    path: Vec<[f64; 4]>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -111,6 +130,9 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         .standing_on(support)
         .at(before.position.x, before.position.y, before.heading);
     let scene = Scene::new([plate]).on_table(ON_TABLE).with_friction(0, Surface::Tool, ON_TIP);
+    if let Some(blade) = &given.head {
+        return by_blade(name, (scene, after), blade, &push.path);
+    }
     let tip = Part::new("tip", Shape::Cylinder { radius: TIP, height: HEIGHT }, Pose::default());
 
     let (Some(from), Some(to)) = (push.tip.first(), push.tip.last()) else {
@@ -129,6 +151,7 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         time,
         tool: Pose { position: Vector::new(x, y) + away, heading: 0.0 },
         lifted: false,
+        seen: true,
         poses: vec![pose],
     };
     // The path is straight and even to 0.5 mm; only its ends were seen with the plate.
@@ -143,5 +166,46 @@ fn recording(name: &str, given: &Pushes, push: &Push) -> Result<Recording, Box<d
         lift: 0.0,
         headings: vec![true],
         frames: vec![first, last],
+    })
+}
+
+/// A push by a blade that was followed on its way, of a plate that was seen before and after.
+fn by_blade(
+    name: &str,
+    (scene, after): (Scene, Pose),
+    blade: &Blade,
+    path: &[[f64; 4]],
+) -> Result<Recording, Box<dyn Error>> {
+    let round = Shape::Cylinder { radius: TIP, height: HEIGHT };
+    let tip = |name: &str, [x, y]: [f64; 2]| Part::new(name, round, Pose::new(x - TIP, y, 0.0));
+    let [left, right] = blade.tips;
+    let size = [BAR, (left[1] - right[1]).abs(), HEIGHT];
+    let bar = Part::cuboid("bar", size, Pose::new(-blade.hollow - 0.5 * BAR, 0.0, 0.0));
+    let parts = [tip("left", left), tip("right", right), bar];
+    let tool = Tool::joined("blade", parts, &[[0, 2], [1, 2]])?;
+    let before = scene.objects[0].pose;
+    let mut frames: Vec<RecordedFrame> = Vec::new();
+    for (k, [time, x, y, degrees]) in path.iter().enumerate() {
+        let last = k + 1 == path.len();
+        let mut frame = RecordedFrame {
+            time: time - path[0][0],
+            tool: Pose::new(*x, *y, degrees.to_radians()),
+            lifted: false,
+            seen: k == 0 || last,
+            poses: vec![if last { after } else { before }],
+        };
+        if let Some(earlier) = frames.last() {
+            frame.unwrap_after(earlier);
+        }
+        frames.push(frame);
+    }
+    Ok(Recording {
+        name: name.into(),
+        description: "MLab_EXP by Jiaji Zhou, Apache License 2.0, converted".into(),
+        scene,
+        tool: Arc::new(tool),
+        lift: 0.0,
+        headings: vec![true],
+        frames,
     })
 }

@@ -20,6 +20,7 @@ mod saved;
 mod schema;
 mod spec;
 mod strict;
+mod table_fit;
 mod take;
 mod task;
 mod text;

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::fit::{FitSettings, NoiseLaw, fit};
+use crate::effect::{EffectModels, Network};
+use crate::fit::{FitSettings, HeadSettings, NoiseLaw, fit, learn};
 use crate::judge::Trial;
 use crate::recording::Recording;
-use crate::report::fit_document;
+use crate::report::{fit_document, table_fit_section};
 use crate::scene::ModelSpec;
 
 use super::{
@@ -25,8 +26,12 @@ Give recordings of one object, or of similar ones, one push each; fifty pushes o
 enough. The final poses of each are compared; errors follow Student's law. The prior is for slow
 pushes, up to 0.02 m/s; for faster ones use --model planar.
 
+With --save-fit the network learns from the same recordings what these numbers leave, from some
+twenty pushes on; `--fit FILE` of solve and predict takes the file.
+
 Examples:
   pushplan fit pushes/ --out plans
+  pushplan fit pushes/ --save-fit table.fit.json
   pushplan fit --model planar push-1.recording.json push-2.recording.json"
 )]
 pub struct FitArgs {
@@ -42,6 +47,9 @@ pub struct FitArgs {
     /// Take errors for normally distributed: no push ends far off by chance
     #[arg(long)]
     gaussian: bool,
+    /// Also let the network learn from the recordings, and write all that was found to this file
+    #[arg(long, value_name = "FILE")]
+    save_fit: Option<PathBuf>,
     /// Folder for fit.json and posterior.svg
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -80,10 +88,21 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
         .collect();
     objects.sort_unstable();
     objects.dedup();
-    let document = fit_document(&found, &objects);
+    let mut document = fit_document(&found, &objects);
     if let Some(folder) = &args.out {
         output::write(folder, "fit.json", document.to_json().as_bytes())?;
         output::write_figures(folder, document.figures())?;
+    }
+    if let Some(file) = &args.save_fit {
+        let weights = EffectModels::weights().map_err(CliError::from)?;
+        let network = Network::new(weights);
+        let settings = HeadSettings { law, ..HeadSettings::default() };
+        let learnt = session.compute(|| learn(&network, &trials, &found, &settings));
+        let learnt =
+            learnt.map_err(|error| CliError::unexpected("cannot name the weights", &error))?;
+        document.sections.push(table_fit_section(&learnt));
+        learnt.write(file).map_err(CliError::Output)?;
+        document.wrote(std::slice::from_ref(file));
     }
     args.form.show(session, &document)?;
     Ok(exit_code::DONE)

@@ -1,14 +1,16 @@
 //! Effect models on the command line.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 
 use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
 use crate::network::PredictorWeights;
-use crate::scene::ModelSpec;
+use crate::scene::{ModelSpec, OTHER_OBJECTS, Scene, TableFit};
 
 use super::error::CliError;
+use super::session::Session;
 use super::words::{OUTSIDE, words};
 
 macro_rules! help {
@@ -62,9 +64,39 @@ impl From<ModelError> for CliError {
     fn from(error: ModelError) -> Self {
         match &error {
             ModelError::Shipped(_) => Self::Unexpected(error.to_string()),
-            ModelError::File { .. } => Self::File(error.to_string()),
+            ModelError::File { .. } | ModelError::Fit { .. } => Self::File(error.to_string()),
         }
     }
+}
+
+/// What was learnt about the table.
+#[derive(Args, Clone, Debug)]
+pub struct TableArgs {
+    /// What `pushplan fit --save-fit FILE` learnt about this table
+    #[arg(long, value_name = "FILE")]
+    fit: Option<PathBuf>,
+}
+
+impl TableArgs {
+    /// The file's contents, if one is named.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is none of a fit.
+    pub fn load(&self) -> Result<Option<TableFit>, CliError> {
+        Ok(self.fit.as_ref().map(TableFit::load).transpose()?)
+    }
+}
+
+/// Lets `scene` be as `fit` says, and warns of objects that it was not learnt on.
+pub fn state(fit: &TableFit, scene: &mut Scene, session: &Session) {
+    for object in fit.strange(scene) {
+        session.warn(&format!(
+            "the fit was learnt on other objects than `{object}`: what it changes in the network \
+             counts by {:.0} % here",
+            100.0 * OTHER_OBJECTS
+        ));
+    }
+    fit.state(scene);
 }
 
 /// What to do where the model should not be trusted.
@@ -94,6 +126,18 @@ impl OutsideArgs {
     /// # Errors
     /// Those of [`load`].
     pub fn load(self, spec: &ModelSpec) -> Result<Arc<dyn EffectModel>, CliError> {
-        Ok(Arc::new(load(spec)?.outside(self.outside())))
+        self.fitted(spec, None)
+    }
+
+    /// The same with what was learnt about a table.
+    ///
+    /// # Errors
+    /// Those of [`load`], and a fit of other weights.
+    pub fn fitted(
+        self,
+        spec: &ModelSpec,
+        fit: Option<&TableFit>,
+    ) -> Result<Arc<dyn EffectModel>, CliError> {
+        Ok(Arc::new(EffectModels::fitted(spec, fit)?.outside(self.outside())))
     }
 }

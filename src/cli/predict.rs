@@ -44,6 +44,8 @@ pub struct PredictArgs {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_NETWORK)]
     model: Option<ModelSpec>,
     #[command(flatten)]
+    pub table: model::TableArgs,
+    #[command(flatten)]
     pub outside: OutsideArgs,
     /// Only this model, without those that it is compared with
     #[arg(long)]
@@ -126,7 +128,11 @@ impl PredictArgs {
 }
 
 fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, CliError> {
-    let Asked { file, task, tools, plan } = asked;
+    let Asked { file, mut task, tools, plan } = asked;
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
     let motions = plan.motions(&tools).unwrap_or_default();
     let [motion] = &motions[..] else {
         return Err(CliError::usage(
@@ -152,7 +158,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     }
     let (mut effects, mut trajectories) = (Vec::new(), Vec::new());
     for spec in specs {
-        let model = args.outside.load(&spec)?;
+        let model = args.outside.fitted(&spec, fit.as_ref())?;
         effects.extend(session.compute(|| timed_effect(&*model, &task.scene, &job)));
         if args.poses.wanted() || args.out.is_some() {
             let jobs = std::slice::from_ref(&job);

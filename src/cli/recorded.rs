@@ -7,7 +7,7 @@ use crate::judge::{
 };
 use crate::recording::Recording;
 use crate::report::{PoseRow, RECORDED, recorded_document, recordings_document};
-use crate::scene::{Job, Warning};
+use crate::scene::{Job, TableFit, Warning};
 
 use super::{
     error::CliError,
@@ -25,9 +25,13 @@ use super::{
 /// # Errors
 /// Recordings and models that cannot be read; results that cannot be written.
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
-    let sets = load_recordings(&args.files)?;
+    let mut sets = load_recordings(&args.files)?;
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        tell(fit, &mut sets, session);
+    }
     let all: Vec<&Recording> = sets.iter().flat_map(|set| &set.recordings).collect();
-    let models = models(args, &all)?;
+    let models = models(args, &all, fit.as_ref())?;
     warn(&*models[0], &all, session);
     let trials: Vec<Trial> = all.iter().map(|recording| Trial::of_recording(recording)).collect();
     let names: Vec<String> = all.iter().map(|recording| recording.name.clone()).collect();
@@ -68,20 +72,35 @@ pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
     Ok(exit_code::DONE)
 }
 
+/// Lets all recordings be as `fit` says; what it was not learnt on is told once.
+fn tell(fit: &TableFit, sets: &mut [RecordingSet], session: &Session) {
+    let mut told: Vec<String> = Vec::new();
+    for recording in sets.iter_mut().flat_map(|set| &mut set.recordings) {
+        let strange: Vec<String> =
+            fit.strange(&recording.scene).into_iter().map(str::to_owned).collect();
+        match told.contains(&strange.join(" ")) || strange.is_empty() {
+            true => fit.state(&mut recording.scene),
+            false => model::state(fit, &mut recording.scene, session),
+        }
+        told.push(strange.join(" "));
+    }
+}
+
 /// The model that is asked for, the same under other assumptions about joints where there are
 /// some, and those that it is compared with.
 fn models(
     args: &PredictArgs,
     recordings: &[&Recording],
+    fit: Option<&TableFit>,
 ) -> Result<Vec<Box<dyn EffectModel>>, CliError> {
     let asked = args.spec();
-    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.load(&asked)?)];
+    let mut models: Vec<Box<dyn EffectModel>> = vec![Box::new(args.outside.fitted(&asked, fit)?)];
     if args.alone {
         return Ok(models);
     }
     if recordings.iter().any(|recording| !recording.scene.joints.is_empty()) {
         for spec in assumed(&asked) {
-            models.push(Box::new(args.outside.load(&spec)?));
+            models.push(Box::new(args.outside.fitted(&spec, fit)?));
         }
     }
     for spec in recorded_baselines(&asked) {

@@ -43,6 +43,8 @@ pub struct SolveArgs {
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
     #[command(flatten)]
+    table: model::TableArgs,
+    #[command(flatten)]
     outside: OutsideArgs,
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -78,8 +80,12 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let mut task = load_task(&args.task, &library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
     let models = args.model.clone().unwrap_or_else(|| effort.models());
-    let planner = Planner::with_models(&models)?;
+    let planner = Planner::fitted(&models, fit.as_ref())?;
     output::prepare(&args.out)?;
     let settings = match args.disturbed {
         Some(count) => effort.settings().replaying(count.into()),

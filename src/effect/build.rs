@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::{
     network::{PredictorWeights, WeightsError},
-    scene::{Engine, ModelKind, ModelPart, ModelSpec},
+    scene::{Engine, ModelKind, ModelPart, ModelSpec, TableFit},
     sim::Simulator,
 };
 
@@ -31,6 +31,15 @@ pub enum ModelError {
         /// What is wrong with it.
         #[source]
         error: WeightsError,
+    },
+    /// What was learnt about a table belongs to another network.
+    #[error(
+        "the fit was learnt with other weights ({weights}) than those of the model; fit again with \
+         this model"
+    )]
+    Fit {
+        /// Checksum of the weights that it was learnt with.
+        weights: String,
     },
 }
 
@@ -78,16 +87,26 @@ impl EffectModels {
     /// # Errors
     /// [`ModelError`] if it needs weights that cannot be used.
     pub fn build(spec: &ModelSpec) -> Result<Routed, ModelError> {
-        let first = Routed::new(levering(spec.first())?);
-        spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other)?)))
+        Self::fitted(spec, None)
+    }
+
+    /// The same, its networks with what was learnt about a table; other models know only what a
+    /// scene states, see [`TableFit::state`].
+    ///
+    /// # Errors
+    /// [`ModelError`] if it needs weights that cannot be used, or if those of a network are others
+    /// than the fit's.
+    pub fn fitted(spec: &ModelSpec, fit: Option<&TableFit>) -> Result<Routed, ModelError> {
+        let first = Routed::new(levering(spec.first(), fit)?);
+        spec.others().iter().try_fold(first, |routed, other| Ok(routed.or(part(other, fit)?)))
     }
 }
 
 /// A part that takes lever-ups as well: by the network of lever-ups where it is one, else by their
 /// prior. A weights file of lever-ups is one of those alone, and pushes are the prior's.
-fn levering(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
+fn levering(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>, ModelError> {
     let levers: Arc<dyn LeverModel> = match &part.kind {
-        ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part),
+        ModelKind::Simulated { engine: Engine::Spatial, .. } => return self::part(part, fit),
         ModelKind::Network { weights: Some(file), .. } => {
             if let Ok(levers) = LeverNetwork::load(Path::new(file)) {
                 let (prior, levers) = (Arc::new(Prior::default()), Arc::new(levers));
@@ -101,7 +120,7 @@ fn levering(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
         },
         _ => Arc::new(LeverPrior::default()),
     };
-    Ok(Arc::new(Levering::new(self::part(part)?, levers)))
+    Ok(Arc::new(Levering::new(self::part(part, fit)?, levers)))
 }
 
 fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {
@@ -110,12 +129,16 @@ fn load(file: Option<&str>) -> Result<PredictorWeights, ModelError> {
         .map_err(|error| ModelError::File { path: path.to_owned(), error })
 }
 
-fn part(part: &ModelPart) -> Result<Arc<dyn EffectModel>, ModelError> {
+fn part(part: &ModelPart, fit: Option<&TableFit>) -> Result<Arc<dyn EffectModel>, ModelError> {
     let ModelPart { kind, assumptions, up_to } = part;
     let model: Arc<dyn EffectModel> = match kind {
         ModelKind::Network { weights: file, steps, stride } => {
             let weights = load(file.as_deref())?;
-            Arc::new(Network::with(weights, file.clone(), *steps, *stride))
+            let network = Network::with(weights, file.clone(), *steps, *stride);
+            Arc::new(match fit {
+                Some(fit) => network.fitted(fit)?,
+                None => network,
+            })
         }
         ModelKind::Prior { stride } => Arc::new(Prior::new(*stride)),
         ModelKind::Simulated { engine, rate } => {

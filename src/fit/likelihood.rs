@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 
 /// Degrees of freedom of Student's law: pushes that fork are no rarer than it says (Lange, Little
 /// and Taylor 1989, doi:10.2307/2290063, take 4).
-const FREEDOM: f64 = 4.0;
+pub(super) const FREEDOM: f64 = 4.0;
 
 /// Noise is never taken as smaller than this share of the mean motion: even good models of the same
 /// physics end this far apart, and a posterior that trusts them more is narrower than it should be.
-const DISAGREEMENT: f64 = 0.02;
+pub(super) const DISAGREEMENT: f64 = 0.02;
 
 /// Widths that are tried where none is stated: how many, and the largest in metres; they are
 /// evenly spaced in their logarithm.

@@ -62,6 +62,20 @@ pub struct SupportError {
     pub median: f64,
 }
 
+/// The same with every object resting as its scene states it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AsStated {
+    /// The pusher's friction that suits this best.
+    pub friction: f64,
+    /// Mean error, metres.
+    pub mean: f64,
+    /// Median error, metres.
+    pub median: f64,
+    /// Whether the recordings are likelier so than with any one spread for all objects, taken over
+    /// all that was thought possible.
+    pub likelier: bool,
+}
+
 /// What recordings say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
@@ -91,6 +105,20 @@ pub struct Fit {
     pub even: SupportError,
     /// On the corners.
     pub corners: SupportError,
+    /// As stated.
+    pub stated: AsStated,
+}
+
+impl Fit {
+    /// The spread that recordings tell, better than what was stated of each object.
+    pub fn told_spread(&self) -> Option<f64> {
+        (self.spread.told && !self.stated.likelier).then_some(self.spread.best)
+    }
+
+    /// The friction that goes with [`Self::told_spread`], or with supports as stated.
+    pub fn told_friction(&self) -> f64 {
+        if self.told_spread().is_some() { self.friction.best } else { self.stated.friction }
+    }
 }
 
 /// Fits spread and the pusher's friction to what was recorded, the same for all objects; `watch`
@@ -123,7 +151,7 @@ pub fn fit(
         return None;
     }
     let widths = Widths::of(settings.noise, mean(&motions));
-    let look = |what: &str, told: Vec<(Support, f64)>| -> Vec<Vec<Ended>> {
+    let look = |what: &str, told: Vec<(Option<Support>, f64)>| -> Vec<Vec<Ended>> {
         watch.stage(what);
         let count = Count::new(watch, 0, trials.len());
         let by_trial: Vec<Vec<Vec<Ended>>> = trials
@@ -139,7 +167,7 @@ pub fn fit(
         (0..told.len()).map(of).collect()
     };
     let over = |what: &str, grid: Grid| {
-        let told = grid.cells().map(|[spread, mu]| (Support::Spread(spread), mu)).collect();
+        let told = grid.cells().map(|[spread, mu]| (Some(Support::Spread(spread)), mu)).collect();
         let cells = look(what, told);
         let found: Vec<(f64, f64)> =
             cells.iter().map(|cell| widths.log_density(law, &residuals(cell))).collect();
@@ -147,26 +175,31 @@ pub fn fit(
         let posterior = Posterior::of(grid, &logs);
         let noise = found[posterior.best()].1;
         let best = cells[posterior.best()].clone();
-        (posterior, noise, best)
+        (posterior, noise, best, mean_log(&logs))
     };
     let axis = |span| Axis::over(span, values);
     let grid = Grid { spread: axis(settings.spread), friction: axis(settings.friction) };
-    let (rough, _, _) = over("roughly", grid);
+    let (rough, _, _, over_spreads) = over("roughly", grid);
     let most = rough.probabilities[rough.best()];
-    let (fine, noise, best) =
+    let (fine, noise, best, _) =
         over("finely", grid.around(|cell| rough.probabilities[cell] > UNLIKELY * most));
 
-    let with = |support: Support| {
-        let told: Vec<(Support, f64)> =
+    let rested = |support: Option<Support>| {
+        let told: Vec<(Option<Support>, f64)> =
             grid.friction.values().map(|friction| (support.clone(), friction)).collect();
-        let cells = look("even and on corners", told);
-        let likeliest = (0..cells.len()).max_by(|&a, &b| {
-            let log = |cell: usize| widths.log_density(law, &residuals(&cells[cell])).0;
-            log(a).total_cmp(&log(b))
-        });
-        let likeliest = likeliest.unwrap_or(0);
-        error(support, grid.friction.at(likeliest), &cells[likeliest])
+        let cells = look("even, on corners and as stated", told);
+        let log = |cell: &Vec<Ended>| widths.log_density(law, &residuals(cell)).0;
+        let logs: Vec<f64> = cells.iter().map(log).collect();
+        let likeliest = (0..logs.len()).max_by(|&a, &b| logs[a].total_cmp(&logs[b])).unwrap_or(0);
+        (grid.friction.at(likeliest), cells[likeliest].clone(), mean_log(&logs))
     };
+    let with = |support: Support| {
+        let (friction, ends, _) = rested(Some(support.clone()));
+        error(support, friction, &ends)
+    };
+    let (friction_as_stated, ends_as_stated, as_stated) = rested(None);
+    let SupportError { mean: mean_as_stated, median: median_as_stated, .. } =
+        error(Support::Even, friction_as_stated, &ends_as_stated);
     let [spread, friction] = fine.best_cell();
     Some(Fit {
         by: model.spec().clone(),
@@ -180,6 +213,12 @@ pub fn fit(
         best: error(Support::Spread(spread), friction, &best),
         even: with(Support::Even),
         corners: with(Support::Corners),
+        stated: AsStated {
+            friction: friction_as_stated,
+            mean: mean_as_stated,
+            median: median_as_stated,
+            likelier: as_stated >= over_spreads,
+        },
         rough,
         fine,
     })
@@ -193,7 +232,7 @@ struct Ended {
 }
 
 /// Which objects move by more than [`STILL`], in truth or as the model has them rest as stated.
-fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
+pub(super) fn moving(model: &dyn EffectModel, trial: &Trial) -> Vec<bool> {
     let start = trial.scene.start();
     let predicted = model.rollout(&trial.scene, &[trial.job()], Record::Outcome);
     let ends = predicted.first().and_then(|trajectory| trajectory.frames.last());
@@ -213,14 +252,16 @@ fn ends(
     model: &dyn EffectModel,
     trial: &Trial,
     moves: &[bool],
-    told: &[(Support, f64)],
+    told: &[(Option<Support>, f64)],
 ) -> Vec<Vec<Ended>> {
     let stated = trial.job();
     let jobs: Vec<Job> = told
         .iter()
         .map(|(support, friction)| {
             let mut physics = (*stated.physics).clone();
-            physics.support_all(&trial.scene, support);
+            if let Some(support) = support {
+                physics.support_all(&trial.scene, support);
+            }
             for index in 0..trial.scene.objects.len() {
                 physics = physics.with_pair(index, Surface::Tool, *friction);
             }
@@ -251,6 +292,12 @@ fn ends(
                 .collect()
         })
         .collect()
+}
+
+/// Logarithm of the mean of what `logs` are the logarithms of.
+fn mean_log(logs: &[f64]) -> f64 {
+    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    most + mean(&logs.iter().map(|log| (log - most).exp()).collect::<Vec<f64>>()).ln()
 }
 
 fn residuals(ends: &[Ended]) -> Vec<Residual> {

@@ -17,5 +17,5 @@ pub use features::{
     RELATION_ODD,
 };
 pub use given::Given;
-pub use node::{Correction, Node};
+pub use node::{Correction, Node, UNIT};
 pub use view::{Graph, GraphNode, GraphRelation, NodeKind, RelationName};

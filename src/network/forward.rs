@@ -7,7 +7,7 @@
 use crate::graph::{Batch, Correction, GIVEN, OUTPUT_EVEN, OUTPUT_ODD};
 
 use super::{
-    Config, Doubt, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
+    Config, Doubt, Head, Normaliser, Parameters, PredictorWeights, Rows, Statistics,
     parity::{Sum, rectify, rectify_rows},
 };
 
@@ -31,6 +31,7 @@ pub struct Forward {
     motion_even: Vec<f32>,
     motion_odd: Vec<f32>,
     doubt: Option<Doubt>,
+    head: Option<Head>,
 }
 
 /// Features to a hidden row, with the normaliser folded in.
@@ -120,6 +121,7 @@ impl Forward {
             motion_even: get("motion.even"),
             motion_odd: get("motion.odd"),
             doubt: None,
+            head: None,
         }
     }
 
@@ -157,6 +159,15 @@ impl Forward {
         Self { steps, ..self }
     }
 
+    /// The same with `head` added to its last layer; one that changes nothing leaves every bit.
+    ///
+    /// # Panics
+    /// If it is of another width.
+    pub fn with_head(self, head: &Head) -> Self {
+        assert_eq!(head.half(), self.half, "a head of another width");
+        Self { head: (!head.is_none()).then(|| head.clone()), ..self }
+    }
+
     /// Floating-point operations of the matrix products in one [`Forward::run`], counting a
     /// multiplication and an addition each.
     pub fn operations(&self, batch: &Batch) -> u64 {
@@ -181,6 +192,9 @@ impl Forward {
                 Correction { output, doubt: None }
             },
         ));
+        if let Some(head) = &self.head {
+            head.add(&w.next, corrections);
+        }
         if let Some(doubt) = &self.doubt {
             // Its even half, [N, h].
             let rows = w.hidden().chunks_exact(self.half);
@@ -207,6 +221,7 @@ impl Forward {
         w.even.clear();
         w.odd.clear();
         if n == 0 {
+            w.next.clear();
             return (&w.even, &w.odd);
         }
         self.relation.run(

@@ -9,6 +9,7 @@
 mod config;
 mod doubt;
 mod forward;
+mod head;
 mod lever;
 mod normaliser;
 mod parameters;
@@ -22,6 +23,7 @@ mod weights;
 pub use config::Config;
 pub use doubt::Doubt;
 pub use forward::{Buffers, Forward, matrix_product};
+pub use head::{HEAD_OUTPUTS, Head};
 pub use lever::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
     fresh_lever_values, lever_layout, tanh,

@@ -181,8 +181,11 @@ impl<C: Card> Weights<C> {
         Ok(weights)
     }
 
-    /// Checksum of the card and of every tensor with its name, hexadecimal.
-    fn checksum(&self) -> Result<String, WeightsError> {
+    /// Checksum of the card and of every tensor with its name, hexadecimal: which weights they are.
+    ///
+    /// # Errors
+    /// If the card cannot be written.
+    pub fn checksum(&self) -> Result<String, WeightsError> {
         let card = serde_json::to_string(&self.card)?;
         let sum = self.parameters.values.iter().fold(checksum(card.as_bytes()), |sum, tensor| {
             let (name, values) = tensor;

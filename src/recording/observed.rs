@@ -33,6 +33,9 @@ pub struct RecordedFrame {
     pub tool: Pose,
     /// Whether the pusher was lifted before this frame and set down here.
     pub lifted: bool,
+    /// Whether the objects were seen, not only the pusher; where not, their poses are those of the
+    /// frame before.
+    pub seen: bool,
     /// Poses of the objects; headings that were not recorded are those of the start.
     pub poses: Vec<Pose>,
 }
@@ -52,13 +55,20 @@ impl Recording {
                 // Setting the tool down takes no time in a simulation; here it must take some.
                 let time = before.time + late + COAST_FRAME;
                 let poses = before.state.poses.clone();
-                recorded.push(RecordedFrame { time, tool: stroke.from, lifted: true, poses });
+                recorded.push(RecordedFrame {
+                    time,
+                    tool: stroke.from,
+                    lifted: true,
+                    seen: true,
+                    poses,
+                });
                 late += COAST_FRAME;
             }
             recorded.push(RecordedFrame {
                 time: frame.time + late,
                 tool: frame.tool,
                 lifted: false,
+                seen: true,
                 poses: frame.state.poses.clone(),
             });
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::geometry::Pose;
 use crate::scene::{COAST_FRAME, FRAME_TRAVEL, Stroke, ToolMotion};
 
-use super::observed::{RecordedFrame, Recording};
+use super::observed::Recording;
 
 /// A pusher that moves less than this between frames stands still, metres and radians: trackers
 /// jitter by this much.
@@ -41,7 +41,8 @@ pub struct Instant {
 
 impl Recording {
     /// The pusher's motion. Frames are joined as far as the pusher moves straight and evenly,
-    /// up to the travel of a model's frame; longer steps are cut by the stroke itself.
+    /// up to the travel of a model's frame. Longer steps are cut by the stroke itself, and those in
+    /// which the pusher turns by the travel of what it touches with.
     pub fn replay(&self) -> Replay {
         let frames = &self.frames;
         let motion =
@@ -51,24 +52,55 @@ impl Recording {
         let mut at = first.tool;
         let mut from = 0;
         while from + 1 < frames.len() {
-            let to = reach(frames, from, &at);
+            let to = self.reach(from, &at);
             if frames[to].lifted {
                 replay.settle();
                 at = frames[to].tool;
                 let stroke = replay.motion.strokes.len();
                 // Before any stroke there is nothing to wait for.
-                if let Some(stroke) = stroke.checked_sub(1) {
+                if let Some(stroke) = stroke.checked_sub(1).filter(|_| frames[to].seen) {
                     replay.instants.push(Instant { frame: to, stroke, settled: true });
                 }
             } else {
                 let duration = frames[to].time - frames[from].time;
                 replay.move_to(&mut at, frames[to].tool, duration);
                 let stroke = replay.motion.strokes.len() - 1;
-                replay.instants.push(Instant { frame: to, stroke, settled: false });
+                if frames[to].seen {
+                    replay.instants.push(Instant { frame: to, stroke, settled: false });
+                }
             }
             from = to;
         }
         replay
+    }
+
+    /// The last frame that one stroke from frame `from`, with the pusher at `at`, can end with.
+    fn reach(&self, from: usize, at: &Pose) -> usize {
+        let frames = &self.frames;
+        let mut to = from + 1;
+        if frames[to].lifted {
+            return to;
+        }
+        while to + 1 < frames.len() && !frames[to + 1].lifted && self.one_stroke(from, to + 1, at) {
+            to += 1;
+        }
+        to
+    }
+
+    /// Whether the pusher moves evenly from `at` in frame `from` to its pose in frame `to`.
+    fn one_stroke(&self, from: usize, to: usize, at: &Pose) -> bool {
+        let frames = &self.frames;
+        let (start, end) = (frames[from].time, frames[to].time);
+        if stands(at, &frames[to].tool) {
+            let still = frames[from..=to].iter().all(|frame| stands(at, &frame.tool));
+            return still && end - start <= COAST_FRAME * (1.0 + 1e-6);
+        }
+        self.tool.travel(at, &frames[to].tool) <= FRAME_TRAVEL * (1.0 + 1e-6)
+            && frames[from + 1..to].iter().all(|frame| {
+                let even = at.towards(&frames[to].tool, (frame.time - start) / (end - start));
+                (frame.tool.position - even.position).norm() <= STRAIGHT
+                    && (frame.tool.heading - even.heading).abs() <= STRAIGHT_TURN
+            })
     }
 }
 
@@ -81,6 +113,7 @@ impl Replay {
 
     /// Adds the strokes that bring the pusher from `at` to `to`.
     fn move_to(&mut self, at: &mut Pose, to: Pose, duration: f64) {
+        let tool = Arc::clone(&self.motion.tool);
         let mut push = |from, to, duration| {
             self.motion.strokes.push(Stroke { from, to, duration, settle: false });
         };
@@ -91,38 +124,18 @@ impl Replay {
                 push(*at, *at, duration / pieces);
             }
         } else {
-            push(*at, to, duration);
+            // A stroke is cut by the way of the tool's frame; what a turning tool touches with can go
+            // much farther.
+            let travel = tool.travel(at, &to);
+            let turns = at.heading != to.heading;
+            let pieces = if turns { (travel / FRAME_TRAVEL - 1e-6).ceil().max(1.0) } else { 1.0 };
+            let place = |k: f64| if k < pieces { at.towards(&to, k / pieces) } else { to };
+            for k in 0..pieces as usize {
+                push(place(k as f64), place(k as f64 + 1.0), duration / pieces);
+            }
             *at = to;
         }
     }
-}
-
-/// The last frame that one stroke from frame `from`, with the pusher at `at`, can end with.
-fn reach(frames: &[RecordedFrame], from: usize, at: &Pose) -> usize {
-    let mut to = from + 1;
-    if frames[to].lifted {
-        return to;
-    }
-    while to + 1 < frames.len() && !frames[to + 1].lifted && one_stroke(frames, from, to + 1, at) {
-        to += 1;
-    }
-    to
-}
-
-/// Whether the pusher moves evenly from `at` in frame `from` to its pose in frame `to`.
-fn one_stroke(frames: &[RecordedFrame], from: usize, to: usize, at: &Pose) -> bool {
-    let (start, end) = (frames[from].time, frames[to].time);
-    if stands(at, &frames[to].tool) {
-        let still = frames[from..=to].iter().all(|frame| stands(at, &frame.tool));
-        return still && end - start <= COAST_FRAME * (1.0 + 1e-6);
-    }
-    let travel = (frames[to].tool.position - at.position).norm();
-    travel <= FRAME_TRAVEL * (1.0 + 1e-6)
-        && frames[from + 1..to].iter().all(|frame| {
-            let even = at.towards(&frames[to].tool, (frame.time - start) / (end - start));
-            (frame.tool.position - even.position).norm() <= STRAIGHT
-                && (frame.tool.heading - even.heading).abs() <= STRAIGHT_TURN
-        })
 }
 
 fn stands(at: &Pose, to: &Pose) -> bool {

@@ -4,6 +4,7 @@ use serde_json::json;
 
 use crate::fit::{Estimate, Fit, Posterior, SupportError};
 use crate::geometry::Vector;
+use crate::scene::TableFit;
 
 use super::chart::{CORNER, FAINT_INK, INK, SIZE};
 use super::document::{Document, Figure, Section};
@@ -85,6 +86,34 @@ pub fn fit_document(fit: &Fit, objects: &[&str]) -> Document {
         ],
         json: json!({"fit": fit}),
         ..Document::default()
+    }
+}
+
+/// What the network learnt beside these numbers.
+pub fn table_fit_section(fit: &TableFit) -> Section {
+    let changed = fit.head.iter().any(|value| *value != 0.0);
+    let head = match changed {
+        true => format!(
+            "It learnt {} numbers from {} pushes, each within {:.2} before them.",
+            fit.head.len(),
+            fit.pushes,
+            fit.spread.prior
+        ),
+        false => "It learnt nothing: pushes left out are not predicted better.".to_owned(),
+    };
+    let support = match fit.support {
+        Some(spread) => format!("objects rest at {spread:.2}"),
+        None => "objects rest as stated".to_owned(),
+    };
+    let friction = match fit.friction {
+        Some(friction) => format!("friction with the tool {friction:.2}"),
+        None => "friction as stated".to_owned(),
+    };
+    let noise = format!("noise of {}", fine_millimetres(fit.noise));
+    Section {
+        title: "The network on this table".into(),
+        lines: vec![head, format!("With it: {support}, {friction}, {noise}.")],
+        ..Section::default()
     }
 }
 

@@ -31,7 +31,7 @@ pub use bars::{BarChart, Bars};
 pub use belief::belief_document;
 pub use chart::{Axis, Chart, Mark, Series};
 pub use document::{Document, Drawing, Figure, Section};
-pub use fit::fit_document;
+pub use fit::{fit_document, table_fit_section};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
     Origin, PageView, Recipe, Setting, prediction_page, recording_page, run_page, solution_page,

@@ -74,9 +74,13 @@ impl Physics {
 
     /// Lets all objects rest on the table in this way.
     pub fn support_all(&mut self, scene: &Scene, support: &Support) {
-        for (feet, object) in self.feet.iter_mut().zip(&scene.objects) {
-            *feet = Arc::new(Feet::new(support, &object.shape.footprint()));
-        }
+        (0..scene.objects.len()).for_each(|index| self.support(scene, index, support));
+    }
+
+    /// Lets object `index` rest on the table in this way.
+    pub fn support(&mut self, scene: &Scene, index: usize, support: &Support) {
+        let footprint = scene.objects[index].shape.footprint();
+        self.feet[index] = Arc::new(Feet::new(support, &footprint));
     }
 
     /// Coefficient of friction between object `index` and the table.

@@ -16,6 +16,9 @@ use super::{Blade, DisjointSets};
 /// Wide enough for the rounding of sizes written in whole millimetres and turned by degrees.
 pub const JOIN_GAP: f64 = 1e-4;
 
+/// Turns by so much are taken for straight, radians: an arc is then 0.2 % longer than its chord.
+const EVEN_TURN: f64 = 0.2;
+
 /// One solid of a tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
@@ -265,6 +268,28 @@ impl Tool {
     /// Pose of the tool frame in the world when the end effector is at `end_effector`.
     pub fn pose(&self, end_effector: Pose) -> Pose {
         end_effector * self.grip.inverse()
+    }
+
+    /// The farthest that anything of its outline goes while its frame moves evenly between two poses,
+    /// metres, or a little more. Where it does not turn, that is the way of its frame.
+    pub fn travel(&self, from: &Pose, to: &Pose) -> f64 {
+        let way = to.position - from.position;
+        let turn = (to.heading - from.heading).abs();
+        if turn == 0.0 || self.outline.is_empty() {
+            return way.norm();
+        }
+        let pieces = (turn / EVEN_TURN).ceil();
+        let of = |piece: &Piece| {
+            let at = |k: f64| from.towards(to, k / pieces).point(piece.pose.position);
+            let centre: f64 =
+                (0..pieces as usize).map(|k| (at(k as f64 + 1.0) - at(k as f64)).norm()).sum();
+            match piece.shape {
+                // A round piece that turns about its middle moves nothing.
+                Shape::Cylinder { .. } => centre,
+                _ => centre + turn * piece.footprint().bounding_radius(),
+            }
+        };
+        self.outline.iter().map(of).fold(0.0, f64::max)
     }
 
     /// Pose of part `index` in the world when the tool frame is at `tool`.

@@ -10,8 +10,8 @@ use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
 use crate::scene::{
-    ModelKind, Models, Outcome, Plan, Push, Record, Situation, State, Task, Tool, ToolMotion,
-    Trajectory, Warning,
+    ModelKind, Models, Outcome, Plan, Push, Record, Situation, State, TableFit, Task, Tool,
+    ToolMotion, Trajectory, Warning,
 };
 use crate::watch::{Until, Unwatched, Watch};
 
@@ -127,10 +127,18 @@ impl Planner {
     /// # Errors
     /// [`ModelError`] if they need weights that cannot be used.
     pub fn with_models(models: &Models) -> Result<PlannerBuilder, ModelError> {
-        let planner = Self::builder(EffectModels::build(&models.decided)?);
+        Self::fitted(models, None)
+    }
+
+    /// The same on a table of which a network has learnt something.
+    ///
+    /// # Errors
+    /// As those of [`Self::with_models`]; a fit of another network.
+    pub fn fitted(models: &Models, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
+        let planner = Self::builder(EffectModels::fitted(&models.decided, fit)?);
         Ok(match models.is_one() {
             true => planner,
-            false => planner.screened_by(EffectModels::build(&models.screened)?),
+            false => planner.screened_by(EffectModels::fitted(&models.screened, fit)?),
         })
     }
 

@@ -51,7 +51,7 @@ const ROOMS: [(&str, &str); 23] = [
     ("rollout", "geometry scene contact graph"),
     ("effect", "geometry scene sim graph network rollout"),
     ("judge", "geometry scene recording sim effect"),
-    ("fit", "scene effect judge"),
+    ("fit", "geometry scene network effect judge"),
     ("belief", "geometry scene network effect"),
     ("plan", "geometry scene effect"),
     // Not `plan`: the check shares no code with what it checks.
@@ -82,7 +82,7 @@ const DOORS: [(&str, &str); 28] = [
     ("serde_yaml", "asset"),
     ("rapier2d", "sim"),
     ("rapier3d_f64", "sim"),
-    ("nalgebra", "geometry contact belief plan import"),
+    ("nalgebra", "geometry contact fit belief plan import"),
     ("roxmltree", "import"),
     ("mcap", "export"),
     ("zip", "learn/dataset"),

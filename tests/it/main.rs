@@ -48,6 +48,7 @@ mod sharding;
 mod shards;
 mod simulation;
 mod solving;
+mod table_fit;
 mod tool_choice;
 mod tool_graph;
 mod verification;

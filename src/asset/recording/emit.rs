@@ -23,7 +23,8 @@ impl Recording {
             Fault::of_file(&name, format!("cannot write it as JSON: {error}"), "")
         })?;
         // One frame a line: readable, and half as long as with one number a line.
-        let text = text.replace("{\"objects\":", "\n{\"objects\":") + "\n";
+        let text = text.replace("{\"objects\":", "\n{\"objects\":");
+        let text = text.replace("{\"pusher\":[", "\n{\"pusher\":[") + "\n";
         Self::parse(&text, &name)?;
         write_atomic(path, text.as_bytes())
     }
@@ -39,7 +40,10 @@ impl Recording {
             .map(|frame| {
                 let poses = frame.poses.iter().zip(&self.headings);
                 let objects: Vec<Json> = poses.map(|(at, known)| pose(at, *known)).collect();
-                let mut json = json!({"pusher": pose(&frame.tool, true), "objects": objects});
+                let mut json = json!({"pusher": pose(&frame.tool, true)});
+                if frame.seen {
+                    json["objects"] = json!(objects);
+                }
                 if frame.lifted {
                     json["lifted"] = json!(true);
                 }

@@ -61,7 +61,14 @@ pub(super) fn frames(
     ledger: &mut Ledger,
 ) -> Option<(Vec<RecordedFrame>, Vec<bool>)> {
     let nodes = root.get("frames")?.items();
-    let first = nodes.first()?;
+    let (first, last) = (nodes.first()?, nodes.last()?);
+    for (frame, which) in [(first, "first"), (last, "last")] {
+        if frame.get("objects").is_none() {
+            let message = format!("the {which} frame does not say where the objects are");
+            ledger.fault(frame, message, "add `objects`; only frames between may leave it out");
+            return None;
+        }
+    }
     let sizes = |frame: &Node| -> Option<Vec<usize>> {
         let poses = frame.get("objects")?.items();
         Some(frame.get("pusher").into_iter().chain(poses).map(|pose| pose.items().len()).collect())
@@ -102,7 +109,8 @@ fn frame(
     usual: &[usize],
     ledger: &mut Ledger,
 ) -> Option<RecordedFrame> {
-    let (pusher, list) = (node.get("pusher")?, node.get("objects")?);
+    let pusher = node.get("pusher")?;
+    let Some(list) = node.get("objects") else { return unseen(index, pusher, node, usual, ledger) };
     let (found, expected) = (list.items().len(), objects.len());
     if found != expected && found > 0 {
         let message = format!("frame {index}: expected {expected} poses, found {found}");
@@ -121,16 +129,38 @@ fn frame(
             sound = false;
         }
     }
-    let pose = |node: &Node| -> Option<Pose> {
-        let heading = match node.items().get(2) {
-            Some(yaw) => yaw.number()?.to_radians(),
-            None => 0.0,
-        };
-        Some(Pose { position: vector(node)?, heading })
-    };
     let poses = list.items().iter().map(pose).collect::<Option<_>>()?;
-    let lifted = index > 0 && node.get("lifted").and_then(Node::switch).unwrap_or(false);
-    sound.then_some(RecordedFrame { time: 0.0, tool: pose(pusher)?, lifted, poses })
+    let (tool, lifted) = (pose(pusher)?, lifted(index, node));
+    sound.then_some(RecordedFrame { time: 0.0, tool, lifted, seen: true, poses })
+}
+
+/// A frame of the pusher alone; the poses of the objects are filled in later.
+fn unseen(
+    index: usize,
+    pusher: &Node,
+    node: &Node,
+    usual: &[usize],
+    ledger: &mut Ledger,
+) -> Option<RecordedFrame> {
+    if usual.first().is_some_and(|usual| *usual != pusher.items().len()) {
+        let message = format!("frame {index} has not as many numbers for the pusher as frame 0");
+        ledger.fault(pusher, message, "give a body's heading in all frames or in none");
+        return None;
+    }
+    let (tool, lifted) = (pose(pusher)?, lifted(index, node));
+    Some(RecordedFrame { time: 0.0, tool, lifted, seen: false, poses: Vec::new() })
+}
+
+fn pose(node: &Node) -> Option<Pose> {
+    let heading = match node.items().get(2) {
+        Some(yaw) => yaw.number()?.to_radians(),
+        None => 0.0,
+    };
+    Some(Pose { position: vector(node)?, heading })
+}
+
+fn lifted(index: usize, node: &Node) -> bool {
+    index > 0 && node.get("lifted").and_then(Node::switch).unwrap_or(false)
 }
 
 /// Notes jumps, and makes headings count their turns on the way.
@@ -143,6 +173,9 @@ fn steps(
     for k in 1..frames.len() {
         let (before, now) = frames.split_at_mut(k);
         let (Some(before), Some(now)) = (&before[k - 1], &mut now[0]) else { continue };
+        if !now.seen {
+            now.poses.clone_from(&before.poses);
+        }
         now.unwrap_after(before);
         for Jump { body, what } in jumps(before, now) {
             let (name, place, advice) = match body {

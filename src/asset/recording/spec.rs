@@ -121,10 +121,11 @@ const TIME: Value = Value::Number(Range {
 
 const FRAME: Value = Value::Map(&[
     Key::required("pusher", POSE, "Where the pusher is, [x, y] or [x, y, yaw_deg]."),
-    Key::required(
+    Key::optional(
         "objects",
         Value::List { of: &POSE, items: "poses, one per object", min: 1, max: 64 },
-        "Where each object is, [x, y] or [x, y, yaw_deg], in the order of the scene.",
+        "Where each object is, [x, y] or [x, y, yaw_deg], in the order of the scene; may be left out \
+         between the first and the last frame, where only the pusher was seen.",
     ),
     Key::optional(
         "lifted",

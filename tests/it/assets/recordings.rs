@@ -297,3 +297,31 @@ fn off(recording: &Recording, trajectory: &Trajectory) -> f64 {
     }
     largest
 }
+
+/// A pusher that turns about the middle of its frame goes nowhere, but its ends do.
+#[test]
+fn frames_of_a_turning_pusher_are_cut_by_the_travel_of_its_tips() {
+    let text = "
+schema_version: 1
+kind: recording
+scene: {objects: [{name: can, shape: {cylinder: {radius: 0.02, height: 0.1}}}]}
+pusher: {tool: {name: bar, grip: {position: [0, 0]}, parts: [{name: bar, size: [0.02, 0.20, 0.05], position: [0, 0]}]}}
+times: [0, 1, 2]
+frames:
+  - {pusher: [0, 0, 0], objects: [[0.10, 0.05]]}
+  - {pusher: [0, 0, -20]}
+  - {pusher: [0, 0, -40], objects: [[0.11, 0.05]]}
+";
+    let recording = parse(text).expect("a sound recording");
+    assert!(!recording.frames[1].seen && recording.frames[2].seen);
+    let replay = recording.replay();
+    // 10 cm times 0.7 radians, and a little more for the corners.
+    assert!((7..=9).contains(&replay.motion.strokes.len()), "{}", replay.motion.strokes.len());
+    // Only where the can was seen can anything be compared.
+    let instants: Vec<usize> = replay.instants.iter().map(|instant| instant.frame).collect();
+    assert_eq!(instants, [2]);
+    let last = replay.motion.strokes.last().expect("it moves");
+    assert_eq!(last.to, recording.frames[2].tool);
+    let missing = parse(&text.replace(", objects: [[0.11, 0.05]]", "")).expect_err("a fault");
+    assert!(missing.to_string().contains("the last frame does not say"), "{missing}");
+}

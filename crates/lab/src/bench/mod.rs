@@ -3,6 +3,7 @@
 //! Everything is seeded, takes any [`pushplan::EffectModel`] and gives plain data that can
 //! be written as JSON; nothing is drawn here.
 
+mod adapted;
 mod baselines;
 mod belief;
 mod calibration;
@@ -22,6 +23,7 @@ mod suite;
 mod timing;
 mod tradeoff;
 
+pub use adapted::{AdaptedPush, AdaptedRow, Ratio, Split, adapted_rows, measure_split, splits};
 pub use baselines::{crowd_baselines, push_baselines};
 pub use belief::{
     Asked, BeliefCase, BeliefRecord, BeliefStep, BeliefSuite, BeliefSummary, Checkpoint,

@@ -13,8 +13,8 @@ use pushplan::cli::session::{GlobalArgs, Session};
 use pushplan::cli::{exit_code, start};
 
 use super::{
-    convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers, masses,
-    probes, random, refinement, rest_of_way, tradeoff, train,
+    adapted, convergence, cost, evaluate, hdd, joints, kept, lever_points, lever_tasks, levers,
+    masses, probes, random, refinement, rest_of_way, tradeoff, train,
 };
 
 /// Measures what pushplan publishes: errors, costs, success, beliefs and trade-offs.
@@ -30,6 +30,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Evaluate(evaluate::EvaluateArgs),
+    Adapted(adapted::AdaptedArgs),
     Tradeoff(tradeoff::TradeOffArgs),
     Random(SuiteArgs<random::RandomArgs>),
     Run(SuiteArgs<super::run::RunArgs>),
@@ -52,7 +53,7 @@ enum Command {
 
 /// What the commands are for, in the order of `--help`.
 const GROUPS: Groups = &[
-    ("Prediction", &["evaluate", "cost"]),
+    ("Prediction", &["evaluate", "adapted", "cost"]),
     ("Planning", &["random", "run", "refinement", "tradeoff"]),
     ("Belief", &["joints", "rest-of-way", "masses", "probes"]),
     ("Levering", &["levers", "lever-tasks", "lever-points", "hdd", "convergence", "train"]),
@@ -67,6 +68,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
 fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
         Command::Evaluate(args) => evaluate::run(args, session).map(drop)?,
+        Command::Adapted(args) => adapted::run(args, session).map(drop)?,
         Command::Tradeoff(args) => tradeoff::run(args, session).map(drop)?,
         Command::Random(args) => args.run(session)?,
         Command::Run(args) => args.run(session)?,

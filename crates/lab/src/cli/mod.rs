@@ -1,5 +1,6 @@
 //! The command `pushplan-lab`: one file per subcommand.
 
+mod adapted;
 mod app;
 mod convergence;
 mod cost;

@@ -1,5 +1,6 @@
 //! Results of the laboratory as documents: values in, tables and charts out.
 
+mod adapted;
 mod closed;
 mod convergence;
 mod cost;
@@ -16,6 +17,7 @@ mod random;
 mod refinement;
 mod tradeoff;
 
+pub use adapted::adapted_document;
 pub use closed::{ClosedRun, closed_document};
 pub use convergence::convergence_document;
 pub use cost::{cost_document, crowd_cost_document, equation_document, far_document};

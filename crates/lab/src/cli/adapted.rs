@@ -1,0 +1,80 @@
+//! `pushplan-lab adapted`: what a network gains that is fitted to a table.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use pushplan::cli::error::CliError;
+use pushplan::cli::form::Form;
+use pushplan::cli::model;
+use pushplan::cli::recordings::load_recordings;
+use pushplan::cli::session::Session;
+use pushplan::internals::effect::Network;
+use pushplan::internals::judge::Trial;
+use pushplan::internals::scene::{ModelKind, ModelSpec};
+use rayon::prelude::*;
+
+use crate::bench::{adapted_rows, measure_split, splits};
+use crate::report::adapted_document;
+
+/// Errors on recorded pushes of a network that was fitted to others of the same table
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Every folder is a set, of one object or support. New pushes are drawn from \
+all sets together; then
+each set is left out in turn."
+)]
+pub struct AdaptedArgs {
+    /// Folders of recordings
+    #[arg(required = true, value_name = "RECORDINGS")]
+    recordings: Vec<PathBuf>,
+    /// Weights file of the network [default: the shipped one]
+    #[arg(long, value_name = "MODEL", default_value = model::DEFAULT)]
+    model: ModelSpec,
+    /// Numbers of pushes to learn from
+    #[arg(long, value_name = "N", value_delimiter = ',', default_value = "20,50,100")]
+    learn: Vec<usize>,
+    /// Random draws of each number
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    draws: u32,
+    /// Seed of the draws
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    seed: u64,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub fn run(args: &AdaptedArgs, session: &Session) -> Result<u8, CliError> {
+    let sets = load_recordings(&args.recordings)?;
+    let mut trials: Vec<Trial> = Vec::new();
+    let mut ranges = Vec::new();
+    for set in &sets {
+        let first = trials.len();
+        trials.extend(set.recordings.iter().map(Trial::of_recording));
+        ranges.push((set.title.clone(), first..trials.len()));
+    }
+    let Some(weights) = model::weights(&args.model)? else {
+        return Err(CliError::usage("only a network has a head", "use --model network"));
+    };
+    let ModelKind::Network { .. } = args.model.first().kind else {
+        return Err(CliError::usage("only a network has a head", "use --model network"));
+    };
+    let network = Network::new(weights);
+    let splits = splits(&ranges, &args.learn, args.draws, args.seed);
+    let measured = session.compute(|| {
+        let of = |split| measure_split(&network, &trials, split);
+        splits.par_iter().map(of).collect::<Result<Vec<_>, _>>()
+    });
+    let measured =
+        measured.map_err(|error| CliError::unexpected("cannot name the weights", &error))?;
+    let found: Vec<_> = splits
+        .iter()
+        .zip(measured)
+        .filter_map(|(split, found)| {
+            let (table, pushes) = found?;
+            let learnt = table.head.iter().any(|value| *value != 0.0);
+            Some((split.title.clone(), split.asked, learnt, pushes))
+        })
+        .collect();
+    args.form.show(session, &adapted_document(&adapted_rows(&found), args.draws, args.seed))?;
+    Ok(pushplan::cli::exit_code::DONE)
+}

@@ -1,0 +1,37 @@
+//! What a network gains that is fitted to a table.
+
+use pushplan::internals::report::Align::{Left, Right};
+use pushplan::internals::report::{Document, Section, Table};
+use serde_json::json;
+
+use crate::bench::{AdaptedRow, Ratio};
+
+/// Ratios of mean final errors, over `draws` random draws of `seed`.
+pub fn adapted_document(rows: &[AdaptedRow], draws: u32, seed: u64) -> Document {
+    let ratio =
+        |of: &Ratio| format!("{:.3} ({:.3} to {:.3})", of.value, of.interval.low, of.interval.high);
+    let table = Table::of(
+        rows,
+        &[
+            ("predicted", Left, &|row: &&AdaptedRow| row.title.clone()),
+            ("learnt from", Right, &|row| row.learnt.to_string()),
+            ("pushes", Right, &|row| row.predicted.to_string()),
+            ("with a head", Right, &|row| format!("{:.0} %", 100.0 * row.heads)),
+            ("prior as shipped", Right, &|row| format!("{:.3} mm", 1e3 * row.shipped)),
+            ("against it", Right, &|row| ratio(&row.against_shipped)),
+            ("against the prior after fit", Right, &|row| ratio(&row.against_prior)),
+            ("without head", Right, &|row| ratio(&row.network)),
+            ("turn", Right, &|row| ratio(&row.turn)),
+            ("inside 90 %", Right, &|row| format!("{:.1} %", 100.0 * row.inside)),
+        ],
+    );
+    Document {
+        title: format!(
+            "Mean final error of the network fitted to a table, {draws} draws of seed {seed}, \
+             intervals of 95 %"
+        ),
+        sections: vec![Section { table, ..Section::default() }],
+        json: json!({"adapted": rows}),
+        ..Document::default()
+    }
+}

@@ -1,0 +1,175 @@
+//! Files of what was learnt about a table: small, checked, and never of another network.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::checksum::checksum;
+use crate::scene::TableFit;
+
+use super::fault::{Fault, Faults, Place};
+use super::text::read_text;
+use super::write_atomic;
+
+/// Version of the form of these files.
+const FIT_VERSION: u32 = 1;
+
+/// What `kind` says in them.
+const KIND: &str = "table_fit";
+
+/// What is looked at first: another version may have other keys.
+#[derive(Deserialize)]
+struct Form {
+    schema_version: u32,
+    kind: String,
+}
+
+/// The whole file.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Whole {
+    schema_version: u32,
+    kind: String,
+    /// Of `fit` as it is written, hexadecimal.
+    checksum: String,
+    fit: TableFit,
+}
+
+impl TableFit {
+    /// Reads a file that [`TableFit::write`] wrote.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is of another kind or version, is damaged, or holds numbers that
+    /// no fit has.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Faults> {
+        let (file, text) = read_text(path.as_ref())?;
+        Self::parse(&text, &file).map_err(Faults::from)
+    }
+
+    /// Reads a file's text; `file` names it in faults.
+    ///
+    /// # Errors
+    /// As [`TableFit::load`].
+    pub fn parse(text: &str, file: &str) -> Result<Self, Fault> {
+        let again = "make it again with `pushplan fit RECORDINGS --save-fit FILE`";
+        let broken = |error: serde_json::Error| {
+            let message = error.to_string();
+            let message = message.split(" at line ").next().unwrap_or_default();
+            let place = Some(Place::in_json(text, error.line(), error.column()));
+            Fault { file: file.into(), place, message: message.into(), advice: again.into() }
+        };
+        let Form { schema_version, kind } = serde_json::from_str(text).map_err(broken)?;
+        if kind != KIND {
+            let message = format!("expected a fit of a table, found the kind `{kind}`");
+            return Err(Fault::of_file(file, message, again));
+        }
+        if schema_version != FIT_VERSION {
+            let message = format!(
+                "the fit is of version {schema_version}, this program reads version {FIT_VERSION}"
+            );
+            return Err(Fault::of_file(file, message, again));
+        }
+        let Whole { checksum: written, fit, .. } = serde_json::from_str(text).map_err(broken)?;
+        let found = fit.checksum();
+        if written != found {
+            let message = format!(
+                "the fit is damaged: its checksum is {found}, but was {written} when it was written"
+            );
+            return Err(Fault::of_file(file, message, again));
+        }
+        match unsound(&fit) {
+            None => Ok(fit),
+            Some(what) => Err(Fault::of_file(file, format!("no fit has {what}"), again)),
+        }
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        let whole = Whole {
+            schema_version: FIT_VERSION,
+            kind: KIND.into(),
+            checksum: self.checksum(),
+            fit: self.clone(),
+        };
+        serde_json::to_string(&whole).unwrap_or_default() + "\n"
+    }
+
+    /// Writes the file; a partial one is never left behind.
+    ///
+    /// # Errors
+    /// A path that cannot be written.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Faults> {
+        write_atomic(path, self.to_json().as_bytes())
+    }
+
+    /// Checksum of all its numbers, hexadecimal.
+    pub fn checksum(&self) -> String {
+        format!("{:016x}", checksum(serde_json::to_string(self).unwrap_or_default().as_bytes()))
+    }
+}
+
+/// What of it no fit has.
+fn unsound(fit: &TableFit) -> Option<&'static str> {
+    // No correction of a frame is longer than a metre.
+    const LARGEST: f64 = 100.0;
+    let small = |value: &f64| value.abs() <= LARGEST;
+    let positive = |value: f64| (0.0..=LARGEST).contains(&value);
+    let directions = &fit.spread.directions;
+    let fits = |length: usize| length == fit.head.len();
+    if !fit.head.iter().all(small) {
+        Some("a head with such numbers")
+    } else if !positive(fit.spread.prior) || !positive(fit.noise) {
+        Some("such a width")
+    } else if !directions.iter().all(|one| fits(one.direction.len())) {
+        Some("directions of another length than its head")
+    } else if !directions.iter().all(|one| (0.0..=1.0).contains(&one.left)) {
+        Some("such a share of the prior's variance")
+    } else if fit.friction.is_some_and(|friction| !positive(friction)) {
+        Some("such a friction")
+    } else if fit.support.is_some_and(|support| !(0.0..=1.0).contains(&support)) {
+        Some("such a support")
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Shape;
+    use crate::scene::{FittedObject, HeadSpread, Narrowed};
+
+    fn some() -> TableFit {
+        let shape = Shape::Cylinder { radius: 0.05, height: 0.1 };
+        let direction = vec![0.6, -0.8];
+        TableFit {
+            weights: "0123".into(),
+            head: vec![0.1, -1.0 / 3.0],
+            spread: HeadSpread { prior: 0.08, directions: vec![Narrowed { left: 0.2, direction }] },
+            noise: 6.2e-4,
+            friction: Some(0.47),
+            support: None,
+            table_friction: 0.3,
+            objects: vec![FittedObject { name: "can".into(), shape, mass: 0.4 }],
+            pushes: 20,
+        }
+    }
+
+    #[test]
+    fn a_fit_is_read_as_it_was_written() {
+        assert_eq!(TableFit::parse(&some().to_json(), "table.fit.json"), Ok(some()));
+    }
+
+    #[test]
+    fn damaged_files_and_those_of_another_kind_are_refused() {
+        let text = some().to_json();
+        let message =
+            |text: &str| TableFit::parse(text, "table.fit.json").expect_err("a fault").message;
+        assert!(message(&text.replace("0.47", "0.48")).contains("damaged"));
+        assert!(message(&text.replace("table_fit", "plan")).contains("expected a fit"));
+        assert!(message(&text.replace("version\":1", "version\":9")).contains("version 9"));
+        assert!(message(&text[..text.len() / 2]).contains("EOF"));
+        let wild = TableFit { head: vec![1e9, 0.0], ..some() };
+        assert!(message(&wild.to_json()).contains("no fit has"));
+    }
+}

@@ -1,0 +1,182 @@
+//! How the end of a rollout follows a change of the network's last layer.
+//!
+//! The output of a frame is linear in the last layer, so what a change of it does to the pose of
+//! an object in that frame is exact. What becomes of such a change until the end (an object that
+//! is moved away from the tool is met the later) is told by rollouts of the rest of the way from
+//! slightly moved poses. With z the hidden row, p the poses after frame t and e those at the end,
+//!
+//! ```text
+//! de/dθ = Σ_t  de/dp_t · dp_t/do_t · z_t         o = z (W + θ), the outputs that a head changes
+//! ```
+
+use crate::{
+    graph::{Batch, Correction, Node, UNIT},
+    network::{Buffers, HEAD_OUTPUTS, Head},
+    rollout::{RollSettings, Roller},
+    scene::{COAST_FRAME, Frame, Job, Record, Scene, State, Stroke, Trajectory, Velocity},
+};
+
+use super::{EffectModel, Network, network::without_guesses};
+
+/// How far poses are moved to see what becomes of it, metres (turns at the radius of gyration):
+/// more than the width of a touch, less than what recordings show.
+const NUDGE: f64 = 2e-4;
+
+/// Where a rollout ends, and how that follows a change of the last layer.
+#[derive(Clone, Debug)]
+pub struct Sensitivity {
+    /// The rollout, frame by frame.
+    pub trajectory: Trajectory,
+    /// Of x, y and heading at the end, of one object after another, [3 N, 6 h]: metres and radians
+    /// for each number of a [`Head`].
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// A node of a frame: its object, the change of x, y and heading for each output that a head
+/// changes, and its hidden row.
+struct Read {
+    object: usize,
+    change: [[f64; HEAD_OUTPUTS]; 3],
+    /// [2, h].
+    hidden: Vec<f32>,
+}
+
+impl Network {
+    /// How the end of `job` follows a change of the last layer. Frames are taken one by one,
+    /// whatever the model's stride.
+    pub fn sensitivity(&self, scene: &Scene, job: &Job) -> Sensitivity {
+        let job = without_guesses(job);
+        let half = self.effect_width();
+        let mut buffers = Buffers::default();
+        let mut frames: Vec<Vec<Read>> = Vec::new();
+        let mut correct = |batch: &Batch, corrections: &mut Vec<Correction>| {
+            self.forward.run(batch, &mut buffers, corrections);
+            frames.push(nodes(batch, buffers.hidden(), half));
+        };
+        // The numbers of nodes are those of the scene where nothing is left out.
+        let settings = RollSettings { stride: 1, pruned: false, ..self.settings };
+        let mut roller = Roller::new(self.spec.clone(), settings);
+        let rolled =
+            roller.roll(scene, std::slice::from_ref(&job), Record::Frames, Some(&mut correct));
+        let trajectory =
+            rolled.into_iter().next().unwrap_or_else(|| Trajectory::new(self.spec.clone()));
+        let mut rows = vec![vec![0.0; Head::len_of(half)]; 3 * scene.objects.len()];
+        for (end, node) in self.ends(scene, &job, &trajectory, &frames) {
+            for (row, end) in rows.iter_mut().zip(&end) {
+                for (output, part) in row.chunks_exact_mut(2 * half).enumerate() {
+                    let gain: f64 = (0..3).map(|axis| end[axis] * node.change[axis][output]).sum();
+                    for (value, hidden) in part.iter_mut().zip(&node.hidden) {
+                        *value += gain * f64::from(*hidden);
+                    }
+                }
+            }
+        }
+        Sensitivity { trajectory, rows }
+    }
+
+    /// For every node of every frame how the end of all objects, [3 N], follows its pose after
+    /// that frame.
+    fn ends<'a>(
+        &self,
+        scene: &Scene,
+        job: &Job,
+        trajectory: &Trajectory,
+        frames: &'a [Vec<Read>],
+    ) -> Vec<(Vec<[f64; 3]>, &'a Read)> {
+        let mut jobs = Vec::new();
+        let mut nodes = Vec::new();
+        let mut stroke_frames = (0, 0);
+        for (after, read) in trajectory.frames.iter().skip(1).zip(frames) {
+            stroke_frames = match stroke_frames {
+                (stroke, count) if stroke == after.stroke => (stroke, count + 1),
+                _ => (after.stroke, 1),
+            };
+            let rest = rest_of(job, after, stroke_frames.1);
+            for node in read {
+                let first = jobs.len();
+                if let Some(rest) = &rest {
+                    for axis in 0..3 {
+                        for sign in [1.0, -1.0] {
+                            let mut job = rest.clone();
+                            nudge(
+                                &mut job.start,
+                                node.object,
+                                axis,
+                                sign * size(scene, node, axis),
+                            );
+                            jobs.push(job);
+                        }
+                    }
+                }
+                nodes.push((node, rest.is_some().then_some(first)));
+            }
+        }
+        let ended = self.rollout(scene, &jobs, Record::Outcome);
+        let follows = |(node, first): (&'a Read, Option<usize>)| {
+            let mut end = vec![[0.0; 3]; 3 * scene.objects.len()];
+            let Some(first) = first else {
+                (0..3).for_each(|axis| end[3 * node.object + axis][axis] = 1.0);
+                return (end, node);
+            };
+            for axis in 0..3 {
+                let [plus, minus] = [0, 1].map(|side| ended[first + 2 * axis + side].outcome());
+                let apart = 2.0 * size(scene, node, axis);
+                for (object, (plus, minus)) in plus.poses.iter().zip(&minus.poses).enumerate() {
+                    let moved = plus.position - minus.position;
+                    let moved = [moved.x, moved.y, plus.heading - minus.heading];
+                    (0..3).for_each(|k| end[3 * object + k][axis] = moved[k] / apart);
+                }
+            }
+            (end, node)
+        };
+        nodes.into_iter().map(follows).collect()
+    }
+}
+
+/// What was read of the nodes of a frame, whose hidden rows are [2, N, h].
+fn nodes(batch: &Batch, hidden: &[f32], half: usize) -> Vec<Read> {
+    let count = batch.node_count();
+    let read = |(k, node): (usize, &Node)| {
+        let half_of = |parity: usize| {
+            let from = (parity * count + k) * half;
+            &hidden[from..from + half]
+        };
+        let (x, y) = (node.axis.x * UNIT, node.axis.y * UNIT);
+        let change = [[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, UNIT / node.support]];
+        Read { object: node.object.0, change, hidden: [half_of(0), half_of(1)].concat() }
+    };
+    batch.nodes.iter().enumerate().map(read).collect()
+}
+
+/// What is left of `job` after a frame, the `count`th of its stroke; nothing where all is done.
+fn rest_of(job: &Job, after: &Frame, count: usize) -> Option<Job> {
+    let mut rest = Job { start: after.state.clone(), ..job.clone() };
+    let strokes = &mut rest.motion.slide_mut().strokes;
+    strokes.drain(..after.stroke);
+    let stroke = *strokes.first()?;
+    let moving = stroke.frames();
+    if count < moving {
+        let step = stroke.frames_from(count, moving - count);
+        strokes[0] = Stroke { from: step.from, duration: step.duration, ..stroke };
+    } else if stroke.settle && after.state.velocities.iter().any(|v| *v != Velocity::default()) {
+        strokes[0] = Stroke { from: stroke.to, duration: COAST_FRAME, ..stroke };
+    } else {
+        strokes.remove(0);
+    }
+    (!strokes.is_empty()).then_some(rest)
+}
+
+/// How far a node's object is moved along an axis of its pose, metres or radians.
+fn size(scene: &Scene, node: &Read, axis: usize) -> f64 {
+    let arm = scene.objects[node.object].shape.footprint().gyration_radius();
+    if axis < 2 { NUDGE } else { NUDGE / arm }
+}
+
+fn nudge(state: &mut State, object: usize, axis: usize, by: f64) {
+    let pose = &mut state.poses[object];
+    match axis {
+        0 => pose.position.x += by,
+        1 => pose.position.y += by,
+        _ => pose.heading += by,
+    }
+}

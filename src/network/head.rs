@@ -1,0 +1,96 @@
+//! A change of the last layer: what recordings of one table can teach a trained network.
+
+use crate::graph::Correction;
+
+/// Halves of a hidden row: what keeps its sign under mirroring, and what changes it.
+const PARITIES: usize = 2;
+
+/// The outputs that a head changes, in this order: shifts along and across the tool's motion, and
+/// the turn. Where an object is recorded says nothing of its velocities.
+pub const HEAD_OUTPUTS: usize = 3;
+
+/// Places of these outputs among those of a node, see [`crate::graph::Node::encode`].
+const PLACES: [usize; HEAD_OUTPUTS] = [0, 2, 3];
+
+/// Numbers that are added to the last layer, which maps the hidden row of a node to the correction
+/// of its motion.
+///
+/// A trained network mirrors exactly: shifts along the motion are read from the even half of the
+/// row, the others from the odd one. A real table does not mirror (an object rests unevenly, a
+/// camera is off to one side), so a head reads both halves for every output: [3, 2, h] numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Head {
+    values: Vec<f64>,
+    half: usize,
+}
+
+impl Head {
+    /// How many numbers a head on rows of twice `half` has.
+    pub const fn len_of(half: usize) -> usize {
+        HEAD_OUTPUTS * PARITIES * half
+    }
+
+    /// A head of these numbers, [3, 2, h]; `None` unless they are so many.
+    pub fn new(values: Vec<f64>, half: usize) -> Option<Self> {
+        (values.len() == Self::len_of(half)).then_some(Self { values, half })
+    }
+
+    /// The change that is none.
+    pub fn none(half: usize) -> Self {
+        Self { values: vec![0.0; Self::len_of(half)], half }
+    }
+
+    /// The numbers, [3, 2, h].
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Width of the half of a hidden row.
+    pub fn half(&self) -> usize {
+        self.half
+    }
+
+    /// Whether it changes nothing.
+    pub fn is_none(&self) -> bool {
+        self.values.iter().all(|value| *value == 0.0)
+    }
+
+    /// `share` of the same change.
+    pub fn scaled(&self, share: f64) -> Self {
+        let values = self.values.iter().map(|value| share * value).collect();
+        Self { values, half: self.half }
+    }
+
+    /// Adds what it says of every node to `corrections`; `hidden` are their rows, [2, N, h].
+    pub(super) fn add(&self, hidden: &[f32], corrections: &mut [Correction]) {
+        let (even, odd) = hidden.split_at(hidden.len() / PARITIES);
+        let rows = even.chunks_exact(self.half).zip(odd.chunks_exact(self.half));
+        let dot = |values: &[f64], row: &[f32]| -> f64 {
+            values.iter().zip(row).map(|(value, hidden)| value * f64::from(*hidden)).sum()
+        };
+        for ((even, odd), correction) in rows.zip(corrections) {
+            let outputs = self.values.chunks_exact(PARITIES * self.half);
+            for (values, place) in outputs.zip(PLACES) {
+                let (of_even, of_odd) = values.split_at(self.half);
+                correction.output[place] += dot(of_even, even) + dot(of_odd, odd);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_output_reads_both_halves_of_its_own_row() {
+        // h = 1, two nodes: rows (2, 3) and (5, 7).
+        let head = Head::new(vec![1.0, 10.0, 0.0, 1.0, 1.0, 0.0], 1).expect("six numbers");
+        let one = Correction { output: [1.0; 6], doubt: None };
+        let mut corrections = [one; 2];
+        head.add(&[2.0, 5.0, 3.0, 7.0], &mut corrections);
+        assert_eq!(corrections[0].output, [33.0, 1.0, 4.0, 3.0, 1.0, 1.0]);
+        assert_eq!(corrections[1].output, [76.0, 1.0, 8.0, 6.0, 1.0, 1.0]);
+        assert!(Head::new(vec![0.0; 5], 1).is_none() && head.scaled(0.0).is_none());
+    }
+}

@@ -1,0 +1,140 @@
+//! What a network learns about a table: nothing without data, to the bit; a known change of its last
+//! layer, if that made the pushes; and the same on any number of threads.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use pushplan::effect::{EffectModel, Job, ModelError, Network, Prior};
+use pushplan::fit::{FitSettings, HeadSettings, fit, learn};
+use pushplan::geometry::{Pose, Shape, Vector};
+use pushplan::judge::{Comparison, Trial, mean};
+use pushplan::network::Head;
+use pushplan::scene::{
+    Object, Part, Push, Record, Scene, Support, Surface, TableFit, Tool, ToolMotion,
+};
+use pushplan::watch::Unwatched;
+
+use crate::random_network::weights;
+
+/// Slow pushes against all sides of a box by a finger, as `model` has them end.
+fn pushes(model: &dyn EffectModel, count: usize) -> Vec<Trial> {
+    (0..count)
+        .map(|k| {
+            let size = [0.12, 0.09, 0.03];
+            let object = Object::cuboid("box", size)
+                .friction(0.3)
+                .mass(0.5)
+                .standing_on(Support::Spread(0.7));
+            let scene = Scene::new([object]).on_table(0.3).with_friction(0, Surface::Tool, 0.4);
+            let finger = Part::new(
+                "finger",
+                Shape::Cylinder { radius: 0.004, height: 0.05 },
+                Pose::default(),
+            );
+            let tool = Arc::new(Tool::new("finger", [finger]).expect("one piece"));
+            let turn = TAU / 4.0 * (k % 4) as f64;
+            let (ahead, aside) = if k % 2 == 0 { (0.06, 0.045) } else { (0.045, 0.06) };
+            let share = 1.6 * ((k as f64 * 0.37).fract() - 0.5);
+            let start = Pose::new(0.0, 0.0, turn).point(Vector::new(-ahead - 0.006, share * aside));
+            let direction = turn + 0.4 * ((k as f64 * 0.618).fract() - 0.5);
+            let push = Push { start, direction, length: 0.03, speed: 0.01 };
+            let motion = ToolMotion::pushes(tool, 0.0, 0.0, &[push], false);
+            let job = Job::stated(&scene, motion.clone());
+            let ends = model.rollout(&scene, &[job], Record::Outcome);
+            Trial::to_rest(scene, motion, ends[0].outcome().poses.clone())
+        })
+        .collect()
+}
+
+/// A change of some tenths of a millimetre a frame.
+fn change(half: usize) -> Head {
+    let values = (0..Head::len_of(half)).map(|k| 0.06 * (1.7 * k as f64).sin()).collect();
+    Head::new(values, half).expect("as many as it has")
+}
+
+fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
+    let settings = FitSettings { values: 5, ..FitSettings::default() };
+    let found = fit(&Prior::default(), trials, &settings, &Unwatched).expect("something moves");
+    // The support and the friction that made them are known.
+    let found = pushplan::fit::Fit {
+        friction: pushplan::fit::Estimate { told: false, ..found.friction },
+        stated: pushplan::fit::AsStated { likelier: true, ..found.stated },
+        ..found
+    };
+    learn(network, trials, &found, &HeadSettings::default()).expect("the weights have a name")
+}
+
+fn off(model: &dyn EffectModel, trials: &[Trial]) -> f64 {
+    let ends = |trial| Comparison::of(model, trial).end()[0].position;
+    mean(&trials.iter().map(ends).collect::<Vec<f64>>())
+}
+
+#[test]
+fn a_head_of_zeros_changes_no_bit() {
+    let network = Network::new(weights(32));
+    let trials = pushes(&network, 4);
+    let none = network.clone().adapted(&Head::none(network.effect_width()));
+    for (a, b) in pushes(&none, 4).iter().zip(&trials) {
+        assert_eq!(a.truth, b.truth);
+    }
+    // Too few pushes teach nothing.
+    let fit = learnt(&network, &trials);
+    assert!(fit.head.iter().all(|value| *value == 0.0) && fit.spread.directions.is_empty());
+    let fitted = network.fitted(&fit).expect("its own weights");
+    assert_eq!(pushes(&fitted, 4)[3].truth, trials[3].truth);
+}
+
+#[test]
+fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
+    let network = Network::new(weights(32));
+    let change = change(network.effect_width());
+    for trial in pushes(&network, 12) {
+        let said = network.sensitivity(&trial.scene, &trial.job());
+        let end = |share: f64| {
+            let model = network.clone().adapted(&change.scaled(share));
+            model.rollout(&trial.scene, &[trial.job()], Record::Outcome)[0].outcome().poses[0]
+        };
+        let (plus, minus) = (end(0.05), end(-0.05));
+        let moved = (plus.position - minus.position) / 0.1;
+        let follows = |k: usize| -> f64 {
+            said.rows[k].iter().zip(change.values()).map(|(a, b)| a * b).sum()
+        };
+        let apart = (Vector::new(follows(0), follows(1)) - moved).norm();
+        assert!(apart < 0.25 * moved.norm() + 5e-5, "{moved:?}, {} {}", follows(0), follows(1));
+    }
+}
+
+#[test]
+fn the_change_that_made_the_pushes_is_learnt_from_them() {
+    let network = Network::new(weights(32));
+    let truth = network.clone().adapted(&change(network.effect_width()));
+    let all = pushes(&truth, 120);
+    let (shown, new) = all.split_at(80);
+    let fit = learnt(&network, shown);
+    let (before, after) =
+        (off(&network, new), off(&network.clone().fitted(&fit).expect("its own weights"), new));
+    assert!(after < 0.5 * before, "{before} to {after}");
+
+    let pool =
+        |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    let again = pool(1).install(|| learnt(&network, shown));
+    assert_eq!(pool(3).install(|| learnt(&network, shown)), again);
+    assert_eq!(again, fit);
+
+    // Another object than the one that was pushed feels half of it.
+    let mut strange = new[0].clone();
+    strange.scene.objects[0].mass = 5.0;
+    assert_eq!(fit.strange(&strange.scene), ["box"]);
+    assert!(fit.strange(&new[0].scene).is_empty());
+}
+
+#[test]
+fn what_another_network_learnt_is_refused() {
+    let network = Network::new(weights(32));
+    let fit = learnt(&network, &pushes(&network, 4));
+    let other = Network::new(weights(16)).fitted(&fit);
+    assert!(matches!(other, Err(ModelError::Fit { .. })));
+    let renamed = TableFit { weights: "0".into(), ..fit };
+    let message = network.fitted(&renamed).err().expect("refused").to_string();
+    assert!(message.contains("other weights (0)"), "{message}");
+}
