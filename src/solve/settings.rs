@@ -69,7 +69,7 @@ pub struct Settings {
     #[serde(default)]
     pub short_list: usize,
     /// Plans verified together. The nearest two nearly always hold one that works, and replays are a
-    /// third to a half of the cost. Fewer where there are more than sixteen objects.
+    /// third to a half of the cost. More than two become fewer where there are more than four objects.
     pub verified_at_once: usize,
     /// Batches verified for each number of pushes before giving up on it.
     pub verify_batches: usize,

@@ -313,7 +313,7 @@ fn written_with(
     let best = solution.best().expect("a plan");
     let replays = best.replays(task, &situation);
     let recipe = |ranked: &RankedPlan| {
-        let model = Some(ranked.predicted.by.clone());
+        let model = Some(ranked.predicted.by.clone().into());
         let task = format!("tasks/{name}.yaml");
         Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };

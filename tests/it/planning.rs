@@ -7,8 +7,8 @@ use std::sync::Arc;
 use pushplan::effect::Simulated;
 use pushplan::geometry::{Pose, Shape, Vector, clearance, travel_to_contact};
 use pushplan::plan::{
-    Candidate, CandidatePush, Infeasible, RefineSettings, RefineStatistics, Rollouts, STAND_OFF,
-    Search, SearchSettings, Start, Workspace, evaluate, refine,
+    Candidate, CandidatePush, FOUND_RADIUS, Infeasible, RefineSettings, RefineStatistics, Rollouts,
+    STAND_OFF, Search, SearchSettings, Start, Workspace, evaluate, refine,
 };
 use pushplan::scene::{
     Goal, Object, Obstacle, Part, PushForm, Robot, Scene, Situation, Task, Tool,
@@ -299,7 +299,7 @@ fn refinement_never_makes_a_candidate_worse() {
             enough: 6,
             rollouts: 1000,
             short_list: usize::MAX,
-            radius: 1.0,
+            radius: FOUND_RADIUS,
         };
         let mut statistics = RefineStatistics::default();
         let refined =

@@ -101,7 +101,9 @@ fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
     // What the graph is: a row for every part. What is computed: one for all.
     let weights = weights(64);
     let whole = batch(&scene(), &scene().start(), &stroke());
-    let mut apart = Batch { given_even: Vec::new(), given_odd: Vec::new(), ..whole.clone() };
+    let mut apart = whole.clone();
+    apart.given_even.clear();
+    apart.given_odd.clear();
     for (relation, &sender) in whole.senders.iter().enumerate().filter(|(_, s)| **s >= GIVEN) {
         let row = (sender - GIVEN) as usize;
         apart.senders[relation] = GIVEN + apart.given_count() as u32;

@@ -11,8 +11,8 @@ use pushplan::effect::{EffectModel, EffectModels, Network, Prior, Simulated};
 use pushplan::graph::Batch;
 use pushplan::network::{Buffers, Forward};
 use pushplan::plan::{
-    QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search, SearchSettings,
-    Workspace, refine,
+    FOUND_RADIUS, QpProblem, QpSolver, RefineSettings, RefineStatistics, Rollouts, Search,
+    SearchSettings, Workspace, refine,
 };
 use pushplan::scene::{FrameStep, Job, ModelKind, Physics, Record, Situation, State, Task};
 use pushplan::sim::Simulator;
@@ -183,6 +183,8 @@ fn planning(criterion: &mut Criterion) {
         seed: SEED,
         enough: best.len(),
         rollouts: usize::MAX,
+        short_list: usize::MAX,
+        radius: FOUND_RADIUS,
     };
     criterion.bench_function("refinement of 8 pushes", |b| {
         b.iter(|| {

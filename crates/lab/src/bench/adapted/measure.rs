@@ -94,7 +94,7 @@ pub fn measure_split(
     let Some(found) = fit(&prior, &learnt, &settings, &Unwatched) else { return Ok(None) };
     let table = learn(network, &learnt, &found, &HeadSettings::default())?;
     let Ok(adapted) = network.clone().fitted(&table) else { return Ok(None) };
-    let pushes = split.predicted.iter().map(|&recording| {
+    let push = |&recording: &usize| {
         let stated = &trials[recording];
         let mut told = stated.clone();
         table.state(&mut told.scene);
@@ -106,8 +106,9 @@ pub fn measure_split(
             adapted: error(&adapted, &told),
             inside: inside(&adapted, &told, &table),
         }
-    });
-    Ok(Some((table, pushes.collect())))
+    };
+    let pushes = split.predicted.iter().map(push).collect();
+    Ok(Some((table, pushes)))
 }
 
 /// Mean errors over the objects at the end.
