@@ -27,7 +27,7 @@ pub use lever::{
 };
 pub use measured::{PRIOR_RANGES, Quantiles};
 pub use model::EffectModel;
-pub use network::{CORRECTED, Network};
+pub use network::Network;
 pub use prior::Prior;
 pub use routed::{Outside, Routed, consequence};
 pub use sensitivity::Sensitivity;

@@ -9,8 +9,8 @@ use crate::{
     network::{Buffers, Forward, Head, PredictorWeights},
     rollout::{PairMeans, RollSettings, Roller, reachable},
     scene::{
-        Job, ModelKind, ModelSpec, OTHER_OBJECTS, Record, Scene, Stride, TableFit, Trajectory,
-        Warning,
+        CORRECTED, Job, ModelKind, ModelSpec, OTHER_OBJECTS, Record, Scene, Stride, TableFit,
+        Trajectory, Warning,
     },
 };
 
@@ -26,12 +26,6 @@ const CHUNK: usize = 64;
 /// Where nine of ten pushes like one end within no less than this, metres, a warning says so: three
 /// times what is usual.
 const DOUBTFUL: f64 = 0.02;
-
-/// Most objects awake in a frame that the network corrects. Where more are, correcting costs more
-/// than the prior and buys nothing: over 24 trajectories of each of the sets of `pushplan-lab evaluate
-/// --on dense sparse` its mean error is 1.11 (dense) and 0.98 (sparse) times the prior's if it
-/// corrects all, 1.00 and 0.95 with five at most, 1.00 and 0.98 with three.
-pub const CORRECTED: usize = 5;
 
 /// Predicts with trained weights.
 #[derive(Clone)]

@@ -15,6 +15,7 @@ mod normaliser;
 mod parameters;
 mod parity;
 mod predictor;
+mod product;
 mod regulator;
 mod tables;
 mod tensors;
@@ -22,7 +23,7 @@ mod weights;
 
 pub use config::Config;
 pub use doubt::Doubt;
-pub use forward::{Buffers, Forward, matrix_product};
+pub use forward::{Buffers, Forward};
 pub use head::{HEAD_OUTPUTS, Head};
 pub use lever::{
     LEVER_ENDS, LEVER_POSE, LeverCard, LeverCell, LeverSizes, LeverTold, LeverWeights, fresh_lever,
@@ -32,6 +33,7 @@ pub use normaliser::{Normaliser, Statistics};
 pub use parameters::{Parameters, layout, layout_of};
 pub use parity::{Sum, rectify_rows};
 pub use predictor::{ErrorCard, PredictorCard, PredictorWeights, Source};
+pub use product::matrix_product;
 pub use regulator::{
     LEAST, Memory, Regulator, RegulatorCard, RegulatorWeights, TYPES, fresh_regulator,
     regulator_layout,

@@ -58,6 +58,8 @@ pub struct PredictorCard {
     /// Errors of final positions, one object, on the training's own held-out episodes, if there
     /// were any.
     pub errors: Option<ErrorCard>,
+    /// How much of the correction as trained counts: 1 until it was measured what serves every truth.
+    pub share: f32,
     /// How far off it expects to be, if that was learned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<Doubt>,

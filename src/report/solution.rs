@@ -2,8 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::effect::CORRECTED;
-use crate::scene::{ModelKind, ModelPart, ModelSpec, Task};
+use crate::scene::{CORRECTED, ModelKind, ModelPart, ModelSpec, Task};
 use crate::solve::{PlanStatus, Solution};
 
 use super::document::{Document, Section};

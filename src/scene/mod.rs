@@ -60,7 +60,8 @@ pub use lever::{
     Weight, has_slipped, lever_frame,
 };
 pub use model::{
-    Assumptions, JointBelief, ModelKind, ModelPart, ModelSpec, Models, Rate, SpecError, Stride,
+    Assumptions, CORRECTED, JointBelief, ModelKind, ModelPart, ModelSpec, Models, Rate, SpecError,
+    Stride,
 };
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,

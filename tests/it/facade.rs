@@ -76,7 +76,7 @@ fn a_lever_up_is_planned_verified_and_written_like_a_push() {
     let planar = Simulated::new(Simulator::planar());
     assert_eq!(planar.trust(&task.scene, &job), Trust::NotMine);
     let found = planner.model().rollout(&task.scene, &[job], Record::Outcome).remove(0);
-    assert_eq!(found.by.to_string(), "prior");
+    assert_eq!(found.by.to_string(), "network");
     assert!(Outcome::judge(&task.scene, &task.goal, &found).reached);
     let again = Task::parse(&task.to_yaml().unwrap(), "turn.yaml").unwrap();
     assert_eq!(again, task);

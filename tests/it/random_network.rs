@@ -6,7 +6,9 @@ use pushplan::contact::{Bodies, FrameProblem, FrameSolver};
 use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::{Pose, Shape};
 use pushplan::graph::Batch;
-use pushplan::network::{Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Tables};
+use pushplan::network::{
+    Config, Normaliser, Parameters, PredictorCard, PredictorWeights, Source, Tables,
+};
 use pushplan::scene::{Object, Obstacle, Part, Physics, Scene, State, Stroke, Tool};
 
 /// Random weights whose last layer is not zero, so that the network matters, nor large, so
@@ -27,9 +29,15 @@ pub fn weights(width: usize) -> PredictorWeights {
             config,
             normaliser: Normaliser::measure(&Tables::PUSHES, &batch),
             ranges: PRIOR_RANGES,
-            sources: Vec::new(),
+            sources: vec![Source {
+                truth: "none".to_owned(),
+                seed: 0,
+                episodes: 0,
+                digest: String::new(),
+            }],
             steps: 0,
             errors: None,
+            share: 1.0,
             doubt: None,
         },
         parameters,

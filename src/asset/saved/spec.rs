@@ -356,10 +356,20 @@ const TRAJECTORY: Value = Value::Map(&[
     Key::required("warnings", WARNINGS, "What a reader should know."),
     Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
     Key::optional(
+        "spreads",
+        Value::List { of: &SPREAD, items: "objects", min: 0, max: 100_000 },
+        "How far off the end of every object is expected to be; by default the model does not say.",
+    ),
+    Key::optional(
         "lifts",
         Value::List { of: &LIFT, items: "lever-ups", min: 0, max: 64 },
         "What each lever-up has come to; by default there is none.",
     ),
+]);
+
+const SPREAD: Value = Value::Map(&[
+    Key::required("position", UNSIGNED, "Mean error of its position, metres."),
+    Key::required("heading", UNSIGNED, "Mean error of its heading, radians."),
 ]);
 
 const FORCE: Value = Value::Map(&[

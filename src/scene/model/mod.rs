@@ -7,6 +7,6 @@ mod spec;
 mod text;
 
 pub use assumption::{Assumptions, JointBelief};
-pub use models::Models;
+pub use models::{CORRECTED, Models};
 pub use spec::{ModelKind, ModelPart, ModelSpec, Rate, Stride};
 pub use text::SpecError;

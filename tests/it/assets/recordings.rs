@@ -305,7 +305,7 @@ fn frames_of_a_turning_pusher_are_cut_by_the_travel_of_its_tips() {
 schema_version: 1
 kind: recording
 scene: {objects: [{name: can, shape: {cylinder: {radius: 0.02, height: 0.1}}}]}
-pusher: {tool: {name: bar, grip: {position: [0, 0]}, parts: [{name: bar, size: [0.02, 0.20, 0.05], position: [0, 0]}]}}
+pusher: {tool: {name: bar, friction: 0.3, grip: {position: [0, 0]}, parts: [{name: bar, size: [0.02, 0.20, 0.05], position: [0, 0]}]}}
 times: [0, 1, 2]
 frames:
   - {pusher: [0, 0, 0], objects: [[0.10, 0.05]]}

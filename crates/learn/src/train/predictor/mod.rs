@@ -5,6 +5,7 @@ mod example;
 mod loss;
 mod rollout_error;
 mod settings;
+mod share;
 mod task;
 
 pub use example::{Examples, Exposure, Noise};

@@ -16,6 +16,7 @@ use crate::train::{BEST, Descent, LAST, REPLICAS, TrainError, Trainable, Trainer
 
 use super::doubt::fit_doubt;
 use super::loss::loss;
+use super::share::shared;
 use super::{Examples, HeldOutError, PredictorSettings, rollout_error};
 
 /// Graphs on which the feature scales are measured.
@@ -43,19 +44,28 @@ pub fn train_predictor(
     let task = Task { settings, data, held_out, examples, lead: None };
     let best = Trainer::open(task, folder)?.run(watch)?;
     for name in [BEST, LAST] {
-        learn_doubt(&folder.path().join(name), settings.descent.steps, data)?;
+        finish(&folder.path().join(name), settings.descent.steps, (data, held_out), watch)?;
     }
     Ok(best)
 }
 
-/// Adds to the weights in a file how far off they are, once the schedule is through.
-fn learn_doubt(path: &Path, steps: u64, data: &[Dataset]) -> Result<(), TrainError> {
-    let Ok(mut weights) = PredictorWeights::load(path) else { return Ok(()) };
+/// Once the schedule is through: scales the correction of the weights in a file to what serves every
+/// truth, and adds how far off they expect to be.
+fn finish(
+    path: &Path,
+    steps: u64,
+    (data, held_out): (&[Dataset], &[Dataset]),
+    watch: &dyn Watch,
+) -> Result<(), TrainError> {
+    let Ok(weights) = PredictorWeights::load(path) else { return Ok(()) };
     let last = path.with_file_name(LAST);
     let done = PredictorWeights::load(last).is_ok_and(|last| last.card.steps >= steps);
     if done && weights.card.doubt.is_none() {
+        let (mut weights, share) = shared(&weights, held_out);
+        weights.card.share = share;
         weights.card.doubt = Some(fit_doubt(&weights, data));
         write_atomic(path, &weights.to_bytes()?)?;
+        watch.line(&format!("{}: {share} of the correction counts", path.display()));
     }
     Ok(())
 }
@@ -148,6 +158,7 @@ impl Trainable for Task<'_> {
                 median: single.median,
                 p95: single.p95,
             }),
+            share: 1.0,
             doubt: None,
         }
     }
