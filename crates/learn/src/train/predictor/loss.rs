@@ -2,9 +2,9 @@
 
 use candle_core::{Device, Result, Tensor};
 
-/// Errors well above this count linearly, in output units (1 mm): pushes on the edge of
+/// Errors well above this count linearly, in output units (0.1 mm): pushes on the edge of
 /// slipping off are decided by less than anyone can know and must not rule the weights.
-const KNEE: f64 = 0.1;
+const KNEE: f64 = 0.01;
 
 /// Weight of shifts (x, y), the turn, and the corresponding velocities.
 const SHIFT: f32 = 1.0;

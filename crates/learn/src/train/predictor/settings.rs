@@ -26,11 +26,11 @@ impl Default for PredictorSettings {
             config: Config::default(),
             seed: 1,
             descent: Descent {
-                steps: 24_000,
+                steps: 3000,
                 // Large enough that two cores' halves keep the matrix products busy.
                 batch: 256,
-                evaluate_every: 2000,
-                learning_rate: 2e-3,
+                evaluate_every: 500,
+                learning_rate: 1e-3,
                 warm_up: 500,
                 weight_decay: 1e-4,
                 clip: 1.0,

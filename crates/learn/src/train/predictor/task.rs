@@ -61,7 +61,7 @@ fn finish(
     let last = path.with_file_name(LAST);
     let done = PredictorWeights::load(last).is_ok_and(|last| last.card.steps >= steps);
     if done && weights.card.doubt.is_none() {
-        let (mut weights, share) = shared(&weights, held_out);
+        let (mut weights, share) = shared(&weights, held_out, watch);
         weights.card.share = share;
         weights.card.doubt = Some(fit_doubt(&weights, data));
         write_atomic(path, &weights.to_bytes()?)?;
