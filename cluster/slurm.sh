@@ -4,7 +4,7 @@
 #   cluster/slurm.sh SHARDS OUT PROGRAM COMMAND...
 #
 #   cluster/slurm.sh 16 runs/tasks pushplan bench tasks tasks/*.yaml
-#   cluster/slurm.sh 64 data/train pushplan-learn generate --preset mixed --episodes 60000 --seed 1
+#   cluster/slurm.sh 64 data/train pushplan-learn generate --preset tools --episodes 60000 --seed 1
 #   cluster/slurm.sh 16 runs/crowds pushplan-lab evaluate --on sparse dense
 #
 # Every element measures its shard into a folder of its own below OUT.shards, and when all are done
