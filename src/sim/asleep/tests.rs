@@ -1,0 +1,72 @@
+use std::sync::Arc;
+
+use crate::geometry::{Pose, Vector};
+use crate::scene::{
+    GRAVITY, Job, JointKind, Object, Part, Push, Record, Scene, State, Tool, ToolMotion,
+};
+use crate::sim::Simulator;
+
+const ENGINES: [Simulator; 2] = [Simulator::planar(), Simulator::spatial()];
+
+fn can(name: &str, x: f64) -> Object {
+    Object::cylinder(name, 0.04, 0.08).at(x, 0.0, 0.0)
+}
+
+/// A finger pushes along the x axis, from 0 to 0.2 m.
+fn pushed(engine: &Simulator, scene: &Scene) -> State {
+    let finger = Part::cuboid("finger", [0.02, 0.02, 0.05], Pose::default());
+    let tool = Arc::new(Tool::new("finger", [finger]).expect("one piece"));
+    let push = Push { start: Vector::zeros(), direction: 0.0, length: 0.2, speed: 0.1 };
+    let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
+    engine.run(scene, &Job::stated(scene, motion), Record::Outcome).outcome().clone()
+}
+
+#[test]
+fn what_nothing_comes_near_stays_to_the_last_bit_and_changes_nothing() {
+    for engine in &ENGINES {
+        let alone = pushed(engine, &Scene::new([can("a", 0.1)]));
+        let apart = Scene::new([can("a", 0.1), can("b", 0.4), can("c", 0.5)]);
+        let joint = JointKind::Prismatic { axis: Vector::y(), limits: None };
+        let joined = apart.clone().with_joint([1, 2], joint);
+        let [beside, beside_joined] = [&apart, &joined].map(|scene| pushed(engine, scene));
+        for k in [1, 2] {
+            assert_eq!(beside.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
+            assert_eq!(beside_joined.poses[k], apart.objects[k].pose, "{:?}", engine.engine());
+        }
+        let off = (beside.poses[0].position - alone.poses[0].position).norm();
+        // The planar engine counts in f32 from the middle of all objects.
+        assert!(off < 2e-4, "{:?}: {off}", engine.engine());
+    }
+}
+
+#[test]
+fn what_is_pushed_into_others_wakes_one_after_the_other() {
+    for engine in &ENGINES {
+        let scene = Scene::new([can("a", 0.1), can("b", 0.2), can("c", 0.3)]);
+        let end = pushed(engine, &scene);
+        // The finger's tip ends at 0.21 m; then comes one can after the other.
+        for (k, at) in [0.25, 0.33, 0.41].into_iter().enumerate() {
+            let off = end.poses[k].position - Vector::new(at, 0.0);
+            // They slide on for v² / (2 µ g) = 1.3 mm.
+            assert!(off.norm() < 3e-3, "{:?}: {k} is off by {off:?}", engine.engine());
+        }
+    }
+}
+
+#[test]
+fn what_is_hit_fast_goes_as_far_as_momentum_and_friction_say() {
+    for engine in &ENGINES {
+        let scene = Scene::new([can("a", 0.3), can("b", 0.42)]);
+        let finger = Part::cuboid("finger", [0.02; 3], Pose::new(-1.0, 0.0, 0.0));
+        let tool = Arc::new(Tool::new("finger", [finger]).expect("one piece"));
+        let away = Push { start: Vector::zeros(), direction: 3.0, length: 0.01, speed: 0.1 };
+        let mut job = Job::stated(&scene, ToolMotion::pushes(tool, 0.002, 0.0, &[away], true));
+        job.start.velocities[0].linear = Vector::new(2.0, 0.0);
+        let end = engine.run(&scene, &job, Record::Outcome).outcome().clone();
+        // Equal masses that do not bounce go on at half of the speed.
+        let braking = 2.0 * job.physics.support_friction(1) * GRAVITY;
+        let far = (2.0 * 2.0 - braking * 0.04) / 4.0 / braking;
+        let moved = end.poses[1].position.x - 0.42;
+        assert!((moved - far).abs() < 0.05 * far, "{:?}: {moved} {far}", engine.engine());
+    }
+}

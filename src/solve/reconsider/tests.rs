@@ -1,0 +1,57 @@
+use super::*;
+use crate::plan::Start;
+use crate::scene::{Disturbance, Evidence, Outcome, State};
+
+fn candidate(pushes: &[(f64, f64)]) -> Candidate {
+    let push = |&(direction, length): &(f64, f64)| CandidatePush {
+        start: Start::Placed { part: 0, offset: 0.0 },
+        direction,
+        length,
+        room: 0.0,
+    };
+    Candidate { tool: 0, grip_yaw: 0.0, pushes: pushes.iter().map(push).collect() }
+}
+
+#[test]
+fn what_begins_like_a_refuted_plan_is_known_by_directions_and_lengths_alone() {
+    let way = Way::of(&candidate(&[(3.1, 0.2), (1.5, 0.1)]).pushes);
+    // Directions wrap around, and further pushes do not matter.
+    assert!(way.begins(&candidate(&[(-3.1, 0.21), (1.4, 0.09), (0.0, 0.3)])));
+    assert!(!way.begins(&candidate(&[(3.1, 0.2)])));
+    assert!(!way.begins(&candidate(&[(3.1, 0.2), (1.9, 0.1)])));
+    assert!(!way.begins(&candidate(&[(3.1, 0.25), (1.5, 0.1)])));
+}
+
+#[test]
+fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {
+    let goal = Goal {
+        object: 0,
+        position: Vector::new(0.5, 0.1),
+        tolerance: 0.02,
+        heading: Some((3.0, 0.1)),
+        ..Goal::of(0)
+    };
+    let ended = |x: f64, y: f64, heading: f64| {
+        let state = State::at_rest(vec![Pose::new(x, y, heading)]);
+        let outcome =
+            Outcome { error: 0.0, heading_error: None, reached: false, lying: None, state };
+        let evidence = Evidence {
+            engine: Engine::Spatial,
+            disturbance: Disturbance::Nominal,
+            outcome,
+            warnings: Vec::new(),
+            force: None,
+            trajectory: None,
+        };
+        Verdict::judge(Vec::new(), vec![evidence], 0.75)
+    };
+    let first = aim(&goal, &goal, &ended(0.53, 0.09, -3.2)).expect("an aim");
+    assert!((first.position - Vector::new(0.47, 0.11)).norm() < 1e-12, "{first:?}");
+    let (heading, tolerance) = first.heading.expect("a heading");
+    let turned = wrap_angle(-3.2 - 3.0);
+    assert!((heading - (3.0 - turned)).abs() < 1e-12 && tolerance == 0.1, "{heading}");
+    // What is still missed after that is added.
+    let second = aim(&goal, &first, &ended(0.51, 0.1, 3.0)).expect("an aim");
+    assert!((second.position - Vector::new(0.46, 0.11)).norm() < 1e-12, "{second:?}");
+    assert_eq!(second.heading, first.heading);
+}
