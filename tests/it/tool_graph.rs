@@ -15,7 +15,7 @@ use rand::seq::SliceRandom;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::random_network::{batch, scene, stroke, weights};
+use crate::random_network::{batch, stroke, weights};
 
 /// What the same tool of other parts may change over 20 cm: metres, radians.
 const SAME: (f64, f64) = (1e-4, 1.745e-3);
@@ -100,7 +100,10 @@ fn how_a_tool_is_cut_into_parts_and_in_which_order_changes_nothing() {
 fn parts_with_rows_of_their_own_say_the_same_to_the_bit() {
     // What the graph is: a row for every part. What is computed: one for all.
     let weights = weights(64);
-    let whole = batch(&scene(), &scene().start(), &stroke());
+    // Two boxes before one part.
+    let cuboid = |name: &str, y| Object::cuboid(name, [0.05, 0.05, 0.1]).at(0.046, y, 0.1);
+    let scene = Scene::new([cuboid("left", 0.055), cuboid("right", -0.01)]);
+    let whole = batch(&scene, &scene.start(), &stroke());
     let mut apart = whole.clone();
     apart.given_even.clear();
     apart.given_odd.clear();

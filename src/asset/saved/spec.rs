@@ -343,23 +343,11 @@ const EVIDENCE: Value = Value::Map(&[
 
 const TRAJECTORY: Value = Value::Map(&[
     Key::required("by", Value::Text, "The model or engine that computed it."),
-    Key::required(
-        "frames",
-        Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 },
-        "The recorded instants, in order of time.",
-    ),
-    Key::required(
-        "contacts",
-        Value::List { of: &CONTACT, items: "contacts", min: 0, max: 100_000 },
-        "First contacts, in order of time.",
-    ),
+    Key::required("frames", FRAMES, "The recorded instants, in order of time."),
+    Key::required("contacts", CONTACTS, "First contacts, in order of time."),
     Key::required("warnings", WARNINGS, "What a reader should know."),
     Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
-    Key::optional(
-        "spreads",
-        Value::List { of: &SPREAD, items: "objects", min: 0, max: 100_000 },
-        "How far off the end of every object is expected to be; by default the model does not say.",
-    ),
+    Key::optional("spreads", SPREADS, "How far off objects may end; by default unsaid."),
     Key::optional(
         "lifts",
         Value::List { of: &LIFT, items: "lever-ups", min: 0, max: 64 },
@@ -367,9 +355,12 @@ const TRAJECTORY: Value = Value::Map(&[
     ),
 ]);
 
+const FRAMES: Value = Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 };
+const CONTACTS: Value = Value::List { of: &CONTACT, items: "contacts", min: 0, max: 100_000 };
+const SPREADS: Value = Value::List { of: &SPREAD, items: "objects", min: 0, max: 100_000 };
 const SPREAD: Value = Value::Map(&[
-    Key::required("position", UNSIGNED, "Mean error of its position, metres."),
-    Key::required("heading", UNSIGNED, "Mean error of its heading, radians."),
+    Key::required("position", UNSIGNED, "Mean error, metres."),
+    Key::required("heading", UNSIGNED, "Mean error, radians."),
 ]);
 
 const FORCE: Value = Value::Map(&[
