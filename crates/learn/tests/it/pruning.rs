@@ -10,7 +10,7 @@ use pushplan::watch::Unwatched;
 use pushplan::{
     effect::EffectModels,
     geometry::{Pose, Shape, Vector},
-    graph::Batch,
+    graph::{Batch, Correction},
     network::{Buffers, Forward, PredictorWeights},
     rollout::{Corrector, RollSettings, Roller, Work},
     scene::{
@@ -289,9 +289,9 @@ fn a_rollout_without_a_network_is_that_of_one_that_corrects_nothing() {
     for _ in 0..20 {
         let (scene, job) = random_job(&mut rng);
         let jobs = std::slice::from_ref(&job);
-        let nothing = &mut |batch: &Batch, corrections: &mut Vec<[f64; 6]>| {
+        let nothing = &mut |batch: &Batch, corrections: &mut Vec<Correction>| {
             corrections.clear();
-            corrections.resize(batch.node_count(), [0.0; 6]);
+            corrections.resize(batch.node_count(), Correction::default());
         };
         let roll = |correct: Option<&mut Corrector<'_>>| {
             Roller::new(ModelKind::PRIOR.into(), RollSettings::default())
