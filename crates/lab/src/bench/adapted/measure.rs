@@ -107,7 +107,8 @@ pub fn measure_split(
             inside: inside(&adapted, &told, &table),
         }
     });
-    Ok(Some((table, pushes.collect())))
+    let pushes = pushes.collect();
+    Ok(Some((table, pushes)))
 }
 
 /// Mean errors over the objects at the end.
