@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Shape;
 
-use super::{Physics, Scene, Support, Surface};
+use super::{PairFriction, Scene, Support, Surface};
 
 /// Sizes and masses that differ by less than this share are those of the same object.
 const ALIKE: f64 = 0.05;
@@ -112,23 +112,8 @@ impl TableFit {
         strange.map(|object| object.name.as_str()).collect()
     }
 
-    /// Lets what is like the objects that it was learnt on rub and rest as the recordings say.
-    pub fn tell(&self, scene: &Scene, physics: &mut Physics) {
-        let strange = self.strange(scene);
-        for (index, object) in scene.objects.iter().enumerate() {
-            if strange.contains(&object.name.as_str()) {
-                continue;
-            }
-            if let Some(friction) = self.friction {
-                *physics = physics.clone().with_pair(index, Surface::Tool, friction);
-            }
-            if let Some(support) = self.support {
-                physics.support(scene, index, &Support::Spread(support));
-            }
-        }
-    }
-
-    /// The same, as a scene states it.
+    /// Lets what is like the objects that it was learnt on rub and rest as the recordings say; the
+    /// rest of `scene` stays as it is stated.
     pub fn state(&self, scene: &mut Scene) {
         let strange: Vec<String> = self.strange(scene).into_iter().map(str::to_owned).collect();
         for index in 0..scene.objects.len() {
@@ -136,7 +121,10 @@ impl TableFit {
                 continue;
             }
             if let Some(friction) = self.friction {
-                *scene = scene.clone().with_friction(index, Surface::Tool, friction);
+                scene.frictions.retain(|pair| !pair.is_of(index, Surface::Tool));
+                let pair =
+                    PairFriction { object: index, with: Surface::Tool, coefficient: friction };
+                scene.frictions.push(pair);
             }
             if let Some(support) = self.support {
                 scene.objects[index].support = Support::Spread(support);
@@ -162,6 +150,40 @@ fn same_shape(a: &Shape, b: &Shape) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Object, Physics};
+
+    #[test]
+    fn the_friction_that_was_fitted_replaces_the_one_that_is_stated() {
+        let scene = |mass: f64| {
+            let object = Object::cuboid("box", [0.1, 0.1, 0.05]).mass(mass);
+            Scene::new([object]).with_friction(0, Surface::Tool, 0.5)
+        };
+        let known = &scene(0.4).objects[0];
+        let fit = TableFit {
+            weights: String::new(),
+            head: Vec::new(),
+            spread: HeadSpread::default(),
+            noise: 1e-3,
+            friction: Some(0.2),
+            support: Some(0.6),
+            table_friction: 0.5,
+            objects: vec![FittedObject {
+                name: "box".into(),
+                shape: known.shape,
+                mass: known.mass,
+            }],
+            pushes: 20,
+        };
+        let told = |mass: f64| {
+            let mut scene = scene(mass);
+            fit.state(&mut scene);
+            let friction = Physics::stated(&scene).friction(0, Surface::Tool, 0.0);
+            (friction, scene.objects[0].support.clone())
+        };
+        assert_eq!(told(0.4), (0.2, Support::Spread(0.6)));
+        // Of another object nothing is known.
+        assert_eq!(told(4.0), (0.5, Support::Even));
+    }
 
     #[test]
     fn a_direction_that_is_known_narrows_what_follows_it_and_nothing_else() {

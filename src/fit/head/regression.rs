@@ -8,7 +8,7 @@ use crate::fit::likelihood::FREEDOM;
 use super::observed::Observed;
 
 /// Rounds of reweighting: weights and width then stand still to a thousandth.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 8;
 
 /// All recorded numbers, and what they share.
 #[derive(Clone, Debug)]
@@ -35,15 +35,19 @@ pub(super) struct Solved {
     pub mean: Vec<f64>,
     /// Width of the noise, metres.
     pub noise: f64,
-    /// Logarithm of the density of every end, had it been left out.
-    pub left_out: Vec<f64>,
     /// Variance of every number's noise, [n].
     variances: DVector<f64>,
 }
 
 impl Regression {
     /// Of what was observed at a head of `mean`.
-    pub fn new(observed: &[Observed], mean: &[f64], law: NoiseLaw, least: f64) -> Self {
+    pub fn new<'a>(
+        observed: impl IntoIterator<Item = &'a Observed>,
+        mean: &[f64],
+        law: NoiseLaw,
+        least: f64,
+    ) -> Self {
+        let observed: Vec<&Observed> = observed.into_iter().collect();
         let count = observed.iter().map(|one| one.residual.len()).sum();
         let mut rows = DMatrix::zeros(count, mean.len());
         let mut targets = DVector::zeros(count);
@@ -91,28 +95,12 @@ impl Regression {
             }
             let width = square;
             square = (weighted / free).max(self.least.powi(2));
-            state = Some((inverse, dual, variances, width));
+            state = Some((dual, variances, width));
         }
-        let (inverse, dual, variances, square) = state?;
+        let (dual, variances, square) = state?;
         let mean = self.rows.transpose() * &dual * (prior * prior);
-        let left_out = self.blocks.iter().map(|&(first, size)| {
-            // The end alone, given all others: its variance is the inverse of this block.
-            let precision = inverse.view((first, first), (size, size)).into_owned();
-            let mut variance = precision.try_inverse()?;
-            let away = &variance * dual.rows(first, size);
-            (0..size).for_each(|k| variance[(k, k)] += square - variances[first + k]);
-            let factor = variance.cholesky()?;
-            let far = away.dot(&factor.solve(&away));
-            let volume: f64 = factor.l().diagonal().iter().map(|value| value.ln()).sum();
-            let size = size as f64;
-            Some(match self.law {
-                NoiseLaw::Gaussian => -volume - 0.5 * far,
-                NoiseLaw::Student => -volume - 0.5 * (FREEDOM + size) * (far / FREEDOM).ln_1p(),
-            })
-        });
-        let left_out = left_out.collect::<Option<Vec<f64>>>()?;
         let mean = mean.iter().copied().collect();
-        Some(Solved { prior, mean, noise: square.sqrt(), left_out, variances })
+        Some(Solved { prior, mean, noise: square.sqrt(), variances })
     }
 
     /// The directions along which `solved` is narrowest, at most `most`, with the share of the
