@@ -373,10 +373,9 @@ impl Walk for Run<'_> {
         self.work.graphs += u64::from(!self.idle);
         self.work.nodes += found.awake as u64;
         self.work.relations += found.relations as u64;
-        for &(object, spread) in found.doubts {
-            let object = self.memory.subset.objects[object.0].0;
+        for &(own, spread) in found.doubts {
             self.trajectory.spreads.resize(self.scene.objects.len(), Spread::default());
-            self.trajectory.spreads[object] += spread;
+            self.trajectory.spreads[self.memory.subset.objects[own.0].0] += spread;
         }
         found.touches.iter().for_each(|touch| self.touch(touch));
     }

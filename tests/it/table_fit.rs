@@ -86,7 +86,7 @@ fn a_head_of_zeros_changes_no_bit() {
 
 #[test]
 fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
-    let network = Network::new(weights(32));
+    let network = Network::new(EffectModels::weights().expect("the shipped weights"));
     let change = change(network.effect_width());
     // A push in twelve is decided by less than the change.
     let mut lost = 0;

@@ -1,3 +1,5 @@
+//! Tests of `gather`.
+
 use std::sync::Arc;
 
 use super::*;

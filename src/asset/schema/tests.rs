@@ -1,3 +1,5 @@
+//! Tests of `schema`.
+
 use super::super::text::is_in_names;
 use super::*;
 

@@ -1,3 +1,5 @@
+//! Tests of `group`.
+
 use std::sync::Arc;
 
 use super::*;

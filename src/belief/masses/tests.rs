@@ -1,3 +1,5 @@
+//! Tests of `masses`.
+
 use super::*;
 use crate::scene::{Contact, ModelKind, Object, Scene};
 

@@ -1,3 +1,5 @@
+//! Tests of `particles`.
+
 use super::*;
 use crate::scene::Object;
 

@@ -1,3 +1,5 @@
+//! Tests of `coast`.
+
 use super::*;
 use crate::{
     contact::{fall::Fall, index::SceneIndex},

@@ -1,3 +1,5 @@
+//! Tests of `elimination`.
+
 use super::*;
 
 /// Numbers that look random.

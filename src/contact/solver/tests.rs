@@ -1,3 +1,5 @@
+//! Tests of `solver`.
+
 use super::*;
 use crate::{
     contact::{

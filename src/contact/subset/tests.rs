@@ -1,3 +1,5 @@
+//! Tests of `subset`.
+
 use super::*;
 use crate::{
     contact::{ListIndex, Partner, SceneIndex},

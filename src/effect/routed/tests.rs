@@ -1,3 +1,5 @@
+//! Tests of `routed`.
+
 use crate::effect::{Prior, UpTo};
 use crate::geometry::{Pose, Vector};
 use crate::scene::{Object, Part, Push, Quantity, Tool, ToolMotion};

@@ -1,3 +1,5 @@
+//! Tests of `cast`.
+
 use super::*;
 use crate::geometry::{ConvexPolygon, clearance};
 

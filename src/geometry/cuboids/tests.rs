@@ -1,3 +1,5 @@
+//! Tests of `cuboids`.
+
 use super::*;
 use crate::geometry::Pose;
 

@@ -1,3 +1,5 @@
+//! Tests of `polygon`.
+
 use std::f64::consts::{PI, TAU};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of `solid`.
+
 use super::*;
 use crate::geometry::Pose;
 

@@ -1,3 +1,5 @@
+//! Tests of `support_edge`.
+
 use super::*;
 
 fn outline(corners: &[[f64; 2]]) -> Vec<Vector> {

@@ -1,3 +1,5 @@
+//! Tests of `trial`.
+
 use std::sync::Arc;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Tests of `chart`.
+
 use super::*;
 
 #[test]

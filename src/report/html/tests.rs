@@ -1,3 +1,5 @@
+//! Tests of `html`.
+
 use super::super::{BarChart, Chart, Figure, Section};
 use super::*;
 

@@ -1,3 +1,5 @@
+//! Tests of `feet`.
+
 use super::*;
 
 const SHAPES: [Footprint; 3] = [

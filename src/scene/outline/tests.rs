@@ -1,3 +1,5 @@
+//! Tests of `outline`.
+
 use super::*;
 
 #[test]

@@ -1,3 +1,5 @@
+//! Tests of `plan`.
+
 use super::*;
 use crate::geometry::Vector;
 use crate::scene::{Blade, Part, Place};

@@ -1,3 +1,5 @@
+//! Tests of `underside`.
+
 use super::*;
 use crate::geometry::Footprint;
 use crate::scene::{Feet, Support};

@@ -1,3 +1,5 @@
+//! Tests of `asleep`.
+
 use std::sync::Arc;
 
 use crate::geometry::{Pose, Vector};

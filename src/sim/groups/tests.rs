@@ -1,3 +1,5 @@
+//! Tests of `groups`.
+
 use super::*;
 use crate::geometry::Shape;
 use crate::scene::{Joint, JointKind, Object};

@@ -1,3 +1,5 @@
+//! Tests of `solids`.
+
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyBuilder};
 
 use super::*;

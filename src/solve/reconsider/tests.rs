@@ -1,3 +1,5 @@
+//! Tests of `reconsider`.
+
 use super::*;
 use crate::plan::Start;
 use crate::scene::{Disturbance, Evidence, Outcome, State};

@@ -1,3 +1,5 @@
+//! Tests of `sequences`.
+
 use super::super::choose::rested;
 use super::super::setup::{Layout, STEPS};
 use super::*;

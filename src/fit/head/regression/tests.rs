@@ -1,3 +1,5 @@
+//! Tests of `regression`.
+
 use super::*;
 
 /// 60 ends of two numbers that follow two parameters, (0.3, -0.2) and nothing else, with an

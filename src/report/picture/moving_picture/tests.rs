@@ -1,3 +1,5 @@
+//! Tests of `moving_picture`.
+
 use std::sync::Arc;
 
 use super::*;

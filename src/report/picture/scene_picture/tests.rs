@@ -1,3 +1,5 @@
+//! Tests of `scene_picture`.
+
 use super::*;
 use crate::geometry::Shape;
 use crate::scene::{Joint, JointKind, ModelKind, Object};

@@ -1,3 +1,5 @@
+//! Tests of `after`.
+
 use super::*;
 use crate::scene::{LeverRules, PushRules, Robot};
 

@@ -1,3 +1,5 @@
+//! Tests of `weight`.
+
 use super::*;
 use crate::geometry::Pose;
 
