@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use pushplan::effect::{EffectModel, Job, ModelError, Network, Prior};
+use pushplan::effect::{EffectModel, EffectModels, Job, ModelError, Network, Prior};
 use pushplan::fit::{FitSettings, HeadSettings, fit, learn};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::judge::{Comparison, Trial, mean};
