@@ -23,7 +23,7 @@ fn the_commands_of_all_pages_are_taken() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_training_saves_and_goes_on_to_the_same_bytes() {
-    let run = "--episodes 40 --held-out 6 --steps 60 --evaluate-every 5 --width 8 --batch 32";
+    let run = "--without-mujoco --share 0.003 --steps 60 --evaluate-every 5 --width 8 --batch 32";
     goes_on_after_an_interruption("train predictor", run);
 }
 

@@ -48,8 +48,10 @@ struct Listener {
 
 impl Watch for Listener {
     fn line(&self, text: &str) {
-        assert!(text.starts_with("step "), "{text}");
-        self.lines.fetch_add(1, Ordering::SeqCst);
+        // What comes after the last says how much of the correction counts.
+        let step = text.starts_with("step ");
+        assert!(step || text.contains("share") || text.contains("counts"), "{text}");
+        self.lines.fetch_add(u64::from(step), Ordering::SeqCst);
     }
 
     fn progress(&self, step: u64, _: u64) {

@@ -13,7 +13,7 @@ use crate::sharding::{done, merge, of_runs, on, shards_make_the_same_bytes, stat
 
 #[test]
 fn of_training_data() {
-    let home = shards_make_the_same_bytes("generate --preset mixed --episodes 9 --seed 3", 4);
+    let home = shards_make_the_same_bytes("generate --preset tools --episodes 9 --seed 3", 4);
     // A part is no data set.
     let error = Dataset::open(&home.path().join("part-2")).expect_err("a part");
     assert!(error.to_string().contains("is shard 2/4 of a data set"), "{error}");
@@ -92,7 +92,7 @@ fn two_commands_never_write_to_one_folder() {
     let dir = folder.path().to_str().expect("UTF-8");
     for command in [
         format!("generate {dir} --episodes 1"),
-        format!("train predictor {dir} --episodes 1 --held-out 1 --steps 1"),
+        format!("train predictor {dir} --without-mujoco --share 0.001 --steps 1"),
     ] {
         let output = run(&command.split(' ').collect::<Vec<_>>());
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
