@@ -390,10 +390,9 @@ fn told_apart(value: f64, bounds: [f64; 2]) -> String {
     let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
     let text = short.unwrap_or_else(|| value.to_string());
     // As short as the bounds are.
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
     }
 }
 

@@ -19,6 +19,7 @@ mod reconsider;
 mod settings;
 mod solution;
 mod solving;
+mod tried;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
 pub use error::SolveError;

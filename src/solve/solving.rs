@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::effect::EffectModel;
 use crate::plan::{
-    Candidate, Evaluation, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search,
-    Workspace, bare, behind, is_behind, refine,
+    Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
+    is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -348,57 +348,6 @@ impl<'a> Solving<'a> {
                     break;
                 }
             }
-        }
-    }
-
-    fn tried(&self, refined: Refined, aim: Goal) -> Tried {
-        let Refined { best, off: [before, after], rounds, .. } = refined;
-        let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
-        Tried {
-            refinement: Refinement {
-                before,
-                after,
-                aimed_at: (aim != self.task.goal).then_some(aim.position),
-                rounds: rounds.into_iter().skip(1).map(bare).collect(),
-            },
-            aim,
-            // Of our goal, whatever goal it was refined towards.
-            score: match best.score {
-                score if is_behind(score) => behind(self.task.goal.score(&best.outcome)),
-                score if score.is_finite() => self.task.goal.score(&best.outcome),
-                score => score,
-            },
-            verdict: None,
-            plan: self.plan(&tool, &best),
-            tool,
-            candidate: Some(best.candidate),
-        }
-    }
-
-    fn plan(&self, tool: &Tool, evaluation: &Evaluation) -> Plan {
-        let (yaw, rules) = (evaluation.candidate.grip_yaw, &self.task.pushes);
-        let pushes = evaluation.pushes.iter().copied();
-        Plan::pushing(&tool.name, yaw, rules.form, rules.lift, pushes)
-    }
-
-    /// Doing nothing, which is a plan too.
-    fn without_pushes(&self) -> Tried {
-        let start = &self.situation.start;
-        let error = self.task.goal.error(start);
-        let tool = Arc::clone(&self.workspace.tools[0]);
-        Tried {
-            plan: Plan::default(),
-            tool,
-            candidate: None,
-            aim: self.task.goal,
-            refinement: Refinement {
-                before: error,
-                after: error,
-                aimed_at: None,
-                rounds: Vec::new(),
-            },
-            score: self.task.goal.score(start),
-            verdict: None,
         }
     }
 }

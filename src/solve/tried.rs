@@ -1,0 +1,64 @@
+//! Plans that were tried: from refined candidates, and doing nothing.
+
+use std::sync::Arc;
+
+use crate::plan::{Evaluation, Refined, bare, behind, is_behind};
+use crate::scene::{Goal, Plan, Tool};
+
+use super::Refinement;
+use super::solving::{Solving, Tried};
+
+impl Solving<'_> {
+    /// What was made of a candidate that was refined towards `aim`.
+    pub(super) fn tried(&self, refined: Refined, aim: Goal) -> Tried {
+        let Refined { best, off: [before, after], rounds, .. } = refined;
+        let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
+        Tried {
+            refinement: Refinement {
+                before,
+                after,
+                aimed_at: (aim != self.task.goal).then_some(aim.position),
+                rounds: rounds.into_iter().skip(1).map(bare).collect(),
+            },
+            aim,
+            // Of our goal, whatever goal it was refined towards.
+            score: match best.score {
+                score if is_behind(score) => behind(self.task.goal.score(&best.outcome)),
+                score if score.is_finite() => self.task.goal.score(&best.outcome),
+                score => score,
+            },
+            verdict: None,
+            plan: self.plan(&tool, &best),
+            tool,
+            candidate: Some(best.candidate),
+        }
+    }
+
+    /// The plan of an evaluated candidate.
+    pub(super) fn plan(&self, tool: &Tool, evaluation: &Evaluation) -> Plan {
+        let (yaw, rules) = (evaluation.candidate.grip_yaw, &self.task.pushes);
+        let pushes = evaluation.pushes.iter().copied();
+        Plan::pushing(&tool.name, yaw, rules.form, rules.lift, pushes)
+    }
+
+    /// Doing nothing, which is a plan too.
+    pub(super) fn without_pushes(&self) -> Tried {
+        let start = &self.situation.start;
+        let error = self.task.goal.error(start);
+        let tool = Arc::clone(&self.workspace.tools[0]);
+        Tried {
+            plan: Plan::default(),
+            tool,
+            candidate: None,
+            aim: self.task.goal,
+            refinement: Refinement {
+                before: error,
+                after: error,
+                aimed_at: None,
+                rounds: Vec::new(),
+            },
+            score: self.task.goal.score(start),
+            verdict: None,
+        }
+    }
+}
