@@ -88,7 +88,7 @@ impl PySolution {
         let situation = Situation::stated(&task.scene);
         let replays = work::run(py, 0, |_| best.replays(task, &situation))?;
         let recipe = |ranked: &RankedPlan| {
-            let model = Some(ranked.predicted.by.clone());
+            let model = Some(ranked.predicted.by.clone().into());
             let task = task_file.clone();
             Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };
