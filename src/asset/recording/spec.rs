@@ -125,7 +125,7 @@ const FRAME: Value = Value::Map(&[
         "objects",
         Value::List { of: &POSE, items: "poses, one per object", min: 1, max: 64 },
         "Where each object is, [x, y] or [x, y, yaw_deg], in the order of the scene; may be left out \
-         between the first and the last frame, where only the pusher was seen.",
+         between the first and the last frame, where only the pusher was seen; by default unseen.",
     ),
     Key::optional(
         "lifted",
