@@ -85,27 +85,27 @@ fn a_head_of_zeros_changes_no_bit() {
 }
 
 #[test]
-#[ignore = "five of twelve follow since pushed bodies keep their momentum in the prior; to be mended"]
 fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
     let network = Network::new(EffectModels::weights().expect("the shipped weights"));
     let change = change(network.effect_width());
-    // A push in twelve is decided by less than the change.
-    let mut lost = 0;
+    // By as much as poses are nudged: equations that are solved in steps end in jumps of some
+    // hundredths of a millimetre, which is the whole effect of a smaller change.
+    const SHARE: f64 = 0.4;
     for trial in pushes(&network, 12) {
         let said = network.sensitivity(&trial.scene, &trial.job());
         let end = |share: f64| {
             let model = network.clone().adapted(&change.scaled(share));
             model.rollout(&trial.scene, &[trial.job()], Record::Outcome)[0].outcome().poses[0]
         };
-        let (plus, minus) = (end(0.05), end(-0.05));
-        let moved = (plus.position - minus.position) / 0.1;
+        let (plus, minus) = (end(SHARE), end(-SHARE));
+        let moved = (plus.position - minus.position) / (2.0 * SHARE);
         let follows = |k: usize| -> f64 {
             said.rows[k].iter().zip(change.values()).map(|(a, b)| a * b).sum()
         };
-        let apart = (Vector::new(follows(0), follows(1)) - moved).norm();
-        lost += usize::from(apart >= 0.25 * moved.norm() + 5e-5);
+        let said = Vector::new(follows(0), follows(1));
+        let apart = (said - moved).norm();
+        assert!(apart < 0.1 * moved.norm(), "{said:?} is said, {moved:?} m are moved");
     }
-    assert!(lost <= 2, "{lost} of 12 do not follow");
 }
 
 #[test]
