@@ -36,6 +36,7 @@ fn main() -> Result<(), pushplan::Error> {
             tools: best.tools.clone(),
             plan: best.plan.clone(),
             model: Some(best.predicted.by.clone()),
+            fit: None,
             predicted: Some(best.outcome.clone()),
             verdict: best.verdict.clone(),
         };

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::asset::Faults;
+use crate::effect::ModelError;
 use crate::solve::SolveError;
 
 use super::world::WorldError;
@@ -13,6 +14,9 @@ pub enum ActError {
     /// The task cannot be tried.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// What was learnt cannot be planned with.
+    #[error(transparent)]
+    Model(#[from] ModelError),
     /// It is no longer possible to act in the world.
     #[error(transparent)]
     World(#[from] WorldError),

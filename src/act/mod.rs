@@ -45,6 +45,7 @@ mod decide;
 mod error;
 mod gather;
 mod judge;
+mod learning;
 mod probe;
 mod runner;
 mod settings;

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use crate::asset::{Faults, ToolLibrary};
-use crate::belief::{Belief, BeliefSettings, generator};
-use crate::effect::Prior;
+use crate::belief::{Belief, BeliefRegulator, BeliefSettings, generator};
+use crate::effect::{ModelError, Prior};
 use crate::geometry::Pose;
 use crate::scene::{
-    Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, Tool,
-    Trajectory,
+    Goal, Job, Observation, Plan, Push, PushForm, Record, Scene, Sight, Situation, State, TableFit,
+    Tool, Trajectory,
 };
 use crate::solve::{Planner, SolveError};
 use crate::watch::Watch;
@@ -17,6 +17,7 @@ use super::decide::Decision;
 use super::error::ActError;
 use super::gather::{Gatherer, Note};
 use super::judge::{Chance, Samples};
+use super::learning::Learner;
 use super::trace::{End, Step, Trace, Why};
 use super::world::{Look, World};
 
@@ -31,17 +32,36 @@ const AGREE: f64 = 0.01;
 const SURE: f64 = 1.645;
 
 /// Plans, acts, looks, believes, and plans again.
+#[derive(Clone)]
 pub struct Runner<'a> {
     pub(super) planner: &'a Planner,
     pub(super) library: &'a ToolLibrary,
     /// Rolls out hypotheses of the belief.
     model: Prior,
+    regulator: Option<BeliefRegulator>,
+    learner: Option<Learner>,
 }
 
 impl<'a> Runner<'a> {
-    /// A runner that plans with `planner` and chooses among the tools of `library`.
+    /// A runner that plans with `planner`, chooses among the tools of `library` and believes what a
+    /// filter over hypotheses finds.
     pub fn new(planner: &'a Planner, library: &'a ToolLibrary) -> Self {
-        Self { planner, library, model: Prior::default() }
+        Self { planner, library, model: Prior::default(), regulator: None, learner: None }
+    }
+
+    /// Has `regulator` correct what the filter finds.
+    pub fn regulated(self, regulator: BeliefRegulator) -> Self {
+        Self { regulator: Some(regulator), ..self }
+    }
+
+    /// Lets the planner's network learn from every push where a task leaves nothing open, after what
+    /// `given` says; [`Trace::learnt`] has it. `given` should be what the planner was
+    /// [fitted](Planner::fitted) with. Nothing is learnt by a planner without a network.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the network's weights cannot be read.
+    pub fn learning(self, given: Option<TableFit>) -> Result<Self, ModelError> {
+        Ok(Self { learner: Learner::new(self.planner.model().spec(), given)?, ..self })
     }
 
     /// Goes on with `trace`, from the beginning if it is new, until it has an end. `keep` is given the
@@ -67,9 +87,11 @@ impl<'a> Runner<'a> {
             keep(trace)?;
         }
         let mut belief = self.begin(trace)?;
+        let start = belief.situation().start;
         for step in &trace.steps {
             self.again(trace, &mut belief, step)?;
         }
+        let mut learnt = self.learnt(trace, &start)?;
         let saved = match trace.steps.last() {
             Some(step) => step.world.as_ref(),
             None => trace.before.as_ref(),
@@ -81,7 +103,9 @@ impl<'a> Runner<'a> {
             if watch.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
             }
-            let decision = self.next(trace, &belief, watch)?;
+            let planner = learnt.as_ref().unwrap_or(self.planner);
+            let now = Runner { planner, ..self.clone() };
+            let decision = now.next(trace, &belief, watch)?;
             // A decision under a time limit would not be made again.
             if watch.cancelled() {
                 return Err(ActError::Stopped { pushes: trace.pushes() });
@@ -93,14 +117,22 @@ impl<'a> Runner<'a> {
                     trace.end = Some(End::UsedUp);
                 }
                 Decision::Do { why, plan, tool, chance } => {
-                    let step = self.step(trace, &mut belief, world, (why, plan, tool, chance))?;
+                    let step = now.step(trace, &mut belief, world, (why, plan, tool, chance))?;
                     trace.steps.push(step);
+                    learnt = self.learnt(trace, &start)?;
                     watch.progress(trace.steps.len() as u64, trace.settings.pushes as u64);
                 }
             }
             keep(trace)?;
         }
         Ok(())
+    }
+
+    /// Learns from all steps of a trace that began at `start`, and gives the planner that knows it.
+    fn learnt(&self, trace: &mut Trace, start: &State) -> Result<Option<Planner>, ActError> {
+        let Some(learner) = &self.learner else { return Ok(None) };
+        trace.learnt = learner.learn(trace, start)?;
+        Ok(trace.learnt.as_ref().map(|fit| self.planner.fitted_anew(fit)).transpose()?)
     }
 
     /// What is believed after the first look.
@@ -127,7 +159,11 @@ impl<'a> Runner<'a> {
         let tool = tools.first().ok_or_else(|| ActError::Trace("its task has no tool".into()))?;
         let belief_settings = BeliefSettings::new(settings.noise);
         let held = (Arc::clone(tool), task.pushes.lift);
-        Ok(Belief::about(&scene, task.unknown, held, belief_settings, settings.seed))
+        let belief = Belief::about(&scene, task.unknown, held, belief_settings, settings.seed);
+        Ok(match &self.regulator {
+            Some(regulator) => belief.regulated(regulator.clone()),
+            None => belief,
+        })
     }
 
     /// What is done next.
@@ -307,7 +343,7 @@ fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
 }
 
 /// The scene with its objects where they are seen; known joints go with them.
-fn seen_at(scene: &Scene, start: &State) -> Scene {
+pub(super) fn seen_at(scene: &Scene, start: &State) -> Scene {
     let mut seen = scene.clone();
     seen.joints = crate::belief::carried(&scene.joints, scene, start);
     for (object, pose) in seen.objects.iter_mut().zip(&start.poses) {

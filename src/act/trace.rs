@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::asset::{Faults, write_atomic};
 use crate::belief::Numbers;
 use crate::geometry::Pose;
-use crate::scene::{Frame, Plan, State, Task, Tool, ToolMotion, Truth};
+use crate::scene::{Frame, Plan, State, TableFit, Task, Tool, ToolMotion, Truth};
 
 use super::error::ActError;
 use super::gather::Note;
@@ -47,6 +47,9 @@ pub struct Trace {
     pub prior_numbers: Numbers,
     /// What was done, in order.
     pub steps: Vec<Step>,
+    /// What all of that taught the network, with what it had been given; `None` if nothing was learnt.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub learnt: Option<TableFit>,
     /// How it ended; `None` as long as it goes on.
     pub end: Option<End>,
 }
@@ -142,6 +145,7 @@ impl Trace {
             prior: Vec::new(),
             prior_numbers: Numbers::default(),
             steps: Vec::new(),
+            learnt: None,
             end: None,
         }
     }

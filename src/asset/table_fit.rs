@@ -24,15 +24,22 @@ struct Form {
     kind: String,
 }
 
-/// The whole file.
+/// The whole file, and what plan files carry.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Whole {
+pub(in crate::asset) struct Whole {
     schema_version: u32,
     kind: String,
     /// Of `fit` as it is written, hexadecimal.
     checksum: String,
     fit: TableFit,
+}
+
+impl Whole {
+    pub fn of(fit: &TableFit) -> Self {
+        let (checksum, fit) = (fit.checksum(), fit.clone());
+        Self { schema_version: FIT_VERSION, kind: KIND.into(), checksum, fit }
+    }
 }
 
 impl TableFit {
@@ -85,13 +92,7 @@ impl TableFit {
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        let whole = Whole {
-            schema_version: FIT_VERSION,
-            kind: KIND.into(),
-            checksum: self.checksum(),
-            fit: self.clone(),
-        };
-        serde_json::to_string(&whole).unwrap_or_default() + "\n"
+        serde_json::to_string(&Whole::of(self)).unwrap_or_default() + "\n"
     }
 
     /// Writes the file; a partial one is never left behind.

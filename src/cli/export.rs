@@ -131,7 +131,8 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
         Kind::Trajectory => {
             let TrajectoryFile { task, tools, plan, trajectory } = TrajectoryFile::load(path)?;
             let model = Some(trajectory.by.clone());
-            let plan = PlanFile { task, tools, plan, model, predicted: None, verdict: None };
+            let plan =
+                PlanFile { task, tools, plan, model, fit: None, predicted: None, verdict: None };
             Ok((plan, Some(trajectory)))
         }
         kind => {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::effect::{EffectModels, Network};
-use crate::fit::{FitSettings, HeadSettings, NoiseLaw, fit, learn};
+use crate::fit::{Basis, FitSettings, HeadSettings, NoiseLaw, fit, learn};
 use crate::judge::Trial;
 use crate::recording::Recording;
 use crate::report::{fit_document, table_fit_section};
@@ -97,7 +97,7 @@ pub fn run(args: &FitArgs, session: &Session) -> Result<u8, CliError> {
         let weights = EffectModels::weights().map_err(CliError::from)?;
         let network = Network::new(weights);
         let settings = HeadSettings { law, ..HeadSettings::default() };
-        let learnt = session.compute(|| learn(&network, &trials, &found, &settings));
+        let learnt = session.compute(|| learn(&network, &trials, &Basis::from(&found), &settings));
         let learnt =
             learnt.map_err(|error| CliError::unexpected("cannot name the weights", &error))?;
         document.sections.push(table_fit_section(&learnt));

@@ -7,6 +7,7 @@ use clap::Args;
 
 use crate::effect::{EffectModel, EffectModels, ModelError, Outside, Routed};
 use crate::network::PredictorWeights;
+use crate::report::Setting;
 use crate::scene::{ModelSpec, OTHER_OBJECTS, Scene, TableFit};
 
 use super::error::CliError;
@@ -78,6 +79,12 @@ pub struct TableArgs {
 }
 
 impl TableArgs {
+    /// The file, if one is named.
+    pub fn setting(&self) -> Option<Setting> {
+        let value = self.fit.as_ref()?.display().to_string();
+        Some(Setting { option: "--fit", keyword: Some("fit"), value })
+    }
+
     /// The file's contents, if one is named.
     ///
     /// # Errors

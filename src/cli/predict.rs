@@ -11,7 +11,8 @@ use crate::effect::EffectModel;
 use crate::geometry::Pose;
 use crate::report::{PageView, PoseRow, prediction_document, prediction_page, trajectory_figures};
 use crate::scene::{
-    Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, Task, Tool, Trajectory, Warning,
+    Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, TableFit, Task, Tool,
+    Trajectory, Warning,
 };
 use crate::sim::LeverSimulator;
 
@@ -78,6 +79,8 @@ struct Asked<'a> {
     task: Task,
     tools: Vec<Arc<Tool>>,
     plan: Plan,
+    /// What its model knew of the table.
+    fit: Option<TableFit>,
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
@@ -117,19 +120,19 @@ impl PredictArgs {
         session: &Session,
     ) -> Result<Asked<'a>, CliError> {
         if kind == Kind::Plan {
-            let PlanFile { task, tools, plan, .. } = PlanFile::load(file)?;
-            return Ok(Asked { file, task, tools, plan });
+            let PlanFile { task, tools, plan, fit, .. } = PlanFile::load(file)?;
+            return Ok(Asked { file, task, tools, plan, fit });
         }
         let library = self.library.load()?;
         let task = Task::load(file)?;
         let (plan, tool) = self.action.plan(&task, &library, session)?;
-        Ok(Asked { file, task, tools: vec![tool], plan })
+        Ok(Asked { file, task, tools: vec![tool], plan, fit: None })
     }
 }
 
 fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, CliError> {
-    let Asked { file, mut task, tools, plan } = asked;
-    let fit = args.table.load()?;
+    let Asked { file, mut task, tools, plan, fit } = asked;
+    let fit = args.table.load()?.or(fit);
     if let Some(fit) = &fit {
         model::state(fit, &mut task.scene, session);
     }

@@ -8,8 +8,8 @@ use crate::act::{
     ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
 };
 use crate::asset::{ToolLibrary, load_task, load_world};
-use crate::effect::Outside;
-use crate::report::{PageView, Recipe, Setting, run_document, run_page};
+use crate::effect::{EffectModels, Outside};
+use crate::report::{PageView, Recipe, Setting, run_document, run_page, table_fit_section};
 use crate::scene::{Models, Task, Truth};
 use crate::solve::{Effort, Planner};
 
@@ -20,8 +20,9 @@ use super::{
     follow::Following,
     form::Form,
     interrupt,
-    model::{self, OutsideArgs},
+    model::{self, OutsideArgs, TableArgs},
     output,
+    regulator::RegulatorArgs,
     session::Session,
     solve::{share, solve_error},
     words::{EFFORTS, PROBES, VIEWS, words},
@@ -56,6 +57,14 @@ pub struct RunArgs {
     effort: Effort,
     #[arg(long, value_name = "MODEL", help = model::HELP_WITH_EFFORT)]
     model: Option<Models>,
+    #[command(flatten)]
+    table: TableArgs,
+    /// Let the network learn from the pushes of the run where the task leaves nothing unknown, and
+    /// write what it knows in the end to this file; without --fit it takes ten pushes
+    #[arg(long, value_name = "FILE")]
+    save_fit: Option<PathBuf>,
+    #[command(flatten)]
+    regulator: RegulatorArgs,
     #[command(flatten)]
     outside: OutsideArgs,
     /// Most pushes before giving up
@@ -96,16 +105,26 @@ pub struct RunArgs {
 
 pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let task = load_task(&args.task, &library)?;
+    let mut task = load_task(&args.task, &library)?;
     if task.in_space() {
         return Err(CliError::usage(
             "what leaves the plane cannot be run: after a lever-up nobody looks",
             "`pushplan solve` plans it and verifies it as a whole",
         ));
     }
+    if args.save_fit.is_some() && task.unknown.any() {
+        return Err(CliError::usage(
+            "nothing is learnt where the task leaves things unknown: pushes tell of those first",
+            "leave out --save-fit, or state them in the task",
+        ));
+    }
     let truth = world(&args.world, &task, &library)?;
     let models = args.model.clone().unwrap_or_else(|| args.effort.models());
-    let planner = Planner::with_models(&models)?
+    let fit = args.table.load()?;
+    if let Some(fit) = &fit {
+        model::state(fit, &mut task.scene, session);
+    }
+    let planner = Planner::fitted(&models, fit.as_ref())?
         .effort(args.effort)
         .seed(args.seed)
         .outside(args.outside.outside())
@@ -122,17 +141,30 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
         seed: args.seed,
         ..RunSettings::default()
     };
-    let planned_by =
+    if args.save_fit.is_some() && EffectModels::weights_of(&models.decided)?.is_none() {
+        let advice = "leave out --save-fit, or let the network decide: --model prior>network";
+        return Err(CliError::usage(format!("{models} has no network that could learn"), advice));
+    }
+    let regulator = args.regulator.load()?;
+    let mut planned_by =
         format!("{models}, effort {}, outside {}", args.effort, args.outside.outside());
+    if let Some((_, digest)) = &regulator {
+        planned_by += &format!(", regulator {digest}");
+    }
+    if let Some(fit) = &fit {
+        planned_by += &format!(", fit {}", fit.checksum());
+    }
+    let mut runner = Runner::new(&planner, &library).learning(fit)?;
+    if let Some((regulator, _)) = regulator {
+        runner = runner.regulated(regulator);
+    }
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
     let mut world = SimulatedWorld::new(truth);
     interrupt::watch();
     let following = Following::bar(session, "pushes");
     let mut keep = |trace: &Trace| trace.write(&path);
-    let ran = session.compute(|| {
-        Runner::new(&planner, &library).run(&mut trace, &mut world, &mut keep, &following)
-    });
+    let ran = session.compute(|| runner.run(&mut trace, &mut world, &mut keep, &following));
     following.finish()?;
     ran.map_err(|error| act_error(error, &path))?;
     for note in trace.steps.iter().flat_map(|step| &step.notes) {
@@ -140,6 +172,11 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     }
     let mut document = run_document(&trace);
     let mut written = vec![path];
+    if let (Some(file), Some(learnt)) = (&args.save_fit, &trace.learnt) {
+        document.sections.push(table_fit_section(learnt));
+        learnt.write(file).map_err(CliError::Output)?;
+        written.push(file.clone());
+    }
     written.extend(output::write_figures(&args.out, document.figures())?);
     let real = session.compute(|| really(&trace));
     let page = run_page(&trace, &real, recipe(args), args.page);
@@ -173,12 +210,13 @@ fn recipe(args: &RunArgs) -> Recipe {
         (args.seed != usual.seed, "--seed", args.seed.to_string()),
     ];
     let given = given.into_iter().filter(|(unusual, ..)| *unusual);
+    let files = [args.table.setting(), args.regulator.setting()];
     let settings = given.map(|(_, option, value)| Setting {
         option,
         keyword: Some(option.trim_start_matches('-')).filter(|keyword| *keyword != "rule"),
         value,
     });
-    let settings: Vec<Setting> = settings.collect();
+    let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
     args.library.origin(&args.task, args.model.clone()).run(&args.world, &settings)
 }
 
@@ -209,6 +247,7 @@ fn act_error(error: ActError, path: &Path) -> CliError {
     let message = error.to_string();
     match error {
         ActError::Solve(error) => solve_error(error),
+        ActError::Model(error) => error.into(),
         ActError::Keep(faults) => CliError::Output(faults),
         ActError::Trace(_) => CliError::File(format!("{}: {message}", path.display())),
         ActError::Stopped { .. } => CliError::Interrupted(format!(

@@ -110,7 +110,9 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
         PlanStatus::FailedVerification => (exit_code::FAILED_VERIFICATION, ".failed"),
     };
     let written = match solution.best() {
-        Some(best) => write(args, session, (&task, &args.task), (&solution, best), suffix),
+        Some(best) => {
+            write(args, session, (&task, &args.task), &planner, (&solution, best), suffix)
+        }
         None => Ok(Vec::new()),
     };
     let mut document = solution_document(&task, &solution);
@@ -157,6 +159,7 @@ fn write(
     args: &SolveArgs,
     session: &Session,
     (task, origin): (&Task, &Path),
+    planner: &Planner,
     (solution, best): (&Solution, &RankedPlan),
     suffix: &str,
 ) -> Result<Vec<PathBuf>, CliError> {
@@ -169,6 +172,7 @@ fn write(
         tools: best.tools.clone(),
         plan: best.plan.clone(),
         model: Some(best.predicted.by.clone()),
+        fit: planner.fit().cloned(),
         predicted: Some(best.outcome.clone()),
         verdict: best.verdict.clone(),
     };

@@ -17,7 +17,7 @@ pub const OTHER_OBJECTS: f64 = 0.5;
 
 /// What recordings of one table say: numbers of its physics, and a change of the last layer of
 /// the network that predicts it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableFit {
     /// Checksum of the weights of the network that the change is of.

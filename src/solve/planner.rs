@@ -43,6 +43,7 @@ pub struct Planner {
     settings: Settings,
     seed: u64,
     time_limit: Option<Duration>,
+    fit: Option<TableFit>,
 }
 
 /// Builds a [`Planner`].
@@ -53,6 +54,7 @@ pub struct PlannerBuilder {
     settings: Settings,
     seed: u64,
     time_limit: Option<Duration>,
+    fit: Option<TableFit>,
 }
 
 /// What an effect model says about a plan.
@@ -107,10 +109,10 @@ impl PlannerBuilder {
 
     /// The planner.
     pub fn build(self) -> Planner {
-        let Self { model, screen, outside, settings, seed, time_limit } = self;
+        let Self { model, screen, outside, settings, seed, time_limit, fit } = self;
         let trusted = |model| Routed::new(model).outside(outside);
         let (model, screen) = (trusted(model), screen.map(trusted));
-        Planner { model, screen, outside, settings, seed, time_limit }
+        Planner { model, screen, outside, settings, seed, time_limit, fit }
     }
 }
 
@@ -119,7 +121,8 @@ impl Planner {
     pub fn builder(model: impl EffectModel + 'static) -> PlannerBuilder {
         let settings = Effort::default().settings();
         let (model, outside) = (Arc::new(model), Outside::default());
-        PlannerBuilder { model, screen: None, outside, settings, seed: 0, time_limit: None }
+        let (screen, seed, time_limit, fit) = (None, 0, None, None);
+        PlannerBuilder { model, screen, outside, settings, seed, time_limit, fit }
     }
 
     /// Starts building a planner with the models that `models` describes.
@@ -136,10 +139,25 @@ impl Planner {
     /// As those of [`Self::with_models`]; a fit of another network.
     pub fn fitted(models: &Models, fit: Option<&TableFit>) -> Result<PlannerBuilder, ModelError> {
         let planner = Self::builder(EffectModels::fitted(&models.decided, fit)?);
+        let planner = PlannerBuilder { fit: fit.cloned(), ..planner };
         Ok(match models.is_one() {
             true => planner,
             false => planner.screened_by(EffectModels::fitted(&models.screened, fit)?),
         })
+    }
+
+    /// The same planner after something else was learnt about the table.
+    ///
+    /// # Errors
+    /// As those of [`Self::fitted`].
+    pub fn fitted_anew(&self, fit: &TableFit) -> Result<Self, ModelError> {
+        let Self { outside, settings, seed, time_limit, .. } = *self;
+        let built = Self::fitted(&self.models(), Some(fit))?
+            .settings(settings)
+            .seed(seed)
+            .outside(outside)
+            .build();
+        Ok(Self { time_limit, ..built })
     }
 
     /// Starts building the planner that an effort stands for, effect models included.
@@ -158,6 +176,11 @@ impl Planner {
     /// The effect model of the many rollouts: the one that decides, unless another screens for it.
     pub fn screen(&self) -> &dyn EffectModel {
         self.screen.as_ref().unwrap_or(&self.model)
+    }
+
+    /// What it knows of the table.
+    pub fn fit(&self) -> Option<&TableFit> {
+        self.fit.as_ref()
     }
 
     /// Whether another model screens for the one that decides.

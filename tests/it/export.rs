@@ -32,6 +32,7 @@ fn plan(task: &str, tool: &str, form: PushForm, pushes: &[([f64; 2], f64, f64, f
         tools: vec![Arc::new(tool)],
         plan: Plan::pushing(name, 0.0, form, 0.002, pushes),
         model: None,
+        fit: None,
         predicted: None,
         verdict: None,
     }

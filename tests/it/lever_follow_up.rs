@@ -196,6 +196,7 @@ fn a_plan_pushes_levers_and_pushes_again() {
         tools: tools().to_vec(),
         plan: whole,
         model: None,
+        fit: None,
         predicted: None,
         verdict: Some(verdict.clone()),
     };

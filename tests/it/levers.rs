@@ -54,6 +54,7 @@ pub fn plan_file(task: &Task, best: &RankedPlan) -> PlanFile {
         tools: best.tools.clone(),
         plan: best.plan.clone(),
         model: Some(best.predicted.by.clone()),
+        fit: None,
         predicted: Some(best.outcome.clone()),
         verdict: best.verdict.clone(),
     }

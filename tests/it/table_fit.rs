@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use pushplan::effect::{EffectModel, EffectModels, Job, ModelError, Network, Prior};
-use pushplan::fit::{FitSettings, HeadSettings, fit, learn};
+use pushplan::fit::{Basis, FitSettings, HeadSettings, fit, learn};
 use pushplan::geometry::{Pose, Shape, Vector};
 use pushplan::judge::{Comparison, Trial, mean};
 use pushplan::network::Head;
@@ -61,7 +61,8 @@ fn learnt(network: &Network, trials: &[Trial]) -> TableFit {
         stated: pushplan::fit::AsStated { likelier: true, ..found.stated },
         ..found
     };
-    learn(network, trials, &found, &HeadSettings::default()).expect("the weights have a name")
+    learn(network, trials, &Basis::from(&found), &HeadSettings::default())
+        .expect("the weights have a name")
 }
 
 fn off(model: &dyn EffectModel, trials: &[Trial]) -> f64 {

@@ -156,7 +156,8 @@ fn sample(name: &str) -> Option<Sample> {
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
     let predicted = Some(Outcome::judge(&task.scene, &task.goal, &trajectory));
     let model = Some(trajectory.by.clone());
-    let plan = PlanFile { task, tools: vec![tool], plan, model, predicted, verdict: None };
+    let plan =
+        PlanFile { task, tools: vec![tool], plan, model, fit: None, predicted, verdict: None };
     Some(Sample { plan, trajectory })
 }
 

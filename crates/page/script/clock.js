@@ -1,6 +1,6 @@
 // What is looked at: which plan, which layers, when. One clock for all that is drawn.
 
-const view = { plan: 0, time: 0, playing: false, speed: 1, hidden: new Set() };
+const view = { plan: 0, time: 0, playing: false, speed: 1, hidden: new Set(), graph: false };
 const whenPlanChanges = [];
 const whenTimeChanges = [];
 /** What keys do, by name. */
@@ -64,11 +64,23 @@ function toggle(layer) {
   keepLink();
 }
 
+/** The prediction whose graph the page has, if it has one. */
+const graphed = () => replays().find((replay) => replay.graph);
+
+function toggleGraph() {
+  if (!graphed()) return;
+  view.graph = !view.graph;
+  showPlan(view.plan);
+  keepLink();
+}
+keys.g = toggleGraph;
+
 /** The part of a link behind `#`: `t=1.5&plan=2&hide=planar`. */
 function linkPart() {
   const parts = [`t=${+view.time.toFixed(3)}`];
   if (page.plans.length > 1) parts.push(`plan=${view.plan + 1}`);
   if (view.hidden.size) parts.push(`hide=${[...view.hidden].join(',')}`);
+  if (view.graph) parts.push('graph=1');
   return parts.join('&');
 }
 
@@ -87,6 +99,7 @@ function followLink() {
   const hidden = (parts.get('hide') ?? '').split(',').filter((layer) => layer in LAYERS);
   view.playing = false;
   view.hidden = new Set(hidden);
+  view.graph = parts.get('graph') === '1';
   view.time = Number.isFinite(time) ? time : 0;
   showPlan(index >= 0 && index < page.plans.length ? index : 0);
 }

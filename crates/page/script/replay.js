@@ -28,6 +28,7 @@ class Replay {
     this.tool = columns(raw.tool);
     this.objects = raw.objects.map(columns);
     this.measure = raw.measure?.map((value) => value * LENGTH);
+    this.graph = raw.graph;
     this.firsts = raw.strokes;
     this.strokes = strokes;
   }

@@ -8,7 +8,9 @@
   const still = svg('g');
   const moving = svg('g');
   const pushes = svg('g');
-  root.append(svg('title', {}, 'The table from above'), still, moving, pushes);
+  const graph = svg('g');
+  const RELATIONS = ['contact', 'fixed', 'revolute', 'prismatic'];
+  root.append(svg('title', {}, 'The table from above'), still, moving, pushes, graph);
   byId('stage').append(root);
 
   let width = 800; // pixels
@@ -204,6 +206,32 @@
     });
   }
 
+  /** Nodes and relations that the network reads in the frame under way, as predicted. */
+  function drawGraph() {
+    graph.replaceChildren();
+    const replay = view.graph && graphed();
+    if (!replay) return;
+    const [frame] = replay.place(view.time);
+    const relations = replay.graph[Math.min(frame, replay.graph.length - 1)] ?? [];
+    const time = replay.time[frame];
+    const tool = replay.toolPose(time);
+    const { objects, obstacles } = page.stage;
+    const parts = page.tools[replay.stroke(time).tool].parts;
+    const nodes = [
+      ...objects.map((_, k) => replay.object(k, time)),
+      ...parts.map((part) => placed(tool, posed(part.at))),
+      ...obstacles.map((body) => posed(body.at)),
+    ].map(map);
+    for (const [a, b, kind] of relations) {
+      const [[x1, y1], [x2, y2]] = [nodes[a], nodes[b]];
+      graph.append(svg('line', { x1, y1, x2, y2, class: `relation ${RELATIONS[kind]}` }));
+    }
+    const names = [...objects, ...parts, ...obstacles].map((body) => body.name);
+    nodes.forEach(([cx, cy], k) => {
+      graph.append(svg('circle', { cx, cy, r: 4, class: 'node' }, svg('title', {}, names[k])));
+    });
+  }
+
   whenPlanChanges.push(() => {
     fit();
     drawStill();
@@ -212,5 +240,6 @@
   });
   whenTimeChanges.push(() => {
     for (const [shape, place] of bodies) shape.setAttribute('transform', place(view.time));
+    drawGraph();
   });
 })();

@@ -39,6 +39,17 @@
         html('output', { id: `error-${replay.layer}`, 'aria-label': `${name}, ${measured.toLowerCase()}` }),
         html('span', { class: 'faint' }, `ends at ${millimetres(replay.error(replay.end))}`));
     });
+    if (graphed()) {
+      const box = html('input', { type: 'checkbox', id: 'show-graph' });
+      box.checked = view.graph;
+      box.addEventListener('change', () => {
+        toggleGraph();
+        byId('show-graph').focus();
+      });
+      const title = 'Bodies and relations as the network reads them: thick what is fixed, dotted contacts, '
+        + 'a line a hinge, dashed a slide; key g';
+      rows.push(html('div', { class: 'layer' }, html('label', { title }, box, html('span', {}, 'graph'))));
+    }
     byId('layers').replaceChildren(...rows);
   }
 

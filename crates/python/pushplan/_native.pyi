@@ -19,6 +19,7 @@ __all__ = [
     "Rollouts",
     "Run",
     "Solution",
+    "TableFit",
     "Task",
     "Tool",
     "ToolLibrary",
@@ -26,6 +27,7 @@ __all__ = [
     "Verdict",
     "export_mcap",
     "export_mjcf",
+    "fit",
     "import_task",
     "import_tool",
     "infer",
@@ -48,6 +50,26 @@ _Path = str | os.PathLike[str]
 _Floats = npt.NDArray[np.float64]
 _Effort = Literal["draft", "standard", "thorough"]
 _Outside = Literal["warn", "simulate", "refuse"]
+
+@final
+class TableFit:
+    @staticmethod
+    def load(path: _Path) -> TableFit: ...
+    def save(self, path: _Path) -> None: ...
+    @property
+    def pushes(self) -> int: ...
+    @property
+    def objects(self) -> list[str]: ...
+    @property
+    def friction(self) -> float | None: ...
+    @property
+    def support(self) -> float | None: ...
+    @property
+    def noise(self) -> float: ...
+    @property
+    def changes_network(self) -> bool: ...
+    def to_dict(self) -> dict[str, Any]: ...
+    def __eq__(self, other: object) -> bool: ...
 
 @final
 class Tool:
@@ -226,6 +248,8 @@ class Plan:
     @property
     def model(self) -> str | None: ...
     @property
+    def fit(self) -> TableFit | None: ...
+    @property
     def error(self) -> float | None: ...
     @property
     def trajectory(self) -> Trajectory | None: ...
@@ -379,6 +403,8 @@ class Run:
     @property
     def poses(self) -> _Floats: ...
     @property
+    def fit(self) -> TableFit | None: ...
+    @property
     def notes(self) -> list[str]: ...
     def save(self, path: _Path) -> None: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -399,6 +425,8 @@ def run(
     enough: float = 0.8,
     probes: int = 3,
     noise: tuple[float, float] | None = None,
+    fit: TableFit | None = None,
+    regulator: bool = True,
     threads: int = 0,
 ) -> Run: ...
 def solve(
@@ -412,6 +440,7 @@ def solve(
     disturbed: int | None = None,
     robustness: float | None = None,
     time_limit: float | None = None,
+    fit: TableFit | None = None,
     threads: int = 0,
 ) -> Solution: ...
 def solve_all(
@@ -425,6 +454,7 @@ def solve_all(
     disturbed: int | None = None,
     robustness: float | None = None,
     time_limit: float | None = None,
+    fit: TableFit | None = None,
     threads: int = 0,
 ) -> list[Solution]: ...
 def predict(
@@ -452,6 +482,7 @@ def rollout(
     tools: ToolLibrary | None = None,
     threads: int = 0,
 ) -> Rollouts: ...
+def fit(recordings: Sequence[Recording], *, threads: int = 0) -> TableFit: ...
 def infer(
     recording: Recording,
     *,

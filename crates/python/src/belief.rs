@@ -17,7 +17,7 @@ use crate::{arrays, errors, json, words, work};
 
 /// What happened on a table: a scene and the poses of pusher and objects frame by frame.
 #[pyclass(name = "Recording", module = "pushplan", frozen)]
-pub struct PyRecording(Recording);
+pub struct PyRecording(pub Recording);
 
 #[pymethods]
 impl PyRecording {
@@ -141,6 +141,12 @@ impl PyBelief {
     }
 }
 
+/// The belief regulator that comes with the package.
+pub fn shipped_regulator() -> PyResult<BeliefRegulator> {
+    BeliefRegulator::shipped()
+        .map_err(|error| PyRuntimeError::new_err(format!("the shipped regulator: {error}")))
+}
+
 /// Infers from a recording which objects are joined, and by which joints.
 ///
 /// `model` rolls hypotheses out; `noise` (metres) and `heading_noise` (radians) are the standard
@@ -172,8 +178,7 @@ pub fn infer(
     }
     let ranges: Vec<Span> = mass_ranges.iter().map(|(low, high)| Span::new(*low, *high)).collect();
     let model = words::model(py, model, Default::default())?;
-    let regulator = BeliefRegulator::shipped()
-        .map_err(|error| PyRuntimeError::new_err(format!("the shipped regulator: {error}")))?;
+    let regulator = shipped_regulator()?;
     let recording = &recording.0;
     let settings = BeliefSettings::new(Noise { position: noise, heading: heading_noise });
     let belief = work::run(py, words::threads(threads)?, |cancel| {

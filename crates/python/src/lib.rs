@@ -23,6 +23,7 @@ mod run;
 mod schemas;
 mod solution;
 mod solve;
+mod table_fit;
 mod task;
 mod tool;
 mod trajectory;
@@ -54,6 +55,8 @@ mod _native {
     use super::solution::PySolution;
     #[pymodule_export]
     use super::solve::{predict, solve, solve_all, verify};
+    #[pymodule_export]
+    use super::table_fit::{PyTableFit, fit};
     #[pymodule_export]
     use super::task::PyTask;
     #[pymodule_export]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::report::{Origin, PageView, verdict_page};
-use pushplan::scene::{Engine, PushForm, Situation};
+use pushplan::scene::{Engine, PushForm, Situation, TableFit};
 use pushplan::solve::{AskedPush, asked_plan};
 use pushplan::verify::VerifySettings;
 use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::push::PyPush;
+use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, tool};
 use crate::trajectory::PyTrajectory;
@@ -84,6 +85,7 @@ impl PyPlan {
             tools: vec![tool],
             plan: asked.plan,
             model: None,
+            fit: None,
             predicted: None,
             verdict: None,
         };
@@ -155,6 +157,12 @@ impl PyPlan {
     #[getter]
     fn model(&self) -> Option<String> {
         self.file.model.as_ref().map(ToString::to_string)
+    }
+
+    /// What that model knew of the table, if anything.
+    #[getter]
+    fn fit(&self) -> Option<PyTableFit> {
+        self.file.fit.clone().map(PyTableFit)
     }
 
     /// Distance of the goal's object from the goal as predicted, metres.
@@ -263,12 +271,17 @@ impl PyPlan {
 
 impl PyPlan {
     /// A plan that solving returned.
-    pub fn ranked(task: &Task, task_file: &str, ranked: &RankedPlan) -> Self {
+    pub fn ranked(
+        (task, task_file): (&Task, &str),
+        fit: Option<&TableFit>,
+        ranked: &RankedPlan,
+    ) -> Self {
         let file = PlanFile {
             task: task.clone(),
             tools: ranked.tools.clone(),
             plan: ranked.plan.clone(),
             model: Some(ranked.predicted.by.clone()),
+            fit: fit.cloned(),
             predicted: Some(ranked.outcome.clone()),
             verdict: ranked.verdict.clone(),
         };

@@ -13,8 +13,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
 use crate::arrays::{self, Numbers};
+use crate::belief::shipped_regulator;
 use crate::push::PyPush;
-use crate::solve::Asked;
+use crate::solve::{Asked, stated};
+use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyTool, PyToolLibrary, given};
 use crate::{errors, json, page, words, work};
@@ -108,6 +110,13 @@ impl PyRun {
         }
     }
 
+    /// What its pushes taught the network, with what it had been given; `None` if nothing was learnt,
+    /// as where the task leaves something unknown.
+    #[getter]
+    fn fit(&self) -> Option<PyTableFit> {
+        self.0.learnt.clone().map(PyTableFit)
+    }
+
     /// What was wrong with what was seen, in words.
     #[getter]
     fn notes(&self) -> Vec<String> {
@@ -156,11 +165,13 @@ impl PyRun {
 ///
 /// `pushes` is the most that are made, `probes` the most of these only to learn something; plans are
 /// judged under `samples` samples and carried out without doubt if they reach the goal in the share
-/// `enough` of them. `noise` is the standard deviation of what is seen, metres and radians.
+/// `enough` of them. `noise` is the standard deviation of what is seen, metres and radians. `fit` is
+/// what is known of the table; the network goes on learning from the pushes of the run. With
+/// `regulator` the belief regulator corrects what the filter over joints finds.
 #[pyfunction]
 #[pyo3(signature = (task, world, tools = None, *, effort = "draft", model = None, outside = "warn",
                     seed = 0, pushes = 12, samples = 16, enough = 0.8, probes = 3, noise = None,
-                    threads = 0))]
+                    fit = None, regulator = true, threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn run(
     py: Python<'_>,
@@ -176,11 +187,20 @@ pub fn run(
     enough: f64,
     probes: usize,
     noise: Option<(f64, f64)>,
+    fit: Option<Py<PyTableFit>>,
+    regulator: bool,
     threads: usize,
 ) -> PyResult<PyRun> {
-    let planner =
-        Asked { effort, model, outside, seed, disturbed: None, time_limit: None }.planner(py)?;
+    let fit = fit.as_ref().map(|fit| &fit.get().0);
+    let (disturbed, time_limit) = (None, None);
+    let planner = Asked { effort, model, outside, seed, disturbed, time_limit, fit }.planner(py)?;
     let library = given(py, tools.as_ref())?;
+    let mut runner = Runner::new(&planner, &library)
+        .learning(fit.cloned())
+        .map_err(|error| errors::model(py, &error))?;
+    if regulator {
+        runner = runner.regulated(shipped_regulator()?);
+    }
     if !(0.0..=1.0).contains(&enough) || !(1..=1000).contains(&samples) || pushes > 1000 {
         let message = "`enough` is a share from 0 to 1, `samples` 1 to 1000, `pushes` at most 1000";
         return Err(PyValueError::new_err(message));
@@ -207,10 +227,10 @@ pub fn run(
         }
     };
     let planned_by = format!("{}, effort {effort}, outside {outside}", model.unwrap_or("default"));
-    let mut trace = Trace::new(task.task.as_ref().clone(), settings, planned_by, None);
+    let stated = stated(Arc::clone(&task.task), fit);
+    let mut trace = Trace::new(stated.as_ref().clone(), settings, planned_by, None);
     let threads = words::threads(threads)?;
     let ran = work::run(py, threads, |cancel| {
-        let runner = Runner::new(&planner, &library);
         runner.run(&mut trace, &mut place, &mut |_| Ok(()), cancel)
     })?;
     if let Place::Theirs { raised: Some(error), .. } = place {

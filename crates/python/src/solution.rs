@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pushplan::report::{Origin, PageView, solution_document, solution_page};
 use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
-use pushplan::{RankedPlan, Solution, Task};
+use pushplan::{RankedPlan, Solution, TableFit, Task};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
@@ -19,6 +19,8 @@ pub struct PySolution {
     pub task: Arc<Task>,
     pub task_file: String,
     pub solution: Solution,
+    /// What the planner knew of the table.
+    pub fit: Option<TableFit>,
 }
 
 #[pymethods]
@@ -81,7 +83,7 @@ impl PySolution {
     /// The page of the solution: one HTML file that plays its plans and shows why the others lost,
     /// without server or network.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        let Self { task, solution, task_file } = self;
+        let Self { task, solution, task_file, .. } = self;
         let Some(best) = solution.best() else {
             return Ok(solution_document(task, solution).to_html());
         };
@@ -110,6 +112,6 @@ impl PySolution {
 
 impl PySolution {
     fn plan(&self, ranked: &RankedPlan) -> PyPlan {
-        PyPlan::ranked(&self.task, &self.task_file, ranked)
+        PyPlan::ranked((&self.task, &self.task_file), self.fit.as_ref(), ranked)
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::effect::{EffectModel, Routed};
-use pushplan::scene::{ModelKind, Situation, Warning};
+use pushplan::scene::{ModelKind, Situation, TableFit, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
 use pushplan::{
@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::plan::PyPlan;
 use crate::solution::PySolution;
+use crate::table_fit::PyTableFit;
 use crate::task::PyTask;
 use crate::tool::{PyToolLibrary, given};
 use crate::trajectory::PyTrajectory;
@@ -30,11 +31,13 @@ use crate::{errors, words, work};
 /// `seed` is that of refinement's samples and of the disturbances; `disturbed` is the number of
 /// disturbed replays of the winning plan in each engine, by default that of the effort; `robustness` is the share of the
 /// disturbed replays that must reach the goal, by default the task's; `time_limit` is in seconds, and
-/// the best plan so far is returned then; `threads` is a number of worker threads, 0 one for each
+/// the best plan so far is returned then; `fit` is what pushes recorded on this table taught the
+/// network; `threads` is a number of worker threads, 0 one for each
 /// core, and changes no result.
 #[pyfunction]
 #[pyo3(signature = (task, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+                    threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve(
     py: Python<'_>,
@@ -47,22 +50,33 @@ pub fn solve(
     disturbed: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
+    fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<PySolution> {
-    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
+    let fit = fit.as_ref().map(|fit| &fit.get().0);
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
-    let stated = task.robust(robustness)?;
+    let stated = stated(task.robust(robustness)?, fit);
     let threads = words::threads(threads)?;
     let solved = work::run(py, threads, |cancel| planner.solve_with(&stated, &library, cancel))?;
-    solution(py, stated, task.path(), solved)
+    solution(py, stated, task.path(), solved, &planner)
+}
+
+/// The task as `fit` has it.
+pub fn stated(task: Arc<Task>, fit: Option<&TableFit>) -> Arc<Task> {
+    let Some(fit) = fit else { return task };
+    let mut task = Task::clone(&task);
+    fit.state(&mut task.scene);
+    Arc::new(task)
 }
 
 /// Solves tasks side by side, with the results of `solve`, in the order of the tasks. Raises for the
 /// first task that cannot be tried.
 #[pyfunction]
 #[pyo3(signature = (tasks, tools = None, *, effort = "standard", model = None, outside = "warn",
-                    seed = 0, disturbed = None, robustness = None, time_limit = None, threads = 0))]
+                    seed = 0, disturbed = None, robustness = None, time_limit = None, fit = None,
+                    threads = 0))]
 #[allow(clippy::too_many_arguments)] // keywords in Python
 pub fn solve_all(
     py: Python<'_>,
@@ -75,19 +89,21 @@ pub fn solve_all(
     disturbed: Option<usize>,
     robustness: Option<f64>,
     time_limit: Option<f64>,
+    fit: Option<Py<PyTableFit>>,
     threads: usize,
 ) -> PyResult<Vec<PySolution>> {
-    let asked = Asked { effort, model, outside, seed, disturbed, time_limit };
+    let fit = fit.as_ref().map(|fit| &fit.get().0);
+    let asked = Asked { effort, model, outside, seed, disturbed, time_limit, fit };
     let planner = asked.planner(py)?;
     let library = given(py, tools.as_ref())?;
     let stated: PyResult<Vec<Arc<Task>>> =
-        tasks.iter().map(|task| task.get().robust(robustness)).collect();
+        tasks.iter().map(|task| Ok(stated(task.get().robust(robustness)?, fit))).collect();
     let stated = stated?;
     let threads = words::threads(threads)?;
     let solved = work::run(py, threads, |cancel| solve_each(&planner, &stated, &library, cancel))?;
     let results = stated.into_iter().zip(&tasks).zip(solved);
     results
-        .map(|((stated, task), solved)| solution(py, stated, task.get().path(), solved))
+        .map(|((stated, task), solved)| solution(py, stated, task.get().path(), solved, &planner))
         .collect()
 }
 
@@ -108,6 +124,7 @@ pub struct Asked<'a> {
     pub seed: u64,
     pub disturbed: Option<usize>,
     pub time_limit: Option<f64>,
+    pub fit: Option<&'a TableFit>,
 }
 
 impl Asked<'_> {
@@ -117,7 +134,8 @@ impl Asked<'_> {
             Some(text) => words::models(py, text)?,
             None => effort.models(),
         };
-        let planner = Planner::with_models(&models).map_err(|error| errors::model(py, &error))?;
+        let planner =
+            Planner::fitted(&models, self.fit).map_err(|error| errors::model(py, &error))?;
         let outside = words::outside(self.outside)?;
         let settings = match self.disturbed {
             Some(count) => effort.settings().replaying(count),
@@ -136,13 +154,15 @@ fn solution(
     task: Arc<Task>,
     task_file: String,
     solved: Result<Solution, SolveError>,
+    planner: &Planner,
 ) -> PyResult<PySolution> {
     let solution = solved.map_err(|error| errors::solve(py, &error))?;
-    Ok(PySolution { task, task_file, solution })
+    Ok(PySolution { task, task_file, solution, fit: planner.fit().cloned() })
 }
 
 /// What `model` predicts for a plan, frame by frame: "network", "prior", "planar", "3d" and so on.
-/// Raises `RefusedError` where the model should not be trusted and `outside` is "refuse".
+/// A network knows what the plan says of its table. Raises `RefusedError` where the model should not be
+/// trusted and `outside` is "refuse".
 #[pyfunction]
 #[pyo3(signature = (plan, model = "network", *, outside = "warn", threads = 0))]
 pub fn predict(
@@ -152,8 +172,8 @@ pub fn predict(
     outside: &str,
     threads: usize,
 ) -> PyResult<PyTrajectory> {
-    let model = words::model(py, model, words::outside(outside)?)?;
     let file = &plan.file;
+    let model = words::fitted(py, model, words::outside(outside)?, file.fit.as_ref())?;
     let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
         let message = format!("{} gives no prediction for this plan", trajectory.by);

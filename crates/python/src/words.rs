@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::time::Duration;
 
 use pushplan::effect::{EffectModels, Outside, Routed};
-use pushplan::scene::Engine;
+use pushplan::scene::{Engine, TableFit};
 use pushplan::{Effort, ModelSpec, Models};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -41,8 +41,18 @@ pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
 
 /// The effect model of this name.
 pub fn model(py: Python<'_>, text: &str, outside: Outside) -> PyResult<Routed> {
-    let model = EffectModels::build(&spec(py, text)?).map_err(|error| errors::model(py, &error))?;
-    Ok(model.outside(outside))
+    fitted(py, text, outside, None)
+}
+
+/// The same with what was learnt about a table.
+pub fn fitted(
+    py: Python<'_>,
+    text: &str,
+    outside: Outside,
+    fit: Option<&TableFit>,
+) -> PyResult<Routed> {
+    let model = EffectModels::fitted(&spec(py, text)?, fit);
+    Ok(model.map_err(|error| errors::model(py, &error))?.outside(outside))
 }
 
 /// A time limit in seconds.

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::asset::fault::Faults;
 use crate::asset::node::Node;
 use crate::asset::read_text;
-use crate::scene::{ModelSpec, Outcome, Plan, Task, Tool, Verdict};
+use crate::asset::table_fit::Whole;
+use crate::scene::{ModelSpec, Outcome, Plan, TableFit, Task, Tool, Verdict};
 
 use super::read::{self, Opened};
 use super::{PLAN_FILE, PLAN_VERSION, emit};
@@ -24,6 +25,8 @@ pub struct PlanFile {
     pub plan: Plan,
     /// The effect model that predicted the outcome.
     pub model: Option<ModelSpec>,
+    /// What that model knew of the table.
+    pub fit: Option<TableFit>,
     /// Where that model says the plan ends.
     pub predicted: Option<Outcome>,
     /// Whether simulation confirms it.
@@ -63,12 +66,15 @@ impl PlanFile {
                 opened.check_outcome(node.get("outcome"), &evidence.outcome);
             }
         }
+        let fit = own.fit.filter(|value| !value.is_null());
+        let fit = fit.map(|value| TableFit::parse(&value.to_string(), file)).transpose()?;
         let tools = opened.tools;
         let file = opened.task.map(|task| Self {
             task,
             tools,
             plan: own.plan,
             model: own.model,
+            fit,
             predicted: own.predicted,
             verdict: own.verdict,
         });
@@ -90,6 +96,7 @@ impl PlanFile {
 struct Own {
     plan: Plan,
     model: Option<ModelSpec>,
+    fit: Option<serde_json::Value>,
     predicted: Option<Outcome>,
     verdict: Option<Verdict>,
 }
@@ -111,7 +118,8 @@ impl OldLever {
     fn plan(self) -> Own {
         let pushes = self.follow_up.map(|pushes| pushes.plan).unwrap_or_default();
         let model = self.model.and_then(|model| model.parse().ok());
-        Own { plan: self.plan.then(pushes), model, predicted: None, verdict: None }
+        let plan = self.plan.then(pushes);
+        Own { plan, model, fit: None, predicted: None, verdict: None }
     }
 }
 
@@ -123,6 +131,8 @@ impl Serialize for PlanFile {
             kind: &'static str,
             plan: &'a Plan,
             model: &'a Option<ModelSpec>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            fit: Option<Whole>,
             predicted: &'a Option<Outcome>,
             verdict: &'a Option<Verdict>,
             tools: Vec<serde_json::Value>,
@@ -133,6 +143,7 @@ impl Serialize for PlanFile {
             kind: "plan",
             plan: &self.plan,
             model: &self.model,
+            fit: self.fit.as_ref().map(Whole::of),
             predicted: &self.predicted,
             verdict: &self.verdict,
             tools: self.tools.iter().map(|tool| emit::tool(tool)).collect(),

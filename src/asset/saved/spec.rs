@@ -46,6 +46,11 @@ static STEPS_FILE: Value = Value::Map(&[
     TOOLS,
     Key::required("plan", STEPS, "The steps."),
     Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
+    Key::optional(
+        "fit",
+        Value::Anything,
+        "What the model knew of the table, as `pushplan fit --save-fit` writes it; by default nothing.",
+    ),
     PREDICTED,
     JUDGED,
 ]);

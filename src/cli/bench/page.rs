@@ -79,6 +79,7 @@ impl PageArgs {
             tools: vec![Arc::clone(tool)],
             plan,
             model,
+            fit: None,
             predicted: None,
             verdict: None,
         };

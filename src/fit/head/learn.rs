@@ -50,48 +50,110 @@ impl Default for HeadSettings {
     }
 }
 
-/// What `trials` say of a table beyond `found`, the numbers that were fitted to them: the change of
-/// the last layer of `network`, its spread and the noise that is left. With too few pushes, or where
-/// those that are left out are not predicted better, that change is none.
+/// What is known of a table besides the pushes that teach a head.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    /// Width of the noise, metres.
+    pub noise: f64,
+    /// How far objects move in a push on average, metres.
+    pub motion: f64,
+    /// Coefficient of friction of tool and objects, where recordings tell it.
+    pub friction: Option<f64>,
+    /// Share of the corners' distance at which the objects rest, where recordings tell it.
+    pub support: Option<f64>,
+    /// What was learnt of the table before; it stays as it is.
+    pub before: Option<TableFit>,
+}
+
+impl From<&Fit> for Basis {
+    fn from(found: &Fit) -> Self {
+        Self {
+            noise: found.noise,
+            motion: found.motion,
+            friction: found.friction.told.then_some(found.told_friction()),
+            support: found.told_spread(),
+            before: None,
+        }
+    }
+}
+
+impl Basis {
+    /// Where nothing is fitted: objects are seen with errors of `noise` metres, and the rest is as
+    /// it was learnt before.
+    pub fn seen(trials: &[Trial], noise: f64, before: Option<&TableFit>) -> Self {
+        let motions: Vec<f64> = trials.iter().flat_map(Trial::motions).collect();
+        let before = before.cloned();
+        let told = |of: fn(&TableFit) -> Option<f64>| before.as_ref().and_then(of);
+        let (friction, support) = (told(|fit| fit.friction), told(|fit| fit.support));
+        Self { noise, motion: mean(&motions), friction, support, before }
+    }
+
+    /// The fit before a push has told anything.
+    fn fit(
+        &self,
+        network: &Network,
+        trials: &[Trial],
+    ) -> Result<TableFit, crate::network::WeightsError> {
+        let none = || TableFit {
+            weights: String::new(),
+            head: Head::none(network.effect_width()).values().to_vec(),
+            noise: self.noise,
+            table_friction: trials.first().map_or(0.0, |trial| trial.scene.table_friction),
+            ..TableFit::default()
+        };
+        let before = self.before.clone().unwrap_or_else(none);
+        Ok(TableFit {
+            weights: network.weights().checksum()?,
+            friction: self.friction,
+            support: self.support,
+            objects: objects(&before.objects, trials),
+            pushes: before.pushes + trials.len(),
+            ..before
+        })
+    }
+}
+
+/// What `trials` say of a table beyond the numbers in `basis`: the change of the last layer of
+/// `network`, its spread and the noise that is left. With too few pushes, or where those that are left
+/// out are not predicted better, that change is none, or as it was learnt before.
 ///
 /// # Errors
 /// If the checksum of the weights cannot be made.
 pub fn learn(
     network: &Network,
     trials: &[Trial],
-    found: &Fit,
+    basis: &Basis,
     settings: &HeadSettings,
 ) -> Result<TableFit, crate::network::WeightsError> {
     let half = network.effect_width();
-    let mut fit = TableFit {
-        weights: network.weights().checksum()?,
-        head: Head::none(half).values().to_vec(),
-        spread: HeadSpread::default(),
-        noise: found.noise,
-        friction: found.friction.told.then_some(found.told_friction()),
-        support: found.told_spread(),
-        table_friction: trials.first().map_or(0.0, |trial| trial.scene.table_friction),
-        objects: objects(trials),
-        pushes: trials.len(),
-    };
+    let mut fit = basis.fit(network, trials)?;
+    let before = basis.before.as_ref().filter(|before| before.spread.prior > 0.0);
     let told: Vec<Trial> = trials.iter().map(|trial| told(&fit, trial)).collect();
     let moves: Vec<Vec<bool>> = told.iter().map(|trial| moving(network, trial)).collect();
-    let least = DISAGREEMENT * found.motion;
+    // A few pushes do not tell how far off pushes are.
+    let least = (DISAGREEMENT * basis.motion).max(before.map_or(0.0, |before| before.noise));
     let look = |head: &Head| -> Vec<Vec<Observed>> {
         let network = network.clone().adapted(head);
         let pairs = told.par_iter().zip(&moves);
         pairs.map(|(trial, moves)| observed(&network, trial, moves)).collect()
     };
-    let none = Head::none(half);
-    let mut seen = look(&none);
-    if seen.iter().flatten().count() < FEWEST {
+    let Some(mut head) = Head::new(fit.head.clone(), half) else { return Ok(fit) };
+    let mut seen = look(&head);
+    let fewest = if before.is_some() { 1 } else { FEWEST };
+    if seen.iter().flatten().count() < fewest {
         return Ok(fit);
     }
     let regression = |seen: &[Vec<Observed>], head: &Head| {
-        Regression::new(seen.iter().flatten(), head.values(), settings.law, least)
+        let new = Regression::new(seen.iter().flatten(), head.values(), settings.law, least);
+        match before {
+            Some(before) => new.after(before),
+            None => new,
+        }
     };
-    let prior = choose(network, &told, &moves, &seen, settings, least).unwrap_or(0.0);
-    let mut head = none;
+    let prior = match before {
+        Some(before) => before.spread.prior,
+        None => choose(network, &told, &moves, &seen, settings, least).unwrap_or(0.0),
+    };
     for _ in 0..ROUNDS {
         let regression = regression(&seen, &head);
         let Some(solved) = regression.solve(prior) else { break };
@@ -182,9 +244,9 @@ fn loss(ends: &[Vec<Observed>], width: f64) -> f64 {
     ends.iter().flatten().map(one).sum()
 }
 
-/// The objects of all trials, each once.
-fn objects(trials: &[Trial]) -> Vec<FittedObject> {
-    let mut objects: Vec<FittedObject> = Vec::new();
+/// These objects and those of all trials, each once.
+fn objects(before: &[FittedObject], trials: &[Trial]) -> Vec<FittedObject> {
+    let mut objects = before.to_vec();
     for object in trials.iter().flat_map(|trial| &trial.scene.objects) {
         let one =
             FittedObject { name: object.name.clone(), shape: object.shape, mass: object.mass };

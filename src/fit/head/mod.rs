@@ -11,4 +11,4 @@ mod learn;
 mod observed;
 mod regression;
 
-pub use learn::{HeadSettings, learn};
+pub use learn::{Basis, HeadSettings, learn};

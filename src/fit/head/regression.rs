@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::fit::NoiseLaw;
 use crate::fit::likelihood::FREEDOM;
+use crate::scene::TableFit;
 
 use super::observed::Observed;
 
@@ -21,6 +22,10 @@ pub(super) struct Regression {
     gram: DMatrix<f64>,
     /// First number of each object's end, and how many.
     blocks: Vec<(usize, usize)>,
+    /// The mean before anything was observed, [P].
+    before: Vec<f64>,
+    /// Variance of each of the last numbers, which say what was known before, over that of the prior.
+    known: Vec<f64>,
     law: NoiseLaw,
     /// The noise is never taken as narrower, metres.
     least: f64,
@@ -63,14 +68,49 @@ impl Regression {
             }
         }
         let gram = &rows * rows.transpose();
-        Self { targets, rows, gram, blocks, law, least }
+        let (before, known) = (vec![0.0; mean.len()], Vec::new());
+        Self { targets, rows, gram, blocks, before, known, law, least }
+    }
+
+    /// The same after another posterior: along each direction in which that one is narrow, a number
+    /// is known as well as it says; across them its mean is the prior's.
+    pub fn after(mut self, TableFit { head, spread, .. }: &TableFit) -> Self {
+        let dot = |direction: &[f32], values: &[f64]| -> f64 {
+            direction.iter().zip(values).map(|(a, b)| f64::from(*a) * b).sum()
+        };
+        // What is known to the last digit would leave nothing to divide by.
+        let told = spread.directions.iter().filter(|one| one.left < 1.0 && one.left > 0.0);
+        let told: Vec<_> = told.collect();
+        let mut across = head.clone();
+        for one in &told {
+            let along = dot(&one.direction, head);
+            let pairs = across.iter_mut().zip(&one.direction);
+            pairs.for_each(|(value, part)| *value -= along * f64::from(*part));
+        }
+        let (seen, all) = (self.targets.len(), self.targets.len() + told.len());
+        for (target, row) in self.targets.iter_mut().zip(self.rows.row_iter()) {
+            *target -= row.iter().zip(&across).map(|(a, b)| a * b).sum::<f64>();
+        }
+        self.targets = self.targets.resize_vertically(all, 0.0);
+        self.rows = self.rows.resize_vertically(all, 0.0);
+        for (k, one) in told.iter().enumerate() {
+            self.targets[seen + k] = dot(&one.direction, head) / (1.0 - one.left);
+            let mut row = self.rows.row_mut(seen + k);
+            row.iter_mut().zip(&one.direction).for_each(|(to, part)| *to = f64::from(*part));
+            self.known.push(one.left / (1.0 - one.left));
+        }
+        self.gram = &self.rows * self.rows.transpose();
+        self.before = across;
+        self
     }
 
     /// The posterior with a prior of this deviation; `None` if the numbers allow none.
     pub fn solve(&self, prior: f64) -> Option<Solved> {
         let count = self.targets.len();
+        let seen = count - self.known.len();
         let signal = &self.gram * (prior * prior);
-        let mut square = (self.targets.norm_squared() / count as f64 / 2.0).max(self.least.powi(2));
+        let off = self.targets.rows(0, seen).norm_squared() / seen as f64;
+        let mut square = (off / 2.0).max(self.least.powi(2));
         let mut weights = vec![1.0; self.blocks.len()];
         let mut state = None;
         for _ in 0..ROUNDS {
@@ -78,12 +118,17 @@ impl Regression {
             for ((first, size), weight) in self.blocks.iter().zip(&weights) {
                 variances.rows_mut(*first, *size).fill(square / weight);
             }
+            for (variance, known) in
+                variances.rows_mut(seen, count - seen).iter_mut().zip(&self.known)
+            {
+                *variance = prior * prior * known;
+            }
             let mut sum = signal.clone();
             (0..count).for_each(|k| sum[(k, k)] += variances[k]);
             let inverse = sum.cholesky()?.inverse();
             let dual = &inverse * &self.targets;
             let residual = dual.component_mul(&variances);
-            let free: f64 = (0..count).map(|k| variances[k] * inverse[(k, k)]).sum();
+            let free: f64 = (0..seen).map(|k| variances[k] * inverse[(k, k)]).sum();
             let mut weighted = 0.0;
             for ((first, size), weight) in self.blocks.iter().zip(&mut weights) {
                 let far = residual.rows(*first, *size).norm_squared();
@@ -99,7 +144,7 @@ impl Regression {
         }
         let (dual, variances, square) = state?;
         let mean = self.rows.transpose() * &dual * (prior * prior);
-        let mean = mean.iter().copied().collect();
+        let mean = mean.iter().zip(&self.before).map(|(change, before)| before + change).collect();
         Some(Solved { prior, mean, noise: square.sqrt(), variances })
     }
 

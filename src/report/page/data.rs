@@ -221,6 +221,10 @@ pub struct Replay {
     /// What is measured, frame by frame, see [`Data::measure`].
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub measure: Vec<i64>,
+    /// Of every frame the relations that the network reads: two nodes, and the kind. Nodes are objects,
+    /// the parts of the tool and obstacles; kinds are contact, fixed, revolute and prismatic.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub graph: Vec<Vec<[usize; 3]>>,
 }
 
 #[derive(Serialize)]

@@ -1,7 +1,8 @@
 //! Trajectories, packed for the page.
 
 use crate::geometry::Pose;
-use crate::scene::{Engine, Evidence, Frame, ModelKind, Task, Trajectory, Verdict};
+use crate::graph::{Graph, GraphRelation};
+use crate::scene::{Engine, Evidence, Frame, Job, ModelKind, Scene, Task, Trajectory, Verdict};
 
 use super::data::{End, Layer, Replay, fine, length, point};
 
@@ -38,7 +39,25 @@ pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> O
         tool: pose(&|frame| frame.tool),
         objects: (0..objects).map(|k| pose(&|frame| frame.state.poses[k])).collect(),
         measure: Vec::new(),
+        graph: Vec::new(),
     })
+}
+
+/// The relations of every frame of what a model says that `job` does, see [`Replay::graph`].
+pub fn graph(scene: &Scene, job: &Job, trajectory: &Trajectory) -> Vec<Vec<[usize; 3]>> {
+    let relations = |frame: usize| -> Option<Vec<[usize; 3]>> {
+        let graph = Graph::at(scene, job, trajectory, frame)?;
+        // Those that are there in both directions once.
+        let mut relations: Vec<[usize; 3]> = Vec::new();
+        for GraphRelation { receiver, sender, kind, .. } in graph.relations {
+            let one = [receiver.min(sender), receiver.max(sender), kind as usize];
+            if !relations.contains(&one) {
+                relations.push(one);
+            }
+        }
+        Some(relations)
+    };
+    (0..).map_while(relations).collect()
 }
 
 /// The nominal replays of a verdict that were recorded, and whether they reach the goal.

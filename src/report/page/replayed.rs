@@ -9,12 +9,12 @@ use crate::report::number::millimetres;
 use crate::report::plan_picture::space_figures;
 use crate::report::plan_text::plan_line;
 use crate::report::verdict::{replay_warnings, verdict_line};
-use crate::scene::{Engine, Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
+use crate::scene::{Engine, Job, Outcome, Plan, Task, Tool, ToolMotion, Trajectory, Verdict};
 
 use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
-use super::replay::{ends, layer_of, replay, replays};
+use super::replay::{ends, graph, layer_of, replay, replays};
 use super::{space, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
@@ -51,10 +51,15 @@ pub(super) fn shown_replay(
     (plan, tools): (&Plan, &[Arc<Tool>]),
     (layer, trajectory, reached): (Layer, &Trajectory, bool),
 ) -> Option<Replay> {
-    match is_in_space(task, plan) {
-        true => space::replay(layer, task, (plan, tools), trajectory, reached),
-        false => replay(layer, trajectory, reached),
+    if is_in_space(task, plan) {
+        return space::replay(layer, task, (plan, tools), trajectory, reached);
     }
+    let mut replay = replay(layer, trajectory, reached)?;
+    if let (Layer::Predicted, Some(tool)) = (layer, tools.first()) {
+        let job = Job::stated(&task.scene, plan.motion(tool));
+        replay.graph = graph(&task.scene, &job, trajectory);
+    }
+    Some(replay)
 }
 
 fn is_in_space(task: &Task, plan: &Plan) -> bool {
@@ -182,6 +187,7 @@ impl<'a> Making<'a> {
             tools: tools.to_vec(),
             plan: plan.clone(),
             model: None,
+            fit: None,
             predicted: None,
             verdict: None,
         };

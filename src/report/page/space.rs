@@ -74,6 +74,7 @@ pub fn replay(
         strokes,
         tool: columns(frames.iter().map(|frame| tool(frame))),
         objects: (0..objects).map(|k| columns(frames.iter().map(|frame| at(frame, k)))).collect(),
+        graph: Vec::new(),
         measure: frames.iter().map(|frame| length(height(frame) - before)).collect(),
     })
 }

@@ -6,8 +6,8 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, ModelKind, Outcome, Plan, Push,
-    Spread, Step, Task, Tool, Trajectory, Verdict, Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, HeadSpread, ModelKind, Narrowed,
+    Outcome, Plan, Push, Spread, Step, TableFit, Task, Tool, Trajectory, Verdict, Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -43,6 +43,17 @@ pub fn plan_file(name: &str) -> PlanFile {
         tools: vec![tool],
         plan,
         model: Some(ModelKind::PLANAR.into()),
+        fit: Some(TableFit {
+            weights: "0123".into(),
+            head: vec![0.1, -1.0 / 3.0],
+            spread: HeadSpread {
+                prior: 0.08,
+                directions: vec![Narrowed { left: 0.2, direction: vec![0.6, -0.8] }],
+            },
+            noise: 6.2e-4,
+            pushes: 20,
+            ..TableFit::default()
+        }),
         predicted: Some(outcome),
         verdict: Some(verdict),
     }
@@ -93,6 +104,12 @@ fn damaged(old: &str, new: &str) -> String {
     let text = serde_json::to_string(&plan_file("pull-back.yaml")).unwrap();
     assert!(text.contains(old), "{old} is not in {text}");
     PlanFile::parse(&text.replacen(old, new, 1), "p.json").unwrap_err().to_string()
+}
+
+#[test]
+fn a_plan_file_whose_fit_was_changed_is_refused() {
+    let message = damaged("\"pushes\":20", "\"pushes\":90");
+    assert!(message.contains("the fit is damaged"), "{message}");
 }
 
 #[test]

@@ -114,6 +114,7 @@ fn five_shipped_plans_work_in_mujoco() {
             tools: best.tools.clone(),
             plan: best.plan.clone(),
             model: None,
+            fit: None,
             predicted: None,
             verdict: best.verdict.clone(),
         };

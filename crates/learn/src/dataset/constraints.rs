@@ -25,13 +25,16 @@ pub enum JointRule {
 /// What the scenes of a crowd must be; whatever is left open is drawn as for training.
 ///
 /// ```
-/// use pushplan_learn::dataset::{Constraints, DatasetConfig, JointRule, Preset, Sampler, Solids};
+/// use pushplan_learn::dataset::{
+///     Constraints, DatasetConfig, JointRule, Preset, Sampler, Solids, Truth,
+/// };
 ///
 /// let test_set = DatasetConfig {
 ///     seed: 7,
 ///     episodes: 200,
 ///     preset: Preset::Dense,
 ///     constraints: Constraints::test(9, JointRule::Mixed, Solids::Cylinders),
+///     truth: Truth::default(),
 /// };
 /// assert!(test_set.check().is_ok());
 /// ```

@@ -1,6 +1,7 @@
 //! Tests of `regression`.
 
 use super::*;
+use crate::scene::{HeadSpread, Narrowed};
 
 /// 60 ends of two numbers that follow two parameters, (0.3, -0.2) and nothing else, with an
 /// error of alternating sign.
@@ -45,4 +46,31 @@ fn what_is_left_of_the_prior_is_what_the_normal_equations_say() {
     };
     assert!((variance([1.0, 0.0]) / exact[(0, 0)] - 1.0).abs() < 0.05);
     assert!((variance([0.0, 1.0]) / exact[(1, 1)] - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn what_was_learnt_before_counts_as_if_all_had_been_observed_at_once() {
+    let ends = ends(1e-2);
+    // The noise is not found anew, so that both see the same.
+    let of = |ends: &[Observed]| Regression::new(ends, &[0.0; 2], NoiseLaw::Gaussian, 2e-2);
+    let solve = |regression: &Regression| regression.solve(0.5).expect("a posterior");
+    let (all, half) = (of(&ends), of(&ends[..30]));
+    let (together, first) = (solve(&all), solve(&half));
+    let narrowed = half.directions(&first, 8).into_iter().map(|(left, direction)| Narrowed {
+        left,
+        direction: direction.into_iter().map(|value| value as f32).collect(),
+    });
+    let spread = HeadSpread { prior: 0.5, directions: narrowed.collect() };
+    let before = TableFit { head: first.mean, spread, ..TableFit::default() };
+    let later = of(&ends[30..]).after(&before);
+    let then = solve(&later);
+    for (a, b) in then.mean.iter().zip(&together.mean) {
+        assert!((a - b).abs() < 1e-6, "{:?} {:?}", then.mean, together.mean);
+    }
+    let lefts = |regression: &Regression, solved| -> Vec<f64> {
+        regression.directions(solved, 8).into_iter().map(|(left, _)| left).collect()
+    };
+    for (a, b) in lefts(&later, &then).iter().zip(lefts(&all, &together)) {
+        assert!((a - b).abs() < 1e-6 * b.max(1e-3));
+    }
 }

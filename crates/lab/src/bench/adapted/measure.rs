@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pushplan::internals::effect::{EffectModel, Network, Prior};
-use pushplan::internals::fit::{FitSettings, HeadSettings, fit, learn};
+use pushplan::internals::fit::{Basis, FitSettings, HeadSettings, fit, learn};
 use pushplan::internals::geometry::wrap_angle;
 use pushplan::internals::judge::{Comparison, Trial};
 use pushplan::internals::network::WeightsError;
@@ -92,7 +92,7 @@ pub fn measure_split(
     let learnt: Vec<Trial> = split.learnt.iter().map(|&k| trials[k].clone()).collect();
     let settings = FitSettings { values: VALUES, ..FitSettings::default() };
     let Some(found) = fit(&prior, &learnt, &settings, &Unwatched) else { return Ok(None) };
-    let table = learn(network, &learnt, &found, &HeadSettings::default())?;
+    let table = learn(network, &learnt, &Basis::from(&found), &HeadSettings::default())?;
     let Ok(adapted) = network.clone().fitted(&table) else { return Ok(None) };
     let push = |&recording: &usize| {
         let stated = &trials[recording];
