@@ -63,6 +63,5 @@ pub use preset::Preset;
 pub use set::{Dataset, LeverDataset, Sampler, Set};
 pub use tabletop::{Crowd, Solids, anywhere, random_scene};
 pub use truth::Truth;
-pub use truth::Truth;
 
 pub use pushplan::internals::scene::{Ranges, Span};
