@@ -8,7 +8,7 @@ use crate::geometry::Vector;
 use crate::scene::{FRAME_TRAVEL, Observation, Sight, State, Stroke, ToolMotion};
 
 use super::error::ActError;
-use super::world::Look;
+use super::world::{Look, Stop};
 
 /// Two objects have changed places where each is farther than the first from where it can be and
 /// nearer than the second to where the other can be, metres.
@@ -48,6 +48,16 @@ pub enum Note {
         /// Its index.
         object: usize,
     },
+    /// The push ended before its end.
+    Ended {
+        /// Why.
+        why: String,
+    },
+    /// At first an object is seen elsewhere than the task states it.
+    Elsewhere {
+        /// Its index.
+        object: usize,
+    },
     /// An object is not where any push can have brought it: somebody has moved it.
     Moved {
         /// Its index.
@@ -75,6 +85,12 @@ impl fmt::Display for Note {
                     "object {object} was not seen at rest; taken to be where it was predicted"
                 )
             }
+            Note::Ended { why } => write!(f, "the push ended early: {why}"),
+            Note::Elsewhere { object } => write!(
+                f,
+                "object {object} stands elsewhere than the task says; it is taken to be where it \
+                 is seen"
+            ),
             Note::Moved { object } => write!(f, "object {object} was moved by somebody else"),
         }
     }
@@ -101,6 +117,25 @@ impl Gatherer {
             predicted: places(predicted),
             travelled: vec![0.0; before.poses.len()],
             notes: Vec::new(),
+        }
+    }
+
+    /// [`Gatherer::motion`] of a motion that may have ended early.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn made(
+        &mut self,
+        motion: &ToolMotion,
+        stop: Option<&Stop>,
+        looks: Vec<Look>,
+    ) -> Result<(Vec<Observation>, Option<Look>), ActError> {
+        let Some(stop) = stop else { return self.motion(motion, looks) };
+        self.note(Note::Ended { why: stop.why.clone() });
+        let made = stop.made(motion);
+        match made.strokes.is_empty() {
+            true => Ok((Vec::new(), None)),
+            false => self.motion(&made, looks),
         }
     }
 

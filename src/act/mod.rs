@@ -30,6 +30,7 @@
 //! | what is reported | what is done |
 //! |---|---|
 //! | an object is not seen | the others tell what they can; at rest the table is looked at again, up to three times |
+//! | an object stands elsewhere at the first look than the task states it | taken to be where it is seen |
 //! | still not seen at rest | taken to be where it was predicted; of the goal's object [`ActError::Lost`] |
 //! | an instant is missing | the next one tells of the motion since the last |
 //! | late, out of order | put in order by its time, within one motion |
@@ -39,7 +40,8 @@
 //! | an object far from anywhere it can be | not seen; believed where a second look at rest agrees |
 //! | another number of objects | [`ActError::Objects`]: this is another table |
 //!
-//! All of this, except objects that are not seen for a while and missing instants, leaves a [`Note`] in the trace.
+//! Where a robot cannot go on with a push it says so ([`World::stopped`]), and what was seen is of the push
+//! as far as it was made. All of this, except objects that are not seen for a while and missing instants, leaves a [`Note`] in the trace.
 
 mod decide;
 mod error;
@@ -61,4 +63,4 @@ pub use runner::Runner;
 pub use settings::RunSettings;
 pub use simulated::{SimulatedWorld, hidden, really};
 pub use trace::{End, Step, TRACE_VERSION, Trace, Why};
-pub use world::{Look, World, WorldError, WorldState};
+pub use world::{Look, Stop, World, WorldError, WorldState};

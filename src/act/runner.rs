@@ -80,13 +80,14 @@ impl<'a> Runner<'a> {
         if trace.first.is_none() {
             trace.first = Some(world.look()?);
             trace.before = world.save();
-            let belief = self.begin(trace)?;
+            let (belief, notes) = self.begin(trace)?;
+            trace.notes = notes;
             trace.pairs = belief.pairs().collect();
             trace.prior = belief.probabilities();
             trace.prior_numbers = belief.numbers();
             keep(trace)?;
         }
-        let mut belief = self.begin(trace)?;
+        let (mut belief, _) = self.begin(trace)?;
         let start = belief.situation().start;
         for step in &trace.steps {
             self.again(trace, &mut belief, step)?;
@@ -135,8 +136,8 @@ impl<'a> Runner<'a> {
         Ok(trace.learnt.as_ref().map(|fit| self.planner.fitted_anew(fit)).transpose()?)
     }
 
-    /// What is believed after the first look.
-    fn begin(&self, trace: &Trace) -> Result<Belief, ActError> {
+    /// What is believed after the first look, and what is odd about that.
+    fn begin(&self, trace: &Trace) -> Result<(Belief, Vec<Note>), ActError> {
         let Trace { task, settings, first, .. } = trace;
         if task.in_space() {
             let what = "what leaves the plane is planned, and run by nobody who looks".to_owned();
@@ -145,7 +146,16 @@ impl<'a> Runner<'a> {
         let stated = task.scene.start();
         let mut gatherer = Gatherer::new(&stated, &stated);
         let look = first.as_ref().ok_or_else(|| ActError::Trace("it has no first look".into()))?;
-        let seen = gatherer.sights(look, 0.0)?;
+        let mut seen = gatherer.sights(look, 0.0)?;
+        let mut notes = std::mem::take(&mut gatherer.notes);
+        // The table is as it is, whatever was written about it.
+        for (object, (sight, looked)) in seen.iter_mut().zip(&look.seen).enumerate() {
+            if sight.is_none() && looked.is_some_and(|one| one.position.norm().is_finite()) {
+                *sight = *looked;
+                notes.retain(|note| *note != Note::Jumped { object });
+                notes.push(Note::Elsewhere { object });
+            }
+        }
         let poses = seen.iter().zip(&stated.poses).map(|(sight, stated)| match sight {
             Some(Sight { position, heading }) => Pose {
                 position: *position,
@@ -160,10 +170,11 @@ impl<'a> Runner<'a> {
         let belief_settings = BeliefSettings::new(settings.noise);
         let held = (Arc::clone(tool), task.pushes.lift);
         let belief = Belief::about(&scene, task.unknown, held, belief_settings, settings.seed);
-        Ok(match &self.regulator {
+        let belief = match &self.regulator {
             Some(regulator) => belief.regulated(regulator.clone()),
             None => belief,
-        })
+        };
+        Ok((belief, notes))
     }
 
     /// What is done next.
@@ -202,8 +213,9 @@ impl<'a> Runner<'a> {
         let rest = predicted.outcome();
         let motion = done.motion(&tool);
         let looks = world.act(&motion)?;
+        let stop = world.stopped();
         let mut gatherer = Gatherer::new(&belief.situation().start, rest);
-        let seen = gatherer.motion(&motion, looks.clone())?;
+        let seen = gatherer.made(&motion, stop.as_ref(), looks.clone())?;
         let mut again = Vec::new();
         let mut look = || {
             let look = world.look()?;
@@ -222,6 +234,7 @@ impl<'a> Runner<'a> {
             plan,
             looks,
             again,
+            stop,
             notes: gatherer.notes,
             state: belief.situation().start,
             probabilities: belief.probabilities(),
@@ -253,7 +266,7 @@ impl<'a> Runner<'a> {
         let now = belief.situation();
         let predicted = self.predicted(&now, &done, &tool, Record::Outcome);
         let mut gatherer = Gatherer::new(&now.start, predicted.outcome());
-        let seen = gatherer.motion(&motion, step.looks.clone())?;
+        let seen = gatherer.made(&motion, step.stop.as_ref(), step.looks.clone())?;
         let mut again = step.again.iter().cloned();
         let mut look = || again.next().ok_or_else(|| unfit("a step misses a look"));
         let observations = rests(trace, &mut gatherer, seen, &mut look)?;

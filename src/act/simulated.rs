@@ -6,12 +6,13 @@ use crate::asset::{Faults, ToolLibrary};
 use crate::belief::{Belief, BeliefSettings, generator, normal};
 use crate::geometry::Vector;
 use crate::scene::{
-    Job, Physics, Rate, Record, Sight, State, Task, ToolMotion, Trajectory, Truth, Warning,
+    COAST_FRAME, Job, Physics, Rate, Record, Sight, State, Stroke, Task, ToolMotion, Trajectory,
+    Truth, Warning,
 };
-use crate::sim::Simulator;
+use crate::sim::{Arm, Simulator};
 
 use super::trace::{Step, Trace};
-use super::world::{Look, World, WorldError, WorldState};
+use super::world::{Look, Stop, World, WorldError, WorldState};
 
 /// A world in one of the engines.
 #[derive(Clone, Debug)]
@@ -20,13 +21,22 @@ pub struct SimulatedWorld {
     simulator: Simulator,
     state: State,
     looks: u64,
+    arm: Arm,
+    stop: Option<Stop>,
 }
 
 impl SimulatedWorld {
     /// The world as it begins.
     pub fn new(truth: Truth) -> Self {
         let simulator = Simulator::new(truth.engine, Rate::DEFAULT);
-        Self { state: truth.scene.start(), simulator, looks: 0, truth }
+        let (state, arm) = (truth.scene.start(), Arm::default());
+        Self { state, simulator, looks: 0, truth, arm, stop: None }
+    }
+
+    /// The same, in which the robot's arm can keep up `max_force` newtons; `None` if no force is too
+    /// large for it.
+    pub fn pushed_with(self, max_force: Option<f64>) -> Self {
+        Self { arm: Arm { max_force }, ..self }
     }
 
     /// Where everything really is.
@@ -58,15 +68,27 @@ impl World for SimulatedWorld {
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError> {
         let physics = Physics::stated(&self.truth.scene).into();
         let job = Job { start: self.state.clone(), motion: motion.clone().into(), physics };
-        let trajectory = self.simulator.run(&self.truth.scene, &job, Record::Frames);
-        if let Some(warning) = trajectory.warnings.iter().find(|warning| ends(warning)) {
+        let run = self.simulator.run_by(&self.arm, &self.truth.scene, &job, Record::Frames);
+        if let Some(warning) = run.warnings.iter().find(|warning| ends(warning)) {
             return Err(WorldError(format!("the simulated world cannot go on: {warning}")));
         }
-        let looks =
-            trajectory.frames.iter().skip(1).map(|frame| self.see(frame.time, &frame.state));
-        let looks = looks.collect();
-        self.state = State::at_rest(trajectory.outcome().poses.clone());
+        let (stop, kept) = stop(motion, &run);
+        let frames = &run.frames[..kept];
+        let mut looks: Vec<Look> =
+            frames.iter().skip(1).map(|frame| self.see(frame.time, &frame.state)).collect();
+        let last = &frames[kept - 1];
+        self.state = State::at_rest(last.state.poses.clone());
+        if stop.is_some() {
+            // Things have come to rest by the next look.
+            let state = self.state.clone();
+            looks.push(self.see(last.time + COAST_FRAME, &state));
+        }
+        self.stop = stop;
         Ok(looks)
+    }
+
+    fn stopped(&self) -> Option<Stop> {
+        self.stop.clone()
     }
 
     fn save(&self) -> Option<WorldState> {
@@ -77,6 +99,37 @@ impl World for SimulatedWorld {
         self.state = saved.state.clone();
         self.looks = saved.looks;
     }
+}
+
+/// Where a motion ended that the arm could not go on with, and how many of the frames lead there: a
+/// jam is left out, as rigid bodies do not get into each other.
+fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
+    let all = run.frames.len();
+    let stops = |warning: &&Warning| {
+        matches!(
+            warning,
+            Warning::Jammed { .. } | Warning::TooMuchForce { .. } | Warning::SetDownOn { .. }
+        )
+    };
+    let Some(warning) = run.warnings.iter().find(stops) else { return (None, all) };
+    let why = warning.to_string();
+    let kept = match warning {
+        Warning::SetDownOn { stroke, .. } => {
+            return (Some(Stop { stroke: *stroke, share: 0.0, why }), all);
+        }
+        Warning::Jammed { .. } => all.saturating_sub(1).max(1),
+        _ => all,
+    };
+    let last = &run.frames[kept - 1];
+    let stroke = last.stroke.min(motion.strokes.len().saturating_sub(1));
+    let whole = motion.strokes.get(stroke).map_or(0.0, Stroke::travel);
+    let done = motion
+        .strokes
+        .get(stroke)
+        .map_or(0.0, |stroke| Stroke { to: last.tool, ..*stroke }.travel());
+    // The start is of no stroke yet.
+    let share = if kept > 1 && whole > 0.0 { done / whole } else { 0.0 };
+    (Some(Stop { stroke, share, why }), kept)
 }
 
 /// What really happened in every step of a run in a simulated world, frame by frame: an engine that

@@ -14,7 +14,7 @@ use super::error::ActError;
 use super::gather::Note;
 use super::judge::Chance;
 use super::settings::RunSettings;
-use super::world::{Look, WorldState};
+use super::world::{Look, Stop, WorldState};
 
 /// Version of the format; runs of another one cannot be continued.
 pub const TRACE_VERSION: u32 = 2;
@@ -37,6 +37,9 @@ pub struct Trace {
     pub truth: Option<Truth>,
     /// What was seen before anything was done.
     pub first: Option<Look>,
+    /// What was odd about that.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<Note>,
     /// The simulated world then.
     pub before: Option<WorldState>,
     /// Pairs of objects that were seen near each other then and so may be joined, where that is unknown.
@@ -98,6 +101,9 @@ pub struct Step {
     pub looks: Vec<Look>,
     /// What was seen at rest where that was not enough, look by look.
     pub again: Vec<Look>,
+    /// Where the robot could not go on, if it could not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stop: Option<Stop>,
     /// What was wrong with all that.
     pub notes: Vec<Note>,
     /// Where everything is thought to be now.
@@ -123,9 +129,13 @@ pub enum End {
 }
 
 impl Step {
-    /// The motion of the pushes that were made.
+    /// The motion of the pushes that were made, as far as it was.
     pub fn motion(&self) -> ToolMotion {
-        self.plan.first(self.pushes).motion(&Arc::new(self.tool.clone()))
+        let motion = self.plan.first(self.pushes).motion(&Arc::new(self.tool.clone()));
+        match &self.stop {
+            Some(stop) => stop.made(&motion),
+            None => motion,
+        }
     }
 }
 
@@ -140,6 +150,7 @@ impl Trace {
             planner,
             truth,
             first: None,
+            notes: Vec::new(),
             before: None,
             pairs: Vec::new(),
             prior: Vec::new(),
@@ -185,6 +196,11 @@ impl Trace {
             && self.settings == other.settings
             && self.planner == other.planner
             && self.truth == other.truth
+    }
+
+    /// All that was odd about what was seen, in order.
+    pub fn all_notes(&self) -> impl Iterator<Item = &Note> {
+        self.notes.iter().chain(self.steps.iter().flat_map(|step| &step.notes))
     }
 
     /// Pushes made so far, those of chained plans one by one.

@@ -22,6 +22,12 @@ pub trait World {
     /// If the motion was not carried out as it is.
     fn act(&mut self, motion: &ToolMotion) -> Result<Vec<Look>, WorldError>;
 
+    /// Where and why the last motion ended before its end; `None` if it was carried out whole, or if
+    /// nobody can say. What was seen is then of the shorter motion.
+    fn stopped(&self) -> Option<Stop> {
+        None
+    }
+
     /// What an interrupted run needs to go on in a world that ends with it; `None` for a real one.
     fn save(&self) -> Option<WorldState> {
         None
@@ -41,6 +47,35 @@ pub struct Look {
     pub time: f64,
     /// Every object of the scene; `None` where it is not seen.
     pub seen: Vec<Option<Sight>>,
+}
+
+/// A motion that ended before its end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// The index of the stroke that was under way.
+    pub stroke: usize,
+    /// How much of it was made, 0 to 1.
+    pub share: f64,
+    /// Why it was not gone on with.
+    pub why: String,
+}
+
+impl Stop {
+    /// As much of `motion` as was made.
+    pub fn made(&self, motion: &ToolMotion) -> ToolMotion {
+        let mut made = motion.clone();
+        made.strokes.truncate(self.stroke + 1);
+        let share = self.share.clamp(0.0, 1.0);
+        if let Some(last) = made.strokes.get_mut(self.stroke) {
+            last.to = last.from.towards(&last.to, share);
+            last.duration *= share;
+            last.settle = true;
+        }
+        // What was hardly begun was not made.
+        made.strokes.retain(|stroke| stroke.duration > 0.0);
+        made
+    }
 }
 
 /// A simulated world at rest.

@@ -160,14 +160,14 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     }
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
-    let mut world = SimulatedWorld::new(truth);
+    let mut world = SimulatedWorld::new(truth).pushed_with(trace.task.robot.max_force);
     interrupt::watch();
     let following = Following::bar(session, "pushes");
     let mut keep = |trace: &Trace| trace.write(&path);
     let ran = session.compute(|| runner.run(&mut trace, &mut world, &mut keep, &following));
     following.finish()?;
     ran.map_err(|error| act_error(error, &path))?;
-    for note in trace.steps.iter().flat_map(|step| &step.notes) {
+    for note in trace.all_notes() {
         session.warn(&note.to_string());
     }
     let mut document = run_document(&trace);

@@ -87,5 +87,5 @@ pub use trajectory::{Body, Contact, Force, Frame, Lift, Record, Spread, TOUCHING
 pub use truth::Truth;
 pub use unknowns::Unknowns;
 pub use verdict::{Disturbance, Evidence, Reason, Verdict};
-pub use warning::Warning;
+pub use warning::{PushFault, Warning};
 pub use world::{GRAVITY, Object, Obstacle, Scene, TableTop};

@@ -24,6 +24,22 @@ const MOST_HURRIED: f64 = 100.0;
 /// An object this many times faster than the tool is not carried by it.
 const CARRIED: f64 = 3.0;
 
+/// An arm that pushes: where it cannot go on it stops, and nothing is excused that rigid bodies
+/// cannot do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arm {
+    /// The force that it can keep up, newtons; `None` if none is too large.
+    pub max_force: Option<f64>,
+}
+
+impl Arm {
+    /// That the arm gives up, if it does.
+    fn gives_up(&self, strain: &Strain) -> Option<Warning> {
+        let (needed, limit) = (strain.force.lasting, self.max_force?);
+        (needed > limit).then_some(Warning::TooMuchForce { needed, limit })
+    }
+}
+
 /// A scene in one of the engines.
 pub(super) trait World: Sized {
     /// Slower motions of the tool are played at this speed, m/s, in finer steps: to an engine whose
@@ -67,19 +83,22 @@ pub(super) trait World: Sized {
     fn force_on_tool(&self) -> f64;
 }
 
-/// Plays `job` in a world `W` with the simulator's steps.
+/// Plays `job` in a world `W` with the simulator's steps; with an `arm`, until that cannot go on.
 pub(super) fn drive<W: World>(
     scene: &Scene,
     job: &Job,
     simulator: &Simulator,
     record: Record,
-    watch: &dyn Watch,
+    (arm, watch): (Option<&Arm>, &dyn Watch),
 ) -> Trajectory {
     let Job { start, motion, physics } = job;
     let motion = motion.slide();
     let step = simulator.step();
     let tool = motion.strokes.first().map_or(Pose::default(), |stroke| stroke.from);
     let mut recorder = Recorder::new(simulator.spec(), record, start, tool);
+    if arm.is_some() {
+        recorder.strain = Strain::strict();
+    }
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
         return recorder.finish(scene);
@@ -101,7 +120,11 @@ pub(super) fn drive<W: World>(
             let warnings: Vec<Warning> = below
                 .map(|object| Warning::SetDownOn { object: name(object), stroke: index })
                 .collect();
+            let stands = arm.is_some() && !warnings.is_empty();
             recorder.trajectory.warnings.extend(warnings);
+            if stands {
+                return recorder.finish(scene);
+            }
         }
         let mut go = |frame: &FrameStep, world: &mut W, recorder: &mut Recorder| {
             let played = play(world, frame, step, recorder);
@@ -112,7 +135,9 @@ pub(super) fn drive<W: World>(
             let jam = played.jam.map(|jam| jammed(scene, motion, jam));
             let fallen =
                 fallen.map(|k| Warning::OffTable { object: scene.objects[k].name.clone() });
-            let ends = jam.or(fallen).or_else(|| watch.cancelled().then_some(Warning::Stopped));
+            let weak = arm.and_then(|arm| arm.gives_up(&recorder.strain));
+            let stopped = || watch.cancelled().then_some(Warning::Stopped);
+            let ends = jam.or(fallen).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);
             goes_on

@@ -31,5 +31,6 @@ mod strain;
 mod support;
 mod upright;
 
+pub use drive::Arm;
 pub use lever::LeverSimulator;
 pub use simulator::Simulator;

@@ -207,14 +207,14 @@ impl World for PlanarWorld {
 
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
         for pair in self.world.narrow_phase.contact_pairs() {
-            let depth = pair
-                .manifolds
-                .iter()
-                .flat_map(solved)
-                .fold(0.0, |most: f64, (_, point)| most.max(-f64::from(point.dist)));
-            if depth > 0.0 {
-                let (a, b) = (self.label(pair.collider1), self.label(pair.collider2));
-                overlap(a, b, depth, found);
+            let points = pair.manifolds.iter().flat_map(solved);
+            let depths = points.map(|(manifold, point)| (-f64::from(point.dist), manifold));
+            let deepest = depths.max_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((depth, manifold)) = deepest.filter(|(depth, _)| *depth > 0.0) {
+                let between = (self.label(pair.collider1), self.label(pair.collider2));
+                let normal = manifold.data.normal;
+                let normal = Vector::new(normal.x.into(), normal.y.into());
+                overlap(between, depth, normal, found);
             }
         }
     }

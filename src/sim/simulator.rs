@@ -6,7 +6,7 @@ use crate::scene::{
 };
 use crate::watch::{Unwatched, Watch};
 
-use super::drive::drive;
+use super::drive::{Arm, drive};
 use super::lever::LeverSimulator;
 use super::planar::PlanarWorld;
 use super::spatial::SpatialWorld;
@@ -89,12 +89,28 @@ impl Simulator {
         if job.in_space() {
             return self.in_space(scene, job, record, watch);
         }
+        self.drive(scene, job, record, (None, watch))
+    }
+
+    /// Plays a job in the plane as an arm carries it out: it ends where the arm cannot go on, with a
+    /// warning that says why.
+    pub fn run_by(&self, arm: &Arm, scene: &Scene, job: &Job, record: Record) -> Trajectory {
+        self.drive(scene, job, record, (Some(arm), &Unwatched))
+    }
+
+    fn drive(
+        &self,
+        scene: &Scene,
+        job: &Job,
+        record: Record,
+        by: (Option<&Arm>, &dyn Watch),
+    ) -> Trajectory {
         let play = match self.engine {
             Engine::Planar => drive::<PlanarWorld>,
             Engine::Spatial => drive::<SpatialWorld<true>>,
             Engine::Upright => drive::<SpatialWorld<false>>,
         };
-        play(scene, job, self, record, watch)
+        play(scene, job, self, record, by)
     }
 
     /// Plays motions one after another until everything rests: in the plane those of one tool, which

@@ -187,11 +187,13 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
         for pair in self.world.narrow_phase.contact_pairs() {
             let points = pair.manifolds.iter().flat_map(solved);
-            let depth = points.fold(0.0, |most: f64, (_, point)| most.max(-point.dist));
-            if depth > 0.0
+            let depths = points.map(|(manifold, point)| (-point.dist, manifold));
+            let deepest = depths.max_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((depth, manifold)) = deepest.filter(|(depth, _)| *depth > 0.0)
                 && let (Some(a), Some(b)) = (self.label(pair.collider1), self.label(pair.collider2))
             {
-                overlap(a, b, depth, found);
+                let normal = manifold.data.normal;
+                overlap((a, b), depth, Vector::new(normal.x, normal.y), found);
             }
         }
     }

@@ -7,7 +7,11 @@
 //! apart: over 300 solved random tasks no object came into an obstacle at all and none deeper than
 //! 0.6 mm into the tool; squeezed through gaps too narrow for them, objects sank at least 2.5 mm
 //! into a wall.
+//!
+//! Rounded bodies come through gaps that are narrower by less than twice that, without becoming any
+//! thinner: what is inside two obstacles that face each other is jammed, however little.
 
+use crate::geometry::Vector;
 use crate::scene::{Body, Force};
 
 use super::drive::World;
@@ -16,6 +20,13 @@ use super::drive::World;
 /// 10 N for 0.4 kg at 0.1 m/s, and is over in one or two.
 const LASTING: usize = 3;
 
+/// An object that is so much inside two obstacles that face each other is jammed, metres: their
+/// gap is narrower than it by that.
+const SQUEEZED: f64 = 1.5e-4;
+
+/// Obstacles face each other where the cosine between the ways out of them is below this.
+const FACING: f64 = -0.5;
+
 /// An object inside another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Overlap {
@@ -23,6 +34,9 @@ pub(super) struct Overlap {
     pub with: Body,
     /// Metres.
     pub depth: f64,
+    /// Where the object would have to go to come out, a unit vector seen from above; zero where it
+    /// would have to go up.
+    pub out: Vector,
 }
 
 /// Looks at a world after every time step.
@@ -31,6 +45,8 @@ pub(super) struct Strain {
     /// Overlaps from before anything moved: no fault of the motion, as long as they get no deeper.
     /// Nothing is known before the first step.
     excused: Option<Vec<Overlap>>,
+    /// Whether nothing is excused.
+    strict: bool,
     /// Forces in the last steps, newest first, newtons.
     recent: [f64; LASTING],
     /// The largest forces so far.
@@ -38,6 +54,11 @@ pub(super) struct Strain {
 }
 
 impl Strain {
+    /// One that excuses nothing: the state it begins in is one that rigid bodies can be in.
+    pub fn strict() -> Self {
+        Self { strict: true, ..Self::default() }
+    }
+
     /// The world is built again, from the state it had reached.
     pub fn begin(&mut self) {
         self.excused = None;
@@ -52,31 +73,55 @@ impl Strain {
         self.force.peak = self.force.peak.max(self.recent[0]);
         self.force.lasting = self.force.lasting.max(lasting);
         let mut overlaps = Vec::new();
-        world.overlaps(&mut |found| {
-            if found.depth > found.with.most_overlap() {
-                overlaps.push(found);
-            }
-        });
+        world.overlaps(&mut |found| overlaps.push(found));
         // The engines report depths from before the step: the first are those of the start.
         let Some(excused) = &self.excused else {
-            self.excused = Some(overlaps);
+            self.excused = Some(if self.strict { Vec::new() } else { overlaps });
             return None;
         };
-        overlaps.into_iter().find(|found| {
+        let deep = overlaps.iter().copied().find(|found| {
             let same = |known: &&Overlap| known.object == found.object && known.with == found.with;
-            let before = excused.iter().find(same).map_or(0.0, |known| known.depth);
-            found.depth > before + found.with.most_overlap()
-        })
+            // What is no more than a touch is no excuse.
+            let touch = found.with.most_overlap();
+            let before = excused.iter().filter(same).map(|known| known.depth).find(|d| *d > touch);
+            found.depth > before.unwrap_or(0.0) + touch
+        });
+        let squeezed = || {
+            let found = squeezed(&overlaps)?;
+            let before = squeezed_of(excused, found.object).map_or(0.0, |known| known.depth);
+            (found.depth > before + SQUEEZED).then_some(found)
+        };
+        deep.or_else(squeezed)
     }
 }
 
+/// The object that is deepest inside two obstacles that face each other, if one is, with the sum of
+/// both depths.
+fn squeezed(overlaps: &[Overlap]) -> Option<Overlap> {
+    let all = overlaps.iter().filter_map(|one| squeezed_of(overlaps, one.object));
+    all.max_by(|a, b| a.depth.total_cmp(&b.depth))
+}
+
+fn squeezed_of(overlaps: &[Overlap], object: usize) -> Option<Overlap> {
+    let fixed = |one: &&Overlap| one.object == object && matches!(one.with, Body::Obstacle(_));
+    let own = overlaps.iter().filter(fixed);
+    let pairs = own.clone().flat_map(|one| own.clone().map(move |other| (one, other)));
+    let facing = pairs.filter(|(one, other)| one.out.dot(&other.out) < FACING);
+    let sums = facing.map(|(one, other)| Overlap { depth: one.depth + other.depth, ..*one });
+    sums.max_by(|a, b| a.depth.total_cmp(&b.depth))
+}
+
 /// Tells `found` of bodies `a` and `b`, `depth` metres inside each other: an object
-/// and what it is in.
-pub(super) fn overlap(a: Body, b: Body, depth: f64, found: &mut dyn FnMut(Overlap)) {
+/// and what it is in. `normal` leads from `a` to `b`, seen from above.
+pub(super) fn overlap(
+    (a, b): (Body, Body),
+    depth: f64,
+    normal: Vector,
+    found: &mut dyn FnMut(Overlap),
+) {
     match (a, b) {
-        (Body::Object(object), with) | (with, Body::Object(object)) => {
-            found(Overlap { object, with, depth });
-        }
+        (Body::Object(object), with) => found(Overlap { object, with, depth, out: -normal }),
+        (with, Body::Object(object)) => found(Overlap { object, with, depth, out: normal }),
         _ => {}
     }
 }
@@ -87,4 +132,26 @@ pub(super) fn overlap(a: Body, b: Body, depth: f64, found: &mut dyn FnMut(Overla
 pub(super) fn force(impulse: f64, dt: f64, small_steps: usize) -> f64 {
     let n = small_steps as f64;
     impulse / dt * n / (n + 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_between_two_walls_is_squeezed_and_what_leans_on_two_sides_of_a_corner_is_not() {
+        let inside = |wall: usize, depth: f64, out: Vector| Overlap {
+            object: 0,
+            with: Body::Obstacle(wall),
+            depth,
+            out,
+        };
+        let gap = [inside(0, 2e-4, Vector::y()), inside(1, 1e-4, -Vector::y())];
+        let found = squeezed(&gap).expect("it is too narrow");
+        assert!((found.depth - 3e-4).abs() < 1e-12);
+        let corner = [inside(0, 2e-4, Vector::y()), inside(1, 1e-4, Vector::x())];
+        assert_eq!(squeezed(&corner), None);
+        let pushed = Overlap { with: Body::Part(0), ..inside(1, 1e-4, -Vector::y()) };
+        assert_eq!(squeezed(&[inside(0, 2e-4, Vector::y()), pushed]), None);
+    }
 }

@@ -4,10 +4,18 @@
 //! says what no robot can do or the task forbids.
 
 use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};
-use crate::scene::{Obstacle, Plan, Push, PushStep, Robot, Scene, Task, Tool, ToolChoice, Warning};
+use crate::scene::{
+    Obstacle, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
+    Warning,
+};
 
 /// Slack for rounding, metres and radians.
 const SLACK: f64 = 1e-5;
+
+/// How far refinement may turn a push away from the directions of a task, radians (25 degrees), and
+/// how much longer than the task says it may make it.
+const TURNED: f64 = 0.436_333;
+const LONGER: f64 = 1.5;
 
 /// Everything that is wrong with `plan`, which `tool` carries out in `scene`, before anything
 /// moves.
@@ -29,6 +37,11 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
             found.push(Warning::ForbiddenYaw { yaw });
         }
     }
+    let pushes = plan.push_steps().count();
+    if pushes > task.pushes.max_count {
+        found.push(Warning::TooManyPushes { pushes, allowed: task.pushes.max_count });
+    }
+    found.extend(forms(task, plan));
     for (index, step) in plan.push_steps().enumerate() {
         if !is_within_reach(&task.robot, &step.push) {
             found.push(Warning::OutOfReach { push: index });
@@ -39,6 +52,41 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
         }
     }
     found
+}
+
+/// The pushes that are not of the form that the task allows, each with the first fault.
+fn forms(task: &Task, plan: &Plan) -> Vec<Warning> {
+    let (rules, allowed) = (&task.pushes, task.pushes.directions.headings());
+    let mut last = None;
+    let fault = |step: &PushStep| {
+        let PushStep { form, lift, ref push, .. } = *step;
+        let before = last.replace(push.end());
+        let off = |from: Vector| (push.start - from).norm();
+        let turned = |angle: &f64| wrap_angle(angle - push.direction).abs() <= TURNED + SLACK;
+        let chained = form == PushForm::Chained;
+        if form != rules.form {
+            return Some(PushFault::Form);
+        }
+        if (lift - rules.lift).abs() > SLACK {
+            return Some(PushFault::Lift(lift));
+        }
+        match before {
+            None if chained && off(task.robot.home) > SLACK => {
+                return Some(PushFault::Home(off(task.robot.home)));
+            }
+            Some(end) if chained && off(end) > SLACK => return Some(PushFault::Apart(off(end))),
+            _ => {}
+        }
+        if !allowed.iter().any(turned) {
+            return Some(PushFault::Direction(push.direction));
+        }
+        (push.length > LONGER * rules.length + SLACK).then_some(PushFault::Length(push.length))
+    };
+    let faults: Vec<Option<PushFault>> = plan.push_steps().map(fault).collect();
+    let faults = faults.into_iter().enumerate();
+    faults
+        .filter_map(|(push, fault)| Some(Warning::ForbiddenPush { push, fault: fault? }))
+        .collect()
 }
 
 /// The first obstacle that the tool goes through during a push.

@@ -120,7 +120,7 @@ impl PyRun {
     /// What was wrong with what was seen, in words.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.0.steps.iter().flat_map(|step| &step.notes).map(ToString::to_string).collect()
+        self.0.all_notes().map(ToString::to_string).collect()
     }
 
     /// Writes the trace, `*.run.json`, as the command does; a partial file is never left behind.
@@ -216,7 +216,8 @@ pub fn run(
         Ok(number) => {
             let truth = hidden(&task.task, &library, number);
             let truth = truth.map_err(|faults| errors::files(py, &faults, None))?;
-            Place::Drawn(Box::new(SimulatedWorld::new(truth)))
+            let world = SimulatedWorld::new(truth).pushed_with(task.task.robot.max_force);
+            Place::Drawn(Box::new(world))
         }
         Err(_) if world.hasattr("look")? && world.hasattr("act")? => {
             Place::Theirs { object: world.unbind(), raised: None }

@@ -66,7 +66,8 @@ impl RandomSuite {
         let began = Instant::now();
         let mut trace =
             Trace::new(hidden.task.clone(), settings, String::new(), Some(hidden.truth.clone()));
-        let mut world = SimulatedWorld::new(hidden.truth.clone());
+        let mut world =
+            SimulatedWorld::new(hidden.truth.clone()).pushed_with(hidden.task.robot.max_force);
         let runner = Runner::new(planner, library);
         let ran = runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched);
         let seconds = began.elapsed().as_secs_f64();
@@ -94,7 +95,7 @@ fn once(
     task: &Task,
     truth: &Truth,
 ) -> Result<Left, SolveError> {
-    let mut world = SimulatedWorld::new(truth.clone());
+    let mut world = SimulatedWorld::new(truth.clone()).pushed_with(task.robot.max_force);
     let mut start = task.scene.start();
     if let Ok(look) = world.look() {
         for (pose, sight) in start.poses.iter_mut().zip(&look.seen) {
