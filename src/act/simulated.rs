@@ -101,8 +101,9 @@ impl World for SimulatedWorld {
     }
 }
 
-/// Where a motion ended that the arm could not go on with, and how many of the frames lead there: a
-/// jam is left out, as rigid bodies do not get into each other.
+/// Where a motion ended that the arm could not go on with, and how many of the frames lead there: that
+/// in which it gave up is left out, as rigid bodies do not get into each other and a force that is not
+/// there moves nothing.
 fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
     let all = run.frames.len();
     let stops = |warning: &&Warning| {
@@ -117,8 +118,7 @@ fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
         Warning::SetDownOn { stroke, .. } => {
             return (Some(Stop { stroke: *stroke, share: 0.0, why }), all);
         }
-        Warning::Jammed { .. } => all.saturating_sub(1).max(1),
-        _ => all,
+        _ => all.saturating_sub(1).max(1),
     };
     let last = &run.frames[kept - 1];
     let stroke = last.stroke.min(motion.strokes.len().saturating_sub(1));

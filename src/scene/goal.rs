@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Shape, Vector, wrap_angle};
 
-use super::State;
+use super::{Joint, Scene, State};
 
 /// Where an object must come to rest, and how; every stated demand counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -113,6 +113,18 @@ impl Goal {
     /// ```
     pub fn looking_like(self, shape: &Shape) -> Self {
         Self { alike: shape.footprint().symmetry().unwrap_or(1), ..self }
+    }
+
+    /// The same of the goal's object as it stands in `scene`: what is joined to something else, or has
+    /// several solids, looks the same after a full turn alone.
+    pub fn looking_alike(self, scene: &Scene) -> Self {
+        let joined = |joint: &Joint| joint.between.contains(&self.object);
+        match scene.objects.get(self.object) {
+            Some(object) if object.parts.is_empty() && !scene.joints.iter().any(joined) => {
+                self.looking_like(&object.shape)
+            }
+            _ => Self { alike: 1, ..self },
+        }
     }
 
     /// `turn` without the turns after which the object looks the same, radians: the smallest left.

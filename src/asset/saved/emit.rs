@@ -269,7 +269,7 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     if let Some((heading, tolerance)) = goal.heading {
         json["heading_deg"] = json!(degrees(heading));
         json["heading_tolerance_deg"] = json!(degrees(tolerance));
-        if goal.alike != goal.looking_like(&scene.objects[goal.object].shape).alike {
+        if goal.alike != goal.looking_alike(scene).alike {
             json["symmetric"] = json!(false);
         }
     }

@@ -212,5 +212,5 @@ fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
         None => true,
     };
     let looks = symmetric && heading.is_some();
-    Some(if looks { goal.looking_like(&scene.objects[object].shape) } else { goal })
+    Some(if looks { goal.looking_alike(scene) } else { goal })
 }

@@ -109,7 +109,7 @@ fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<
             Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
         }
         [heading, within] => {
-            goal.facing(*heading, *within).looking_like(&scene.objects[object].shape)
+            goal.facing(*heading, *within).looking_alike(scene)
         }
         _ => goal,
     })
