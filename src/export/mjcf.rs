@@ -16,10 +16,10 @@
 //! eight shipped plans by at most 0.3 mm.
 
 use crate::asset::PlanFile;
-use crate::geometry::{Pose, Shape};
+use crate::geometry::{Footprint, Pose, Shape};
 use crate::scene::{
-    COAST_FRAME, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Object, REST_SPEED, Scene,
-    ToolMotion,
+    COAST_FRAME, Carried, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Object, REST_SPEED,
+    SHOWN_HAND, Scene, ToolMotion,
 };
 
 use super::ExportError;
@@ -77,7 +77,8 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     }
     let own = file.tools.first().ok_or(ExportError::Tools)?;
     let motion = file.plan.motion(own);
-    written(&file.task.name, &file.task.scene, &motion, |xml| wanted(xml, file))
+    let hand = file.task.robot.carried(own, motion.lift)[0];
+    written(&file.task.name, &file.task.scene, (&motion, hand), |xml| wanted(xml, file))
 }
 
 /// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
@@ -86,14 +87,14 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
 /// # Errors
 /// [`ExportError::JointLoop`].
 pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
-    written(name, scene, motion, |_| ())
+    written(name, scene, (motion, None), |_| ())
 }
 
 /// The scene, with what `wanted` says of it.
 fn written(
     name: &str,
     scene: &Scene,
-    motion: &ToolMotion,
+    (motion, hand): (&ToolMotion, Option<Carried>),
     wanted: impl FnOnce(&mut Xml),
 ) -> Result<String, ExportError> {
     let trees = forest(scene)?;
@@ -127,7 +128,7 @@ fn written(
     for tree in &trees {
         body(&mut xml, scene, tree);
     }
-    tool(&mut xml, motion);
+    tool(&mut xml, motion, hand);
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
@@ -305,7 +306,7 @@ fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
     xml.leaf("joint", &attributes);
 }
 
-fn tool(xml: &mut Xml, motion: &ToolMotion) {
+fn tool(xml: &mut Xml, motion: &ToolMotion, hand: Option<Carried>) {
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let at = start.position;
     xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
@@ -329,6 +330,12 @@ fn tool(xml: &mut Xml, motion: &ToolMotion) {
         let height = motion.lift + shape.height() / 2.0;
         let material = (0.0, motion.tool.friction);
         solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, material);
+    }
+    // It touches nothing: where it would, no plan goes.
+    if let Some(Carried { footprint: Footprint::Disc { radius }, pose, from }) = hand {
+        let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
+        let middle = from + 0.5 * SHOWN_HAND;
+        solid(xml, "hand".into(), &shape, &(turned * pose), middle, (0.0, 0.0));
     }
     xml.close();
 }

@@ -29,6 +29,9 @@ const MOST_ASIDE: f64 = 0.01;
 /// robot arm and its calibration.
 pub const OBSTACLE_CLEARANCE: f64 = 0.005;
 
+/// A hand keeps at least this distance from all that is as high as it is, metres: nobody looks there.
+pub const HAND_CLEARANCE: f64 = 0.01;
+
 /// Shortest push worth making, metres: the stand-off and then as much again, to have an effect.
 pub const MIN_LENGTH: f64 = 0.01;
 
@@ -66,6 +69,9 @@ pub enum Infeasible {
     /// The tool would come down on an obstacle or pass through one.
     #[error("an obstacle is in the tool's way")]
     Obstacle,
+    /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
+    #[error("the hand would meet something")]
+    Hand,
     /// The end effector would leave the robot's reach.
     #[error("the end effector would leave the robot's reach")]
     Reach,
@@ -87,15 +93,17 @@ pub struct Margins {
     pub obstacle: f64,
     /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
     pub object: f64,
+    /// Of the hand to all that is as high, beyond [`HAND_CLEARANCE`].
+    pub hand: f64,
 }
 
 impl Margins {
     /// How many rules there are.
-    pub const COUNT: usize = 5;
+    pub const COUNT: usize = 6;
 
     /// All of them, in a fixed order.
     pub fn list(&self) -> [f64; Self::COUNT] {
-        [self.start, self.end, self.base, self.obstacle, self.object]
+        [self.start, self.end, self.base, self.obstacle, self.object, self.hand]
     }
 
     /// The first rule that is broken.
@@ -106,6 +114,7 @@ impl Margins {
             Infeasible::Reach,
             Infeasible::Obstacle,
             Infeasible::OnObject,
+            Infeasible::Hand,
         ];
         let mut pairs = self.list().into_iter().zip(reasons);
         pairs.find(|(margin, _)| margin.is_nan() || *margin < -SLACK).map(|(_, reason)| reason)
@@ -212,7 +221,46 @@ impl Workspace<'_> {
                 }
             }
         }
-        if free < MIN_LENGTH { Err(Infeasible::NoRoom) } else { Ok(free) }
+        if free < MIN_LENGTH {
+            return Err(Infeasible::NoRoom);
+        }
+        for carried in robot.carried(tool, self.task.pushes.lift).into_iter().flatten() {
+            let moving = (&carried.footprint, &(frame * carried.pose));
+            for obstacle in self.task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
+                let grown = obstacle.shape().footprint().grown(HAND_CLEARANCE);
+                let room = travel_to_contact(moving, ahead, (&grown, &obstacle.pose));
+                free = free.min(room.unwrap_or(f64::INFINITY));
+            }
+        }
+        if free < MIN_LENGTH { Err(Infeasible::Hand) } else { Ok(free) }
+    }
+
+    /// By how much hand and handle keep clear of obstacles, and of objects that are as high: of all of
+    /// them where the tool is set down, of those that are not to be moved during the push.
+    fn hand(&self, tool: &Tool, (from, to): (&Pose, &Pose), state: &State, set_down: bool) -> f64 {
+        let (task, mut least) = (self.task, FAR);
+        let most = FAR + HAND_CLEARANCE;
+        for carried in task.robot.carried(tool, task.pushes.lift).into_iter().flatten() {
+            let [from, to] = [from, to].map(|frame| *frame * carried.pose);
+            for other in task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
+                let still = (&other.shape().footprint(), &other.pose);
+                least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
+            }
+            let objects = task.scene.objects.iter().zip(&state.poses).enumerate();
+            for (k, (object, pose)) in objects {
+                if carried.from >= object.shape.height() {
+                    continue;
+                }
+                let still = (&object.shape.footprint(), pose);
+                if set_down {
+                    least = least.min(clearance((&carried.footprint, &from), still, most));
+                }
+                if k != task.goal.object {
+                    least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
+                }
+            }
+        }
+        least - HAND_CLEARANCE
     }
 
     /// By how much a push keeps every rule, when it starts from `state`. A tool that is set down
@@ -254,6 +302,7 @@ impl Workspace<'_> {
             base: distance_to_origin(push.start, push.end()) - task.robot.reach_min,
             obstacle,
             object,
+            hand: self.hand(tool, (&from, &to), state, set_down.is_some()),
         }
     }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
-use super::{Goal, LeverRules, Plate, Scene, Unknowns};
+use super::{Goal, Hand, LeverRules, Plate, Scene, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,13 +20,33 @@ pub struct Robot {
     /// default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_force: Option<f64>,
+    /// The hand that holds the tool; `None` for one without a body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hand: Option<Hand>,
+    /// Half the side of the square column on which the arm stands, at the origin, metres; 0 for one
+    /// without a body.
+    #[serde(default)]
+    pub base: f64,
 }
 
 impl Robot {
     /// A robot whose end effector reaches from `min` to `max` metres from the world's origin, with
-    /// its home `min` metres in front of it.
+    /// its home `min` metres in front of it, a usual hand, and a column of [`Robot::BASE_HALF`] or as
+    /// much as it does not reach.
     pub fn reaching(min: f64, max: f64) -> Self {
-        Self { home: Vector::new(min, 0.0), reach_min: min, reach_max: max, max_force: None }
+        Self {
+            home: Vector::new(min, 0.0),
+            reach_min: min,
+            reach_max: max,
+            max_force: None,
+            hand: Some(Hand::default()),
+            base: Self::BASE_HALF.min(min),
+        }
+    }
+
+    /// The same as a point that holds a tool: neither hand nor column.
+    pub fn without_body(self) -> Self {
+        Self { hand: None, base: 0.0, ..self }
     }
 
     /// Whether the end effector can stand at `position` (metres).
@@ -183,7 +203,8 @@ impl Task {
     ///     .pushing(PushRules { max_count: 2, ..PushRules::default() });
     /// assert_eq!(task.pushes.speed, 0.10);
     /// ```
-    pub fn new(name: impl Into<String>, scene: Scene, robot: Robot, goal: Goal) -> Self {
+    pub fn new(name: impl Into<String>, mut scene: Scene, robot: Robot, goal: Goal) -> Self {
+        scene.obstacles.extend(robot.column());
         Self {
             name: name.into(),
             description: String::new(),

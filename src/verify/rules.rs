@@ -50,6 +50,10 @@ pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan)
             let obstacle = obstacle.name.clone();
             found.push(Warning::ThroughObstacle { push: index, obstacle });
         }
+        if let Some(obstacle) = at_the_hand(task, scene, tool, step) {
+            let obstacle = obstacle.name.clone();
+            found.push(Warning::HandThrough { push: index, obstacle });
+        }
     }
     found
 }
@@ -105,6 +109,26 @@ pub(super) fn in_the_way<'a>(
             swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
         };
         step.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
+    })
+}
+
+/// The first obstacle that the hand, or the handle that it holds the tool by, goes through.
+fn at_the_hand<'a>(
+    task: &Task,
+    scene: &'a Scene,
+    tool: &Tool,
+    step: &PushStep,
+) -> Option<&'a Obstacle> {
+    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
+    let (from, to) = (frame(step.push.start), frame(step.push.end()));
+    let carried = task.robot.carried(tool, step.lift).into_iter().flatten();
+    let mut carried = carried.map(|one| (one, from * one.pose, to * one.pose));
+    carried.find_map(|(one, from, to)| {
+        scene.obstacles.iter().find(|obstacle| {
+            let still = (&obstacle.shape().footprint(), &obstacle.pose);
+            one.from < obstacle.size[2]
+                && swept_clearance(&one.footprint, &from, &to, still, SLACK) <= 0.0
+        })
     })
 }
 

@@ -57,9 +57,9 @@ const ROOMS: [(&str, &str); 23] = [
     // Not `plan`: the check shares no code with what it checks.
     ("verify", "geometry scene sim"),
     ("solve", "geometry scene asset sim effect plan verify"),
-    ("act", "geometry scene asset sim effect belief solve"),
+    ("act", "geometry scene asset sim effect judge fit belief solve"),
     ("bench", "geometry scene asset store sim effect judge solve"),
-    ("report", "geometry scene recording asset store judge fit belief plan solve act bench"),
+    ("report", "geometry scene graph recording asset store judge fit belief plan solve act bench"),
     ("export", "geometry scene asset"),
     ("import", "geometry scene asset"),
     (

@@ -138,7 +138,7 @@ fn some_fit() -> TableFit {
     TableFit {
         weights: weights.checksum().expect("a name"),
         head: (0..length).map(|k| 0.004 * (1.7 * k as f64).sin()).collect(),
-        spread: HeadSpread { prior: 0.02, directions: Vec::new() },
+        spread: HeadSpread { prior: 0.08, directions: Vec::new() },
         noise: 1e-3,
         pushes: 20,
         ..TableFit::default()

@@ -28,6 +28,7 @@ mod models;
 mod mujoco_python;
 mod network;
 mod outside;
+mod owner;
 mod pages;
 mod pairs;
 mod pictures;

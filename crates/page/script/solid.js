@@ -174,6 +174,11 @@ const solid = (() => {
       for (const part of page.tools[index].parts) {
         tool.add(placed(piece(part, colour('tool'), colour('tool-rim')), posed(part.at), plan().lift * LENGTH));
       }
+      const { hand } = plan();
+      if (hand) {
+        const held = posed(page.tools[index].grip);
+        tool.add(placed(piece(hand, colour('tool'), colour('tool-rim'), true), held, plan().lift * LENGTH));
+      }
       add(tool, (time) => (lead.stroke(time).tool === index ? lead.toolPose(time) : null), { tool: index });
     }
     for (const replay of shown()) {

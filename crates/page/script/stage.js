@@ -51,6 +51,8 @@
       }
     }
     const [x, y] = posed(tool.grip);
+    const { hand } = plan();
+    if (hand) group.append(svg('circle', { cx: px(x), cy: px(-y), r: px(radius(hand.shape)), class: 'hand' }, svg('title', {}, 'hand')));
     group.append(svg('circle', { cx: px(x), cy: px(-y), r: 4.5, class: 'grip' }));
     return group;
   }

@@ -5,9 +5,9 @@ use serde_json::{Value as Json, json};
 use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Blade, Directions, Goal, Joint, JointKind, LeverRules, Object, Obstacle, Offsets, PairFriction,
-    Pivot, Plate, PushForm, PushRules, Scene, Slab, Span, Support, TableTop, Task, Tool,
-    ToolChoice,
+    Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Object, Obstacle, Offsets,
+    PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span, Support, TableTop,
+    Task, Tool, ToolChoice,
 };
 
 /// A task as in a task file.
@@ -21,6 +21,17 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     }
     if let Some(force) = task.robot.max_force {
         robot["max_force"] = json!(force);
+    }
+    if task.levers.is_none() {
+        robot["hand"] = match task.robot.hand {
+            Some(Hand { radius, from: None }) => json!({"radius": radius}),
+            Some(Hand { radius, from: Some(from) }) => json!({"radius": radius, "from": from}),
+            None => json!("none"),
+        };
+        robot["base"] = match task.robot.base {
+            half if half > 0.0 => json!(half),
+            _ => json!("none"),
+        };
     }
     let mut fields = json!({
         "name": task.name,
@@ -157,7 +168,7 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         "table": table,
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
         "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
-        "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
+        "obstacles": scene.obstacles.iter().filter(is_stated).map(obstacle).collect::<Vec<_>>(),
     });
     if !scene.frictions.is_empty() {
         let friction = |pair: &PairFriction| {
@@ -173,6 +184,11 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         fields["push_height"] = json!(share);
     }
     fields
+}
+
+/// Whether the file says so: the robot's own column it says elsewhere.
+fn is_stated(obstacle: &&Obstacle) -> bool {
+    obstacle.name != Robot::BASE
 }
 
 /// The scene of a task of levering: its objects with all their solids, in corners about the origins of

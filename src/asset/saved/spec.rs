@@ -7,12 +7,10 @@ use crate::asset::tool::TOOL_FILE;
 
 use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, SCORE, STEPS};
 
-/// Version of recordings and of what commands print; raised when a reader of this version could not
-/// read the new form.
+/// Version of recordings and of what commands print; raised when older readers would fail.
 pub const SCHEMA_VERSION: u32 = 1;
 
-/// The same of plan and trajectory files. Those of the first version, which hold pushes with one tool
-/// or one lever-up, are read as well.
+/// The same of plan and trajectory files; those of the first version are read as well.
 pub const PLAN_VERSION: u32 = 2;
 
 /// What a plan file may hold.
@@ -46,11 +44,7 @@ static STEPS_FILE: Value = Value::Map(&[
     TOOLS,
     Key::required("plan", STEPS, "The steps."),
     Key::optional("model", Value::Either(&[Value::Text, Value::Nothing]), MODEL),
-    Key::optional(
-        "fit",
-        Value::Anything,
-        "What the model knew of the table, as `pushplan fit --save-fit` writes it; by default nothing.",
-    ),
+    Key::optional("fit", Value::Anything, FIT),
     PREDICTED,
     JUDGED,
 ]);
@@ -359,6 +353,8 @@ const TRAJECTORY: Value = Value::Map(&[
         "What each lever-up has come to; by default there is none.",
     ),
 ]);
+
+const FIT: &str = "What the model knew of the table, see `fit --save-fit`; by default nothing.";
 
 const FRAMES: Value = Value::List { of: &FRAME, items: "frames", min: 1, max: 100_000 };
 const CONTACTS: Value = Value::List { of: &CONTACT, items: "contacts", min: 0, max: 100_000 };

@@ -8,7 +8,7 @@ use crate::asset::take::{angle, name_of, number_or, pose, position, shape, tripl
 use crate::asset::text::named_after;
 use crate::geometry::Vector;
 use crate::scene::{
-    Directions, Goal, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
+    Directions, Goal, Hand, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
     TableTop, Task, ToolChoice, Unknowns,
 };
 
@@ -18,14 +18,16 @@ use super::{frictions, joints};
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let scene = scene(root.get("scene")?)?;
+    let mut scene = scene(root.get("scene")?)?;
     let goal = goal(root.get("goal")?, &scene)?;
+    let robot = robot(root.get("robot")?)?;
+    scene.obstacles.extend(robot.column());
     Some(Task {
         name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         scene,
         unknown: unknown(root)?,
-        robot: robot(root.get("robot")?)?,
+        robot,
         tools: tools(root.get("tools")?),
         pushes: match root.get("pushes") {
             Some(node) => pushes(node)?,
@@ -128,6 +130,22 @@ pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
         max_force: match node.get("max_force") {
             Some(force) => Some(force.number()?),
             None => None,
+        },
+        hand: match node.get("hand").map(|hand| (hand, hand.text())) {
+            None => Some(Hand::default()),
+            Some((_, Some(_))) => None,
+            Some((hand, None)) => Some(Hand {
+                radius: number_or(hand, "radius", Hand::default().radius)?,
+                from: match hand.get("from") {
+                    Some(from) => Some(from.number()?),
+                    None => None,
+                },
+            }),
+        },
+        base: match node.get("base").map(|base| (base, base.text())) {
+            None => Robot::BASE_HALF.min(reach_min),
+            Some((_, Some(_))) => 0.0,
+            Some((base, None)) => base.number()?,
         },
     })
 }

@@ -201,6 +201,29 @@ const ROBOT: Value = Value::Map(&[
     ),
     REACH_KEY,
     MAX_FORCE,
+    Key::optional(
+        "hand",
+        Value::Either(&[
+            Value::Word(&["none"]),
+            Value::Map(&[
+                Key::optional("radius", SIZE, "Its radius in metres; default 0.05."),
+                Key::optional(
+                    "from",
+                    SIZE,
+                    "Height above the table at which it begins, metres; by default where the tool \
+                     at the grip ends, but at least 0.12.",
+                ),
+            ]),
+        ]),
+        "The hand about the end effector, an upright cylinder that keeps clear of all that is as \
+         high, or `none`; by default a usual gripper.",
+    ),
+    Key::optional(
+        "base",
+        Value::Either(&[Value::Word(&["none"]), SIZE]),
+        "Half the side in metres of the square column at the origin on which the arm stands, or \
+         `none`; by default 0.08, or the smallest reach where that is less.",
+    ),
 ]);
 
 /// How hard the arm can press.

@@ -125,7 +125,7 @@ impl ReferenceSetup {
         let cylinder = Object::cylinder("cylinder", 0.05, 0.10).mass(0.5);
         let scene = Scene::new([cylinder.at(start.x, start.y, 0.0)]);
         // The end effector stays within what chained sequences need.
-        let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL);
+        let robot = Robot::reaching(0.0, PUSHES as f64 * TRAVEL).without_body();
         Task::new("reference", scene, robot, Goal::new(0, goal.into(), FINE)).pushing(PushRules {
             form: PushForm::Chained,
             grip_yaws: vec![0.0],

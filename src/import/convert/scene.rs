@@ -108,9 +108,7 @@ fn goal(scene: &Scene, object: usize, numbers: &[f64], shift: Vector) -> Option<
         [heading, within, alike, ..] => {
             Goal { alike: (*alike as usize).max(1), ..goal.facing(*heading, *within) }
         }
-        [heading, within] => {
-            goal.facing(*heading, *within).looking_alike(scene)
-        }
+        [heading, within] => goal.facing(*heading, *within).looking_alike(scene),
         _ => goal,
     })
 }

@@ -168,6 +168,9 @@ pub struct Plan {
     pub strokes: Vec<Stroke>,
     /// Height of the tool's underside.
     pub lift: i64,
+    /// The hand at the grip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hand: Option<Body>,
     pub replays: Vec<Replay>,
     /// Where the goal's object ended in the disturbed replays.
     pub ends: Vec<End>,

@@ -42,6 +42,7 @@ pub fn recording_page(
         verdict: document.title.clone(),
         cells: Vec::new(),
         strokes: strokes(recording),
+        hand: None,
         lift: length(recording.lift),
         replays: replay_of(Layer::Seen, "the recording".into(), &frames, false)
             .into_iter()

@@ -225,6 +225,7 @@ impl<'a> Making<'a> {
             replays: Vec::new(),
             ends: Vec::new(),
             lift: if in_space { 0 } else { length(plan.lift()) },
+            hand: tools.first().and_then(|tool| stage::hand(self.task, tool, plan)),
             command: recipe.command,
             python: recipe.python,
             file: part("plan"),

@@ -16,6 +16,7 @@ use super::html::{self, PageView};
 use super::recipe::Recipe;
 use super::replay::replay_of;
 use super::replayed::{Making, strokes};
+use super::stage;
 
 /// The page of a run. `real` is what really happened in every step, where the world was simulated;
 /// otherwise what was seen is shown. `recipe` makes the run again.
@@ -44,6 +45,7 @@ pub fn run_page(trace: &Trace, real: &[Trajectory], recipe: Recipe, view: PageVi
         ends: Vec::new(),
         command: recipe.command,
         python: recipe.python,
+        hand: trace.steps.first().and_then(|one| stage::hand(&trace.task, &one.tool, &one.plan)),
         lift: trace.steps.first().map_or(0, |step| length(step.plan.lift())),
         file: Json::Null,
     });

@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use crate::geometry::{Footprint, Shape, Vector};
 use crate::report::plan_text::goal_line;
-use crate::scene::{self, Blade, Scene, Slab, Task};
+use crate::scene::{self, Blade, Carried, Plan, SHOWN_HAND, Scene, Slab, Task};
 
 use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
@@ -74,6 +74,26 @@ pub fn tool(tool: &scene::Tool, file: Json) -> Tool {
         at: [0; 3],
     }));
     Tool { name: tool.name.clone(), parts, grip: pose(&tool.grip), file }
+}
+
+/// The hand that holds a tool, about its grip; of what is levered nothing is said of it.
+pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
+    if task.in_space() || plan.levers() {
+        return None;
+    }
+    let Carried { footprint: Footprint::Disc { radius }, pose: at, from } =
+        task.robot.carried(tool, plan.lift())[0]?
+    else {
+        return None;
+    };
+    Some(Body {
+        name: "hand".to_owned(),
+        shape: Outline::Disc(length(radius)),
+        height: length(SHOWN_HAND),
+        under: length(from - plan.lift()),
+        more: Vec::new(),
+        at: pose(&at),
+    })
 }
 
 /// What is fixed on an object.

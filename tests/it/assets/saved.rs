@@ -101,14 +101,19 @@ fn written_files_read_back_bit_by_bit() {
 
 /// What is said about a plan file with `old` replaced by `new`.
 fn damaged(old: &str, new: &str) -> String {
-    let text = serde_json::to_string(&plan_file("pull-back.yaml")).unwrap();
+    damaged_in(&PlanFile { fit: None, ..plan_file("pull-back.yaml") }, old, new)
+}
+
+fn damaged_in(file: &PlanFile, old: &str, new: &str) -> String {
+    let text = serde_json::to_string(file).unwrap();
     assert!(text.contains(old), "{old} is not in {text}");
     PlanFile::parse(&text.replacen(old, new, 1), "p.json").unwrap_err().to_string()
 }
 
 #[test]
 fn a_plan_file_whose_fit_was_changed_is_refused() {
-    let message = damaged("\"pushes\":20", "\"pushes\":90");
+    let file = plan_file("pull-back.yaml");
+    let message = damaged_in(&file, "\"pushes\":20", "\"pushes\":90");
     assert!(message.contains("the fit is damaged"), "{message}");
 }
 
@@ -136,7 +141,7 @@ fn damaged_plan_files_are_refused() {
       help: write a number that is smaller than 1e308
     "#);
     assert_snapshot!(damaged("\"mass\":0.4", "\"mass\":-1"), @r#"
-    p.json:1:2252: error: expected a mass in kg from 0.001 to 1000, found the number -1
+    p.json:1:2287: error: expected a mass in kg from 0.001 to 1000, found the number -1
       help: masses are in kilograms: 250 g is 0.25
     "#);
     assert_snapshot!(damaged("\"push\":{\"tool\":\"stick\"", "\"push\":{\"tool\":\"rake\""), @r#"

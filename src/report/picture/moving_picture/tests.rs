@@ -44,7 +44,7 @@ fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String
         source: Source::Simulated(Engine::Spatial),
         scene: &scene,
         goal: &goal,
-        robot: &Robot { home: Vector::zeros(), reach_min: 0.1, reach_max: 0.9, max_force: None },
+        robot: &Robot { home: Vector::zeros(), ..Robot::reaching(0.1, 0.9).without_body() },
         motion: &motion,
         trajectory: &trajectory,
     }

@@ -3,7 +3,7 @@
 //!
 //! What a planner says about them shows whether rigid things stay rigid in its verdict.
 
-use pushplan::internals::geometry::{Pose, Shape, Vector};
+use pushplan::internals::geometry::{Pose, Shape};
 use pushplan::internals::scene::{
     Goal, Object, Obstacle, Robot, Scene, Span, Task, ToolChoice, Unknowns,
 };
@@ -76,12 +76,7 @@ pub(super) fn gap_task(rng: &mut Pcg64, ordinal: usize) -> Task {
             ..Scene::default()
         },
         unknown: Unknowns::NONE,
-        robot: Robot {
-            home: Vector::new(0.1, 0.0),
-            reach_min: 0.1,
-            reach_max: 0.9,
-            max_force: None,
-        },
+        robot: Robot::reaching(0.1, 0.9),
         tools: ToolChoice::All,
         pushes: pushes(2),
         levers: None,

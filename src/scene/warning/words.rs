@@ -1,0 +1,145 @@
+//! Warnings in words: what happened, what it means, which option helps.
+
+use std::fmt;
+
+use super::Warning;
+
+impl Warning {
+    /// The fact, without what it means or what helps.
+    pub(super) fn fact(&self) -> String {
+        match self {
+            Warning::OutsideRange { of, quantity, value, low, high } => {
+                let value = told_apart(*value, [*low, *high]);
+                format!("{of}: {quantity} = {value} is outside the model's range {low} to {high}")
+            }
+            Warning::Declined { model } => format!("`{model}` does not take this motion"),
+            Warning::Pressed { object, between: [a, b] } => {
+                format!("{object} is pressed between {a} and {b}")
+            }
+            Warning::Overlap { between: [a, b], depth } => {
+                format!("{a} and {b} are predicted {:.1} mm inside each other", depth * 1e3)
+            }
+            Warning::LooseJoint { between: [a, b], distance } => {
+                let millimetres = distance * 1e3;
+                format!("the joint of {a} and {b} is predicted {millimetres:.1} mm off")
+            }
+            Warning::Doubtful { object, within } => {
+                format!("{object} may end up to {:.0} mm from where it is predicted", within * 1e3)
+            }
+            Warning::NotFinite => "the prediction became NaN or infinite".to_owned(),
+            other => other.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::OutsideRange { .. } | Warning::Declined { .. } => write!(
+                f,
+                "{}; predictions may be wrong, `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Pressed { .. } => write!(
+                f,
+                "{}; its motion is then unpredictable, `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Doubtful { .. } => write!(
+                f,
+                "{}, says the model itself; `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Overlap { .. } | Warning::LooseJoint { .. } => write!(
+                f,
+                "{}, which cannot happen on a table; `--outside simulate` simulates instead",
+                self.fact()
+            ),
+            Warning::Differs { object, distance } => write!(
+                f,
+                "the planar simulation of this motion puts {object} {:.1} mm from where it is \
+                 predicted",
+                distance * 1e3
+            ),
+            Warning::Simulated { reason } => {
+                write!(f, "{}; simulated in the plane instead", reason.fact())
+            }
+            Warning::Refused => write!(
+                f,
+                "no prediction was made; `--outside simulate` simulates instead, `--outside warn` \
+                 predicts all the same"
+            ),
+            Warning::Guessed { unknown } => write!(
+                f,
+                "the task does not know its {unknown}, so this assumes the middle of what they may \
+                 be; `pushplan run` finds out by pushing"
+            ),
+            Warning::NotAtRest { waited } => write!(
+                f,
+                "something still moved {waited:.1} s after the push ended; the outcome is not at \
+                 rest; raise the friction"
+            ),
+            Warning::SetDownOn { object, stroke } => write!(
+                f,
+                "the tool came down on {object} for push {} instead of next to it, so the plan does \
+                 not work as written",
+                stroke + 1
+            ),
+            Warning::Jammed { object, against, depth } => write!(
+                f,
+                "{object} jams against {against}: it would have to go {:.1} mm into it, so the tool \
+                 cannot go on",
+                depth * 1e3
+            ),
+            Warning::Stopped => write!(f, "the replay was stopped before it was over"),
+            Warning::OffTable { object } => {
+                write!(f, "{object} is pushed off the table")
+            }
+            Warning::TooMuchForce { needed, limit } => write!(
+                f,
+                "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
+            ),
+            Warning::OutOfReach { push } => {
+                write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
+            }
+            Warning::ThroughObstacle { push, obstacle } => {
+                write!(f, "the tool passes through {obstacle} in push {}", push + 1)
+            }
+            Warning::HandThrough { push, obstacle } => {
+                write!(f, "the hand passes through {obstacle} in push {}", push + 1)
+            }
+            Warning::ForbiddenTool { tool } => {
+                write!(f, "the task does not allow the tool {tool}")
+            }
+            Warning::ForbiddenYaw { yaw } => {
+                write!(f, "the task does not allow a grip yaw of {:.1} degrees", yaw.to_degrees())
+            }
+            Warning::TooManyPushes { pushes, allowed } => {
+                write!(f, "{pushes} pushes in a row, and the task allows {allowed}")
+            }
+            Warning::ForbiddenPush { push, fault } => write!(f, "push {} {fault}", push + 1),
+            Warning::CannotLever { step, fault } => write!(f, "step {}: {fault}", step + 1),
+            Warning::Slipped { object } => write!(f, "{object} slipped off the blade"),
+            Warning::Strained => write!(f, "something is jammed"),
+            Warning::Toppled { object } => write!(
+                f,
+                "{object} toppled; its pose on the table means little; push lower or slower"
+            ),
+            Warning::NotFinite => {
+                write!(f, "{} and was stopped; `--outside simulate` simulates instead", self.fact())
+            }
+        }
+    }
+}
+
+/// `value` with four digits after the point, or with as many as tell it from these bounds.
+fn told_apart(value: f64, bounds: [f64; 2]) -> String {
+    let same = |text: &str| text.parse().is_ok_and(|shown: f64| bounds.contains(&shown));
+    let short = (4..12).map(|digits| format!("{value:.digits$}")).find(|text| !same(text));
+    let text = short.unwrap_or_else(|| value.to_string());
+    // As short as the bounds are.
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}

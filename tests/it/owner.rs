@@ -1,0 +1,201 @@
+//! What the robot's owner would see at once: hands in walls, gaps that are too narrow, pushes that no
+//! arm can make, plans that are not of the form that was allowed.
+
+use std::sync::Arc;
+
+use pushplan::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
+use pushplan::asset::ToolLibrary;
+use pushplan::geometry::Vector;
+use pushplan::scene::{
+    Plan, Push, PushFault, PushForm, Situation, Task, Tool, Truth, Verdict, Warning,
+};
+use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+use pushplan::verify::{Verifier, VerifySettings};
+use pushplan::watch::Unwatched;
+
+fn library() -> ToolLibrary {
+    ToolLibrary::embedded().expect("the shipped tools")
+}
+
+fn task(text: &str) -> Task {
+    Task::parse(text, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn solved(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    planner.solve(task, &library()).expect("a sound task")
+}
+
+/// A can before a pen whose way in is narrower than the can by `less` metres.
+fn pen(less: f64, unknown: &str) -> Task {
+    let half = 0.04 - 0.5 * less;
+    let side = 0.17 - half;
+    let at = half + 0.5 * side;
+    task(&format!(
+        "
+scene:
+  objects: [{{name: can, shape: {{cylinder: {{radius: 0.04, height: 0.08}}}}, mass: 0.4, friction: 0.4, position: [0.42, 0]}}]
+  obstacles:
+    - {{name: back, size: [0.02, 0.34, 0.12], position: [0.79, 0]}}
+    - {{name: front-left, size: [0.02, {side}, 0.12], position: [0.53, {at}]}}
+    - {{name: front-right, size: [0.02, {side}, 0.12], position: [0.53, -{at}]}}
+    - {{name: left, size: [0.24, 0.02, 0.12], position: [0.66, 0.16]}}
+    - {{name: right, size: [0.24, 0.02, 0.12], position: [0.66, -0.16]}}
+{unknown}
+robot: {{reach: {{min: 0.05, max: 0.95}}}}
+tools: [finger, paddle, stick]
+pushes: {{length: 0.3, directions: 8, max_count: 2}}
+goal: {{object: can, position: [0.66, 0], tolerance: 0.03}}
+"
+    ))
+}
+
+#[test]
+fn a_can_does_not_come_through_a_gap_that_is_a_little_too_narrow() {
+    for less in [0.0003, 0.001, 0.002] {
+        let found = solved(&pen(less, ""));
+        assert!(!matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile), "{less}");
+    }
+    // With as much room it does.
+    assert_eq!(solved(&pen(-0.004, "")).status, PlanStatus::Solved);
+}
+
+/// Runs `task` in a world that `truth` changes.
+fn run(task: &Task, truth: impl FnOnce(&mut Truth)) -> (Trace, SimulatedWorld) {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    let mut real = Truth::stated(&task.scene, 1);
+    truth(&mut real);
+    let settings = RunSettings { pushes: 4, samples: 4, ..RunSettings::default() };
+    let mut world = SimulatedWorld::new(real).pushed_with(task.robot.max_force);
+    let mut trace = Trace::new(task.clone(), settings, "draft".into(), None);
+    let library = library();
+    let runner = Runner::new(&planner, &library);
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    (trace, world)
+}
+
+#[test]
+fn a_run_comes_through_no_gap_that_is_too_narrow_however_often_it_pushes() {
+    let task = pen(0.002, "unknown: [masses, frictions]");
+    let (trace, world) = run(&task, |_| ());
+    assert_ne!(trace.end, Some(End::Reached));
+    assert!(world.state().poses[0].position.x < 0.5);
+    let ended = |note: &Note| matches!(note, Note::Ended { why } if why.contains("jams"));
+    assert!(trace.all_notes().any(ended), "{:?}", trace.all_notes().collect::<Vec<_>>());
+}
+
+const CAN: &str = "
+scene:
+  objects: [{name: can, shape: {cylinder: {radius: 0.04, height: 0.08}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}]
+unknown: [masses, frictions]
+robot: {reach: {min: 0.05, max: 0.9}, max_force: 3}
+tools: [finger, paddle]
+pushes: {directions: 8, max_count: 2}
+goal: {object: can, position: [0.6, 0.03], tolerance: 0.02}
+";
+
+#[test]
+fn an_arm_does_not_push_what_is_too_heavy_for_it() {
+    let (trace, world) = run(&task(CAN), |truth| truth.scene.objects[0].mass = 500.0);
+    assert_ne!(trace.end, Some(End::Reached));
+    let moved = (world.state().poses[0].position - Vector::new(0.5, 0.0)).norm();
+    assert!(moved < 2e-3, "{moved}");
+    let light = run(&task(CAN), |_| ()).0;
+    assert_eq!(light.end, Some(End::Reached));
+}
+
+#[test]
+fn what_stands_elsewhere_than_the_task_says_is_pushed_where_it_stands() {
+    let elsewhere = |truth: &mut Truth| truth.scene.objects[0].pose.position.y = 0.11;
+    let (trace, world) = run(&task(CAN), elsewhere);
+    assert_eq!(trace.notes, [Note::Elsewhere { object: 0 }]);
+    assert!(trace.end == Some(End::Reached) && trace.task.goal.reached(world.state()));
+}
+
+/// A thin can in a closed pen with walls as high as a hand begins.
+const PEN: &str = "
+scene:
+  objects: [{name: can, shape: {cylinder: {radius: 0.012, height: 0.06}}, mass: 0.2, friction: 0.4, position: [0.7675, 0.02]}]
+  obstacles:
+    - {name: far, size: [0.02, 0.4, 0.12], position: [0.8075, 0]}
+    - {name: near, size: [0.02, 0.4, 0.12], position: [0.1925, 0]}
+    - {name: left, size: [0.595, 0.02, 0.12], position: [0.5, 0.19]}
+    - {name: right, size: [0.595, 0.02, 0.12], position: [0.5, -0.19]}
+robot: {reach: {min: 0.05, max: 0.95}}
+tools: [stick]
+pushes: {length: 0.08, max_count: 2, directions: 8}
+goal: {object: can, position: [0.7675, -0.03], tolerance: 0.01}
+";
+
+#[test]
+fn a_tool_is_not_held_through_a_wall_unless_the_robot_has_no_body() {
+    assert_eq!(solved(&task(PEN)).status, PlanStatus::NoPlan);
+    let bodiless = PEN.replace("max: 0.95}", "max: 0.95}, hand: none");
+    assert_eq!(solved(&task(&bodiless)).status, PlanStatus::Solved);
+}
+
+/// What is wrong with pushes for `task` before anything moves.
+fn forbidden(task: &Task, form: PushForm, lift: f64, pushes: &[([f64; 2], f64, f64)]) -> Verdict {
+    let tool: Arc<Tool> = library().get("paddle").expect("a shipped tool").clone();
+    let push = |(start, direction, length): &([f64; 2], f64, f64)| Push {
+        start: Vector::from(*start),
+        direction: *direction,
+        length: *length,
+        speed: 0.1,
+    };
+    let plan = Plan::pushing(&tool.name, 0.0, form, lift, pushes.iter().map(push));
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    verifier.nominal(task, &Situation::stated(&task.scene), &[tool], &plan)
+}
+
+#[test]
+fn pushes_that_are_not_of_the_allowed_form_do_not_pass() {
+    let placed = task(CAN);
+    let one = [([0.4, 0.0], 0.0, 0.1)];
+    let faults = |verdict: Verdict| -> Vec<PushFault> {
+        let faults = verdict.forbidden.into_iter().filter_map(|warning| match warning {
+            Warning::ForbiddenPush { fault, .. } => Some(fault),
+            _ => None,
+        });
+        faults.collect()
+    };
+    let lift = placed.pushes.lift;
+    assert_eq!(faults(forbidden(&placed, PushForm::Placed, lift, &one)), []);
+    assert_eq!(faults(forbidden(&placed, PushForm::Chained, lift, &one)), [PushFault::Form]);
+    assert_eq!(faults(forbidden(&placed, PushForm::Placed, 0.01, &one)), [PushFault::Lift(0.01)]);
+    let long = [([0.4, 0.0], 0.0, 0.4)];
+    assert_eq!(faults(forbidden(&placed, PushForm::Placed, lift, &long)), [PushFault::Length(0.4)]);
+    let thrice = [one[0], one[0], one[0]];
+    let many = forbidden(&placed, PushForm::Placed, lift, &thrice).forbidden;
+    assert!(many.contains(&Warning::TooManyPushes { pushes: 3, allowed: 2 }), "{many:?}");
+
+    let chained = task(&CAN.replace("pushes: {", "pushes: {form: chained, "));
+    let home: [f64; 2] = chained.robot.home.into();
+    let jump = [(home, 0.0, 0.1), ([0.4, 0.1], 0.0, 0.1)];
+    let found = faults(forbidden(&chained, PushForm::Chained, lift, &jump));
+    assert!(matches!(found[..], [PushFault::Apart(far)] if far > 0.2), "{found:?}");
+    let found = faults(forbidden(&chained, PushForm::Chained, lift, &one));
+    assert!(matches!(found[..], [PushFault::Home(far)] if far > 0.3), "{found:?}");
+    let few = task(&CAN.replace("directions: 8", "directions: [0]"));
+    let back = [([0.7, 0.0], 3.0, 0.1)];
+    assert_eq!(faults(forbidden(&few, PushForm::Placed, lift, &back)), [PushFault::Direction(3.0)]);
+}
+
+#[test]
+fn what_hangs_together_looks_the_same_after_a_full_turn_alone() {
+    let text = "
+scene:
+  objects:
+    - {name: bar, shape: {cuboid: {size: [0.1, 0.1, 0.05]}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}
+    - {name: stem, shape: {cuboid: {size: [0.1, 0.04, 0.05]}}, mass: 0.4, friction: 0.4, position: [0.605, 0]}
+  joints: [{between: [bar, stem], kind: fixed}]
+robot: {reach: {min: 0.3, max: 0.9}}
+tools: all
+goal: {object: bar, position: [0.5, 0], tolerance: 0.02, heading_deg: 180}
+";
+    let whole = task(text);
+    let at_the_start = whole.scene.start();
+    assert!(!whole.goal.reached(&at_the_start));
+    let alone = text.replace("  joints: [{between: [bar, stem], kind: fixed}]\n", "");
+    assert!(task(&alone).goal.reached(&at_the_start));
+}
