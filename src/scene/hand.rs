@@ -12,6 +12,9 @@ const LOWEST: f64 = 0.12;
 /// A grip outside of all parts holds the nearest one by a handle of this half width, metres.
 const HANDLE: f64 = 0.01;
 
+/// Room between hand and column, metres.
+const ROOM: f64 = 0.01;
+
 /// Height of the column, metres: nothing that is pushed is above it.
 const COLUMN: f64 = 1.0;
 
@@ -52,8 +55,11 @@ impl Robot {
     /// What the task calls the column on which the arm stands; no other body can be called so.
     pub const BASE: &str = "robot base";
 
-    /// Half the side of the usual column, metres.
-    pub const BASE_HALF: f64 = 0.08;
+    /// Half the side of the usual column of an arm that reaches from `min` metres on: 0.08 m, or as much
+    /// less as the hand comes nearer.
+    pub fn usual_base(min: f64) -> f64 {
+        (min - Hand::default().radius - ROOM).clamp(0.0, 0.08)
+    }
 
     /// The column as a body of the scene, unless there is none.
     pub fn column(&self) -> Option<Obstacle> {

@@ -31,8 +31,7 @@ pub struct Robot {
 
 impl Robot {
     /// A robot whose end effector reaches from `min` to `max` metres from the world's origin, with
-    /// its home `min` metres in front of it, a usual hand, and a column of [`Robot::BASE_HALF`] or as
-    /// much as it does not reach.
+    /// its home `min` metres in front of it, a usual hand and a [usual column](Robot::usual_base).
     pub fn reaching(min: f64, max: f64) -> Self {
         Self {
             home: Vector::new(min, 0.0),
@@ -40,7 +39,7 @@ impl Robot {
             reach_max: max,
             max_force: None,
             hand: Some(Hand::default()),
-            base: Self::BASE_HALF.min(min),
+            base: Self::usual_base(min),
         }
     }
 
@@ -251,8 +250,11 @@ impl Task {
     ///     .pushing(PushRules::none());
     /// assert!(task.in_space());
     /// ```
-    pub fn levering(self, levers: LeverRules) -> Self {
-        Self { levers: Some(levers), ..self }
+    pub fn levering(mut self, levers: LeverRules) -> Self {
+        // Of the robot's body lever-ups know nothing yet.
+        self.scene.obstacles.retain(|obstacle| obstacle.name != Robot::BASE);
+        let robot = self.robot.without_body();
+        Self { levers: Some(levers), robot, ..self }
     }
 
     /// The goal's object with all its solids.

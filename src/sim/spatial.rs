@@ -187,12 +187,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     fn overlaps(&self, found: &mut dyn FnMut(Overlap)) {
         for pair in self.world.narrow_phase.contact_pairs() {
             let points = pair.manifolds.iter().flat_map(solved);
-            let depths = points.map(|(manifold, point)| (-point.dist, manifold));
-            let deepest = depths.max_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((depth, manifold)) = deepest.filter(|(depth, _)| *depth > 0.0)
-                && let (Some(a), Some(b)) = (self.label(pair.collider1), self.label(pair.collider2))
-            {
-                let normal = manifold.data.normal;
+            let depths = points.map(|(manifold, point)| (-point.dist, manifold.data.normal));
+            let deepest = depths.filter(|one| one.0 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
+            let labels = (self.label(pair.collider1), self.label(pair.collider2));
+            if let (Some((depth, normal)), (Some(a), Some(b))) = (deepest, labels) {
                 overlap((a, b), depth, Vector::new(normal.x, normal.y), found);
             }
         }

@@ -43,6 +43,7 @@ mod real_pushes;
 mod recorded;
 mod recorded_pushes;
 mod regulator;
+mod run_learning;
 mod seams;
 #[allow(dead_code)]
 mod sharding;

@@ -79,7 +79,8 @@ fn a_run_comes_through_no_gap_that_is_too_narrow_however_often_it_pushes() {
     let task = pen(0.002, "unknown: [masses, frictions]");
     let (trace, world) = run(&task, |_| ());
     assert_ne!(trace.end, Some(End::Reached));
-    assert!(world.state().poses[0].position.x < 0.5);
+    // Round as it is, it goes a little way between the posts.
+    assert!(world.state().poses[0].position.x < 0.515);
     let ended = |note: &Note| matches!(note, Note::Ended { why } if why.contains("jams"));
     assert!(trace.all_notes().any(ended), "{:?}", trace.all_notes().collect::<Vec<_>>());
 }

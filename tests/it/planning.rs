@@ -51,7 +51,7 @@ fn wall(x: f64, y: f64, size: [f64; 3]) -> Obstacle {
 }
 
 fn task(object: Object, goal: [f64; 2]) -> Task {
-    let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.05, 0.9) };
+    let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.05, 0.9).without_body() };
     Task::new("test", Scene::new([object]), robot, Goal::new(0, goal, 0.03))
 }
 

@@ -34,7 +34,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         goal: goal(root.get("goal")?, &scene)?,
         scene,
         unknown: unknown_of(root)?,
-        robot: reach_of(root.get("robot")?)?,
+        robot: reach_of(root.get("robot")?)?.without_body(),
         tools: named_tools(root.get("tools")?),
         levers: Some(match root.get("levers") {
             Some(node) => levers(node)?,

@@ -143,7 +143,7 @@ pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
             }),
         },
         base: match node.get("base").map(|base| (base, base.text())) {
-            None => Robot::BASE_HALF.min(reach_min),
+            None => Robot::usual_base(reach_min),
             Some((_, Some(_))) => 0.0,
             Some((base, None)) => base.number()?,
         },

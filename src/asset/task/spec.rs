@@ -222,7 +222,8 @@ const ROBOT: Value = Value::Map(&[
         "base",
         Value::Either(&[Value::Word(&["none"]), SIZE]),
         "Half the side in metres of the square column at the origin on which the arm stands, or \
-         `none`; by default 0.08, or the smallest reach where that is less.",
+         `none`; by default 0.08, or as much less as the hand comes nearer: 0.06 less than the \
+         smallest reach.",
     ),
 ]);
 

@@ -3,7 +3,7 @@
 use crate::geometry::{Pose, Vector};
 use crate::import::fault::Ledger;
 use crate::import::model::{Model, Outline, Solid};
-use crate::scene::{Obstacle, Scene, TableTop};
+use crate::scene::{Obstacle, Robot, Scene, TableTop};
 
 use super::names::Names;
 use super::objects::Draft;
@@ -63,6 +63,10 @@ pub(super) fn statics<'a>(
             (true, "world") => "obstacle",
             (true, body) => body,
         };
+        // The task says where its robot stands.
+        if what.trim_start_matches("obstacle/") == Robot::BASE {
+            continue;
+        }
         if let Outline::Plane(_) = solid.outline {
             plane = Some((solid, flat_at(solid, what, ledger)?));
             continue;
