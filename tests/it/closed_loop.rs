@@ -10,8 +10,7 @@ use pushplan::asset::{Faults, ToolLibrary, load_task, load_world};
 use pushplan::belief::{Belief, BeliefSettings};
 use pushplan::geometry::Vector;
 use pushplan::scene::{
-    Engine, HeadSpread, JointKind, Noise, Physics, Sight, Support, TableFit, Task, ToolMotion,
-    Truth, Unknowns, Warning,
+    Engine, JointKind, Noise, Physics, Sight, Support, Task, ToolMotion, Truth, Unknowns, Warning,
 };
 use pushplan::seeded::generator;
 use pushplan::solve::{Effort, Planner};

@@ -36,7 +36,7 @@ impl Default for RegulatorSettings {
                 average: 0.995,
             },
             data_seed: 1,
-            lessons: 6000,
+            lessons: 2500,
         }
     }
 }
