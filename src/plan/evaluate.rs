@@ -163,7 +163,7 @@ fn run(
         if let (Ok(evaluation), Some(frame)) = (&mut results[k], trajectory.frames.last()) {
             // A push that could not count spoils those after it.
             if evaluation.score.is_finite() {
-                let score = final_score(&workspace.task.goal, &trajectory);
+                let score = final_score(&workspace.task.scene, &workspace.task.goal, &trajectory);
                 let blocked = is_behind(evaluation.score);
                 evaluation.score = if blocked { behind(score) } else { score };
             }

@@ -1,7 +1,7 @@
 //! How good a rollout is: the error in units of the tolerance, and which ones come after all
 //! others.
 
-use crate::scene::{Goal, State, Trajectory, Warning};
+use crate::scene::{Goal, Scene, State, Trajectory, Warning};
 
 /// Added to the score of a rollout that leads through something that a rigid body cannot pass. More
 /// than any error in units of a tolerance, so such a candidate is tried only when there is no
@@ -9,15 +9,17 @@ use crate::scene::{Goal, State, Trajectory, Warning};
 const BEHIND: f64 = 1e6;
 
 /// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
-/// cannot count (not finite, not at rest).
-pub(super) fn final_score(goal: &Goal, trajectory: &Trajectory) -> f64 {
+/// cannot count (not finite, not at rest), and behind all others where something cannot pass or is not
+/// to be moved so far.
+pub(super) fn final_score(scene: &Scene, goal: &Goal, trajectory: &Trajectory) -> f64 {
     let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
     let fatal = |warning: &Warning| warning.forbids_success() && !warning.blocks();
     if trajectory.warnings.iter().any(fatal) {
         return f64::INFINITY;
     }
     let score = finite_score(goal, &frame.state);
-    if is_blocked(trajectory) { behind(score) } else { score }
+    let stops = is_blocked(trajectory) || scene.not_kept(&frame.state).is_some();
+    if stops { behind(score) } else { score }
 }
 
 /// Score of a state, infinite where it is not a number.

@@ -232,7 +232,7 @@ impl<'a> Search<'a> {
     ) -> (Option<(f64, f64)>, Vec<Stop>) {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
-        let mut best = (final_score(&task.goal, trajectory), length);
+        let mut best = (final_score(&task.scene, &task.goal, trajectory), length);
         let deeper = self.depth + 1 < task.pushes.max_count;
         let placed = task.pushes.form == PushForm::Placed;
         let stroke = &self.motion(extension).strokes[0];

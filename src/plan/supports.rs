@@ -66,7 +66,7 @@ impl Supports {
             }));
         }
         let trajectories = rollouts.run(&jobs, Record::Outcome);
-        let goal = &workspace.task.goal;
+        let (scene, goal) = (&workspace.task.scene, &workspace.task.goal);
         let of = |k: usize, evaluation: &Evaluation| {
             let others = &trajectories[k * self.0.len()..(k + 1) * self.0.len()];
             let predicted = errors(goal, &evaluation.outcome);
@@ -78,7 +78,7 @@ impl Supports {
                 apart
             });
             let middle = middle(&apart.collect::<Vec<_>>());
-            let worst = others.iter().map(|other| final_score(goal, other));
+            let worst = others.iter().map(|other| final_score(scene, goal, other));
             Ends {
                 middle: middle.cap_magnitude(MOST),
                 worst: worst.fold(evaluation.score, f64::max),

@@ -4,6 +4,7 @@
 
 mod bars;
 mod belief;
+mod bystanders;
 mod chart;
 mod document;
 mod fit;

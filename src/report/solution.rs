@@ -5,6 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::scene::{CORRECTED, ModelKind, ModelPart, ModelSpec, Task};
 use crate::solve::{PlanStatus, Solution};
 
+use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
 use super::number::seconds;
 use super::plan_text::{goal_line, plan_line, plan_sections, point};
@@ -180,6 +181,9 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "status": solution.status,
         "stopped": solution.stopped,
         "reason": solution.best().map(|best| verdict_line(task, best.verdict.as_ref())),
+        "moved": solution.best().map(|best| {
+            bystanders::json(&bystanders(task, Some(&best.outcome), best.verdict.as_ref()))
+        }),
         "plans": plans,
         "statistics": solution.statistics,
         "warnings": solution.warnings,

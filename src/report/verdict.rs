@@ -5,6 +5,7 @@ use serde_json::json;
 use crate::asset::PlanFile;
 use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Task, Verdict, Warning};
 
+use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
 use super::number::{degrees, millimetres};
 use super::plan_text::{engine_name, goal_line, outcome_table, plan_line, plan_sections};
@@ -21,6 +22,7 @@ pub fn verdict_document(file: &PlanFile, verdict: &Verdict) -> Document {
         json: json!({
             "task": file.task.name, "plan": file.plan, "verdict": verdict,
             "reason": verdict_line(&file.task, Some(verdict)),
+            "moved": bystanders::json(&bystanders(&file.task, None, Some(verdict))),
         }),
         ..Document::default()
     }
@@ -57,6 +59,8 @@ pub(super) fn outcome_section(
     let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome, e.fault()));
     let mut lines = vec![format!("verdict: {}", verdict_line(task, verdict))];
     lines.extend(verdict.and_then(force_line).map(|force| format!("force: {force}")));
+    let moved = bystanders(task, predicted.as_ref().map(|(_, outcome, _)| *outcome), verdict);
+    lines.extend(bystanders::line(&moved));
     Section {
         table: outcome_table(task, predicted.into_iter().chain(replayed)),
         lines,

@@ -18,6 +18,7 @@ mod guess;
 mod hand;
 mod job;
 mod joint;
+mod keep;
 mod lever;
 mod model;
 mod motion;

@@ -64,6 +64,15 @@ pub enum Warning {
         /// Its name.
         object: String,
     },
+    /// An object was moved farther than the task lets it.
+    NotKept {
+        /// Its name.
+        object: String,
+        /// How far, metres.
+        moved: f64,
+        /// How far it may be, metres.
+        within: f64,
+    },
     /// The tool pressed harder than the robot's arm can.
     TooMuchForce {
         /// How hard, newtons; to within a factor of two.
@@ -203,6 +212,7 @@ impl Warning {
             | Warning::Strained
             | Warning::Jammed { .. }
             | Warning::OffTable { .. }
+            | Warning::NotKept { .. }
             | Warning::TooMuchForce { .. }
             | Warning::OutOfReach { .. }
             | Warning::ThroughObstacle { .. }
@@ -257,6 +267,7 @@ impl Warning {
             Warning::Toppled { .. } => "toppled",
             Warning::Jammed { .. } => "jammed",
             Warning::OffTable { .. } => "off the table",
+            Warning::NotKept { .. } => "not kept",
             Warning::TooMuchForce { .. } => "too much force",
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",

@@ -25,6 +25,9 @@ pub struct Object {
     pub friction: f64,
     /// Where it stands at the start.
     pub pose: Pose,
+    /// How far a plan may move it, metres; as far as it likes where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep: Option<f64>,
     /// Solids that are fixed on it, of the same density.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Slab>,
@@ -82,6 +85,7 @@ impl Object {
             mass: Self::MASS,
             friction: Self::FRICTION,
             pose: Pose::default(),
+            keep: None,
             parts: Vec::new(),
             clearance: 0.0,
             z: 0.0,

@@ -226,6 +226,7 @@ fn evidence(
         let needed = force.lasting;
         trajectory.warnings.push(Warning::TooMuchForce { needed, limit });
     }
+    trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     Evidence {
         engine: engine.engine(),
         disturbance,

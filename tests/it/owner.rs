@@ -6,6 +6,7 @@ use std::sync::Arc;
 use pushplan::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::asset::ToolLibrary;
 use pushplan::geometry::Vector;
+use pushplan::report::solution_document;
 use pushplan::scene::{
     Plan, Push, PushFault, PushForm, Situation, Task, Tool, Truth, Verdict, Warning,
 };
@@ -199,4 +200,45 @@ goal: {object: bar, position: [0.5, 0], tolerance: 0.02, heading_deg: 180}
     assert!(!whole.goal.reached(&at_the_start));
     let alone = text.replace("  joints: [{between: [bar, stem], kind: fixed}]\n", "");
     assert!(task(&alone).goal.reached(&at_the_start));
+}
+
+/// A box whose way to the goal is blocked by a vase.
+const VASE: &str = "
+scene:
+  objects:
+    - {name: box, shape: {cuboid: {size: [0.08, 0.08, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.45, 0]}
+    - {name: vase, shape: {cylinder: {radius: 0.03, height: 0.06}}, mass: 0.3, friction: 0.4, position: [0.56, 0.02]}
+robot: {reach: {min: 0.3, max: 0.9}, hand: none}
+tools: [paddle, finger]
+pushes: {directions: [0]}
+goal: {object: box, position: [0.6, 0], tolerance: 0.02}
+";
+
+#[test]
+fn what_else_moves_is_said_and_what_is_to_be_kept_stays() {
+    let text = |task: &Task| solution_document(task, &solved(task)).to_text();
+    let shoved = text(&task(VASE));
+    let line = shoved.lines().find(|line| line.starts_with("also moves: vase by "));
+    assert!(line.is_some() && shoved.contains("solved with"), "{shoved}");
+    let kept = task(&format!("{VASE}keep: {{objects: [vase], within: 0.005}}\n"));
+    let solution = solved(&kept);
+    assert!(!matches!(solution.status, PlanStatus::Solved | PlanStatus::Fragile));
+    let again =
+        Task::parse(&kept.to_yaml().expect("a file"), "kept.yaml").expect("what is written");
+    assert_eq!(again, kept);
+    // Aside of it there is a way.
+    let aside = kept.to_yaml().expect("a file").replace("- 0.6\n  - 0.0", "- 0.6\n  - -0.12");
+    let free = task(&aside.replace("directions:\n  - 0.0", "directions: 16"));
+    let found = solved(&free);
+    assert_eq!(found.status, PlanStatus::Solved, "{}", solution_document(&free, &found).to_text());
+}
+
+#[test]
+fn what_is_kept_is_there_and_not_what_is_moved() {
+    let faults = |keep: &str| {
+        let text = format!("{VASE}keep: {keep}\n");
+        Task::parse(&text, "task.yaml").expect_err("a fault").to_string()
+    };
+    assert!(faults("{objects: [urn]}").contains("no object is called `urn`"));
+    assert!(faults("{objects: [box]}").contains("`box` is to be moved and kept"));
 }

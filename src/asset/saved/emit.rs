@@ -54,6 +54,12 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
     if let Some(rules) = &task.levers {
         fields["levers"] = levers(rules);
     }
+    let kept = task.scene.objects.iter().filter(|object| object.keep.is_some());
+    let kept: Vec<&Object> = kept.collect();
+    if let Some(within) = kept.first().and_then(|object| object.keep) {
+        let names: Vec<&String> = kept.iter().map(|object| &object.name).collect();
+        fields["keep"] = json!({"objects": names, "within": within});
+    }
     if task.unknown.any() {
         let unknown = task.unknown.words().into_iter().filter(|(_, unknown)| *unknown);
         fields["unknown"] = unknown.map(|(word, _)| word).collect();

@@ -22,6 +22,13 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let goal = goal(root.get("goal")?, &scene)?;
     let robot = robot(root.get("robot")?)?;
     scene.obstacles.extend(robot.column());
+    if let Some(keep) = root.get("keep") {
+        let within = number_or(keep, "within", default::KEEP)?;
+        for name in keep.get("objects").map(Node::items).unwrap_or_default() {
+            let index = scene.object(name.text()?)?;
+            scene.objects[index].keep = Some(within);
+        }
+    }
     Some(Task {
         name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),

@@ -35,6 +35,7 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
     goal(section("goal"), objects, obstacles, ledger);
+    keep(section("keep"), section("goal"), objects, ledger);
     on_table(scene, section("goal"), ledger);
 }
 
@@ -53,6 +54,25 @@ pub(in crate::asset) fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledge
     {
         let advice = "remove them, or `joints` from `unknown`";
         ledger.fault(stated, "joints are stated and unknown at once", advice);
+    }
+}
+
+/// What is kept is there, and is not what must be moved.
+fn keep(keep: &Node, goal: &Node, objects: &[Node], ledger: &mut Ledger) {
+    let wanted = goal.get("object").and_then(Node::text);
+    let names: Vec<&str> = objects.iter().filter_map(name_of).collect();
+    for node in keep.get("objects").map(Node::items).unwrap_or_default() {
+        let Some(name) = node.text() else { continue };
+        if !names.contains(&name) {
+            let message = format!("no object is called `{name}`");
+            ledger.fault(node, message, format!("name one of `{}`", names.join("`, `")));
+        } else if wanted == Some(name) {
+            ledger.fault(
+                node,
+                format!("`{name}` is to be moved and kept"),
+                "take it from one of both",
+            );
+        }
     }
 }
 

@@ -13,6 +13,8 @@ use super::joints::JOINT;
 pub(in crate::asset) mod default {
     /// Tolerance of a heading, degrees.
     pub const HEADING_TOLERANCE: f64 = 10.0;
+    /// How far what is kept may be moved, metres.
+    pub const KEEP: f64 = 0.005;
 }
 
 /// What a task file may hold.
@@ -35,6 +37,19 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     TOOLS,
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
     Key::required("goal", GOAL, "Where an object must come to rest."),
+    Key::optional(
+        "keep",
+        Value::Map(&[
+            Key::required(
+                "objects",
+                Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 64 },
+                "Names of objects that stay where they are.",
+            ),
+            Key::optional("within", SIZE, "How far they may be moved, metres; default 0.005."),
+        ]),
+        "What no plan may move; by default everything may be pushed aside, though nothing may topple \
+         or fall.",
+    ),
     ROBUSTNESS,
 ];
 

@@ -110,6 +110,7 @@ impl Plate {
             support: Support::Even,
             mass: self.mass,
             friction: self.friction,
+            keep: None,
             pose: self.pose,
             parts: slabs.collect(),
             clearance: self.clearance,

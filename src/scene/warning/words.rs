@@ -95,6 +95,12 @@ impl fmt::Display for Warning {
             Warning::OffTable { object } => {
                 write!(f, "{object} is pushed off the table")
             }
+            Warning::NotKept { object, moved, within } => write!(
+                f,
+                "{object} is moved by {:.1} mm, and the task keeps it within {:.1}",
+                moved * 1e3,
+                within * 1e3
+            ),
             Warning::TooMuchForce { needed, limit } => write!(
                 f,
                 "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
