@@ -170,7 +170,12 @@ impl Trace {
         let text = std::fs::read(path).map_err(|error| fault(error.to_string()))?;
         let trace: Self =
             serde_json::from_slice(&text).map_err(|error| fault(error.to_string()))?;
+        // Strokes are counted when a page is made of them.
+        let strange = |step: &Step| step.predicted.iter().any(|frame| frame.stroke >= step.pushes);
         match trace.schema_version {
+            TRACE_VERSION if trace.steps.iter().any(strange) => {
+                Err(fault("a step predicts frames of pushes that it does not make".to_owned()))
+            }
             TRACE_VERSION => Ok(trace),
             other => Err(fault(format!(
                 "it is of version {other}, this program goes on with {TRACE_VERSION} alone; without \

@@ -40,5 +40,6 @@ pub use schema::{
 };
 pub use task::load_task;
 pub use text::{named_after, read_text};
+pub use tool::MAX_PARTS;
 pub use world::load_world;
 pub use write::write_atomic;

@@ -25,6 +25,9 @@ const MAX_YAML_BYTES: usize = 1 << 18;
 /// letters.
 const MAX_YAML_NODES: usize = 100_000;
 
+/// The most bytes of words that a YAML text may hold: aliases repeat long ones as well.
+const MAX_YAML_WORDS: usize = 1 << 20;
+
 /// Lists and maps within each other: a trajectory file, the deepest there is, has nine.
 const MAX_DEPTH: usize = 32;
 
@@ -137,17 +140,29 @@ fn cuts(text: &str, count: usize) -> impl Iterator<Item = usize> {
 
 /// Reads all nodes, failing on purpose at node `stop`.
 fn read(source: Source, stop: usize) -> Result<Node, Failure> {
-    let next = Cell::new(0);
+    let (next, words) = (Cell::new(0), Cell::new(0));
     match source.language {
         Language::Yaml => {
-            let reader = Reader { next: &next, stop, limit: MAX_YAML_NODES, depth: 0 };
+            let reader = Reader {
+                next: &next,
+                stop,
+                limit: MAX_YAML_NODES,
+                words: (&words, MAX_YAML_WORDS),
+                depth: 0,
+            };
             reader.deserialize(serde_yaml::Deserializer::from_str(source.text)).map_err(|error| {
                 let place = error.location().map(|l| Place { line: l.line(), column: l.column() });
                 Failure { message: error.to_string(), place }
             })
         }
         Language::Json => {
-            let reader = Reader { next: &next, stop, limit: usize::MAX, depth: 0 };
+            let reader = Reader {
+                next: &next,
+                stop,
+                limit: usize::MAX,
+                words: (&words, usize::MAX),
+                depth: 0,
+            };
             let mut json = serde_json::Deserializer::from_str(source.text);
             let read = reader.deserialize(&mut json).and_then(|node| json.end().map(|()| node));
             read.map_err(|error| {
@@ -184,6 +199,8 @@ struct Reader<'a> {
     next: &'a Cell<usize>,
     stop: usize,
     limit: usize,
+    /// Bytes of words so far, and how many there may be.
+    words: (&'a Cell<usize>, usize),
     /// Lists and maps around the value.
     depth: usize,
 }
@@ -264,6 +281,11 @@ impl<'de> Visitor<'de> for Reader<'_> {
     }
 
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
+        let (words, most) = self.words;
+        words.set(words.get() + value.len());
+        if words.get() > most {
+            return Err(E::custom(format_args!("more than {most} bytes of words")));
+        }
         self.leaf(Content::Text(value.into()))
     }
 
@@ -308,6 +330,13 @@ mod tests {
         assert_eq!(place(&a.get("c").unwrap().items()[1]), Some((1, 18)));
         assert_eq!(place(&root.get("ä").unwrap().items()[0]), Some((3, 3)));
         assert_eq!(locate(source, 1000), None);
+    }
+
+    #[test]
+    fn long_words_are_not_repeated_for_ever() {
+        let text = format!("a: &a {}\nb: [{}]\n", "x".repeat(9000), "*a, ".repeat(200));
+        let faults = Node::parse(Source::yaml("t", &text)).unwrap_err().to_string();
+        assert!(faults.contains("bytes of words"), "{faults}");
     }
 
     #[test]

@@ -20,6 +20,9 @@ pub(super) static TOOL: Value = Value::Map(TOOL_KEYS);
 /// What a file of a tool of either kind may hold.
 pub(super) static TOOL_FILE: Value = Value::Told { by: of, of: &[&TOOL, &BLADE_TOOL] };
 
+/// The most parts that a tool may have.
+pub const MAX_PARTS: usize = 32;
+
 /// The keys of a tool.
 pub(super) const TOOL_KEYS: &[Key] = &[
     Key::required("name", Value::Name, "The tool's name, unique in its folder."),
@@ -47,7 +50,7 @@ pub(super) const TOOL_KEYS: &[Key] = &[
     ),
     Key::required(
         "parts",
-        Value::List { of: &PART, items: "parts", min: 1, max: 32 },
+        Value::List { of: &PART, items: "parts", min: 1, max: MAX_PARTS },
         "The solids that make the tool; parts that touch (gap up to 0.1 mm) are joined rigidly.",
     ),
     Key::optional(

@@ -34,6 +34,9 @@ pub enum CliError {
     /// Stopped by a signal.
     #[error("{0}")]
     Interrupted(String),
+    /// What was carried out came to an end that nobody wanted.
+    #[error("{0}")]
+    Ended(String),
     /// Results that cannot be written; each fault says `error:` itself.
     #[error("{0}")]
     Output(Faults),
@@ -70,6 +73,7 @@ impl CliError {
             Self::Usage { .. } => exit_code::USAGE,
             Self::Files(_) | Self::File(_) => exit_code::INVALID_FILE,
             Self::Refused(_) => exit_code::REFUSED,
+            Self::Ended(_) => exit_code::FAILED_VERIFICATION,
             Self::Interrupted(_) => exit_code::INTERRUPTED,
             // `pushplan ... | head` is no failure.
             Self::Closed => exit_code::DONE,

@@ -253,8 +253,9 @@ fn act_error(error: ActError, path: &Path) -> CliError {
         ActError::Stopped { .. } => CliError::Interrupted(format!(
             "{message}; the same command with --resume goes on from there"
         )),
-        ActError::World(_) | ActError::Objects { .. } | ActError::Lost { .. } => {
-            CliError::Unexpected(format!("{message}; what was done is in {}", path.display()))
+        ActError::Objects { .. } => CliError::File(format!("{}: {message}", path.display())),
+        ActError::World(_) | ActError::Lost { .. } => {
+            CliError::Ended(format!("{message}; what was done is in {}", path.display()))
         }
     }
 }

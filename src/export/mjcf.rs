@@ -335,7 +335,7 @@ fn tool(xml: &mut Xml, motion: &ToolMotion, hand: Option<Carried>) {
     if let Some(Carried { footprint: Footprint::Disc { radius }, pose, from }) = hand {
         let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
         let middle = from + 0.5 * SHOWN_HAND;
-        solid(xml, "hand".into(), &shape, &(turned * pose), middle, (0.0, 0.0));
+        solid(xml, "tool/hand".into(), &shape, &(turned * pose), middle, (0.0, 0.0));
     }
     xml.close();
 }

@@ -80,6 +80,11 @@ pub enum Warning {
         /// What the arm can, newtons.
         limit: f64,
     },
+    /// The tool pressed harder than an ordinary arm can, and the task does not say what its can.
+    HardPush {
+        /// How hard, newtons; to within a factor of two.
+        needed: f64,
+    },
     /// The end effector leaves the robot's reach.
     OutOfReach {
         /// Index of the push.
@@ -200,6 +205,7 @@ impl Warning {
             | Warning::Doubtful { .. }
             | Warning::Differs { .. }
             | Warning::Simulated { .. }
+            | Warning::HardPush { .. }
             | Warning::Slipped { .. }
             | Warning::Guessed { .. } => false,
             Warning::NotAtRest { .. }
@@ -269,6 +275,7 @@ impl Warning {
             Warning::OffTable { .. } => "off the table",
             Warning::NotKept { .. } => "not kept",
             Warning::TooMuchForce { .. } => "too much force",
+            Warning::HardPush { .. } => "a hard push",
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",

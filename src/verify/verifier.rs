@@ -21,6 +21,9 @@ use super::space;
 const PLANAR_STEP: f64 = 1e-6;
 const SPATIAL_STEP: f64 = 6e-6;
 
+/// What an ordinary arm keeps up, newtons: those that stand beside people have 50 to 150.
+const ORDINARY_ARM: f64 = 150.0;
+
 /// How thoroughly to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VerifySettings {
@@ -225,6 +228,11 @@ fn evidence(
     {
         let needed = force.lasting;
         trajectory.warnings.push(Warning::TooMuchForce { needed, limit });
+    }
+    if let (Some(force), None) = (trajectory.force, task.robot.max_force)
+        && force.lasting > ORDINARY_ARM
+    {
+        trajectory.warnings.push(Warning::HardPush { needed: force.lasting });
     }
     trajectory.warnings.extend(scene.not_kept(trajectory.outcome()));
     Evidence {

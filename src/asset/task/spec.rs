@@ -251,7 +251,8 @@ pub(in crate::asset) const MAX_FORCE: Key = Key::optional(
         high: 1e6,
         advice: "pushing 1 kg over wood takes about 5 N; small arms press with 50 to 150 N",
     }),
-    "Largest force in newtons that the arm can press with; by default any.",
+    "Largest force in newtons that the arm can keep up; what strikes at first touch is not limited. By \
+     default any, with a warning above 150.",
 );
 
 /// Where the end effector can be.

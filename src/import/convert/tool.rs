@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::asset::{Faults, named_after};
+use crate::asset::{Faults, MAX_PARTS, named_after};
 use crate::geometry::{ConvexPolygon, Shape};
 use crate::import::fault::Ledger;
 use crate::import::model::{Model, Motion};
@@ -103,6 +103,14 @@ fn assemble(
         let of = &model.bodies[*body];
         of.solids.iter().filter(|solid| solid.touches).map(|solid| (of.name.as_str(), solid))
     });
+    // Thousands of parts would be compared with each other first.
+    let count = solids.clone().count();
+    if count > MAX_PARTS {
+        let message =
+            format!("it has {count} solids that touch; a tool has at most {MAX_PARTS} parts");
+        ledger.fault(model.bodies[body].place, message, "leave out those that meet no object");
+        return None;
+    }
     for (of, solid) in solids {
         let name = names.take(if solid.name.is_empty() { of } else { &solid.name });
         let Some(upright) = Upright::of(solid, &format!("`{name}`"), ledger) else { continue };

@@ -105,6 +105,11 @@ impl fmt::Display for Warning {
                 f,
                 "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"
             ),
+            Warning::HardPush { needed } => write!(
+                f,
+                "pushing takes about {needed:.0} N for longer than an impact, more than most arms have; \
+                 state `robot.max_force`"
+            ),
             Warning::OutOfReach { push } => {
                 write!(f, "the end effector leaves the robot's reach in push {}", push + 1)
             }
