@@ -23,8 +23,7 @@ use super::asleep::Asleep;
 use super::drive::World;
 use super::groups::{Group, Member};
 use super::parameters::{
-    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, centre, is_articulated,
-    needs_stiff_contacts,
+    ALLOWED_ERROR, ARTICULATED_ITERATIONS, STIFF_CONTACT, is_articulated, needs_stiff_contacts,
 };
 use super::seams::Seams;
 use super::solids::{CLEAR, FOOT, floor, foot, raised, solid, table, undersides, weighing};
@@ -32,6 +31,10 @@ use super::solved::solved;
 use super::strain::{Overlap, force, overlap};
 use super::support::Support;
 use super::upright::{Standing, Upright};
+
+mod place;
+
+use place::{LOCAL, frame_of, to_rapier, yaw};
 
 /// An object whose axis leans further than this has toppled, radians (10 degrees).
 const TOPPLED: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -42,8 +45,8 @@ const TABLE: u128 = u128::MAX;
 /// A scene in rapier3d, in which objects tip or only turn about the vertical.
 pub(super) struct SpatialWorld<const TIPS: bool> {
     world: PhysicsWorld,
-    /// Where rapier's origin lies on the table, metres.
-    origin: Vector,
+    /// Rapier's frame on the table, see [`frame_of`].
+    frame: Pose,
     lift: f64,
     tool: RigidBodyHandle,
     bodies: Vec<Tracked>,
@@ -75,7 +78,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     ) -> Self {
         let mut this = Self {
             world: empty_world(physics),
-            origin: centre(state).unwrap_or(tool.position),
+            frame: frame_of(state, motion, tool),
             lift: motion.lift,
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
@@ -111,8 +114,9 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
     }
 
     fn begin_frame(&mut self, frame: &FrameStep, step: f64) {
-        let pose = to_rapier(&frame.from, self.origin, self.lift);
-        let velocity = (frame.to.position - frame.from.position) / frame.duration;
+        let pose = to_rapier(&frame.from, &self.frame, self.lift);
+        let way = self.frame.local_vector(frame.to.position - frame.from.position);
+        let velocity = way / frame.duration;
         let turning = (frame.to.heading - frame.from.heading) / frame.duration;
         self.world.integration_parameters.dt = step;
         let tool = &mut self.world.bodies[self.tool];
@@ -146,9 +150,10 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             let lean = *body.rotation() * tracked.first_rotation.inverse();
             let leaned = lean * (RapierVector::Z * *rise);
             let moved = Vector::new(moved.x + leaned.x, moved.y + leaned.y);
+            let moved = self.frame.vector(moved);
             state.poses.push(member.pose(moved, tracked.turned));
             let (linear, angular) = (body.linvel(), body.angvel());
-            let linear = Vector::new(linear.x, linear.y);
+            let linear = self.frame.vector(Vector::new(linear.x, linear.y));
             let velocity = Velocity { linear, angular: angular.z };
             state.velocities.push(member.velocity(velocity, tracked.turned));
         }
@@ -191,7 +196,8 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
             let deepest = depths.filter(|one| one.0 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
             let labels = (self.label(pair.collider1), self.label(pair.collider2));
             if let (Some((depth, normal)), (Some(a), Some(b))) = (deepest, labels) {
-                overlap((a, b), depth, Vector::new(normal.x, normal.y), found);
+                let normal = self.frame.vector(Vector::new(normal.x, normal.y));
+                overlap((a, b), depth, normal, found);
             }
         }
     }
@@ -222,12 +228,12 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     fn add_tool(&mut self, motion: &ToolMotion, at: &Pose) {
         // rapier's velocity is that of the centre of mass, so all of it lies in the tool frame.
         let mass = MassProperties::new(RapierVector::ZERO, 1.0, RapierVector::ONE);
-        let pose = to_rapier(at, self.origin, self.lift);
+        let pose = to_rapier(at, &self.frame, self.lift);
         let body = RigidBodyBuilder::kinematic_velocity_based().pose(pose).can_sleep(false);
         self.tool = self.world.insert_body(body.additional_mass_properties(mass));
         for (index, part) in motion.tool.outline().iter().enumerate() {
             // The tool frame lies at the parts' underside.
-            let placed = to_rapier(&part.pose, Vector::zeros(), part.shape.height() / 2.0);
+            let placed = to_rapier(&part.pose, &LOCAL, part.shape.height() / 2.0);
             let collider = solid(&part.shape, placed, motion.tool.friction).density(0.0);
             let collider = match &part.rim {
                 Some(rim) => {
@@ -247,8 +253,9 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             _ => 0.0,
         };
         let Velocity { linear, angular } = group.velocity;
+        let linear = self.frame.local_vector(linear);
         let body = RigidBodyBuilder::dynamic()
-            .pose(to_rapier(&group.pose, self.origin, height))
+            .pose(to_rapier(&group.pose, &self.frame, height))
             .linvel(RapierVector::new(linear.x, linear.y, 0.0))
             .angvel(RapierVector::Z * angular)
             .enabled_rotations(TIPS, TIPS, true)
@@ -280,7 +287,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         let feet = if TIPS { points.few(&footprint) } else { Feet::clone(points) };
         let place = |at: Vector| {
             let pose = member.local * Pose { position: at, heading: 0.0 };
-            to_rapier(&pose, Vector::zeros(), FOOT - first_position.z)
+            to_rapier(&pose, &LOCAL, FOOT - first_position.z)
         };
         let feet = feet
             .each()
@@ -293,7 +300,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             self.upright.add(Standing { support, feet, friction });
         }
         let rise = height / 2.0 - first_position.z;
-        let placed = to_rapier(&member.local, Vector::zeros(), rise + CLEAR / 2.0);
+        let placed = to_rapier(&member.local, &LOCAL, rise + CLEAR / 2.0);
         let (own, mass) = (physics.frictions[index], physics.masses[index]);
         let raised = raised(&object.shape);
         let solid = weighing(solid(&raised, placed, own), &raised, mass);
@@ -306,7 +313,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
 
     fn add_obstacles(&mut self, scene: &Scene) {
         for (index, obstacle) in scene.obstacles.iter().enumerate() {
-            let pose = to_rapier(&obstacle.pose, self.origin, obstacle.size[2] / 2.0);
+            let pose = to_rapier(&obstacle.pose, &self.frame, obstacle.size[2] / 2.0);
             let body = self.world.insert_body(RigidBodyBuilder::fixed().pose(pose));
             let collider = solid(&obstacle.shape(), Pose3::IDENTITY, obstacle.friction);
             self.insert(collider, Body::Obstacle(index), body);
@@ -330,7 +337,7 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let frame = |object: usize, at: Pose| {
                 let (member, _) = &self.objects[object];
                 let below = -self.bodies[member.body].first_position.z;
-                let frame = to_rapier(&(member.local * at), Vector::zeros(), below);
+                let frame = to_rapier(&(member.local * at), &LOCAL, below);
                 Pose3::from_parts(frame.translation, frame.rotation * axis)
             };
             let ([first, second], [at_first, at_second]) =
@@ -385,16 +392,4 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }
     world
-}
-
-fn to_rapier(pose: &Pose, origin: Vector, height: f64) -> Pose3 {
-    let position = pose.position - origin;
-    let translation = RapierVector::new(position.x, position.y, height);
-    Pose3::from_parts(translation, Rotation::from_rotation_z(pose.heading))
-}
-
-/// Turn about the vertical, radians.
-fn yaw(rotation: &Rotation) -> f64 {
-    let (x, y, z, w) = (rotation.x, rotation.y, rotation.z, rotation.w);
-    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
 }

@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use pushplan::act::{End, Note, RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::asset::ToolLibrary;
-use pushplan::geometry::Vector;
+use pushplan::geometry::{Pose, Vector, wrap_angle};
 use pushplan::report::solution_document;
 use pushplan::scene::{
-    Plan, Push, PushFault, PushForm, Situation, Task, Tool, Truth, Verdict, Warning,
+    Job, Object, Plan, Push, PushFault, PushForm, Record, Scene, Situation, Task, Tool, ToolMotion,
+    Truth, Verdict, Warning,
 };
+use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
@@ -241,4 +243,29 @@ fn what_is_kept_is_there_and_not_what_is_moved() {
     };
     assert!(faults("{objects: [urn]}").contains("no object is called `urn`"));
     assert!(faults("{objects: [box]}").contains("`box` is to be moved and kept"));
+}
+
+#[test]
+fn a_scene_that_is_turned_with_its_push_ends_turned_in_3d() {
+    let tool = library().get("finger").expect("a shipped tool").clone();
+    let end = |turn: f64| {
+        let turned = Pose { position: Vector::zeros(), heading: turn };
+        let pose = turned * Pose::new(0.55, 0.05, 0.35);
+        let shape = [0.10, 0.06, 0.05];
+        let box_ = Object::cuboid("box", shape).mass(0.5).friction(0.5);
+        let scene = Scene::new([box_.at(pose.position.x, pose.position.y, pose.heading)]);
+        let start = turned.point(Vector::new(0.42, 0.062));
+        let push = Push { start, direction: turn, length: 0.2, speed: 0.1 };
+        let motion = ToolMotion::pushes(tool.clone(), 0.002, turn, &[push], true);
+        let job = Job::stated(&scene, motion);
+        let run = Simulator::spatial().run(&scene, &job, Record::Outcome);
+        turned.inverse() * run.outcome().poses[0]
+    };
+    let straight = end(0.0);
+    for turn in [0.4, 0.5 * std::f64::consts::FRAC_PI_2, 2.0, -2.9] {
+        let turned = end(turn);
+        let off = (turned.position - straight.position).norm();
+        let angle = wrap_angle(turned.heading - straight.heading).abs();
+        assert!(off < 1e-4 && angle < 1e-3, "{turn}: {off} m, {angle} rad");
+    }
 }

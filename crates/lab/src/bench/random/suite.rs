@@ -155,7 +155,8 @@ impl RandomSuite {
         for _ in 0..WALLS {
             let Some(wall) = wall(rng, &task.scene, object, corner, &straight) else { continue };
             let before = task.clone();
-            task.scene.obstacles.push(wall);
+            // The robot stands behind all others.
+            task.scene.obstacles.insert(0, wall);
             let clear = keeps_clear(&workspace(task, &self.tools), candidate, &plan.pushes());
             let plan = clear.then(|| self.made(task, TaskKind::Obstacle, candidate)).flatten();
             // A wall that the object is pushed against would make another task than planned.

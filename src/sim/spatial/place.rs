@@ -1,0 +1,37 @@
+//! Where things are to rapier: its friction acts along the axes of its frame, so that frame is the push's
+//! own. A turned scene then gives a turned answer.
+
+use rapier3d_f64::prelude::{Pose3, Rotation, Vector as RapierVector};
+
+use crate::geometry::{Pose, Vector};
+use crate::scene::{State, Stroke, ToolMotion};
+
+use super::super::parameters::centre;
+
+/// For what is placed in the frame of a body.
+pub const LOCAL: Pose = Pose { position: Vector::new(0.0, 0.0), heading: 0.0 };
+
+/// Rapier's frame: among the objects, so that a scene far from the world's origin loses no digits, its
+/// x axis along the stroke that begins with the tool at `tool`.
+pub fn frame_of(state: &State, motion: &ToolMotion, tool: &Pose) -> Pose {
+    let begins = |stroke: &&Stroke| stroke.from == *tool;
+    let stroke = motion.strokes.iter().find(begins).or(motion.strokes.first());
+    let ahead = stroke.and_then(Stroke::direction);
+    Pose {
+        position: centre(state).unwrap_or(tool.position),
+        heading: ahead.map_or(tool.heading, |ahead| ahead.y.atan2(ahead.x)),
+    }
+}
+
+/// A pose in `frame`, at a height.
+pub fn to_rapier(pose: &Pose, frame: &Pose, height: f64) -> Pose3 {
+    let Pose { position, heading } = frame.inverse() * *pose;
+    let translation = RapierVector::new(position.x, position.y, height);
+    Pose3::from_parts(translation, Rotation::from_rotation_z(heading))
+}
+
+/// Turn about the vertical, radians.
+pub fn yaw(rotation: &Rotation) -> f64 {
+    let (x, y, z, w) = (rotation.x, rotation.y, rotation.z, rotation.w);
+    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+}
