@@ -17,6 +17,7 @@ TASK = pushplan.Task.parse(
            position: [0.50, 0.00], yaw_deg: 20}
     robot: {reach: {min: 0.1, max: 0.8}}
     tools: [paddle]
+    pushes: {directions: 16, length: 0.35}
     goal: {object: box, position: [0.62, 0.06], tolerance: 0.02}
     """,
     name="to-the-left",

@@ -9,4 +9,5 @@ mod rules;
 mod space;
 mod verifier;
 
+pub use rules::broken_rules;
 pub use verifier::{Verifier, VerifySettings};

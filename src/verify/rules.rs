@@ -19,7 +19,7 @@ const LONGER: f64 = 1.5;
 
 /// Everything that is wrong with `plan`, which `tool` carries out in `scene`, before anything
 /// moves.
-pub(super) fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec<Warning> {
+pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec<Warning> {
     let mut found = Vec::new();
     if plan.is_empty() {
         return found;

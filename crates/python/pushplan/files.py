@@ -27,7 +27,9 @@ __all__ = [
     "FrictionKeys",
     "GoalKeys",
     "GripKeys",
+    "HandKeys",
     "JointKeys",
+    "KeepKeys",
     "LeversKeys",
     "Numbers",
     "ObjectKeys",
@@ -194,12 +196,18 @@ class ReachKeys(TypedDict):
     min: NotRequired[float]
 
 
+# The hand about the end effector, an upright cylinder: its radius and where it begins, metres.
+HandKeys = TypedDict("HandKeys", {"radius": float, "from": float}, total=False)
+
+
 class RobotKeys(TypedDict):
     """Where the end effector can be, metres, and how hard it can press, newtons."""
 
     reach: ReachKeys
     home: NotRequired[Numbers]
     max_force: NotRequired[float]
+    hand: NotRequired[Union[Literal["none"], HandKeys]]
+    base: NotRequired[Union[Literal["none"], float]]
 
 
 class PushKeys(TypedDict, total=False):
@@ -240,6 +248,13 @@ class LeversKeys(TypedDict, total=False):
     retreat: float
 
 
+class KeepKeys(TypedDict):
+    """Objects that no plan may move by more than `within` metres."""
+
+    objects: Sequence[str]
+    within: NotRequired[float]
+
+
 class TaskFile(TypedDict):
     """The keys of a task file."""
 
@@ -253,6 +268,7 @@ class TaskFile(TypedDict):
     robustness: NotRequired[float]
     unknown: NotRequired[Sequence[Literal["joints", "masses", "frictions", "support"]]]
     levers: NotRequired[LeversKeys]
+    keep: NotRequired[KeepKeys]
 
 
 class GripKeys(TypedDict):

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::report::{Origin, PageView, verdict_page};
-use pushplan::scene::{Engine, PushForm, Situation, TableFit};
+use pushplan::scene::{Engine, PushForm, Situation, TableFit, Warning};
 use pushplan::solve::{AskedPush, asked_plan};
-use pushplan::verify::VerifySettings;
+use pushplan::verify::{VerifySettings, broken_rules};
 use pushplan::{Graph, Job, RankedPlan, Task, Trajectory, Verdict, Verifier};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -79,7 +79,12 @@ impl PyPlan {
         let asked =
             work::run(py, 0, |_| asked_plan(&task.task, &situation, &tool, &yaws, &pushes))?;
         let asked = asked.map_err(|error| errors::action(py, &error.to_string()))?;
-        let broken = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
+        let rules = broken_rules(&task.task, &task.task.scene, &tool, &asked.plan);
+        let forms = rules.iter().filter(|rule| {
+            matches!(rule, Warning::ForbiddenPush { .. } | Warning::TooManyPushes { .. })
+        });
+        let margins = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
+        let broken: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
         let file = PlanFile {
             task: Task::clone(&task.task),
             tools: vec![tool],
@@ -89,7 +94,6 @@ impl PyPlan {
             predicted: None,
             verdict: None,
         };
-        let broken = broken.collect();
         Ok(Self { file, task_file: task.path(), trajectory: None, broken })
     }
 
