@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::geometry::Pose;
 use crate::scene::{
     Disturbance, Evidence, Job, LeverScene, Outcome, Plan, Record, Scene, Situation, Task, Tool,
-    Trajectory, Verdict, Warning,
+    ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
@@ -23,6 +23,13 @@ const SPATIAL_STEP: f64 = 6e-6;
 
 /// What an ordinary arm keeps up, newtons: those that stand beside people have 50 to 150.
 const ORDINARY_ARM: f64 = 150.0;
+
+/// How well it is known where the table ends, metres: of objects pushed to 1 and 3 mm from there all
+/// fell in MuJoCo, to 5 mm none.
+const EDGE: f64 = 0.004;
+
+/// How well it is known how high a tool is held, metres.
+const HAIR: f64 = 1e-3;
 
 /// How thoroughly to verify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,7 +137,11 @@ impl<'a> Verifier<'a> {
         let Some(tool) = tools.first() else {
             return Verdict::judge(forbidden, evidence, task.robustness);
         };
-        let motion = plan.motion(tool);
+        let mut motion = plan.motion(tool);
+        let scene = wary(&situation.scene);
+        if misses_by_a_hair(&scene, &motion) {
+            motion.lift += HAIR;
+        }
         let draws: Vec<(&Simulator, usize)> = [&self.planar, &self.spatial]
             .into_iter()
             .flat_map(|engine| (0..self.settings.disturbed).map(move |draw| (engine, draw)))
@@ -143,7 +154,7 @@ impl<'a> Verifier<'a> {
                     return stopped(engine, task, situation, disturbance);
                 }
                 let job = Disturbed::draw(situation, tool, self.settings.seed, draw).job(&motion);
-                self.replay(engine, task, &situation.scene, &job, disturbance)
+                self.replay(engine, task, &scene, &job, disturbance)
             })
             .collect();
         evidence.extend(replays);
@@ -207,6 +218,22 @@ impl<'a> Verifier<'a> {
         let trajectory = engine.run_watched(scene, job, record, self.watch);
         evidence(engine, task, scene, trajectory, disturbance)
     }
+}
+
+/// The scene as disturbed replays have it: what comes as near to where the table ends as that is known
+/// falls.
+fn wary(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(top) = &mut scene.table_top {
+        top.size = top.size.map(|extent| (extent - 2.0 * EDGE).max(0.0));
+    }
+    scene
+}
+
+/// Whether a tool that is held a little higher passes over an object that it meets as planned.
+fn misses_by_a_hair(scene: &Scene, motion: &ToolMotion) -> bool {
+    let over = |height: f64| motion.lift < height && motion.lift + HAIR >= height;
+    scene.objects.iter().any(|object| over(object.shape.height()))
 }
 
 /// Whether a plan is replayed in space.

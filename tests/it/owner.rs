@@ -269,3 +269,27 @@ fn a_scene_that_is_turned_with_its_push_ends_turned_in_3d() {
         assert!(off < 1e-4 && angle < 1e-3, "{turn}: {off} m, {angle} rad");
     }
 }
+
+/// A box that is pushed to 1 mm from where the table ends, or by a tool that hardly meets it.
+const EDGE: &str = "
+scene:
+  table: {size: [0.8, 1], position: [0.3, 0]}
+  objects: [{name: box, shape: {cuboid: {size: [0.08, 0.08, 0.08]}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}]
+robot: {reach: {min: 0.05, max: 0.95}}
+tools: [finger, paddle]
+pushes: {length: 0.3, directions: 8, max_count: 2}
+goal: {object: box, position: [0.699, 0], tolerance: 0.002}
+";
+
+#[test]
+fn what_works_by_a_millimetre_is_fragile() {
+    let planner = Planner::for_effort(Effort::Standard).expect("its models").build();
+    let status = |text: &str| planner.solve(&task(text), &library()).expect("sound").status;
+    assert_eq!(status(EDGE), PlanStatus::Fragile);
+    let room = |at: &str| EDGE.replace("0.699", at).replace("tolerance: 0.002", "tolerance: 0.01");
+    assert_eq!(status(&room("0.68")), PlanStatus::Solved);
+    let low = room("0.62");
+    let held = |lift: f64| low.replace("length: 0.3", &format!("length: 0.3, lift: {lift}"));
+    assert_eq!(status(&held(0.0798)), PlanStatus::Fragile);
+    assert_eq!(status(&held(0.06)), PlanStatus::Solved);
+}
