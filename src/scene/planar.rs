@@ -1,4 +1,4 @@
-//! Fields that only scenes in space have, left out of binary records of pushes.
+//! Fields that only scenes in space have, and what only tasks say, left out of binary records of pushes.
 //!
 //! Records of data sets are not self-describing: a field more in each of millions of frames would make
 //! every data set that exists unreadable. They hold scenes in the plane alone, so nothing is lost.

@@ -26,7 +26,7 @@ pub struct Object {
     /// Where it stands at the start.
     pub pose: Pose,
     /// How far a plan may move it, metres; as far as it likes where nothing is said.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<f64>,
     /// Solids that are fixed on it, of the same density.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
