@@ -93,7 +93,7 @@ pub struct Margins {
     pub obstacle: f64,
     /// Of the tool set down to the objects, beyond [`SET_DOWN_CLEARANCE`] and the push's room.
     pub object: f64,
-    /// Of the hand to all that is as high, beyond [`HAND_CLEARANCE`].
+    /// Of the hand to all that is as high, beyond what is kept.
     pub hand: f64,
 }
 
