@@ -6,10 +6,9 @@ use crate::judge::Trial;
 use crate::scene::{ModelSpec, State, TableFit};
 
 use super::runner::seen_at;
-use super::trace::Trace;
+use super::trace::{Step, Trace};
 
 /// Learns while a run goes on; what it was given is never changed.
-#[derive(Clone)]
 pub(super) struct Learner {
     network: Network,
     given: Option<TableFit>,
@@ -22,19 +21,24 @@ impl Learner {
         Ok(weights.map(|weights| Self { network: Network::new(weights), given }))
     }
 
-    /// What all steps of a trace that began at `start` teach. Nothing where the task leaves open what
-    /// objects are like: what they do then says that first.
+    /// Everything that the steps of a trace which began at `start` have taught; `None` if the task leaves
+    /// masses, frictions, supports or joints unknown, since pushes tell of those first.
     pub fn learn(&self, trace: &Trace, start: &State) -> Result<Option<TableFit>, ModelError> {
         let Trace { task, settings, steps, .. } = trace;
         if task.unknown.any() || steps.is_empty() {
             return Ok(None);
         }
         let before = std::iter::once(start).chain(steps.iter().map(|step| &step.state));
-        let trial = |(step, before): (&super::trace::Step, &State)| {
+        let trial = |(step, before): (&Step, &State)| {
             let scene = seen_at(&task.scene, before);
             Trial::to_rest(scene, step.motion(), step.state.poses.clone())
         };
-        let trials: Vec<Trial> = steps.iter().zip(before).map(trial).collect();
+        let trials = steps.iter().zip(before).map(trial);
+        // A push that ended before it began moved nothing.
+        let trials: Vec<Trial> = trials.filter(|trial| !trial.motion.strokes.is_empty()).collect();
+        if trials.is_empty() {
+            return Ok(self.given.clone());
+        }
         let basis = Basis::seen(&trials, settings.noise.position, self.given.as_ref());
         let fit = learn(&self.network, &trials, &basis, &HeadSettings::default());
         fit.map(Some).map_err(ModelError::Shipped)

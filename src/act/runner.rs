@@ -39,7 +39,8 @@ pub struct Runner<'a> {
     /// Rolls out hypotheses of the belief.
     model: Prior,
     regulator: Option<BeliefRegulator>,
-    learner: Option<Learner>,
+    /// Shared, as a runner is cloned for every decision.
+    learner: Option<Arc<Learner>>,
 }
 
 impl<'a> Runner<'a> {
@@ -61,7 +62,8 @@ impl<'a> Runner<'a> {
     /// # Errors
     /// [`ModelError`] if the network's weights cannot be read.
     pub fn learning(self, given: Option<TableFit>) -> Result<Self, ModelError> {
-        Ok(Self { learner: Learner::new(self.planner.model().spec(), given)?, ..self })
+        let learner = Learner::new(self.planner.model().spec(), given)?;
+        Ok(Self { learner: learner.map(Arc::new), ..self })
     }
 
     /// Goes on with `trace`, from the beginning if it is new, until it has an end. `keep` is given the
@@ -133,7 +135,9 @@ impl<'a> Runner<'a> {
     fn learnt(&self, trace: &mut Trace, start: &State) -> Result<Option<Planner>, ActError> {
         let Some(learner) = &self.learner else { return Ok(None) };
         trace.learnt = learner.learn(trace, start)?;
-        Ok(trace.learnt.as_ref().map(|fit| self.planner.fitted_anew(fit)).transpose()?)
+        // A planner that would decide the same need not be made.
+        let news = trace.learnt.as_ref().filter(|fit| fit.head.iter().any(|value| *value != 0.0));
+        Ok(news.map(|fit| self.planner.fitted_anew(fit)).transpose()?)
     }
 
     /// What is believed after the first look, and what is odd about that.

@@ -131,8 +131,7 @@ fn open(path: &Path) -> Result<(PlanFile, Option<Trajectory>), Faults> {
         Kind::Trajectory => {
             let TrajectoryFile { task, tools, plan, trajectory } = TrajectoryFile::load(path)?;
             let model = Some(trajectory.by.clone());
-            let plan =
-                PlanFile { task, tools, plan, model, fit: None, predicted: None, verdict: None };
+            let plan = PlanFile { model, ..PlanFile::new(task, tools, plan) };
             Ok((plan, Some(trajectory)))
         }
         kind => {

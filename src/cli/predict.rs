@@ -120,7 +120,9 @@ impl PredictArgs {
         session: &Session,
     ) -> Result<Asked<'a>, CliError> {
         if kind == Kind::Plan {
-            let PlanFile { task, tools, plan, fit, .. } = PlanFile::load(file)?;
+            let PlanFile { task, tools, plan, model, fit, .. } = PlanFile::load(file)?;
+            // It is of the network that made the plan, and of no other.
+            let fit = fit.filter(|_| self.model.is_none() || self.model == model);
             return Ok(Asked { file, task, tools, plan, fit });
         }
         let library = self.library.load()?;

@@ -76,7 +76,8 @@ pub fn parse(text: &str, file: &str) -> Result<(Model, Language, Vec<String>), F
             file: file.to_owned(),
             place: Some(place),
             message: format!("an element has more than {MAX_ATTRIBUTES} attributes"),
-            advice: "no element of MJCF or URDF has so many; is this the right file?".to_owned(),
+            advice: "MJCF and URDF elements have a few dozen at most; is this the right file?"
+                .to_owned(),
         }
         .into());
     }

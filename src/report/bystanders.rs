@@ -55,7 +55,7 @@ pub(super) fn bystanders<'a>(
     moved
 }
 
-/// The same in a line; nothing where nothing else moves.
+/// All bystanders in one line; `None` if there are none.
 pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
     let of = |one: &Bystander| {
         let fell = if one.fell { " and falls" } else { "" };
@@ -69,7 +69,7 @@ pub(super) fn line(moved: &[Bystander<'_>]) -> Option<String> {
     (!all.is_empty()).then(|| format!("also moves: {}", all.join("; ")))
 }
 
-/// The same for programs: metres and radians.
+/// All bystanders as JSON, in metres and radians.
 pub(super) fn json(moved: &[Bystander<'_>]) -> Json {
     let of = |one: &Bystander| json!({"object": one.name, "moved": one.moved, "turned": one.turned, "fell": one.fell});
     moved.iter().map(of).collect()

@@ -82,7 +82,7 @@ fn tasks_that_say_so_need_a_probe() {
 }
 
 /// Stops after a number of steps.
-pub struct After(pub usize, pub std::sync::atomic::AtomicUsize);
+struct After(usize, std::sync::atomic::AtomicUsize);
 
 impl Watch for After {
     fn progress(&self, done: u64, _: u64) {
@@ -112,19 +112,24 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits_and_threads_change_nothing() {
     assert!(trace.steps.len() >= 2, "nothing is left to go on with");
     assert_eq!(json(&trace), json(&whole(3)));
 
+    assert_eq!(json(&interrupted(&runner, &task)), json(&trace));
+}
+
+/// A run in the first drawn world that is stopped after one push and goes on from its file.
+pub fn interrupted(runner: &Runner, task: &Task) -> Trace {
     let mut kept = String::new();
-    let (mut stopped, mut world) = drawn(&task, 1);
+    let (mut stopped, mut world) = drawn(task, 1);
     let mut keep = |trace: &Trace| -> Result<(), Faults> {
-        kept = json(trace);
+        kept = serde_json::to_string(trace).expect("JSON");
         Ok(())
     };
     let ended = runner.run(&mut stopped, &mut world, &mut keep, &After(1, Default::default()));
     assert!(matches!(ended, Err(ActError::Stopped { pushes: 1 })), "{ended:?}");
     // The world is lost with the process; only the file is left.
     let mut again: Trace = serde_json::from_str(&kept).expect("a trace");
-    let (_, mut world) = drawn(&task, 1);
+    let (_, mut world) = drawn(task, 1);
     runner.run(&mut again, &mut world, &mut |_| Ok(()), &Unwatched).expect("the rest");
-    assert_eq!(json(&again), json(&trace));
+    again
 }
 
 /// Spoils what is seen of a world.

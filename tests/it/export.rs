@@ -27,15 +27,7 @@ fn plan(task: &str, tool: &str, form: PushForm, pushes: &[([f64; 2], f64, f64, f
     };
     let pushes = pushes.iter().map(push);
     let name = tool.name.clone();
-    PlanFile {
-        task,
-        tools: vec![Arc::new(tool)],
-        plan: Plan::pushing(name, 0.0, form, 0.002, pushes),
-        model: None,
-        fit: None,
-        predicted: None,
-        verdict: None,
-    }
+    PlanFile::new(task, vec![Arc::new(tool)], Plan::pushing(name, 0.0, form, 0.002, pushes))
 }
 
 const BAR: &str = "

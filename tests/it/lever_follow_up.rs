@@ -192,13 +192,8 @@ fn a_plan_pushes_levers_and_pushes_again() {
     assert_ne!(elsewhere.lifts, trajectory.lifts);
     // One page and one file hold all of it.
     let file = PlanFile {
-        task: task.clone(),
-        tools: tools().to_vec(),
-        plan: whole,
-        model: None,
-        fit: None,
-        predicted: None,
         verdict: Some(verdict.clone()),
+        ..PlanFile::new(task.clone(), tools().to_vec(), whole)
     };
     let text = serde_json::to_string(&file).expect("numbers");
     assert_eq!(PlanFile::parse(&text, "again.json").expect("sound").plan, file.plan);

@@ -55,7 +55,7 @@ goal: {{object: can, position: [0.66, 0], tolerance: 0.03}}
 
 #[test]
 fn a_can_does_not_come_through_a_gap_that_is_a_little_too_narrow() {
-    for less in [0.0003, 0.001, 0.002] {
+    for less in [0.0002, 0.001, 0.002] {
         let found = solved(&pen(less, ""));
         assert!(!matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile), "{less}");
     }

@@ -1,14 +1,13 @@
 //! What pushes of a run teach the network that plans them.
 
-use pushplan::act::{ActError, Runner, Trace};
-use pushplan::asset::Faults;
+use pushplan::act::{RunSettings, Runner, SimulatedWorld, Trace};
 use pushplan::effect::{EffectModels, Network};
 use pushplan::network::Head;
-use pushplan::scene::{HeadSpread, TableFit, Unknowns};
+use pushplan::scene::{HeadSpread, TableFit, Truth, Unknowns};
 use pushplan::solve::{Effort, Planner};
 use pushplan::watch::Unwatched;
 
-use crate::closed_loop::{After, drawn, library, shipped};
+use crate::closed_loop::{drawn, interrupted, library, shipped};
 
 /// A fit of the shipped network that has changed it a little, as twenty pushes do.
 fn some_fit() -> TableFit {
@@ -41,17 +40,7 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     assert!(learnt.spread.directions.len() >= 2, "nothing is narrower");
     assert_eq!(learnt.objects[0].name, task.scene.objects[0].name);
 
-    let mut kept = String::new();
-    let (mut stopped, mut world) = drawn(&task, 1);
-    let mut keep = |trace: &Trace| -> Result<(), Faults> {
-        kept = json(trace);
-        Ok(())
-    };
-    let ended = runner.run(&mut stopped, &mut world, &mut keep, &After(1, Default::default()));
-    assert!(matches!(ended, Err(ActError::Stopped { pushes: 1 })), "{ended:?}");
-    let mut again: Trace = serde_json::from_str(&kept).expect("a trace");
-    let (_, mut world) = drawn(&task, 1);
-    runner.run(&mut again, &mut world, &mut |_| Ok(()), &Unwatched).expect("the rest");
+    let again = interrupted(&runner, &task);
     assert_eq!(json(&again), json(&trace));
 
     // What is not known of the scene is told first.
@@ -59,4 +48,22 @@ fn pushes_of_a_run_teach_the_network_to_the_same_bits_after_an_interruption() {
     let (mut trace, mut world) = drawn(&open, 1);
     runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
     assert_eq!(trace.learnt, None);
+}
+
+#[test]
+fn pushes_that_the_arm_cannot_begin_teach_nothing() {
+    let (task, library, given) = (shipped("pull-back"), library(), some_fit());
+    let planner = Planner::fitted(&Effort::Draft.models(), Some(&given)).expect("its network");
+    let planner = planner.effort(Effort::Draft).build();
+    let runner = Runner::new(&planner, &library).learning(Some(given.clone())).expect("a network");
+    let mut truth = Truth::stated(&task.scene, 1);
+    truth.scene.objects[0].mass = 500.0;
+    let mut world = SimulatedWorld::new(truth).pushed_with(Some(1.0));
+    let settings = RunSettings { pushes: 2, samples: 2, ..RunSettings::default() };
+    let mut trace = Trace::new(task, settings, "draft".into(), None);
+    runner.run(&mut trace, &mut world, &mut |_| Ok(()), &Unwatched).expect("a run");
+    assert!(!trace.steps.is_empty() && trace.steps.iter().all(|step| step.stop.is_some()));
+    let learnt = trace.learnt.expect("what was given");
+    let begun = trace.steps.iter().filter(|step| !step.motion().strokes.is_empty()).count();
+    assert_eq!(learnt.pushes, given.pushes + begun);
 }

@@ -89,8 +89,8 @@ fn a_head_of_zeros_changes_no_bit() {
 fn ends_follow_a_small_change_of_the_last_layer_as_they_are_said_to() {
     let network = Network::new(EffectModels::weights().expect("the shipped weights"));
     let change = change(network.effect_width());
-    // By as much as poses are nudged: equations that are solved in steps end in jumps of some
-    // hundredths of a millimetre, which is the whole effect of a smaller change.
+    // By about as much as poses are nudged: ends jump by some hundredths of a millimetre, which is the
+    // whole effect of a change a tenth as large.
     const SHARE: f64 = 0.4;
     for trial in pushes(&network, 12) {
         let said = network.sensitivity(&trial.scene, &trial.job());

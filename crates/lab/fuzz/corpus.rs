@@ -156,8 +156,7 @@ fn sample(name: &str) -> Option<Sample> {
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
     let predicted = Some(Outcome::judge(&task.scene, &task.goal, &trajectory));
     let model = Some(trajectory.by.clone());
-    let plan =
-        PlanFile { task, tools: vec![tool], plan, model, fit: None, predicted, verdict: None };
+    let plan = PlanFile { model, predicted, ..PlanFile::new(task, vec![tool], plan) };
     Some(Sample { plan, trajectory })
 }
 

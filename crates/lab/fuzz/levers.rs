@@ -94,8 +94,7 @@ pub fn plans() -> Vec<(String, Vec<u8>)> {
             plan = plan.then(Plan::pushing("t-head", 0.0, PushForm::Placed, 0.002, [push]));
             tools.push(Arc::clone(library.get("t-head")?));
         }
-        let file =
-            PlanFile { task, tools, plan, model: None, fit: None, predicted: None, verdict: None };
+        let file = PlanFile::new(task, tools, plan);
         Some((name.to_owned(), serde_json::to_vec(&file).ok()?))
     };
     ["raise-plate", "drive-board", "turn-and-push"].into_iter().filter_map(plan).collect()

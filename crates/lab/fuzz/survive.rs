@@ -74,15 +74,7 @@ pub fn task(task: Task) {
                 let (task, tools) = (task.clone(), plan.tools.clone());
                 let predicted = Some(plan.outcome.clone());
                 let plan = plan.plan.clone();
-                let file = PlanFile {
-                    task,
-                    tools,
-                    plan,
-                    model: None,
-                    fit: None,
-                    predicted,
-                    verdict: None,
-                };
+                let file = PlanFile { predicted, ..PlanFile::new(task, tools, plan) };
                 written(|path| file.write(path), |path| PlanFile::load(path), &file);
             }
         }

@@ -85,15 +85,7 @@ impl PyPlan {
         });
         let margins = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
         let broken: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
-        let file = PlanFile {
-            task: Task::clone(&task.task),
-            tools: vec![tool],
-            plan: asked.plan,
-            model: None,
-            fit: None,
-            predicted: None,
-            verdict: None,
-        };
+        let file = PlanFile::new(Task::clone(&task.task), vec![tool], asked.plan);
         Ok(Self { file, task_file: task.path(), trajectory: None, broken })
     }
 

@@ -297,6 +297,13 @@ impl World for Place {
         }
     }
 
+    fn stopped(&self) -> Option<pushplan::act::Stop> {
+        match self {
+            Place::Drawn(world) => world.stopped(),
+            Place::Theirs { .. } => None,
+        }
+    }
+
     fn save(&self) -> Option<pushplan::act::WorldState> {
         match self {
             Place::Drawn(world) => world.save(),

@@ -173,7 +173,10 @@ pub fn predict(
     threads: usize,
 ) -> PyResult<PyTrajectory> {
     let file = &plan.file;
-    let model = words::fitted(py, model, words::outside(outside)?, file.fit.as_ref())?;
+    let spec = words::spec(py, model)?;
+    // It is of the network that made the plan, and of no other.
+    let fit = file.fit.as_ref().filter(|_| file.model.as_ref() == Some(&spec));
+    let model = words::fitted(py, &spec, words::outside(outside)?, fit)?;
     let trajectory = work::run(py, words::threads(threads)?, |_| predicted(&model, file))?;
     if trajectory.warnings.contains(&Warning::Refused) {
         let message = format!("{} gives no prediction for this plan", trajectory.by);

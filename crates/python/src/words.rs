@@ -41,17 +41,17 @@ pub fn models(py: Python<'_>, text: &str) -> PyResult<Models> {
 
 /// The effect model of this name.
 pub fn model(py: Python<'_>, text: &str, outside: Outside) -> PyResult<Routed> {
-    fitted(py, text, outside, None)
+    fitted(py, &spec(py, text)?, outside, None)
 }
 
 /// The same with what was learnt about a table.
 pub fn fitted(
     py: Python<'_>,
-    text: &str,
+    spec: &ModelSpec,
     outside: Outside,
     fit: Option<&TableFit>,
 ) -> PyResult<Routed> {
-    let model = EffectModels::fitted(&spec(py, text)?, fit);
+    let model = EffectModels::fitted(spec, fit);
     Ok(model.map_err(|error| errors::model(py, &error))?.outside(outside))
 }
 

@@ -34,6 +34,11 @@ pub struct PlanFile {
 }
 
 impl PlanFile {
+    /// A plan of which nothing is known yet.
+    pub fn new(task: Task, tools: Vec<Arc<Tool>>, plan: Plan) -> Self {
+        Self { task, tools, plan, model: None, fit: None, predicted: None, verdict: None }
+    }
+
     /// Reads a plan file.
     ///
     /// # Errors

@@ -74,15 +74,7 @@ impl PageArgs {
         let models: Option<Models> = run.model.parse().ok();
         let model = models.map(|models| models.decided);
         let recipe = self.library.origin(path, model.clone().map(Models::from)).plan(&plan);
-        let file = PlanFile {
-            task,
-            tools: vec![Arc::clone(tool)],
-            plan,
-            model,
-            fit: None,
-            predicted: None,
-            verdict: None,
-        };
+        let file = PlanFile { model, ..PlanFile::new(task, vec![Arc::clone(tool)], plan) };
         page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }
 }

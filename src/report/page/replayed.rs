@@ -182,15 +182,7 @@ impl<'a> Making<'a> {
 
     /// Adds a plan, whose replays and verdict are to be filled in.
     pub fn plan(&mut self, tools: &[Arc<Tool>], plan: &Plan, recipe: Recipe) -> &mut data::Plan {
-        let file = PlanFile {
-            task: self.task.clone(),
-            tools: tools.to_vec(),
-            plan: plan.clone(),
-            model: None,
-            fit: None,
-            predicted: None,
-            verdict: None,
-        };
+        let file = PlanFile::new(self.task.clone(), tools.to_vec(), plan.clone());
         let mut file = serde_json::to_value(&file).unwrap_or_default();
         let mut part = |key: &str| file.get_mut(key).map_or(Json::Null, Json::take);
         self.data.file.task = part("task");

@@ -110,13 +110,8 @@ fn five_shipped_plans_work_in_mujoco() {
         let solution = planner.solve(&task, &library).unwrap();
         let best = &solution.plans[0];
         let file = PlanFile {
-            task,
-            tools: best.tools.clone(),
-            plan: best.plan.clone(),
-            model: None,
-            fit: None,
-            predicted: None,
             verdict: best.verdict.clone(),
+            ..PlanFile::new(task, best.tools.clone(), best.plan.clone())
         };
         texts.push((name, mjcf(&file).unwrap()));
     }

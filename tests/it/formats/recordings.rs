@@ -21,15 +21,7 @@ fn a_recording_holds_every_frame_and_the_whole_plan_and_is_always_the_same() {
     let job = Job::stated(&task.scene, plan.motion(&tool));
     let model = Simulated::new(Simulator::planar());
     let trajectory = model.rollout(&task.scene, &[job], Record::Frames).remove(0);
-    let file = PlanFile {
-        task,
-        tools: vec![tool],
-        plan,
-        model: None,
-        fit: None,
-        predicted: None,
-        verdict: None,
-    };
+    let file = PlanFile::new(task, vec![tool], plan);
     let bytes = pushplan::export::mcap(&file, &trajectory).unwrap();
     assert!(bytes == pushplan::export::mcap(&file, &trajectory).unwrap());
     let messages: Vec<_> = MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();

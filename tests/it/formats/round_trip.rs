@@ -14,15 +14,7 @@ fn plan(task: Task, tool: &Tool) -> PlanFile {
     let (name, form) = (tool.name.clone(), PushForm::Placed);
     let plan = Plan::pushing(name, 0.0, form, 0.002, [push]);
     let tool = Arc::new(tool.clone());
-    PlanFile {
-        task,
-        tools: vec![tool],
-        plan,
-        model: None,
-        fit: None,
-        predicted: None,
-        verdict: None,
-    }
+    PlanFile::new(task, vec![tool], plan)
 }
 
 fn tasks() -> Vec<Task> {

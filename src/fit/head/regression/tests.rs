@@ -51,7 +51,7 @@ fn what_is_left_of_the_prior_is_what_the_normal_equations_say() {
 #[test]
 fn what_was_learnt_before_counts_as_if_all_had_been_observed_at_once() {
     let ends = ends(1e-2);
-    // The noise is not found anew, so that both see the same.
+    // The floor of the noise binds in both, so that they weigh observations alike.
     let of = |ends: &[Observed]| Regression::new(ends, &[0.0; 2], NoiseLaw::Gaussian, 2e-2);
     let solve = |regression: &Regression| regression.solve(0.5).expect("a posterior");
     let (all, half) = (of(&ends), of(&ends[..30]));
