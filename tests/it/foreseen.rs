@@ -33,8 +33,7 @@ fn where_joints_stop_is_found_once_they_stopped_there() {
             let recording = recorded(&scene, &motion, engine);
             believed(&recording, noise, 3).map().joints[0].limits()
         };
-        // Whether it presses hard enough to be seen to stop is decided by little.
-        let mut seen = 0;
+        let (mut seen, all) = (0, noises.len() * Engine::ALL.len());
         for (noise, engine) in noises.into_iter().flat_map(|n| Engine::ALL.map(|e| (n, e))) {
             assert_eq!(stops(None, EXACT, engine), None);
             let Some(found) = stops(Some(Span::new(-most, most)), noise, engine) else { continue };
@@ -46,7 +45,9 @@ fn where_joints_stop_is_found_once_they_stopped_there() {
             assert_eq!(far, free, "{found:?}");
             assert!(near < 0.1 * most + 5.0 * noise.position, "{noise:?}: {found:?}");
         }
-        assert!(seen > 0, "no stop of {most}");
+        // Whether the second presses hard enough to be seen to stop is decided by little.
+        let least = if most == 0.2 { all } else { 1 };
+        assert!(seen >= least, "{seen} of {all} stops of {most}");
     }
 }
 

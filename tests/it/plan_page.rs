@@ -79,7 +79,7 @@ fn the_error_shown_is_that_of_the_trajectory_at_any_time() {
         }
         assert_eq!(browser.complaints(), Vec::<String>::new());
     }
-    assert!(compared >= 3 * 20 * 3, "{compared}");
+    assert_eq!(compared, 4 * 20 * 3);
 }
 
 #[test]

@@ -89,10 +89,8 @@ fn random_tasks_are_solvable_and_refinement_never_makes_a_prediction_worse() {
         RefinementReport::of("planar", 1, &done.iter().collect::<Vec<_>>())
     };
     let report = measured(2);
-    assert_eq!((report.tasks, report.worse), (6, 0));
-    // A hand at its limit may leave a linear model without a way out.
-    assert!(20 * report.programmes_failed < report.programmes, "{report:?}");
-    assert!(report.after.solved >= report.before.solved, "{report:?}");
+    assert_eq!((report.tasks, report.worse, report.programmes_failed), (6, 0, 0));
+    assert!(report.programmes > 0 && report.after.solved >= report.before.solved, "{report:?}");
     // The model is the truth, so what it predicts is what happens.
     for errors in [&report.before, &report.after] {
         assert_eq!(errors.predicted, errors.planar);
