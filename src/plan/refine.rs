@@ -360,7 +360,6 @@ fn programme(
         })
         .collect();
     let fitted = slopes(&changes, n, goals + rules);
-
     let product = |i: usize, j: usize| -> f64 {
         fitted[..goals].iter().map(|slope| 2.0 * slope[i] * slope[j]).sum()
     };
@@ -372,29 +371,23 @@ fn programme(
     let q = (0..n)
         .map(|i| fitted[..goals].iter().zip(&centre).map(|(slope, e)| 2.0 * slope[i] * e).sum())
         .collect();
-
     let (mut a, mut b) = (Vec::new(), Vec::new());
     let room = work.parameters.room(&best.candidate);
-    let room: Vec<[f64; 2]> =
-        room.into_iter().map(|(low, high)| [high, -low].map(|x| x.min(radius).max(0.0))).collect();
-    for (i, limits) in room.iter().enumerate() {
-        for (sign, limit) in [1.0, -1.0].into_iter().zip(limits) {
+    for (i, (low, high)) in room.into_iter().enumerate() {
+        for (sign, limit) in [(1.0, high), (-1.0, -low)] {
             let mut row = vec![0.0; n];
             row[i] = sign;
             a.push(row);
-            b.push(*limit);
+            b.push(limit.min(radius).max(0.0));
         }
     }
     for (slope, margin) in fitted[goals..].iter().zip(&held) {
         // Rows scaled to about the size of the bounds' rows.
         let scale = 1.0 / slope.iter().fold(1e-3f64, |most, v| most.max(v.abs()));
-        let row: Vec<f64> = slope.iter().map(|v| -v * scale).collect();
-        // A rule that no step within the bounds can break does not bind. Left as far away as it is, a
-        // hundred times the bounds, it has kept the solver from converging.
-        let reach: f64 =
-            row.iter().zip(&room).map(|(v, [high, low])| v.abs() * high.max(*low)).sum();
-        b.push((margin.max(0.0) * scale).min(reach + 1.0));
-        a.push(row);
+        // Rules that no step breaks stay near, as far ones have kept the solver from converging.
+        let reach = 1.0 + radius * scale * slope.iter().map(|v| v.abs()).sum::<f64>();
+        a.push(slope.iter().map(|v| -v * scale).collect());
+        b.push((margin.max(0.0) * scale).min(reach));
     }
     QpProblem { p, q, a, b }
 }
