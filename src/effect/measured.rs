@@ -23,14 +23,14 @@ struct Errors {
 
 /// `pushplan-lab evaluate --on single touching`: 2000 pushes of seed 7 each.
 const PRIOR: Errors = Errors {
-    one: Quantiles { median: 0.75e-3, p95: 6.43e-3 },
-    several: Quantiles { median: 1.09e-3, p95: 7.35e-3 },
+    one: Quantiles { median: 0.16e-3, p95: 2.32e-3 },
+    several: Quantiles { median: 0.24e-3, p95: 2.74e-3 },
 };
 
 /// The same pushes: the shipped network, frame by frame.
 const NETWORK: Errors = Errors {
-    one: Quantiles { median: 0.68e-3, p95: 5.94e-3 },
-    several: Quantiles { median: 0.61e-3, p95: 4.66e-3 },
+    one: Quantiles { median: 0.15e-3, p95: 2.35e-3 },
+    several: Quantiles { median: 0.25e-3, p95: 2.76e-3 },
 };
 
 /// `pushplan-lab tradeoff --pushes 500 --seed 7`: the planar engine with fewer steps a second.

@@ -7,7 +7,7 @@ use crate::scene::State;
 
 use super::enumerate::Extension;
 
-/// Stops whose goal object lies in one square of this side count as alike, metres.
+/// Stops whose pushed object lies in one square of this side count as alike, metres.
 const CELL: f64 = 0.03;
 
 /// A place where a push may end and the next begin.
@@ -22,7 +22,8 @@ pub(super) struct Stop {
     /// The state to continue from, where it is known exactly.
     pub known: Option<State>,
     grip: (usize, u64),
-    direction: u64,
+    /// What is pushed, and which way.
+    way: (usize, u64),
     cell: (i64, i64),
 }
 
@@ -32,9 +33,9 @@ impl Stop {
         length: f64,
         cost: f64,
         rest: &State,
-        object: usize,
         known: Option<State>,
     ) -> Self {
+        let object = extension.planned.object;
         let at = rest.poses[object].position;
         let cell = |v: f64| (v / CELL).floor() as i64;
         Self {
@@ -43,7 +44,7 @@ impl Stop {
             cost,
             known,
             grip: (extension.pair.0, extension.pair.1.to_bits()),
-            direction: extension.push.direction.to_bits(),
+            way: (object, extension.push.direction.to_bits()),
             cell: (cell(at.x), cell(at.y)),
         }
     }
@@ -66,7 +67,7 @@ pub(super) fn choose(mut offers: Vec<Stop>, width: Option<usize>) -> Vec<Stop> {
     let (mut ways, mut cells) = (HashSet::new(), HashSet::new());
     let mut count = 0;
     for (k, stop) in offers.iter().enumerate() {
-        if count < width.div_ceil(2) && ways.insert((stop.grip, stop.direction)) {
+        if count < width.div_ceil(2) && ways.insert((stop.grip, stop.way)) {
             cells.insert((stop.grip, stop.cell));
             taken[k] = true;
             count += 1;

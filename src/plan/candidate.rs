@@ -25,6 +25,8 @@ pub enum Start {
 /// One push of a candidate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CandidatePush {
+    /// Index of the object that a placed push is meant for.
+    pub object: usize,
     /// Where it starts.
     pub start: Start,
     /// Heading of the motion, radians from world +x.
@@ -55,8 +57,8 @@ impl Candidate {
         next
     }
 
-    /// Whether both use the same tool, grip yaw, faces and directions, and so differ only in
-    /// offsets and lengths, which refinement changes anyway.
+    /// Whether both push the same objects with the same tool, grip yaw, faces and directions, and so
+    /// differ only in offsets and lengths, which refinement changes anyway.
     pub fn is_variant_of(&self, other: &Self) -> bool {
         let face = |push: &CandidatePush| match push.start {
             Start::Placed { part, .. } => Some(part),
@@ -69,6 +71,6 @@ impl Candidate {
                 .pushes
                 .iter()
                 .zip(&other.pushes)
-                .all(|(a, b)| a.direction == b.direction && face(a) == face(b))
+                .all(|(a, b)| (a.object, a.direction, face(a)) == (b.object, b.direction, face(b)))
     }
 }

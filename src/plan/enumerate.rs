@@ -60,8 +60,11 @@ pub(super) fn extensions(
     let found: Vec<Vec<(CandidatePush, Result<Extension, Infeasible>)>> = work
         .par_iter()
         .map(|&(node, pair)| {
-            pushes(workspace, &nodes[node], pair, offsets)
+            let movers = field.movers(&nodes[node].state);
+            let tried = |object| pushes(workspace, &nodes[node], (pair, object), offsets);
+            movers
                 .into_iter()
+                .flat_map(tried)
                 .map(|push| (push, extend(workspace, field, &nodes[node], node, pair, push)))
                 .collect()
         })
@@ -94,11 +97,11 @@ pub(super) fn extensions(
     kept
 }
 
-/// The pushes to try from a node, before anything is checked.
+/// The pushes of an object to try from a node, before anything is checked.
 fn pushes(
     workspace: &Workspace,
     node: &Node,
-    pair: (usize, f64),
+    (pair, object): ((usize, f64), usize),
     count: usize,
 ) -> Vec<CandidatePush> {
     let rules = &workspace.task.pushes;
@@ -107,7 +110,7 @@ fn pushes(
         let mut add = |start| {
             if list.len() < MOST_PER_GRIP {
                 let room = node.room;
-                list.push(CandidatePush { start, direction, length: rules.length, room });
+                list.push(CandidatePush { object, start, direction, length: rules.length, room });
             }
         };
         if !workspace.is_placed() {
@@ -120,7 +123,7 @@ fn pushes(
                     offsets.iter().for_each(|&offset| add(Start::Placed { part, offset }));
                 }
                 Offsets::Effort => {
-                    let span = workspace.offset_span(pair, &node.state, part, direction);
+                    let span = workspace.offset_span(pair, (&node.state, object), part, direction);
                     for k in 0..count {
                         let share = (2 * k + 1) as f64 / count as f64 - 1.0;
                         // Ends included from two offsets on.
@@ -152,12 +155,12 @@ fn extend(
         speed: workspace.task.pushes.speed,
     };
     let set_down = (workspace.is_placed() || depth == 0).then_some(planned.room);
-    if let Some(reason) = workspace.margins(pair, &node.state, &push, set_down).broken() {
+    let pushed = (&node.state, planned.object);
+    if let Some(reason) = workspace.margins(pair, pushed, &push, set_down).broken() {
         return Err(reason);
     }
-    let object = node.state.poses[workspace.task.goal.object].position;
     let promise = (0..=2)
-        .map(|k| field.distance(object + push.heading() * (push.length * k as f64 / 2.0)))
+        .map(|k| field.carried(pushed, push.heading() * (push.length * k as f64 / 2.0)))
         .fold(f64::INFINITY, f64::min);
     Ok(Extension { node: index, pair, planned, push, scored: None, promise })
 }

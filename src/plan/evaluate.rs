@@ -41,7 +41,7 @@ impl Evaluation {
     }
 
     /// What the end effector does, all pushes one after another.
-    pub(super) fn motion(&self, workspace: &Workspace) -> ToolMotion {
+    pub fn motion(&self, workspace: &Workspace) -> ToolMotion {
         ToolMotion::pushes(
             Arc::clone(&workspace.tools[self.candidate.tool]),
             workspace.task.pushes.lift,
@@ -133,7 +133,8 @@ fn add_push(workspace: &Workspace, result: &mut Result<Evaluation, Infeasible>, 
                 speed: workspace.task.pushes.speed,
             };
             let set_down = (workspace.is_placed() || stage == 0).then_some(planned.room);
-            let margins = workspace.margins(pair, &evaluation.outcome, &push, set_down);
+            let margins =
+                workspace.margins(pair, (&evaluation.outcome, planned.object), &push, set_down);
             evaluation.pushes.push(push);
             evaluation.margins.push(margins);
         }

@@ -1,4 +1,4 @@
-//! How far an object still has to go around obstacles. It ranks the beam over push sequences,
+//! How far an object still has to go around obstacles, and what has to be moved aside first. It ranks the beam over push sequences,
 //! because the straight distance leads into every dead end.
 //!
 //! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
@@ -9,6 +9,8 @@ use std::collections::BinaryHeap;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
 use crate::scene::{State, Task};
+
+use super::Corridor;
 
 /// Grid spacing where the scene is small enough, metres: finer than any object that is pushed.
 const SPACING: f64 = 0.02;
@@ -26,17 +28,52 @@ const CUT_OFF: f64 = 10.0;
 /// last push where it can be.
 const HEADING_WEIGHT: f64 = 0.5;
 
+/// Weight of what stands in the way: it counts more than how far the goal's object is moved by
+/// clearing it away.
+const ASIDE_WEIGHT: f64 = 4.0;
+
 /// Distances to the goal for the goal object's centre.
 pub struct Field<'a> {
     task: &'a Task,
     grid: Option<Grid>,
+    /// What has to be free before the goal's object is pushed.
+    corridor: Option<Corridor>,
 }
 
 impl<'a> Field<'a> {
     /// Lays the field for a task; costs nothing where there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
         let grid = (!task.scene.obstacles.is_empty()).then(|| Grid::new(task));
-        Self { task, grid }
+        Self { task, grid, corridor: None }
+    }
+
+    /// The same where this has to be free first.
+    pub fn clearing(self, corridor: Corridor) -> Self {
+        Self { corridor: Some(corridor), ..self }
+    }
+
+    /// What is to be pushed from a state: what stands in the way, or else the goal's object.
+    pub fn movers(&self, state: &State) -> Vec<usize> {
+        let blocking = self.blocking(state);
+        match blocking.is_empty() {
+            true => vec![self.task.goal.object],
+            false => blocking.into_iter().map(|(object, _)| object).collect(),
+        }
+    }
+
+    fn blocking(&self, state: &State) -> Vec<(usize, f64)> {
+        self.corridor.as_ref().map_or(Vec::new(), |corridor| corridor.blocking(state))
+    }
+
+    /// What would be left, metres, if an object were carried along by `shift`: the goal's object has
+    /// its way to go, another one is to get out of it.
+    pub fn carried(&self, (state, object): (&State, usize), shift: Vector) -> f64 {
+        let Pose { position, heading } = state.poses[object];
+        let there = Pose { position: position + shift, heading };
+        match &self.corridor {
+            Some(corridor) if object != self.task.goal.object => corridor.depth_of(object, &there),
+            _ => self.distance(there.position),
+        }
     }
 
     /// Length of the way from `position` to the goal, metres.
@@ -48,7 +85,8 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The way left and the turn left, in units of the tolerances, the larger of both.
+    /// The way left and the turn left, in units of the tolerances, the larger of both; and how far what
+    /// stands in the way has to go.
     pub fn cost(&self, state: &State) -> f64 {
         let goal = &self.task.goal;
         let way = self.distance(state.poses[goal.object].position) / goal.tolerance;
@@ -56,6 +94,8 @@ impl<'a> Field<'a> {
             (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
             _ => way,
         };
+        let aside: f64 = self.blocking(state).iter().map(|(_, depth)| depth / goal.tolerance).sum();
+        let cost = cost + ASIDE_WEIGHT * aside;
         if cost.is_nan() { f64::INFINITY } else { cost }
     }
 }

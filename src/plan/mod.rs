@@ -7,6 +7,7 @@
 
 mod beam;
 mod candidate;
+mod corridor;
 mod enumerate;
 mod evaluate;
 mod field;
@@ -25,6 +26,7 @@ mod supports;
 mod workspace;
 
 pub use candidate::{Candidate, CandidatePush, Start};
+pub use corridor::{Corridor, alone};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};

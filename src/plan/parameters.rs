@@ -55,7 +55,8 @@ impl Parameters {
             if let Start::Placed { part, offset } = push.start {
                 // The span depends on the object's heading only, and little on that.
                 let span =
-                    workspace.largest_offset(pair, start, part, push.direction).max(offset.abs());
+                    workspace.largest_offset(pair, (start, push.object), part, push.direction);
+                let span = span.max(offset.abs());
                 add(Quantity::Offset, OFFSET_STEP, -span, span);
                 longest *= LONGEST;
             }

@@ -23,6 +23,11 @@ impl<'a> Rollouts<'a> {
         self.used
     }
 
+    /// Counts rollouts that were made elsewhere for the same end.
+    pub fn count(&mut self, rollouts: usize) {
+        self.used += rollouts;
+    }
+
     /// Where planning starts, and under which physics everything is rolled out.
     pub fn situation(&self) -> &Situation {
         &self.situation

@@ -22,7 +22,7 @@ use super::scored::Scores;
 use super::spread::{Spread, room};
 use super::statistics::SearchStatistics;
 use super::workspace::MIN_LENGTH;
-use super::{Candidate, Rollouts, ScoredPush, Workspace};
+use super::{Candidate, Corridor, Rollouts, ScoredPush, Workspace};
 
 /// Rollouts handed to the effect model at a time: enough for every thread, few enough that
 /// their recorded frames stay in the cache.
@@ -108,6 +108,28 @@ impl<'a> Search<'a> {
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
+        Self::through(workspace, situation, settings, Field::new(workspace.task), grips)
+    }
+
+    /// Prepares a search of plans that first move aside, held as the plan that the corridor is of, what
+    /// stands in it.
+    pub fn clearing(
+        workspace: Workspace<'a>,
+        situation: &Situation,
+        settings: SearchSettings,
+        (corridor, grip): (Corridor, (usize, f64)),
+    ) -> Self {
+        let field = Field::new(workspace.task).clearing(corridor);
+        Self::through(workspace, situation, settings, field, vec![grip])
+    }
+
+    fn through(
+        workspace: Workspace<'a>,
+        situation: &Situation,
+        settings: SearchSettings,
+        field: Field<'a>,
+        grips: Vec<(usize, f64)>,
+    ) -> Self {
         let spread = Spread::around(situation);
         let start = Node {
             candidate: None,
@@ -120,7 +142,7 @@ impl<'a> Search<'a> {
             workspace,
             situation: situation.clone(),
             settings,
-            field: Field::new(workspace.task),
+            field,
             grips,
             nodes: vec![start],
             spread,
@@ -232,7 +254,12 @@ impl<'a> Search<'a> {
     ) -> (Option<(f64, f64)>, Vec<Stop>) {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
-        let mut best = (final_score(&task.scene, &task.goal, trajectory), length);
+        let object = extension.planned.object;
+        let mut best = match object == task.goal.object {
+            true => (final_score(&task.scene, &task.goal, trajectory), length),
+            // What is moved aside is no plan yet.
+            false => (f64::INFINITY, length),
+        };
         let deeper = self.depth + 1 < task.pushes.max_count;
         let placed = task.pushes.form == PushForm::Placed;
         let stroke = &self.motion(extension).strokes[0];
@@ -249,13 +276,13 @@ impl<'a> Search<'a> {
             let state = &trajectory.frames[frame].state;
             let rest = self.situation.coasted(state);
             let score = finite_score(&task.goal, &rest);
-            if frame < moving && score < best.0 {
+            if frame < moving && score < best.0 && object == task.goal.object {
                 best = (score, travel);
             }
             // A chained push is continued from its end only; where it turns is refined later.
             if deeper && (placed && frame < moving) {
                 let cost = self.field.cost(&rest);
-                let stop = Stop::new(extension, travel, cost, &rest, task.goal.object, None);
+                let stop = Stop::new(extension, travel, cost, &rest, None);
                 if cheapest.as_ref().is_none_or(|c| cost < c.cost) {
                     cheapest = Some(stop.clone());
                 }
@@ -271,8 +298,7 @@ impl<'a> Search<'a> {
             if known.is_finite() && !blocked {
                 let rest = self.situation.coasted(&known);
                 let cost = self.field.cost(&rest);
-                let object = task.goal.object;
-                offers.push(Stop::new(extension, length, cost, &rest, object, Some(known)));
+                offers.push(Stop::new(extension, length, cost, &rest, Some(known)));
             }
             offers.extend(cheapest);
         }
@@ -341,12 +367,14 @@ impl<'a> Search<'a> {
             })
             .collect();
         let mut ends = rollouts.run(&jobs, Record::Outcome).into_iter();
-        let (scene, object) = (&self.situation.scene, self.workspace.task.goal.object);
+        let scene = &self.situation.scene;
         let finish = |(extension, mut node): (Extension, Node)| {
             let count = self.nodes[extension.node].others.len();
             node.others = ends.by_ref().take(count).map(|end| end.outcome().clone()).collect();
             let error = self.settings.model_error;
-            node.room = room(scene, object, &node.state, &node.others, error);
+            let movers = self.field.movers(&node.state).into_iter();
+            let rooms = movers.map(|k| room(scene, k, &node.state, &node.others, error));
+            node.room = rooms.fold(0.0, f64::max);
             node
         };
         nodes.into_iter().map(finish).collect()

@@ -132,8 +132,7 @@ pub struct Workspace<'a> {
 
 impl Workspace<'_> {
     /// End-effector position at which the push of a candidate starts: for a placed push so that
-    /// the part's leading face meets the goal object after exactly the stand-off and the push's
-    /// room, with the wanted offset; for a chained one `previous`, or home.
+    /// the part's leading face meets the object after exactly the stand-off and the push's room, with the wanted offset; for a chained one `previous`, or home.
     ///
     /// # Errors
     /// [`Infeasible::NoContact`] and [`Infeasible::OtherPartFirst`]. Reach and collisions are
@@ -149,7 +148,7 @@ impl Workspace<'_> {
             return Ok(previous.unwrap_or(self.task.robot.home));
         };
         let tool = &*self.tools[tool];
-        let (footprint, height, at) = self.goal_object(state);
+        let (footprint, height, at) = self.object(push.object, state);
         let (ahead, left) = axes(push.direction);
         if !self.meets(height) {
             return Err(Infeasible::NoContact);
@@ -237,7 +236,13 @@ impl Workspace<'_> {
 
     /// By how much hand and handle keep clear of obstacles, and of objects that are as high: of all of
     /// them where the tool is set down, of those that are not to be moved during the push.
-    fn hand(&self, tool: &Tool, (from, to): (&Pose, &Pose), state: &State, set_down: bool) -> f64 {
+    fn hand(
+        &self,
+        tool: &Tool,
+        (from, to): (&Pose, &Pose),
+        (state, pushed): (&State, usize),
+        set_down: bool,
+    ) -> f64 {
         let (task, mut least) = (self.task, FAR);
         let most = FAR + HAND_CLEARANCE;
         for carried in task.robot.carried(tool, task.pushes.lift).into_iter().flatten() {
@@ -255,7 +260,7 @@ impl Workspace<'_> {
                 if set_down {
                     least = least.min(clearance((&carried.footprint, &from), still, most));
                 }
-                if k != task.goal.object {
+                if k != pushed {
                     least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
                 }
             }
@@ -263,13 +268,13 @@ impl Workspace<'_> {
         least - HAND_CLEARANCE
     }
 
-    /// By how much a push keeps every rule, when it starts from `state`. A tool that is set down
+    /// By how much a push of object `pushed` keeps every rule, when it starts from `state`. A tool that is set down
     /// keeps clear of the objects, with the push's room as `set_down`; a chained push after the
     /// first begins in contact.
     pub fn margins(
         &self,
         (tool, grip_yaw): (usize, f64),
-        state: &State,
+        (state, pushed): (&State, usize),
         push: &Push,
         set_down: Option<f64>,
     ) -> Margins {
@@ -302,24 +307,30 @@ impl Workspace<'_> {
             base: distance_to_origin(push.start, push.end()) - task.robot.reach_min,
             obstacle,
             object,
-            hand: self.hand(tool, (&from, &to), state, set_down.is_some()),
+            hand: self.hand(tool, (&from, &to), (state, pushed), set_down.is_some()),
         }
     }
 
-    /// Offsets are tried within plus and minus this, metres.
-    pub fn offset_span(&self, pair: (usize, f64), state: &State, part: usize, along: f64) -> f64 {
-        self.span(pair, state, part, along, OVERHANG)
+    /// Offsets from an object in a state are tried within plus and minus this, metres.
+    pub fn offset_span(
+        &self,
+        pair: (usize, f64),
+        object: (&State, usize),
+        part: usize,
+        along: f64,
+    ) -> f64 {
+        self.span(pair, object, part, along, OVERHANG)
     }
 
     /// Offsets may be refined within plus and minus this, metres.
     pub fn largest_offset(
         &self,
         pair: (usize, f64),
-        state: &State,
+        object: (&State, usize),
         part: usize,
         along: f64,
     ) -> f64 {
-        self.span(pair, state, part, along, LARGEST_OVERHANG)
+        self.span(pair, object, part, along, LARGEST_OVERHANG)
     }
 
     /// Whether pushes are placed rather than chained.
@@ -330,13 +341,13 @@ impl Workspace<'_> {
     fn span(
         &self,
         (tool, grip_yaw): (usize, f64),
-        state: &State,
+        (state, object): (&State, usize),
         part: usize,
         direction: f64,
         overhang: f64,
     ) -> f64 {
         let tool = &*self.tools[tool];
-        let (footprint, _, at) = self.goal_object(state);
+        let (footprint, _, at) = self.object(object, state);
         let (_, left) = axes(direction);
         let frame = tool.pose(Pose { position: Vector::zeros(), heading: grip_yaw });
         let face = tool.part_pose(part, &frame).local_vector(left);
@@ -346,8 +357,7 @@ impl Workspace<'_> {
             + overhang * wide(&footprint, at.local_vector(left))
     }
 
-    fn goal_object(&self, state: &State) -> (Footprint, f64, Pose) {
-        let index = self.task.goal.object;
+    fn object(&self, index: usize, state: &State) -> (Footprint, f64, Pose) {
         let shape = self.task.scene.objects[index].shape;
         (shape.footprint(), shape.height(), state.poses[index])
     }

@@ -133,8 +133,9 @@ fn with_yaw(
     for (k, asked) in pushes.iter().enumerate() {
         let state = after(situation, tool, &plan);
         let previous = plan.push_steps().last().map(|step| step.push.end());
+        let (start, pushed) = start(task, (tool, grip_yaw), asked, &state, previous)?;
         let push = Push {
-            start: start(task, (tool, grip_yaw), asked, &state, previous)?,
+            start,
             direction: asked.direction,
             length: asked.length.unwrap_or(rules.length),
             speed: asked.speed.unwrap_or(rules.speed),
@@ -142,7 +143,7 @@ fn with_yaw(
         let set_down = (k == 0 || form == PushForm::Placed).then_some(0.0);
         let tools = std::slice::from_ref(tool);
         let workspace = Workspace { task, tools };
-        let rule = workspace.margins((0, grip_yaw), &state, &push, set_down).broken();
+        let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).broken();
         broken.extend(rule.map(|rule| (k, rule)));
         plan = plan.then(Plan::pushing(&tool.name, grip_yaw, form, lift, [push]));
     }
@@ -158,21 +159,23 @@ fn after(situation: &Situation, tool: &Arc<Tool>, plan: &Plan) -> State {
     Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
 }
 
+/// Where the push starts, and the object that it is meant for.
 fn start(
     task: &Task,
     (tool, grip_yaw): (&Arc<Tool>, f64),
     asked: &AskedPush,
     state: &State,
     previous: Option<Vector>,
-) -> Result<Vector, ActionError> {
+) -> Result<(Vector, usize), ActionError> {
+    let goal = task.goal.object;
     let chained = task.pushes.form == PushForm::Chained;
     let (object, offset) = match &asked.start {
         AskedStart::At(at) => {
             let elsewhere = |end: Vector| (end - at).norm() > SAME_PLACE;
             let broken = chained && previous.is_some_and(elsewhere);
-            return if broken { Err(ActionError::ChainBroken) } else { Ok(*at) };
+            return if broken { Err(ActionError::ChainBroken) } else { Ok((*at, goal)) };
         }
-        AskedStart::Last if chained => return Ok(previous.unwrap_or(task.robot.home)),
+        AskedStart::Last if chained => return Ok((previous.unwrap_or(task.robot.home), goal)),
         AskedStart::Last => return Err(ActionError::NoStart),
         AskedStart::Before { .. } if chained => return Err(ActionError::Chained),
         AskedStart::Before { object, offset } => (object, *offset),
@@ -181,10 +184,8 @@ fn start(
         .scene
         .object(object)
         .ok_or_else(|| ActionError::NoObject { object: object.clone() })?;
-    let mut of_object = task.clone();
-    of_object.goal.object = index;
     let tools = std::slice::from_ref(tool);
-    let workspace = Workspace { task: &of_object, tools };
+    let workspace = Workspace { task, tools };
     let (direction, rules) = (asked.direction, &task.pushes);
     let (length, speed) =
         (asked.length.unwrap_or(rules.length), asked.speed.unwrap_or(rules.speed));
@@ -192,12 +193,13 @@ fn start(
     let mut first = None;
     for part in 0..tool.parts().len() {
         let start = Start::Placed { part, offset };
-        let push = CandidatePush { start, direction, length, room: 0.0 };
+        let push = CandidatePush { object: index, start, direction, length, room: 0.0 };
         match workspace.place((0, grip_yaw), state, &push, previous) {
             Ok(start) => {
                 let push = Push { start, direction, length, speed };
-                if workspace.margins((0, grip_yaw), state, &push, Some(0.0)).broken().is_none() {
-                    return Ok(start);
+                let margins = workspace.margins((0, grip_yaw), (state, index), &push, Some(0.0));
+                if margins.broken().is_none() {
+                    return Ok((start, index));
                 }
                 first.get_or_insert(start);
             }
@@ -206,5 +208,5 @@ fn start(
     }
     let refused =
         || ActionError::CannotPush { tool: tool.name.clone(), object: object.clone(), why };
-    first.ok_or_else(refused)
+    first.map(|start| (start, index)).ok_or_else(refused)
 }

@@ -28,20 +28,21 @@ const MOST_ROOM: f64 = 0.04;
 const SAME_DIRECTION: f64 = 0.26;
 const SAME_LENGTH: f64 = 0.02;
 
-/// Directions and lengths of the pushes of a plan.
-pub(super) struct Way(Vec<(f64, f64)>);
+/// Objects, directions and lengths of the pushes of a plan.
+pub(super) struct Way(Vec<(usize, f64, f64)>);
 
 impl Way {
     fn of(pushes: &[CandidatePush]) -> Self {
-        Self(pushes.iter().map(|push| (push.direction, push.length)).collect())
+        Self(pushes.iter().map(|push| (push.object, push.direction, push.length)).collect())
     }
 
     /// Whether a candidate begins like this: its further pushes start from a prediction that
     /// does not hold.
     fn begins(&self, candidate: &Candidate) -> bool {
         self.0.len() <= candidate.pushes.len()
-            && self.0.iter().zip(&candidate.pushes).all(|(&(direction, length), push)| {
-                wrap_angle(push.direction - direction).abs() <= SAME_DIRECTION
+            && self.0.iter().zip(&candidate.pushes).all(|(&(object, direction, length), push)| {
+                push.object == object
+                    && wrap_angle(push.direction - direction).abs() <= SAME_DIRECTION
                     && (push.length - length).abs() <= SAME_LENGTH
             })
     }

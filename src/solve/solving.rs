@@ -8,12 +8,13 @@ use rayon::prelude::*;
 use crate::effect::EffectModel;
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
-    is_behind, refine,
+    alone, is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
+use super::aside::Ways;
 use super::grade::{Class, Grade};
 use super::planner::typical;
 use super::rank::{is_worth_verifying, sort};
@@ -125,10 +126,14 @@ impl<'a> Solving<'a> {
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
         let settings = self.planner.settings().search(error);
         let mut search = Search::new(self.workspace, self.situation, settings);
+        let without = alone(self.task, self.situation);
+        let mut ways = without.as_ref().map(|without| Ways::new(&self, without, settings));
         // Longer plans are no better than one that passes.
-        let goes_on = |this: &Self| this.best.is_none_or(|(grade, _)| grade.class < Class::Passes);
-        while goes_on(&self) && search.can_deepen() && !self.watch.cancelled() {
+        while self.goes_on() && search.can_deepen() {
             self.attempt(&mut search);
+            if let Some(ways) = &mut ways {
+                self.clear_the_way(ways, search.depth());
+            }
         }
         let status = match self.best {
             Some((grade, _)) if grade.class > Class::Fails => grade.class.status(),
@@ -144,8 +149,14 @@ impl<'a> Solving<'a> {
         self.ranked(status, best, began)
     }
 
+    /// Whether no plan passes yet.
+    pub(super) fn goes_on(&self) -> bool {
+        let none = self.best.is_none_or(|(grade, _)| grade.class < Class::Passes);
+        none && !self.watch.cancelled()
+    }
+
     /// Searches, refines and verifies plans of one push more, until one is safe.
-    fn attempt(&mut self, search: &mut Search) {
+    pub(super) fn attempt(&mut self, search: &mut Search) {
         let settings = *self.planner.settings();
         let pushes = search.depth() + 1;
         let began = Instant::now();

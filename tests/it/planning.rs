@@ -60,7 +60,13 @@ fn workspace<'a>(task: &'a Task, tools: &'a [Arc<Tool>]) -> Workspace<'a> {
 }
 
 fn placed(part: usize, offset: f64, direction: f64) -> CandidatePush {
-    CandidatePush { start: Start::Placed { part, offset }, direction, length: 0.15, room: 0.0 }
+    CandidatePush {
+        object: 0,
+        start: Start::Placed { part, offset },
+        direction,
+        length: 0.15,
+        room: 0.0,
+    }
 }
 
 fn planar() -> Simulated {
@@ -205,6 +211,7 @@ fn sharing_the_beginnings_of_chained_pushes_finds_what_trying_everything_finds()
             for &second in &headings {
                 for stop in 1..=20 {
                     let push = |direction, length| CandidatePush {
+                        object: 0,
                         start: Start::Chained,
                         direction,
                         length,

@@ -6,6 +6,7 @@ use crate::scene::{Disturbance, Evidence, Outcome, State};
 
 fn candidate(pushes: &[(f64, f64)]) -> Candidate {
     let push = |&(direction, length): &(f64, f64)| CandidatePush {
+        object: 0,
         start: Start::Placed { part: 0, offset: 0.0 },
         direction,
         length,

@@ -73,8 +73,9 @@ pub(super) fn carried_out(
 /// Whether the tool keeps clear of the obstacles on these pushes.
 pub(super) fn keeps_clear(workspace: &Workspace, candidate: &Candidate, pushes: &[Push]) -> bool {
     let (pair, start) = ((candidate.tool, candidate.grip_yaw), workspace.task.scene.start());
+    let object = workspace.task.goal.object;
     pushes.iter().all(|push| {
-        let margins = workspace.margins(pair, &start, push, None);
+        let margins = workspace.margins(pair, (&start, object), push, None);
         margins.broken().is_none()
     })
 }
@@ -98,18 +99,18 @@ fn draw(
     let tool = rng.random_range(0..tools.len());
     let yaws = &task.pushes.grip_yaws;
     let grip_yaw = yaws[rng.random_range(0..yaws.len())];
-    let start = task.scene.start();
+    let (start, object) = (task.scene.start(), task.goal.object);
     let mut candidate = Candidate { tool, grip_yaw, pushes: Vec::new() };
     let mut before = 0.0;
     for index in 0..pushes {
         let direction = direct(rng, index, before);
         let part = rng.random_range(0..tools[tool].parts().len());
-        let span = workspace.offset_span((tool, grip_yaw), &start, part, direction);
+        let span = workspace.offset_span((tool, grip_yaw), (&start, object), part, direction);
         let offset = rng.random_range(-span..=span);
         let length = rng.random_range(travel.low..travel.high);
         let start = Start::Placed { part, offset };
         let room = if index > 0 { LATER_ROOM } else { 0.0 };
-        candidate.pushes.push(CandidatePush { start, direction, length, room });
+        candidate.pushes.push(CandidatePush { object, start, direction, length, room });
         before = direction;
     }
     candidate
@@ -126,7 +127,11 @@ fn first_push(workspace: &Workspace, candidate: &Candidate) -> Option<Push> {
         length: planned.length,
         speed: workspace.task.pushes.speed,
     };
-    workspace.margins(pair, &start, &push, Some(0.0)).broken().is_none().then_some(push)
+    workspace
+        .margins(pair, (&start, planned.object), &push, Some(0.0))
+        .broken()
+        .is_none()
+        .then_some(push)
 }
 
 /// A direction near `wanted` that refinement comes to from one of the ways that the search

@@ -102,10 +102,11 @@ fn random_candidate(rng: &mut Pcg64, task: &Task, tools: &[Arc<Tool>]) -> Candid
     let way = TAU / WAYS as f64 * f64::from(rng.random_range(0..WAYS as u32));
     let direction = way + rng.random_range(-FRAC_PI_8..FRAC_PI_8);
     let workspace = Workspace { task, tools };
-    let span = workspace.offset_span((tool, grip_yaw), &task.scene.start(), part, direction);
+    let (start, object) = (task.scene.start(), task.goal.object);
+    let span = workspace.offset_span((tool, grip_yaw), (&start, object), part, direction);
     let offset = rng.random_range(-span..=span);
     let length = rng.random_range(TRAVEL.low..TRAVEL.high);
-    let push =
-        CandidatePush { start: Start::Placed { part, offset }, direction, length, room: 0.0 };
+    let start = Start::Placed { part, offset };
+    let push = CandidatePush { object, start, direction, length, room: 0.0 };
     Candidate { tool, grip_yaw, pushes: vec![push] }
 }

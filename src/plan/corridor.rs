@@ -1,0 +1,117 @@
+//! What a plan needs free: the places that its tool and the goal's object pass.
+//!
+//! A plan that is made as if nothing else stood on the table says what has to be moved aside, as the
+//! relaxed plans of task planning do (Bonet and Geffner 2001, "Planning as heuristic search"): what
+//! stands in its corridor, and that is enough.
+
+use std::sync::Arc;
+
+use crate::geometry::{Footprint, Pose, contact_points};
+use crate::scene::{Situation, State, Task, ToolMotion, Trajectory};
+
+use super::Workspace;
+
+/// What stands nearer than this to the corridor stands in the way, metres: less than the play in
+/// which things are pushed past each other.
+const ROOM: f64 = 0.005;
+
+/// How densely the way of a tool or an object is sampled, metres: less than what anything that stands
+/// on a table is wide.
+const SAMPLE: f64 = 0.02;
+
+/// Another turn than this is another place, radians.
+const TURNED: f64 = 0.2;
+
+/// Where things that are not to be in the way are put, metres from the robot: no push comes there.
+const FAR_AWAY: f64 = 1e3;
+
+/// All that a plan passes.
+#[derive(Clone, Debug)]
+pub struct Corridor {
+    passed: Vec<(Footprint, Pose)>,
+    /// The objects that may stand in it, each with its footprint.
+    others: Vec<(usize, Footprint)>,
+}
+
+/// A task as it would be without all that is not joined to the goal's object, with fewer pushes by one;
+/// `None` if there is nothing else, or no push is left for it.
+pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
+    let groups = situation.physics.groups(|_| true);
+    let (mut task, mut situation) = (task.clone(), situation.clone());
+    let others = (0..groups.len()).filter(|&k| groups[k] != groups[task.goal.object]);
+    let mut put = 0;
+    for k in others {
+        put += 1;
+        situation.start.poses[k].position.x = -FAR_AWAY * put as f64;
+        task.scene.objects[k].keep = None;
+    }
+    // They are beyond the end of any table.
+    task.scene.table_top = None;
+    task.pushes.max_count = task.pushes.max_count.saturating_sub(1);
+    situation.scene = Arc::new(task.scene.clone());
+    (put > 0 && task.pushes.max_count > 0).then_some((task, situation))
+}
+
+impl Corridor {
+    /// Of `motion`, in which the goal's object moves as `trajectory` says.
+    pub fn of(
+        workspace: &Workspace,
+        situation: &Situation,
+        motion: &ToolMotion,
+        trajectory: &Trajectory,
+    ) -> Self {
+        let (objects, goal) = (&situation.scene.objects, workspace.task.goal.object);
+        let groups = situation.physics.groups(|_| true);
+        let footprint = |k: usize| objects[k].shape.footprint();
+        let mut passed = Vec::new();
+        for stroke in &motion.strokes {
+            let steps = (stroke.travel() / SAMPLE).ceil().max(1.0);
+            for step in 0..=steps as usize {
+                let tool = stroke.from.towards(&stroke.to, step as f64 / steps);
+                let parts = motion.tool.parts().iter();
+                passed.extend(parts.map(|part| (part.footprint(), tool * part.pose)));
+            }
+        }
+        for k in (0..objects.len()).filter(|&k| groups[k] == groups[goal]) {
+            let mut last: Option<Pose> = None;
+            for pose in trajectory.frames.iter().map(|frame| frame.state.poses[k]) {
+                let same = |last: &Pose| {
+                    let turned = (pose.heading - last.heading).abs();
+                    (pose.position - last.position).norm() < SAMPLE && turned < TURNED
+                };
+                if !last.as_ref().is_some_and(same) {
+                    passed.push((footprint(k), pose));
+                    last = Some(pose);
+                }
+            }
+            passed.push((footprint(k), trajectory.outcome().poses[k]));
+        }
+        let low = |k: usize| objects[k].shape.height() <= workspace.task.pushes.lift;
+        let others = (0..objects.len()).filter(|&k| groups[k] != groups[goal] && !low(k));
+        Self { passed, others: others.map(|k| (k, footprint(k))).collect() }
+    }
+
+    /// What stands in it, each with how far it has to move at least, metres.
+    pub fn blocking(&self, state: &State) -> Vec<(usize, f64)> {
+        let depth = |&(k, footprint): &(usize, Footprint)| {
+            let depth = self.depth(&footprint, &state.poses[k]);
+            (depth > 0.0).then_some((k, depth))
+        };
+        self.others.iter().filter_map(depth).collect()
+    }
+
+    /// How far an object at `pose` stands in it, metres; 0 beside it.
+    fn depth(&self, footprint: &Footprint, pose: &Pose) -> f64 {
+        let into = |(shape, at): &(Footprint, Pose)| {
+            let (points, _) = contact_points((footprint, pose), (shape, at), ROOM);
+            points[0].map_or(0.0, |point| ROOM - point.gap)
+        };
+        self.passed.iter().map(into).fold(0.0, f64::max)
+    }
+
+    /// The same of object `k`, if that may stand in it.
+    pub(super) fn depth_of(&self, k: usize, pose: &Pose) -> f64 {
+        let own = self.others.iter().find(|(other, _)| *other == k);
+        own.map_or(0.0, |(_, footprint)| self.depth(footprint, pose))
+    }
+}

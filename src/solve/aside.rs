@@ -1,0 +1,106 @@
+//! Plans that first move aside what stands in the way.
+
+use crate::plan::{
+    Corridor, Evaluation, Rollouts, Search, SearchSettings, Workspace, evaluate, is_behind, kinds,
+};
+use crate::scene::{Job, Record, Situation, Task};
+
+use super::solving::Solving;
+
+/// Kinds of plans of one length that are looked at for what stands in their way.
+const KINDS: usize = 16;
+
+/// In how many ways of one length room is made, those with the least in them first.
+const TRIED: usize = 3;
+
+/// A plan is looked at if it misses the goal by at most this many tolerances: refinement brings it
+/// nearer.
+const NEAR: f64 = 2.0;
+
+/// By how many pushes more than there are things in the way it may be cleared: what stands in a corner
+/// takes two.
+const MORE: usize = 1;
+
+/// The ways on which the goal's object would come to its goal if nothing else stood on the table.
+pub(super) struct Ways<'a> {
+    workspace: Workspace<'a>,
+    situation: &'a Situation,
+    settings: SearchSettings,
+    rollouts: Rollouts<'a>,
+    search: Search<'a>,
+    found: Vec<Way>,
+}
+
+/// One of them.
+struct Way {
+    corridor: Corridor,
+    /// How the tool is held on it.
+    grip: (usize, f64),
+    /// Pushes of the goal's object, and as many as there are things that stand there.
+    pushes: usize,
+}
+
+impl<'a> Ways<'a> {
+    /// Those of a task `without` all other things; nothing is searched yet.
+    pub fn new(
+        solving: &Solving<'a>,
+        without: &'a (Task, Situation),
+        settings: SearchSettings,
+    ) -> Self {
+        let (task, situation) = without;
+        let workspace = Workspace { task, ..solving.workspace };
+        let rollouts = Rollouts::new(solving.planner.screen(), situation.clone());
+        let search = Search::new(workspace, situation, settings);
+        Self { workspace, situation, settings, rollouts, search, found: Vec::new() }
+    }
+
+    /// Looks at plans of one push more, and notes what stands in their way in `solving`.
+    fn deepen(&mut self, solving: &Solving) {
+        let found = self.search.deepen(&mut self.rollouts, solving.watch);
+        let near = |k: &usize| !is_behind(found[*k].score) && found[*k].score <= NEAR;
+        let near = kinds(&found, KINDS).into_iter().filter(near);
+        let candidates: Vec<_> = near.map(|k| found[k].candidate.clone()).collect();
+        let made = evaluate(&self.workspace, &mut self.rollouts, &candidates);
+        let made: Vec<Evaluation> = made.into_iter().flatten().collect();
+        let motions: Vec<_> = made.iter().map(|one| one.motion(&self.workspace)).collect();
+        let jobs = motions.iter().map(|motion| Job::new(self.situation, motion.clone()));
+        let trajectories = self.rollouts.run(&jobs.collect::<Vec<_>>(), Record::Frames);
+        let objects = &solving.task.scene.objects;
+        for ((one, motion), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
+            let corridor = Corridor::of(&solving.workspace, solving.situation, motion, trajectory);
+            let blocking = corridor.blocking(&solving.situation.start);
+            if !blocking.is_empty() && blocking.iter().all(|(k, _)| objects[*k].keep.is_none()) {
+                let grip = (one.candidate.tool, one.candidate.grip_yaw);
+                let pushes = one.pushes.len() + blocking.len();
+                self.found.push(Way { corridor, grip, pushes });
+            }
+        }
+    }
+}
+
+impl Solving<'_> {
+    /// Searches, refines and verifies plans of about so many pushes that make room first.
+    pub(super) fn clear_the_way(&mut self, ways: &mut Ways, pushes: usize) {
+        if !self.goes_on() || pushes < 2 || !self.workspace.is_placed() {
+            return;
+        }
+        if ways.search.can_deepen() {
+            self.watch.stage("search, what stands in the way");
+            let before = ways.rollouts.used();
+            ways.deepen(self);
+            self.rollouts.count(ways.rollouts.used() - before);
+        }
+        let (now, later): (Vec<Way>, Vec<Way>) =
+            std::mem::take(&mut ways.found).into_iter().partition(|way| way.pushes <= pushes);
+        ways.found = later;
+        // In the order in which they were found: nearest ends first.
+        for Way { corridor, grip, pushes } in now.into_iter().take(TRIED) {
+            let through = (corridor, grip);
+            let mut search =
+                Search::clearing(self.workspace, self.situation, ways.settings, through);
+            while self.goes_on() && search.can_deepen() && search.depth() < pushes + MORE {
+                self.attempt(&mut search);
+            }
+        }
+    }
+}
