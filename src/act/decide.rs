@@ -98,7 +98,7 @@ impl Runner<'_> {
                 return Ok(Decision::Do { why: Why::Probe, plan, tool, chance });
             }
         }
-        let nothing = task.goal.score(&samples.now.start);
+        let nothing = task.score(&samples.now.start);
         let Some(((plan, tool), chance)) = judged.best() else { return Ok(Decision::Nothing) };
         let why = if chance.share >= settings.enough { Why::Plan } else { Why::Best };
         let helps = chance.share > 0.0 || chance.score < (1.0 - NEARER) * nothing;
@@ -149,7 +149,9 @@ fn probes(steps: &[Step]) -> usize {
 fn rest(task: &Task, now: &Situation, last: &Step) -> Option<(Plan, Arc<Tool>)> {
     let made = last.plan.pushes();
     let left = made.get(last.pushes..).filter(|left| !left.is_empty())?;
-    if last.why == Why::Probe || last.plan.form() == PushForm::Chained {
+    // Of several goals it is not known which object the next push is for.
+    let several = !task.further.is_empty();
+    if last.why == Why::Probe || last.plan.form() == PushForm::Chained || several {
         return None;
     }
     let off: Vector = now.start.poses[task.goal.object].position - last.expected.position;

@@ -52,8 +52,8 @@ impl Samples {
             plans.iter().flat_map(|(plan, tool)| self.jobs(&plan.motion(tool))).collect();
         let rolled = model.rollout(&self.now.scene, &jobs, Record::Outcome);
         let reach = |trajectory: &Trajectory| {
-            let outcome = Outcome::judge(&task.scene, &task.goal, trajectory);
-            let score = task.goal.score(&outcome.state);
+            let outcome = Outcome::judge(&task.scene, task, trajectory);
+            let score = task.score(&outcome.state);
             // A NaN is no smaller than anything.
             Reach { reached: outcome.reached, score: if score < WORST { score } else { WORST } }
         };

@@ -190,7 +190,8 @@ impl<'a> Runner<'a> {
     ) -> Result<Decision, ActError> {
         let Trace { task, settings, steps, .. } = trace;
         let now = belief.situation();
-        if is_sure(&task.goal, &now.start, belief.doubt()[task.goal.object]) {
+        let doubt = belief.doubt();
+        if task.goals().all(|goal| is_sure(goal, &now.start, doubt[goal.object])) {
             return Ok(Decision::Done);
         }
         let mut rng = generator(settings.seed, steps.len() as u64);
@@ -343,7 +344,7 @@ fn rests(
         rest = Some(now);
     }
     for (object, _) in last.seen.iter().enumerate().filter(|(_, sight)| sight.is_none()) {
-        if object == task.goal.object {
+        if task.wants(object) {
             let object = task.scene.objects[object].name.clone();
             return Err(ActError::Lost { object, looks: LOOKS });
         }

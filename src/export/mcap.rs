@@ -56,7 +56,7 @@ fn written(plan: &PlanFile, trajectory: &Trajectory) -> Result<Vec<u8>, mcap::Mc
         file.message(frames, at, &json!({"transforms": transforms(plan, frame, at)}))?;
         file.message(state, at, &numbers(plan, frame))?;
     }
-    let outcome = Outcome::judge(&plan.task.scene, &plan.task.goal, trajectory);
+    let outcome = Outcome::judge(&plan.task.scene, &plan.task, trajectory);
     let said = [
         ("task", plan.task.name.clone()),
         ("tool", plan.plan.tools().join(", ")),
@@ -109,7 +109,7 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
     let mut found = Vec::new();
     for (index, object) in scene.objects.iter().enumerate() {
         let name = format!("object/{}", object.name);
-        let colour = if index == goal.object { WANTED } else { OBJECT };
+        let colour = if plan.task.wants(index) { WANTED } else { OBJECT };
         let middle = if in_space(plan) { object.shape.height() / 2.0 } else { 0.0 };
         let mut solids = vec![(object.shape, Pose::default(), middle)];
         solids.extend(object.parts.iter().filter_map(fixed));

@@ -184,15 +184,18 @@ fn settings(xml: &mut Xml, meshes: bool) {
 
 /// The goal, and what our own replay says.
 fn wanted(xml: &mut Xml, file: &PlanFile) {
-    let (goal, scene) = (&file.task.goal, &file.task.scene);
+    let scene = &file.task.scene;
     xml.comment(
         "x, y, tolerance; where it matters, heading, its tolerance, and the number of headings in \
          a turn that look alike.",
     );
-    let mut wanted = vec![goal.position.x, goal.position.y, goal.tolerance];
-    let alike = goal.alike as f64;
-    wanted.extend(goal.heading.into_iter().flat_map(|(heading, within)| [heading, within, alike]));
-    numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
+    for goal in file.task.goals() {
+        let mut wanted = vec![goal.position.x, goal.position.y, goal.tolerance];
+        let alike = goal.alike as f64;
+        let heading = goal.heading.into_iter();
+        wanted.extend(heading.flat_map(|(heading, within)| [heading, within, alike]));
+        numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
+    }
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");
         for (object, pose) in scene.objects.iter().zip(&evidence.outcome.state.poses) {

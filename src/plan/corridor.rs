@@ -25,6 +25,12 @@ const TURNED: f64 = 0.2;
 /// Where things that are not to be in the way are put, metres from the robot: no push comes there.
 const FAR_AWAY: f64 = 1e3;
 
+/// What is not joined to a goal's object, when `groups` says what is joined.
+fn others(task: &Task, groups: &[usize]) -> Vec<usize> {
+    let own = |k: usize| task.goals().any(|goal| groups[goal.object] == groups[k]);
+    (0..groups.len()).filter(|&k| !own(k)).collect()
+}
+
 /// All that a plan passes.
 #[derive(Clone, Debug)]
 pub struct Corridor {
@@ -33,12 +39,12 @@ pub struct Corridor {
     others: Vec<(usize, Footprint)>,
 }
 
-/// A task as it would be without all that is not joined to the goal's object, with fewer pushes by one;
+/// A task as it would be without all that is not joined to a goal's object, with fewer pushes by one;
 /// `None` if there is nothing else, or no push is left for it.
 pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
     let groups = situation.physics.groups(|_| true);
     let (mut task, mut situation) = (task.clone(), situation.clone());
-    let others = (0..groups.len()).filter(|&k| groups[k] != groups[task.goal.object]);
+    let others = others(&task, &groups);
     let mut put = 0;
     for k in others {
         put += 1;
@@ -53,14 +59,14 @@ pub fn alone(task: &Task, situation: &Situation) -> Option<(Task, Situation)> {
 }
 
 impl Corridor {
-    /// Of `motion`, in which the goal's object moves as `trajectory` says.
+    /// Of `motion`, in which the goals' objects move as `trajectory` says.
     pub fn of(
         workspace: &Workspace,
         situation: &Situation,
         motion: &ToolMotion,
         trajectory: &Trajectory,
     ) -> Self {
-        let (objects, goal) = (&situation.scene.objects, workspace.task.goal.object);
+        let objects = &situation.scene.objects;
         let groups = situation.physics.groups(|_| true);
         let footprint = |k: usize| objects[k].shape.footprint();
         let mut passed = Vec::new();
@@ -72,7 +78,8 @@ impl Corridor {
                 passed.extend(parts.map(|part| (part.footprint(), tool * part.pose)));
             }
         }
-        for k in (0..objects.len()).filter(|&k| groups[k] == groups[goal]) {
+        let others = others(workspace.task, &groups);
+        for k in (0..objects.len()).filter(|k| !others.contains(k)) {
             let mut last: Option<Pose> = None;
             for pose in trajectory.frames.iter().map(|frame| frame.state.poses[k]) {
                 let same = |last: &Pose| {
@@ -87,7 +94,7 @@ impl Corridor {
             passed.push((footprint(k), trajectory.outcome().poses[k]));
         }
         let low = |k: usize| objects[k].shape.height() <= workspace.task.pushes.lift;
-        let others = (0..objects.len()).filter(|&k| groups[k] != groups[goal] && !low(k));
+        let others = others.into_iter().filter(|&k| !low(k));
         Self { passed, others: others.map(|k| (k, footprint(k))).collect() }
     }
 

@@ -75,7 +75,7 @@ pub fn evaluate(
                 margins: Vec::with_capacity(candidate.pushes.len()),
                 outcome: start.clone(),
                 spread: None,
-                score: workspace.task.goal.score(&start),
+                score: workspace.task.score(&start),
             })
         })
         .collect();
@@ -164,12 +164,14 @@ fn run(
         if let (Ok(evaluation), Some(frame)) = (&mut results[k], trajectory.frames.last()) {
             // A push that could not count spoils those after it.
             if evaluation.score.is_finite() {
-                let score = final_score(&workspace.task.scene, &workspace.task.goal, &trajectory);
+                let score = final_score(workspace.task, &trajectory);
                 let blocked = is_behind(evaluation.score);
                 evaluation.score = if blocked { behind(score) } else { score };
             }
             evaluation.outcome = frame.state.clone();
-            let own = trajectory.spreads.get(workspace.task.goal.object).copied();
+            let own = workspace.task.goals();
+            let own = own.filter_map(|goal| trajectory.spreads.get(goal.object).copied());
+            let own = own.max_by(|a, b| a.within_90().position.total_cmp(&b.within_90().position));
             evaluation.spread = match (evaluation.spread, own) {
                 // Errors of one push go on into the next.
                 (Some(mut before), Some(own)) => {

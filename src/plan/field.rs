@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
-use crate::scene::{State, Task};
+use crate::scene::{Goal, State, Task};
 
 use super::Corridor;
 
@@ -32,10 +32,11 @@ const HEADING_WEIGHT: f64 = 0.5;
 /// clearing it away.
 const ASIDE_WEIGHT: f64 = 4.0;
 
-/// Distances to the goal for the goal object's centre.
+/// Distances to the goals for the centres of their objects.
 pub struct Field<'a> {
     task: &'a Task,
-    grid: Option<Grid>,
+    /// One for every goal, if there are obstacles.
+    grids: Vec<Option<Grid>>,
     /// What has to be free before the goal's object is pushed.
     corridor: Option<Corridor>,
 }
@@ -43,8 +44,8 @@ pub struct Field<'a> {
 impl<'a> Field<'a> {
     /// Lays the field for a task; costs nothing where there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
-        let grid = (!task.scene.obstacles.is_empty()).then(|| Grid::new(task));
-        Self { task, grid, corridor: None }
+        let grid = |goal| (!task.scene.obstacles.is_empty()).then(|| Grid::new(task, goal));
+        Self { task, grids: task.goals().map(grid).collect(), corridor: None }
     }
 
     /// The same where this has to be free first.
@@ -52,12 +53,19 @@ impl<'a> Field<'a> {
         Self { corridor: Some(corridor), ..self }
     }
 
-    /// What is to be pushed from a state: what stands in the way, or else the goal's object.
+    /// What is to be pushed from a state: what stands in the way, or else the objects that are not at
+    /// their goals; if all are, any of them.
     pub fn movers(&self, state: &State) -> Vec<usize> {
         let blocking = self.blocking(state);
-        match blocking.is_empty() {
-            true => vec![self.task.goal.object],
-            false => blocking.into_iter().map(|(object, _)| object).collect(),
+        if !blocking.is_empty() {
+            return blocking.into_iter().map(|(object, _)| object).collect();
+        }
+        let goals = || self.task.goals();
+        let left: Vec<usize> =
+            goals().filter(|goal| !goal.reached(state)).map(|goal| goal.object).collect();
+        match left.is_empty() {
+            true => goals().map(|goal| goal.object).collect(),
+            false => left,
         }
     }
 
@@ -65,38 +73,47 @@ impl<'a> Field<'a> {
         self.corridor.as_ref().map_or(Vec::new(), |corridor| corridor.blocking(state))
     }
 
-    /// What would be left, metres, if an object were carried along by `shift`: the goal's object has
-    /// its way to go, another one is to get out of it.
+    /// What would be left, metres, if an object were carried along by `shift`: the goals' objects have
+    /// their ways to go, another one is to get out of them.
     pub fn carried(&self, (state, object): (&State, usize), shift: Vector) -> f64 {
         let Pose { position, heading } = state.poses[object];
         let there = Pose { position: position + shift, heading };
         match &self.corridor {
-            Some(corridor) if object != self.task.goal.object => corridor.depth_of(object, &there),
-            _ => self.distance(there.position),
+            Some(corridor) if !self.task.wants(object) => corridor.depth_of(object, &there),
+            _ => self.ways(|k| if k == object { there.position } else { state.poses[k].position }),
         }
     }
 
-    /// Length of the way from `position` to the goal, metres.
-    pub fn distance(&self, position: Vector) -> f64 {
-        let straight = (self.task.goal.position - position).norm();
-        match &self.grid {
-            Some(grid) => grid.distance(position, straight),
-            None => straight,
-        }
+    /// The ways of all goals' objects, metres, each from where `position` has it.
+    fn ways(&self, position: impl Fn(usize) -> Vector) -> f64 {
+        let goals = self.task.goals().zip(&self.grids);
+        goals.map(|(goal, grid)| distance(goal, grid, position(goal.object))).sum()
     }
 
-    /// The way left and the turn left, in units of the tolerances, the larger of both; and how far what
-    /// stands in the way has to go.
+    /// The way left and the turn left, in units of the tolerances, the larger of both, of all goals
+    /// together; and how far what stands in the way has to go.
     pub fn cost(&self, state: &State) -> f64 {
-        let goal = &self.task.goal;
-        let way = self.distance(state.poses[goal.object].position) / goal.tolerance;
-        let cost = match (goal.heading, goal.heading_error(state)) {
-            (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
-            _ => way,
+        let cost = |(goal, grid): (&Goal, &Option<Grid>)| {
+            let way = distance(goal, grid, state.poses[goal.object].position) / goal.tolerance;
+            match (goal.heading, goal.heading_error(state)) {
+                (Some((_, tolerance)), Some(error)) => way.max(HEADING_WEIGHT * error / tolerance),
+                _ => way,
+            }
         };
-        let aside: f64 = self.blocking(state).iter().map(|(_, depth)| depth / goal.tolerance).sum();
+        let cost: f64 = self.task.goals().zip(&self.grids).map(cost).sum();
+        let tolerance = self.task.goal.tolerance;
+        let aside: f64 = self.blocking(state).iter().map(|(_, depth)| depth / tolerance).sum();
         let cost = cost + ASIDE_WEIGHT * aside;
         if cost.is_nan() { f64::INFINITY } else { cost }
+    }
+}
+
+/// Length of the way from `position` to a goal, metres.
+fn distance(goal: &Goal, grid: &Option<Grid>, position: Vector) -> f64 {
+    let straight = (goal.position - position).norm();
+    match grid {
+        Some(grid) => grid.distance(position, straight),
+        None => straight,
     }
 }
 
@@ -110,17 +127,17 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(task: &Task) -> Self {
-        let object = &task.scene.objects[task.goal.object];
+    fn new(task: &Task, wanted: &Goal) -> Self {
+        let object = &task.scene.objects[wanted.object];
         let radius = object.shape.footprint().inner_radius();
         let disc = Footprint::Disc { radius };
-        let (mut low, mut high) = (task.goal.position, task.goal.position);
+        let (mut low, mut high) = (wanted.position, wanted.position);
         let mut include = |position: Vector, reach: f64| {
             low = low.inf(&(position - Vector::repeat(reach)));
             high = high.sup(&(position + Vector::repeat(reach)));
         };
         include(object.pose.position, BORDER);
-        include(task.goal.position, BORDER);
+        include(wanted.position, BORDER);
         for obstacle in &task.scene.obstacles {
             include(
                 obstacle.pose.position,
@@ -140,7 +157,7 @@ impl Grid {
                 })
             })
             .collect();
-        let goal = Pose { position: task.goal.position, heading: 0.0 };
+        let goal = Pose { position: wanted.position, heading: 0.0 };
         let seen = |position: Vector| {
             let from = Pose { position, heading: 0.0 };
             task.scene.obstacles.iter().all(|o| {
@@ -155,7 +172,7 @@ impl Grid {
             .map(|(cell, &free)| {
                 let centre = grid.centre(cell);
                 let visible = free && seen(centre);
-                let way = (task.goal.position - centre).norm();
+                let way = (wanted.position - centre).norm();
                 (if visible { way } else { f64::INFINITY }, visible)
             })
             .collect();
@@ -258,17 +275,18 @@ goal: {object: can, position: [0.6, 0.0], tolerance: 0.02}
         // Around the wall's end, grown by the can's radius on all sides.
         let half_wall = Vector::new(0.01 + 0.03, 0.20 + 0.03);
         let around = 2.0 * (0.1 - half_wall.x).hypot(half_wall.y) + 2.0 * half_wall.x;
-        let found = field.distance(Vector::new(0.4, 0.0));
+        let distance = |field: &Field, at: Vector| field.ways(|_| at);
+        let found = distance(&field, Vector::new(0.4, 0.0));
         assert!((found - around).abs() < 0.05, "{found} against {around}");
         // In sight of the goal the distance is exact.
         let seen = Vector::new(0.613, 0.1);
-        assert!((field.distance(seen) - 0.013f64.hypot(0.1)).abs() < 1e-12);
+        assert!((distance(&field, seen) - 0.013f64.hypot(0.1)).abs() < 1e-12);
         // Outside the grid it still grows.
-        assert!(field.distance(Vector::new(-9.0, 0.0)) > 9.0);
+        assert!(distance(&field, Vector::new(-9.0, 0.0)) > 9.0);
 
         task.scene.obstacles.clear();
         let free = Field::new(&task);
-        assert!((free.distance(Vector::new(0.4, 0.0)) - 0.2).abs() < 1e-12);
+        assert!((distance(&free, Vector::new(0.4, 0.0)) - 0.2).abs() < 1e-12);
         let mut state = task.scene.start();
         state.poses[0].position.x = f64::NAN;
         assert_eq!(free.cost(&state), f64::INFINITY);

@@ -13,6 +13,7 @@ mod evaluate;
 mod field;
 pub mod lever;
 mod linear;
+mod misses;
 mod parameters;
 mod qp;
 mod refine;

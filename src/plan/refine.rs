@@ -14,17 +14,17 @@
 //! `supports`). It is taken to move along with the predicted end, and looked at again for the best
 //! rollout of every round.
 
-use nalgebra::Vector3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-use crate::scene::{Goal, State, Task};
+use crate::scene::Task;
 use crate::watch::Watch;
 
 use super::linear::slopes;
+use super::misses::{apart, asked, beside, farthest, largest, misses};
 use super::parameters::Parameters;
 use super::score::{bare, behind, is_behind};
-use super::supports::{Ends, Supports, errors};
+use super::supports::{Ends, Supports};
 use super::{
     Candidate, Evaluation, Margins, QpProblem, QpSolver, QpStatus, RefineStatistics, Rollouts,
     Workspace, evaluate,
@@ -124,7 +124,7 @@ pub fn refine(
         .collect();
     let ends =
         supports.ends(workspace, rollouts, &sound.iter().map(|(_, e)| e).collect::<Vec<_>>());
-    let goal = &workspace.task.goal;
+    let task = workspace.task;
     let mut work: Vec<Work> = sound
         .into_iter()
         .zip(ends)
@@ -132,9 +132,9 @@ pub fn refine(
             parameters: Parameters::new(workspace, &rollouts.situation().start, &best.candidate),
             refined: Refined {
                 index,
-                off: [off(goal, &best, &ends); 2],
+                off: [off(task, &best, &ends); 2],
                 worst: ends.worst,
-                rounds: vec![score(goal, &best, &ends)],
+                rounds: vec![score(task, &best, &ends)],
                 best,
             },
             ends,
@@ -194,9 +194,8 @@ impl Work {
 }
 
 /// Score of the middle of all ends of a candidate.
-fn score(goal: &Goal, evaluation: &Evaluation, ends: &Ends) -> f64 {
-    let middle = errors(goal, &evaluation.outcome) + ends.middle;
-    let score = middle.xy().norm().max(middle.z.abs());
+fn score(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
+    let score = largest(&beside(&misses(task, &evaluation.outcome), &ends.middles));
     match evaluation.score {
         blocked if is_behind(blocked) => behind(score),
         counts if counts.is_finite() => score,
@@ -204,9 +203,9 @@ fn score(goal: &Goal, evaluation: &Evaluation, ends: &Ends) -> f64 {
     }
 }
 
-/// Distance of the middle of all ends from the goal, metres.
-fn off(goal: &Goal, evaluation: &Evaluation, ends: &Ends) -> f64 {
-    goal.tolerance * (errors(goal, &evaluation.outcome) + ends.middle).xy().norm()
+/// Distance of the middle of all ends from the goal, metres; from that which is missed by most.
+fn off(task: &Task, evaluation: &Evaluation, ends: &Ends) -> f64 {
+    farthest(task, &beside(&misses(task, &evaluation.outcome), &ends.middles))
 }
 
 /// One round for all candidates that are still open.
@@ -218,7 +217,7 @@ fn step(
     solver: &mut QpSolver,
     statistics: &mut RefineStatistics,
 ) {
-    let goal = &workspace.task.goal;
+    let task = workspace.task;
     let designs: Vec<Vec<Vec<f64>>> =
         active.iter_mut().map(|work| design(work, settings.extra)).collect();
     let sampled = evaluate_groups(workspace, rollouts, active, &designs);
@@ -238,7 +237,7 @@ fn step(
         let all = sampled[k].iter().map(|(_, sample)| (work.radius, sample)).chain(tried);
         let leader = all
             .filter(|(_, one)| one.is_feasible())
-            .map(|(radius, one)| (score(goal, one, &work.ends), radius, one))
+            .map(|(radius, one)| (score(task, one, &work.ends), radius, one))
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .filter(|(score, ..)| *score < work.score());
         work.radius = (work.radius * SHRINK).min(RADII.1);
@@ -248,11 +247,11 @@ fn step(
     let ends = supports.ends(workspace, rollouts, &evaluations);
     let mut scores: Vec<f64> = active.iter().map(|work| work.score()).collect();
     for ((k, radius, one), ends) in leaders.into_iter().zip(ends) {
-        let (work, score) = (&mut active[k], score(goal, one, &ends));
+        let (work, score) = (&mut active[k], score(task, one, &ends));
         if score < scores[k] {
             scores[k] = score;
             let refined = &mut work.refined;
-            refined.off[1] = off(goal, one, &ends);
+            refined.off[1] = off(task, one, &ends);
             (refined.worst, refined.best) = (ends.worst, one.clone());
             (work.ends, work.radius) = (ends, radius);
         }
@@ -342,18 +341,16 @@ fn programme(
     radius: f64,
 ) -> QpProblem {
     let (n, best) = (work.parameters.count(), &work.refined.best);
-    let centre = goal_errors(task, &best.outcome, &work.ends.middle);
+    let known = beside(&misses(task, &best.outcome), &work.ends.middles);
+    let centre = asked(task, &known);
     let (goals, rules) = (centre.len(), best.margins.len() * Margins::COUNT);
     let held: Vec<f64> = best.margins.iter().flat_map(Margins::list).collect();
     let changes: Vec<(Vec<f64>, Vec<f64>)> = samples
         .iter()
         .filter(|(_, sample)| sample.outcome.is_finite())
         .map(|(u, sample)| {
-            let errors = goal_errors(task, &sample.outcome, &work.ends.middle);
-            let mut y: Vec<f64> = errors.iter().zip(&centre).map(|(a, b)| a - b).collect();
-            if let (Some(turn), Some((_, tolerance))) = (y.get_mut(2), task.goal.heading) {
-                *turn = task.goal.least_turn(*turn * tolerance) / tolerance;
-            }
+            let sampled = beside(&misses(task, &sample.outcome), &work.ends.middles);
+            let mut y = asked(task, &apart(task, &sampled, &known));
             let margins = sample.margins.iter().flat_map(Margins::list);
             y.extend(margins.zip(&held).map(|(a, b)| a - b));
             (u.clone(), y)
@@ -390,11 +387,4 @@ fn programme(
         b.push((margin.max(0.0) * scale).min(reach));
     }
     QpProblem { p, q, a, b }
-}
-
-/// The errors of the middle of all ends, `middle` beside this one: x, y and, where asked for, the
-/// heading.
-fn goal_errors(task: &Task, outcome: &State, middle: &Vector3<f64>) -> Vec<f64> {
-    let all = errors(&task.goal, outcome) + middle;
-    all.iter().take(if task.goal.heading.is_some() { 3 } else { 2 }).copied().collect()
 }

@@ -1,7 +1,7 @@
 //! How good a rollout is: the error in units of the tolerance, and which ones come after all
 //! others.
 
-use crate::scene::{Goal, Scene, State, Trajectory, Warning};
+use crate::scene::{State, Task, Trajectory, Warning};
 
 /// Added to the score of a rollout that leads through something that a rigid body cannot pass. More
 /// than any error in units of a tolerance, so such a candidate is tried only when there is no
@@ -11,20 +11,20 @@ const BEHIND: f64 = 1e6;
 /// Score of a finished rollout: error in units of the tolerance, infinite where the outcome
 /// cannot count (not finite, not at rest), and behind all others where something cannot pass or is not
 /// to be moved so far.
-pub(super) fn final_score(scene: &Scene, goal: &Goal, trajectory: &Trajectory) -> f64 {
+pub(super) fn final_score(task: &Task, trajectory: &Trajectory) -> f64 {
     let Some(frame) = trajectory.frames.last() else { return f64::INFINITY };
     let fatal = |warning: &Warning| warning.forbids_success() && !warning.blocks();
     if trajectory.warnings.iter().any(fatal) {
         return f64::INFINITY;
     }
-    let score = finite_score(goal, &frame.state);
-    let stops = is_blocked(trajectory) || scene.not_kept(&frame.state).is_some();
+    let score = finite_score(task, &frame.state);
+    let stops = is_blocked(trajectory) || task.scene.not_kept(&frame.state).is_some();
     if stops { behind(score) } else { score }
 }
 
 /// Score of a state, infinite where it is not a number.
-pub(super) fn finite_score(goal: &Goal, state: &State) -> f64 {
-    let score = if state.is_finite() { goal.score(state) } else { f64::NAN };
+pub(super) fn finite_score(task: &Task, state: &State) -> f64 {
+    let score = if state.is_finite() { task.score(state) } else { f64::NAN };
     if score.is_nan() { f64::INFINITY } else { score }
 }
 

@@ -255,8 +255,9 @@ impl<'a> Search<'a> {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
         let object = extension.planned.object;
-        let mut best = match object == task.goal.object {
-            true => (final_score(&task.scene, &task.goal, trajectory), length),
+        let counts = task.wants(object);
+        let mut best = match counts {
+            true => (final_score(task, trajectory), length),
             // What is moved aside is no plan yet.
             false => (f64::INFINITY, length),
         };
@@ -275,8 +276,8 @@ impl<'a> Search<'a> {
             }
             let state = &trajectory.frames[frame].state;
             let rest = self.situation.coasted(state);
-            let score = finite_score(&task.goal, &rest);
-            if frame < moving && score < best.0 && object == task.goal.object {
+            let score = finite_score(task, &rest);
+            if frame < moving && score < best.0 && counts {
                 best = (score, travel);
             }
             // A chained push is continued from its end only; where it turns is refined later.

@@ -10,8 +10,9 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use crate::effect::Job;
-use crate::scene::{Goal, Physics, Record, Situation, State};
+use crate::scene::{Physics, Record, Situation};
 
+use super::misses::{apart, misses};
 use super::score::final_score;
 use super::{Evaluation, Rollouts, Workspace};
 
@@ -25,10 +26,11 @@ const MOST: f64 = 0.35;
 const ROUNDS: usize = 64;
 
 /// All of a candidate's ends on plausible supports, the believed one among them.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
-    /// From the predicted end to the middle of all, in units of the tolerances: x, y, heading.
-    pub middle: Vector3<f64>,
+    /// For every goal from the predicted end to the middle of all, in units of the tolerances: x, y,
+    /// heading.
+    pub middles: Vec<Vector3<f64>>,
     /// Score of the end farthest from the goal.
     pub worst: f64,
 }
@@ -66,23 +68,20 @@ impl Supports {
             }));
         }
         let trajectories = rollouts.run(&jobs, Record::Outcome);
-        let (scene, goal) = (&workspace.task.scene, &workspace.task.goal);
+        let task = workspace.task;
         let of = |k: usize, evaluation: &Evaluation| {
             let others = &trajectories[k * self.0.len()..(k + 1) * self.0.len()];
-            let predicted = errors(goal, &evaluation.outcome);
-            let apart = others.iter().filter(|other| other.outcome().is_finite()).map(|other| {
-                let mut apart = errors(goal, other.outcome()) - predicted;
-                if let Some((_, tolerance)) = goal.heading {
-                    apart.z = goal.least_turn(apart.z * tolerance) / tolerance;
-                }
-                apart
+            let predicted = misses(task, &evaluation.outcome);
+            let finite = || others.iter().filter(|other| other.outcome().is_finite());
+            let all: Vec<Vec<Vector3<f64>>> = finite()
+                .map(|other| apart(task, &misses(task, other.outcome()), &predicted))
+                .collect();
+            let middles = (0..predicted.len()).map(|goal| {
+                let apart: Vec<_> = all.iter().map(|apart| apart[goal]).collect();
+                middle(&apart).cap_magnitude(MOST)
             });
-            let middle = middle(&apart.collect::<Vec<_>>());
-            let worst = others.iter().map(|other| final_score(scene, goal, other));
-            Ends {
-                middle: middle.cap_magnitude(MOST),
-                worst: worst.fold(evaluation.score, f64::max),
-            }
+            let worst = others.iter().map(|other| final_score(task, other));
+            Ends { middles: middles.collect(), worst: worst.fold(evaluation.score, f64::max) }
         };
         evaluations.iter().enumerate().map(|(k, evaluation)| of(k, evaluation)).collect()
     }
@@ -102,17 +101,6 @@ fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
         centre += (farthest - centre) / (round + 1) as f64;
     }
     centre
-}
-
-/// Where the goal object is relative to the goal, in units of the tolerances: x, y and the heading;
-/// zero where none is asked for.
-pub(super) fn errors(goal: &Goal, outcome: &State) -> Vector3<f64> {
-    let apart = (outcome.poses[goal.object].position - goal.position) / goal.tolerance;
-    let turned = match (goal.heading, goal.turned(outcome)) {
-        (Some((_, tolerance)), Some(turned)) => turned / tolerance,
-        _ => 0.0,
-    };
-    Vector3::new(apart.x, apart.y, turned)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
 use crate::geometry::{Vector, wrap_angle};
-use crate::scene::{Engine, LeverUp, Lying, Outcome, Plan, Step, Task, Warning};
+use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Step, Task, Warning};
 
 use super::{
     document::Section,
@@ -109,6 +109,9 @@ pub(super) fn outcome_table<'a>(
     if outcomes.iter().any(|(_, outcome, _)| outcome.lying.is_some()) {
         return lying_table(outcomes, &end);
     }
+    if !task.further.is_empty() {
+        return goals_table(task, outcomes);
+    }
     Table::of(
         outcomes,
         &[
@@ -117,6 +120,36 @@ pub(super) fn outcome_table<'a>(
             ("error", Right, &|(_, outcome, _)| millimetres(outcome.error)),
             ("heading error", Right, &|(_, outcome, _)| heading(outcome)),
             ("reached", Left, &|(_, outcome, fault)| reached(outcome, *fault)),
+        ],
+    )
+}
+
+/// The same of several goals, one row for each.
+fn goals_table(task: &Task, outcomes: Vec<(String, &Outcome, Option<&Warning>)>) -> Table {
+    let rows = outcomes.into_iter().flat_map(|(source, outcome, fault)| {
+        let goal = |(k, goal): (usize, &Goal)| {
+            let first = (k == 0).then(|| (source.clone(), reached(outcome, fault)));
+            (goal.object, goal.error(&outcome.state), goal.heading_error(&outcome.state), first)
+        };
+        let ends = &outcome.state.poses;
+        let known = |goal: &&Goal| goal.object < ends.len();
+        let rows: Vec<_> = task.goals().filter(known).enumerate().map(goal).collect();
+        rows.into_iter().map(|row| (row, ends)).collect::<Vec<_>>()
+    });
+    let of = |first: &Option<(String, String)>, told: fn(&(String, String)) -> &String| {
+        first.as_ref().map_or(String::new(), |first| told(first).clone())
+    };
+    Table::of(
+        rows,
+        &[
+            ("", Left, &|((.., first), _)| of(first, |(source, _)| source)),
+            ("object", Left, &|((k, ..), _)| task.scene.objects[*k].name.clone()),
+            ("final position", Left, &|((k, ..), ends)| point(ends[*k].position)),
+            ("error", Right, &|((_, error, ..), _)| millimetres(*error)),
+            ("heading error", Right, &|((_, _, turned, _), _)| {
+                turned.map_or(NONE.to_owned(), degrees)
+            }),
+            ("reached", Left, &|((.., first), _)| of(first, |(_, reached)| reached)),
         ],
     )
 }
@@ -162,7 +195,10 @@ pub(super) fn engine_name(engine: Engine) -> &'static str {
 
 /// One line: what must come where.
 pub(super) fn goal_line(task: &Task) -> String {
-    let goal = &task.goal;
+    task.goals().map(|goal| one_goal(task, goal)).collect::<Vec<_>>().join("; ")
+}
+
+fn one_goal(task: &Task, goal: &Goal) -> String {
     let name = task.scene.objects.get(goal.object).map_or("object", |object| &object.name);
     let heading = goal.heading.map_or(String::new(), |(heading, tolerance)| {
         let alike = match goal.alike {

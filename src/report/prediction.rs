@@ -34,7 +34,7 @@ pub fn prediction_document(task: &Task, plan: &Plan, effects: &[TimedEffect]) ->
     let objects: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
     let outcomes: Vec<Outcome> = effects
         .iter()
-        .map(|effect| Outcome::judge(&task.scene, &task.goal, &effect.trajectory))
+        .map(|effect| Outcome::judge(&task.scene, task, &effect.trajectory))
         .collect();
     let lying = outcomes.iter().any(|outcome| outcome.lying.is_some()).then(|| {
         let fault = |effect: &TimedEffect| {
@@ -67,7 +67,7 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
     let mut rows = Vec::new();
     for k in 0..task.scene.objects.len() {
         let ends = effects.iter().map(|effect| effect.trajectory.outcome());
-        if task.goal.object == k || ends.into_iter().any(|end| moved(end, k) >= STILL) {
+        if task.wants(k) || ends.into_iter().any(|end| moved(end, k) >= STILL) {
             rows.extend(effects.iter().map(|effect| (k, effect, effect.trajectory.outcome())));
         }
     }
@@ -75,9 +75,9 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
         true => NONE.to_owned(),
         false => degrees(end.poses[k].heading - start.poses[k].heading),
     };
-    let error = |k: usize, end: &State| match task.goal.object == k {
-        true => millimetres(task.goal.error(end)),
-        false => String::new(),
+    let error = |k: usize, end: &State| {
+        let goal = task.goals().find(|goal| goal.object == k);
+        goal.map_or(String::new(), |goal| millimetres(goal.error(end)))
     };
     Table::of(
         rows,

@@ -268,7 +268,7 @@ fn picture(trace: &Trace) -> Figure {
         title: format!("{}: {}", task.name, headline(trace)),
         notes: vec![format!("unknown: {}", task.unknown)],
         scene: &scene,
-        goal: Some(&task.goal),
+        goals: task.goals().collect(),
         robot: Some(&task.robot),
         motion: motion.as_ref(),
         tracks: vec![Track { source, trajectory: &trajectory }],

@@ -97,6 +97,14 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
             {
                 by.push(format!("{} ({} allowed)", degrees(*turned), degrees(allowed)));
             }
+            let ended = verdict.nominal(*engine).map_or(&[][..], |e| &e.outcome.further);
+            for (goal, miss) in task.further.iter().zip(ended) {
+                if miss.error > goal.tolerance {
+                    let name = task.scene.objects.get(miss.object).map_or("?", |o| &o.name);
+                    let [off, allowed] = [miss.error, goal.tolerance].map(millimetres);
+                    by.push(format!("{off} of {name} ({allowed} allowed)"));
+                }
+            }
             let by = match by.is_empty() {
                 true => String::new(),
                 false => format!(" by {}", by.join(" and ")),
@@ -154,6 +162,7 @@ mod tests {
             state: State::default(),
             error: 0.1,
             heading_error: None,
+            further: Vec::new(),
             reached: false,
             lying: None,
         };

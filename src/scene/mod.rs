@@ -73,7 +73,7 @@ pub use motion::{
 };
 pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use observation::{Noise, Observation, Sight};
-pub use outcome::{Lying, Outcome};
+pub use outcome::{Lying, Miss, Outcome};
 pub use outline::Piece;
 pub use physics::{Physics, face_height};
 pub use plan::{Engine, LeverStep, Plan, PushStep, Step};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose3, Vector};
 
-use super::{Ending, Goal, Lift, Scene, State, Trajectory};
+use super::{Ending, Goal, Lift, Scene, State, Task, Trajectory};
 
 /// By how much a missed demand counts as missed once more: metres of an edge that is not yet high
 /// enough, or of a centre that is still inside.
@@ -17,15 +17,29 @@ const STEP: f64 = 0.01;
 pub struct Outcome {
     /// Final poses of all objects.
     pub state: State,
-    /// Distance of the goal object from the goal, metres.
+    /// Distance of the first goal's object from its goal, metres.
     pub error: f64,
     /// Heading error, radians, where a heading is asked for.
     pub heading_error: Option<f64>,
-    /// Whether the goal is reached at rest.
+    /// The same of the other goals, if there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<Miss>,
+    /// Whether all goals are reached at rest.
     pub reached: bool,
     /// How the goal object lies, where something left the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lying: Option<Lying>,
+}
+
+/// How far an object ends from its goal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Miss {
+    /// Index into [`Scene::objects`].
+    pub object: usize,
+    /// Distance from the goal, metres.
+    pub error: f64,
+    /// Heading error, radians, where a heading is asked for.
+    pub heading_error: Option<f64>,
 }
 
 /// How an object lies in space.
@@ -40,25 +54,33 @@ pub struct Lying {
 }
 
 impl Outcome {
-    /// Judges where a trajectory in `scene` ended. One that did not come to rest, became NaN or
+    /// Judges where a trajectory in `scene` ended by the goals of `task`. One that did not come to rest, became NaN or
     /// infinite, or in which an object fell does not count as reaching the goal.
-    pub fn judge(scene: &Scene, goal: &Goal, trajectory: &Trajectory) -> Self {
+    pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
+        let goal = &task.goal;
         let state = trajectory.outcome().clone();
         let sound = trajectory.warnings.iter().all(|warning| !warning.forbids_success());
         let lying = Lying::of(scene, goal, trajectory);
-        let near = lying.map_or_else(|| goal.reached(&state), |lying| lying.score <= 1.0);
+        let mut near = lying.map_or_else(|| goal.reached(&state), |lying| lying.score <= 1.0);
+        let further = task.further.iter().map(|goal| {
+            near &= goal.reached(&state);
+            let (error, heading_error) = (goal.error(&state), goal.heading_error(&state));
+            Miss { object: goal.object, error, heading_error }
+        });
+        let further = further.collect();
         Self {
             error: goal.error(&state),
             heading_error: goal.heading_error(&state),
+            further,
             reached: sound && state.is_finite() && near,
             lying,
             state,
         }
     }
 
-    /// By what plans are compared: at most 1 is success.
-    pub fn score(&self, goal: &Goal) -> f64 {
-        self.lying.map_or_else(|| goal.score(&self.state), |lying| lying.score)
+    /// By what plans for a task are compared: at most 1 is success.
+    pub fn score(&self, task: &Task) -> f64 {
+        self.lying.map_or_else(|| task.score(&self.state), |lying| lying.score)
     }
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
 
-use super::{Goal, Hand, LeverRules, Plate, Scene, Unknowns};
+use super::{Goal, Hand, LeverRules, Plate, Scene, State, Unknowns};
 
 /// Where the end effector can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -182,6 +182,9 @@ pub struct Task {
     pub levers: Option<LeverRules>,
     /// What to reach.
     pub goal: Goal,
+    /// What other objects must reach as well, each another one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<Goal>,
     /// Share of the disturbed replays that must reach the goal for a plan to count, 0 to 1.
     pub robustness: f64,
 }
@@ -214,8 +217,55 @@ impl Task {
             pushes: PushRules::default(),
             levers: None,
             goal,
+            further: Vec::new(),
             robustness: Self::ROBUSTNESS,
         }
+    }
+
+    /// The task with a goal for one object more.
+    ///
+    /// ```
+    /// use pushplan::{Goal, Object, Robot, Scene, Task};
+    ///
+    /// let [can, cup] = ["can", "cup"].map(|name| Object::cylinder(name, 0.04, 0.10));
+    /// let scene = Scene::new([can.at(0.5, 0.1, 0.0), cup.at(0.5, -0.1, 0.0)]);
+    /// let task = Task::new("both", scene, Robot::reaching(0.1, 0.9), Goal::new(0, [0.7, 0.1], 0.02))
+    ///     .and(Goal::new(1, [0.7, -0.1], 0.02));
+    /// assert_eq!(task.goals().count(), 2);
+    /// ```
+    pub fn and(mut self, goal: Goal) -> Self {
+        self.further.push(goal);
+        self
+    }
+
+    /// All goals.
+    pub fn goals(&self) -> impl Iterator<Item = &Goal> + Clone {
+        std::iter::once(&self.goal).chain(&self.further)
+    }
+
+    /// The same task with other goals in their places; those that are missing stay.
+    pub fn aiming(&self, goals: &[Goal]) -> Self {
+        let mut task = self.clone();
+        let own = std::iter::once(&mut task.goal).chain(&mut task.further);
+        own.zip(goals).for_each(|(own, goal)| *own = *goal);
+        task
+    }
+
+    /// Whether an object (an index into [`Scene::objects`]) has a goal.
+    pub fn wants(&self, object: usize) -> bool {
+        self.goals().any(|goal| goal.object == object)
+    }
+
+    /// Whether every goal is reached, see [`Goal::reached`].
+    pub fn reached(&self, state: &State) -> bool {
+        self.goals().all(|goal| goal.reached(state))
+    }
+
+    /// The largest [`Goal::score`]: at most 1 where every goal is reached.
+    pub fn score(&self, state: &State) -> f64 {
+        // NaN counts as one.
+        let larger = |a: f64, b: f64| if a >= b { a } else { b };
+        self.goals().map(|goal| goal.score(state)).reduce(larger).unwrap_or(0.0)
     }
 
     /// The task with one line about it for people.

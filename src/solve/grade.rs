@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::scene::{Engine, Goal, Verdict};
+use crate::scene::{Engine, Task, Verdict};
 
 use super::PlanStatus;
 
@@ -48,9 +48,9 @@ pub(super) struct Grade {
 
 impl Grade {
     /// Of a plan with this verdict.
-    pub fn of(goal: &Goal, verdict: &Verdict) -> Self {
+    pub fn of(task: &Task, verdict: &Verdict) -> Self {
         let spatial = verdict.nominal(Engine::Spatial);
-        let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(goal));
+        let score = spatial.map_or(f64::INFINITY, |e| e.outcome.score(task));
         let robustness = verdict.robustness.unwrap_or(1.0);
         let class = match (verdict.passed, verdict.works()) {
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,

@@ -353,7 +353,7 @@ impl Planner {
                     // Once simulated, the doubt is a number.
                     warnings.extend(consequence(scene, job, trajectory.outcome()));
                 }
-                let outcome = Outcome::judge(scene, &task.goal, &trajectory);
+                let outcome = Outcome::judge(scene, task, &trajectory);
                 Prediction { trajectory, outcome, warnings }
             })
             .collect()

@@ -1,7 +1,7 @@
 //! Which candidates are refined, which are worth verifying, and in what order.
 
 use crate::plan::{Candidate, Evaluation, Found, Refined, is_behind, kinds};
-use crate::scene::{Goal, Scene};
+use crate::scene::{Goal, Task};
 
 /// The best `count` found candidates of different kinds, then, if there are too few kinds, the next
 /// best ones; at most `most_behind` of them with something in the way. `found` is sorted, best
@@ -36,8 +36,7 @@ const HAIR: f64 = 0.1;
 /// metres, or a hair; for a heading this is taken at the object's mean radius. Where that was not
 /// measured, everything that can be carried out is.
 pub(super) fn is_worth_verifying(
-    scene: &Scene,
-    goal: &Goal,
+    task: &Task,
     evaluation: &Evaluation,
     error_p95: Option<f64>,
 ) -> bool {
@@ -45,12 +44,15 @@ pub(super) fn is_worth_verifying(
         return false;
     }
     let Some(error_p95) = error_p95 else { return true };
-    let error_p95 = error_p95.max(HAIR * goal.tolerance);
-    let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
-    let radius = scene.objects[goal.object].shape.footprint().mean_radius();
-    let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {
-        (Some((_, tolerance)), Some(error)) => error <= tolerance + error_p95 / radius,
-        _ => true,
+    let near = |goal: &Goal| {
+        let error_p95 = error_p95.max(HAIR * goal.tolerance);
+        let near = goal.error(&evaluation.outcome) <= goal.tolerance + error_p95;
+        let radius = task.scene.objects[goal.object].shape.footprint().mean_radius();
+        let turned = match (goal.heading, goal.heading_error(&evaluation.outcome)) {
+            (Some((_, tolerance)), Some(error)) => error <= tolerance + error_p95 / radius,
+            _ => true,
+        };
+        near && turned
     };
-    near && turned
+    task.goals().all(near)
 }

@@ -3,7 +3,7 @@
 
 use crate::geometry::{Pose, Vector, wrap_angle};
 use crate::plan::{Candidate, CandidatePush, Found, is_behind};
-use crate::scene::{Engine, Goal, Verdict, Warning};
+use crate::scene::{Engine, Goal, Task, Verdict, Warning};
 
 use super::rank::distinct;
 use super::solving::{Solving, Tried};
@@ -85,7 +85,7 @@ impl Solving<'_> {
     ) {
         for &k in failed {
             let tried = &self.tried[k];
-            if missed(&self.task.goal, tried) > REFUTED
+            if missed(self.task, tried) > REFUTED
                 && let Some(candidate) = &tried.candidate
             {
                 self.refuted.push(Way::of(&candidate.pushes));
@@ -104,8 +104,8 @@ impl Solving<'_> {
             let known: Vec<&Candidate> =
                 self.tried[first..].iter().filter_map(|tried| tried.candidate.as_ref()).collect();
             let others = self.choose(found, missing, &known);
-            let goal = self.task.goal;
-            next.extend(self.refined(&others, goal, pushes));
+            let goals: Vec<Goal> = self.task.goals().copied().collect();
+            next.extend(self.refined(&others, &goals, pushes));
         }
         next.extend(rest);
         // Stable: plans through a wall go last, everything else keeps its order.
@@ -127,7 +127,7 @@ impl Solving<'_> {
                     let frames = verdict.nominal(engine).and_then(|e| e.trajectory.as_ref());
                     let mut frames = frames.iter().flat_map(|t| t.frames.iter().rev());
                     let end = frames.find(|frame| frame.stroke + 1 == count);
-                    end.is_some_and(|frame| self.task.goal.reached(&frame.state))
+                    end.is_some_and(|frame| self.task.reached(&frame.state))
                 })
             };
             let placed = self.workspace.is_placed();
@@ -141,6 +141,7 @@ impl Solving<'_> {
                 let shorter = Tried {
                     plan,
                     candidate: Some(candidate),
+                    aims: tried.aims.clone(),
                     tool: tried.tool.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
@@ -173,20 +174,20 @@ impl Solving<'_> {
                 wider.push(candidate);
             }
         }
-        let goal = self.task.goal;
+        let goals: Vec<Goal> = self.task.goals().copied().collect();
         match wider.is_empty() {
             true => Vec::new(),
-            false => self.refined_again(&wider, goal, pushes),
+            false => self.refined_again(&wider, &goals, pushes),
         }
     }
 
     /// Refines the nearest of the failed plans towards goals that lie as far on the other side
     /// of ours as their replays ended next to it.
     fn aim_again(&mut self, failed: &[usize], count: usize, pushes: usize) -> Vec<usize> {
-        let goal = self.task.goal;
+        let task = self.task;
         let mut near: Vec<(f64, usize)> = failed
             .iter()
-            .map(|&k| (missed(&goal, &self.tried[k]), k))
+            .map(|&k| (missed(task, &self.tried[k]), k))
             .filter(|(missed, _)| *missed <= NEAR)
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -196,8 +197,12 @@ impl Solving<'_> {
             let (Some(candidate), Some(verdict)) = (tried.candidate.clone(), &tried.verdict) else {
                 continue;
             };
-            if let Some(aim) = aim(&goal, &tried.aim, verdict) {
-                next.extend(self.refined_again(&[candidate], aim, pushes));
+            let aims = task.goals().zip(&tried.aims);
+            let next_aims: Vec<Option<Goal>> =
+                aims.clone().map(|(goal, aimed)| aim(goal, aimed, verdict)).collect();
+            if next_aims.iter().any(Option::is_some) {
+                let kept = aims.zip(next_aims).map(|((_, aimed), next)| next.unwrap_or(*aimed));
+                next.extend(self.refined_again(&[candidate], &kept.collect::<Vec<_>>(), pushes));
             }
         }
         next
@@ -210,14 +215,14 @@ impl Solving<'_> {
 
 /// By how many tolerances a plan misses the goal as written, in the engine where it misses by more;
 /// infinite where its end does not count at all.
-fn missed(goal: &Goal, tried: &Tried) -> f64 {
+fn missed(task: &Task, tried: &Tried) -> f64 {
     let Some(verdict) = &tried.verdict else { return f64::INFINITY };
     if !verdict.forbidden.is_empty() {
         return f64::INFINITY;
     }
     let missed = |engine| {
         let nominal = verdict.nominal(engine).filter(|evidence| evidence.fault().is_none());
-        let score = nominal.map(|evidence| goal.score(&evidence.outcome.state));
+        let score = nominal.map(|evidence| task.score(&evidence.outcome.state));
         score.filter(|score| score.is_finite()).unwrap_or(f64::INFINITY)
     };
     Engine::ALL.into_iter().map(missed).fold(0.0, f64::max)

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::effect::EffectModel;
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
-    alone, is_behind, refine,
+    alone, bare, is_behind, refine,
 };
 use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
@@ -46,14 +46,17 @@ const DISTURBED_AT_ONCE: usize = 3;
 /// of its cost.
 const DISTURBED_SHARE: f64 = 0.375;
 
+/// Where there are several goals, refinement brings no plan to them that misses one by more tolerances.
+const REFINABLE: f64 = 5.0;
+
 /// A plan that was refined, and verified where it was worth that.
 pub(super) struct Tried {
     pub plan: Plan,
     pub tool: Arc<Tool>,
     /// What the plan was made from; `None` for the plan without pushes.
     pub candidate: Option<Candidate>,
-    /// What it was refined towards: the task's goal, or one next to it.
-    pub aim: Goal,
+    /// What it was refined towards: the task's goals, or some next to them.
+    pub aims: Vec<Goal>,
     pub refinement: Refinement,
     pub score: f64,
     pub verdict: Option<Verdict>,
@@ -115,7 +118,7 @@ impl<'a> Solving<'a> {
         let began = Instant::now();
         let nothing = self.without_pushes();
         self.tried.push(nothing);
-        if self.task.goal.reached(&self.situation.start) {
+        if self.task.reached(&self.situation.start) {
             self.verify(&[0]);
         }
         let errors = self.workspace.tools.iter().map(|tool| {
@@ -161,7 +164,11 @@ impl<'a> Solving<'a> {
         let pushes = search.depth() + 1;
         let began = Instant::now();
         self.tell("search", pushes);
-        let found = search.deepen(&mut self.rollouts, self.watch);
+        let mut found = search.deepen(&mut self.rollouts, self.watch);
+        // A plan that leaves one of several goals behind is no candidate yet.
+        if !self.task.further.is_empty() {
+            found.retain(|one| bare(one.score) <= REFINABLE);
+        }
         self.statistics.timing.search += began.elapsed().as_secs_f64();
 
         let began = Instant::now();
@@ -171,7 +178,8 @@ impl<'a> Solving<'a> {
         let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
         let before = self.disturbed;
         let first = self.tried.len();
-        let mut queue = self.refined(&candidates, self.task.goal, pushes);
+        let goals: Vec<Goal> = self.task.goals().copied().collect();
+        let mut queue = self.refined(&candidates, &goals, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
 
         let mut failed = Vec::new();
@@ -212,20 +220,20 @@ impl<'a> Solving<'a> {
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
-    /// Refines candidates that the search found towards `aim`, the task's goal or one next to it, keeps
+    /// Refines candidates that the search found towards `aims`, the task's goals or some next to them, keeps
     /// the results, and returns the indices of those worth verifying, best first. Where one model
     /// screens and another decides, the last rounds are the other's.
     pub(super) fn refined(
         &mut self,
         candidates: &[Candidate],
-        aim: Goal,
+        aims: &[Goal],
         pushes: usize,
     ) -> Vec<usize> {
         self.tell("refine", pushes);
         let settings = *self.planner.settings();
         let last = if self.deciding.is_some() { settings.decided_rounds } else { 0 };
         let all = self.refine_settings(pushes);
-        let task = Task { goal: aim, ..self.task.clone() };
+        let task = self.task.aiming(aims);
         let screened = refine(
             &Workspace { task: &task, ..self.workspace },
             &mut self.rollouts,
@@ -238,12 +246,12 @@ impl<'a> Solving<'a> {
             Some(_) => {
                 let candidates: Vec<Candidate> =
                     screened.iter().map(|one| one.best.candidate.clone()).collect();
-                let decided = self.decided(&candidates, aim, pushes);
+                let decided = self.decided(&candidates, aims, pushes);
                 decided.into_iter().map(|one| after(&screened[one.index], one)).collect()
             }
             None => screened,
         };
-        self.worth_verifying(refined, aim)
+        self.worth_verifying(refined, aims)
     }
 
     /// The same for changed candidates of plans that were replayed already: what was decided on is not
@@ -251,22 +259,22 @@ impl<'a> Solving<'a> {
     pub(super) fn refined_again(
         &mut self,
         candidates: &[Candidate],
-        aim: Goal,
+        aims: &[Goal],
         pushes: usize,
     ) -> Vec<usize> {
         if self.deciding.is_none() {
-            return self.refined(candidates, aim, pushes);
+            return self.refined(candidates, aims, pushes);
         }
         self.tell("refine", pushes);
-        let decided = self.decided(candidates, aim, pushes);
-        self.worth_verifying(decided, aim)
+        let decided = self.decided(candidates, aims, pushes);
+        self.worth_verifying(decided, aims)
     }
 
     /// Where the model that decides says candidates end, the best of them refined by it.
-    fn decided(&mut self, candidates: &[Candidate], aim: Goal, pushes: usize) -> Vec<Refined> {
+    fn decided(&mut self, candidates: &[Candidate], aims: &[Goal], pushes: usize) -> Vec<Refined> {
         let settings = *self.planner.settings();
         let all = self.refine_settings(pushes);
-        let task = Task { goal: aim, ..self.task.clone() };
+        let task = self.task.aiming(aims);
         let Some(rollouts) = &mut self.deciding else { return Vec::new() };
         refine(
             &Workspace { task: &task, ..self.workspace },
@@ -298,9 +306,10 @@ impl<'a> Solving<'a> {
         }
     }
 
-    /// Keeps what was refined towards `aim`; the indices of those worth verifying, best first.
-    fn worth_verifying(&mut self, mut refined: Vec<Refined>, aim: Goal) -> Vec<usize> {
+    /// Keeps what was refined towards `aims`; the indices of those worth verifying, best first.
+    fn worth_verifying(&mut self, mut refined: Vec<Refined>, aims: &[Goal]) -> Vec<usize> {
         sort(&mut refined);
+        let aimed = self.task.aiming(aims);
         let mut worth = Vec::new();
         for refined in refined {
             let tool = &self.workspace.tools[refined.best.candidate.tool];
@@ -309,10 +318,10 @@ impl<'a> Solving<'a> {
             // What the network says of this very push, or else what was measured of many.
             let spread = refined.best.spread.map(|spread| spread.within_90().position);
             let error = spread.or_else(|| error_p95(self.planner.model(), self.situation, &job));
-            if is_worth_verifying(&self.situation.scene, &aim, &refined.best, error) {
+            if is_worth_verifying(&aimed, &refined.best, error) {
                 worth.push(self.tried.len());
             }
-            let tried = self.tried(refined, aim);
+            let tried = self.tried(refined, aims);
             self.tried.push(tried);
         }
         worth
@@ -335,7 +344,7 @@ impl<'a> Solving<'a> {
             if verdict.was_stopped() {
                 continue;
             }
-            let grade = Grade::of(&self.task.goal, &verdict);
+            let grade = Grade::of(self.task, &verdict);
             if verdict.works() {
                 working.push((grade, k));
             }
@@ -350,7 +359,7 @@ impl<'a> Solving<'a> {
                 let (tools, plan) = (std::slice::from_ref(&tried.tool), &tried.plan);
                 let verdict =
                     self.verifier.disturb(self.task, self.situation, tools, plan, verdict);
-                let grade = Grade::of(&self.task.goal, &verdict);
+                let grade = Grade::of(self.task, &verdict);
                 tried.verdict = Some(verdict);
                 if self.best.is_none_or(|(best, _)| grade.compare(&best).is_gt()) {
                     self.best = Some((grade, k));

@@ -9,22 +9,22 @@ use super::Refinement;
 use super::solving::{Solving, Tried};
 
 impl Solving<'_> {
-    /// What was made of a candidate that was refined towards `aim`.
-    pub(super) fn tried(&self, refined: Refined, aim: Goal) -> Tried {
+    /// What was made of a candidate that was refined towards `aims`.
+    pub(super) fn tried(&self, refined: Refined, aims: &[Goal]) -> Tried {
         let Refined { best, off: [before, after], rounds, .. } = refined;
         let tool = Arc::clone(&self.workspace.tools[best.candidate.tool]);
         Tried {
             refinement: Refinement {
                 before,
                 after,
-                aimed_at: (aim != self.task.goal).then_some(aim.position),
+                aimed_at: (!self.task.goals().eq(aims)).then(|| aims[0].position),
                 rounds: rounds.into_iter().skip(1).map(bare).collect(),
             },
-            aim,
-            // Of our goal, whatever goal it was refined towards.
+            aims: aims.to_vec(),
+            // Of our goals, whatever it was refined towards.
             score: match best.score {
-                score if is_behind(score) => behind(self.task.goal.score(&best.outcome)),
-                score if score.is_finite() => self.task.goal.score(&best.outcome),
+                score if is_behind(score) => behind(self.task.score(&best.outcome)),
+                score if score.is_finite() => self.task.score(&best.outcome),
                 score => score,
             },
             verdict: None,
@@ -50,14 +50,14 @@ impl Solving<'_> {
             plan: Plan::default(),
             tool,
             candidate: None,
-            aim: self.task.goal,
+            aims: self.task.goals().copied().collect(),
             refinement: Refinement {
                 before: error,
                 after: error,
                 aimed_at: None,
                 rounds: Vec::new(),
             },
-            score: self.task.goal.score(start),
+            score: self.task.score(start),
             verdict: None,
         }
     }

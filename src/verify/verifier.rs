@@ -265,7 +265,7 @@ fn evidence(
     Evidence {
         engine: engine.engine(),
         disturbance,
-        outcome: Outcome::judge(scene, &task.goal, &trajectory),
+        outcome: Outcome::judge(scene, task, &trajectory),
         warnings: trajectory.warnings.clone(),
         force: trajectory.force,
         trajectory: nominal.then_some(trajectory),
@@ -286,7 +286,7 @@ fn stopped(
     Evidence {
         engine: engine.engine(),
         disturbance,
-        outcome: Outcome::judge(&situation.scene, &task.goal, &trajectory),
+        outcome: Outcome::judge(&situation.scene, task, &trajectory),
         warnings: trajectory.warnings,
         force: None,
         trajectory: None,

@@ -77,7 +77,7 @@ fn a_lever_up_is_planned_verified_and_written_like_a_push() {
     assert_eq!(planar.trust(&task.scene, &job), Trust::NotMine);
     let found = planner.model().rollout(&task.scene, &[job], Record::Outcome).remove(0);
     assert_eq!(found.by.to_string(), "network");
-    assert!(Outcome::judge(&task.scene, &task.goal, &found).reached);
+    assert!(Outcome::judge(&task.scene, &task, &found).reached);
     let again = Task::parse(&task.to_yaml().unwrap(), "turn.yaml").unwrap();
     assert_eq!(again, task);
     let replay = best.verdict.as_ref().and_then(|verdict| verdict.evidence[0].trajectory.clone());

@@ -46,6 +46,7 @@ mod recorded_pushes;
 mod regulator;
 mod run_learning;
 mod seams;
+mod several_goals;
 #[allow(dead_code)]
 mod sharding;
 mod shards;

@@ -154,7 +154,7 @@ fn sample(name: &str) -> Option<Sample> {
     let motion = plan.motion(&tool);
     let job = Job::stated(&task.scene, motion);
     let trajectory = Prior::default().rollout(&task.scene, &[job], Record::Frames).pop()?;
-    let predicted = Some(Outcome::judge(&task.scene, &task.goal, &trajectory));
+    let predicted = Some(Outcome::judge(&task.scene, &task, &trajectory));
     let model = Some(trajectory.by.clone());
     let plan = PlanFile { model, predicted, ..PlanFile::new(task, vec![tool], plan) };
     Some(Sample { plan, trajectory })

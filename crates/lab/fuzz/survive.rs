@@ -153,7 +153,7 @@ fn picture(scene: &Scene, motion: Option<&ToolMotion>, trajectory: Option<&Traje
         title: "fuzz".into(),
         notes: Vec::new(),
         scene,
-        goal: None,
+        goals: Vec::new(),
         robot: None,
         motion,
         tracks: trajectory.map(track).into_iter().collect(),

@@ -133,6 +133,18 @@ class Replay:
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
 
 
+def miss(pose, goal):
+    """How far from its goal an object ends, the heading error where one counts, and whether both are
+    within tolerance."""
+    x, y, tolerance, *heading = goal
+    error, turned = math.dist(pose[:2], (x, y)), None
+    within = error <= tolerance
+    if heading:
+        turned = abs(math.remainder(pose[2] - heading[0], math.tau / heading[2]))
+        within = within and turned <= heading[1]
+    return error, turned, within
+
+
 def replay(path):
     """Plays the scene of a file; everything worth knowing of it, for JSON."""
     scene = Replay(mujoco.MjModel.from_xml_path(str(path)))
@@ -142,15 +154,12 @@ def replay(path):
     except Failed as failed:
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
-    name = next(name for name in scene.objects if f"goal of {name}" in scene.numbers)
-    x, y, tolerance, *heading = scene.numbers[f"goal of {name}"]
-    error, heading_error = math.dist(poses[name][:2], (x, y)), None
-    within = error <= tolerance
-    if heading:
-        heading_error = abs(math.remainder(poses[name][2] - heading[0], math.tau / heading[2]))
-        within = within and heading_error <= heading[1]
-    if failure is None and not within:
+    wanted = {name: scene.numbers.get(f"goal of {name}") for name in scene.objects}
+    misses = {name: miss(poses[name], goal) for name, goal in wanted.items() if goal}
+    if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
+    # Of several objects with goals the first is told of.
+    name, (error, heading_error, _) = next(iter(misses.items()))
     ours = scene.numbers.get(f"3-D replay of {name}")
     solid = SOLIDS[mujoco.mjtGeom(scene.model.geom(name).type[0])]
     return {

@@ -7,6 +7,10 @@ const FINE = 1e-4; // radians or seconds in a unit of the data
 /** Names of layers; the digit keys show and hide those of a plan in order. */
 const LAYERS = { predicted: 'predicted', planar: 'planar', spatial: '3-D', seen: 'seen', real: 'real' };
 
+/** All goals; of a recording there are none. */
+const goals = [page.stage.goal, ...(page.stage.further ?? [])].filter(Boolean);
+const wants = (object) => goals.some((goal) => goal.object === object);
+
 const byId = (id) => document.getElementById(id);
 
 function filled(node, attributes, children) {

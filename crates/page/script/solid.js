@@ -94,9 +94,9 @@ const solid = (() => {
       low = [Math.min(low[0], x - room), Math.min(low[1], y - room)];
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
-    const { goal, objects, obstacles } = page.stage;
+    const { objects, obstacles } = page.stage;
     for (const body of [...objects, ...obstacles]) add(posed(body.at), reachOf(body.shape));
-    if (goal && !page.measure) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    for (const goal of page.measure ? [] : goals) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const stroke of page.measure ? [] : plan().strokes) {
       const room = Math.max(...page.tools[stroke.tool].parts.map(
         (part) => Math.hypot(...posed(part.at).slice(0, 2)) + reachOf(part.shape)));
@@ -138,18 +138,20 @@ const solid = (() => {
   }
 
   function drawStill() {
-    const { goal, objects, obstacles, reach } = page.stage;
+    const { objects, obstacles, reach } = page.stage;
     for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
     for (const body of obstacles) {
       scene.add(placed(piece(body, colour('hatch'), colour('other-rim')), posed(body.at)));
     }
-    for (const replay of goal ? shown() : []) {
-      const [xs, ys, , zs] = replay.objects[goal.object];
-      const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);
-      scene.add(line(way, layerColour(replay.layer)));
+    for (const { object } of goals) {
+      for (const replay of shown()) {
+        const [xs, ys, , zs] = replay.objects[object];
+        const way = Array.from(xs, (x, k) => [x, ys[k], (zs?.[k] ?? 0) + 3 * THIN]);
+        scene.add(line(way, layerColour(replay.layer)));
+      }
     }
     if (page.measure) return;
-    if (goal) drawGoal(goal, objects);
+    for (const goal of goals) drawGoal(goal, objects);
     for (const stroke of plan().strokes) {
       const grip = posed(page.tools[stroke.tool].grip);
       const ends = [stroke.from, stroke.to].map((end) => {
@@ -183,7 +185,7 @@ const solid = (() => {
     }
     for (const replay of shown()) {
       page.stage.objects.forEach((body, object) => {
-        const own = object === page.stage.goal?.object ? 'own' : 'other';
+        const own = wants(object) ? 'own' : 'other';
         const tint = layerColour(replay.layer);
         const node = replay === lead ? piece(body, colour(own), colour(`${own}-rim`)) : piece(body, tint, tint, true);
         add(node, (time) => replay.object(object, time), { layer: replay.layer, object });

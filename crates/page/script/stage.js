@@ -70,8 +70,8 @@
       low = [Math.min(low[0], x - room), Math.min(low[1], y - room)];
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
-    const { goal, objects, obstacles } = page.stage;
-    if (goal) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    const { objects, obstacles } = page.stage;
+    for (const goal of goals) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
     for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
@@ -117,7 +117,7 @@
 
   function drawStill() {
     still.replaceChildren();
-    const { goal, objects, obstacles, reach, table } = page.stage;
+    const { objects, obstacles, reach, table } = page.stage;
     if (table) {
       const [[x, y], [w, h]] = table.map((pair) => pair.map((value) => value * LENGTH));
       const [left, top] = map([x - w / 2, y + h / 2]);
@@ -135,10 +135,14 @@
       still.append(shape);
     }
     objects.forEach((body, k) => {
-      const className = k === goal?.object ? 'start own' : 'start';
+      const className = wants(k) ? 'start own' : 'start';
       still.append(outline(body.shape, { transform: at(posed(body.at)), class: className }));
     });
-    if (!goal) return;
+    goals.forEach(drawGoal);
+  }
+
+  function drawGoal(goal) {
+    const { objects } = page.stage;
     const wanted = [...posed([...goal.at, 0])];
     const own = objects[goal.object];
     wanted[2] = goal.heading ? goal.heading[0] * FINE : posed(own.at)[2];
@@ -176,7 +180,7 @@
   function drawMoving() {
     moving.replaceChildren();
     bodies = [];
-    const { objects, goal } = page.stage;
+    const { objects } = page.stage;
     const lead = leading();
     if (!lead) return;
     const add = (shape, place) => {
@@ -190,7 +194,7 @@
     }
     for (const replay of shown()) {
       objects.forEach((body, k) => {
-        const own = k === goal?.object ? ' own' : '';
+        const own = wants(k) ? ' own' : '';
         const className = replay === lead ? `object${own}` : `ghost ${replay.layer}`;
         const shape = svg('g', { class: className },
           outline(body.shape, {}), svg('title', {}, `${body.name}, ${LAYERS[replay.layer]}`));

@@ -174,7 +174,7 @@ impl Packed {
             self.times.push(frame.time);
         }
         self.counts.push(count as i64);
-        self.outcomes.push(Outcome::judge(&task.scene, &task.goal, trajectory));
+        self.outcomes.push(Outcome::judge(&task.scene, task, trajectory));
         self.warnings.push(trajectory.warnings.iter().map(Warning::to_string).collect());
     }
 

@@ -118,7 +118,7 @@ impl PyTrajectory {
 impl PyTrajectory {
     /// A trajectory on the table of `task`, judged by its goal.
     pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
-        let outcome = Outcome::judge(&task.scene, &task.goal, &trajectory);
+        let outcome = Outcome::judge(&task.scene, task, &trajectory);
         let objects = task.scene.objects.iter().map(|object| object.name.clone()).collect();
         Self { trajectory, outcome, objects }
     }

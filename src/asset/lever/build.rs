@@ -32,6 +32,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
         name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         goal: goal(root.get("goal")?, &scene)?,
+        further: Vec::new(),
         scene,
         unknown: unknown_of(root)?,
         robot: reach_of(root.get("robot")?)?.without_body(),

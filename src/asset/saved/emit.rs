@@ -45,7 +45,10 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             ToolChoice::All => json!("all"),
             ToolChoice::Named(names) => json!(names),
         },
-        "goal": goal(&task.goal, &task.scene),
+        "goal": match task.further.is_empty() {
+            true => goal(&task.goal, &task.scene),
+            false => task.goals().map(|one| goal(one, &task.scene)).collect(),
+        },
         "robustness": task.robustness,
     });
     if task.pushes.max_count > 0 {

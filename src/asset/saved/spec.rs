@@ -235,15 +235,30 @@ const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
 
 const ENGINE: Value = Value::Word(&["planar", "spatial"]);
 
-const OUTCOME: Value = Value::Map(&[
-    Key::required("state", STATE, "Final poses of all objects."),
-    Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
+const MISS: Value = Value::Map(&[
+    Key::required("object", INDEX, "Index into the scene's objects."),
+    Key::required("error", UNSIGNED, "Distance from its goal, metres."),
     Key::optional(
         "heading_error",
         HEADING_ERROR,
         "Heading error, radians; by default none is asked for.",
     ),
-    Key::required("reached", Value::Switch, "Whether the goal is reached at rest."),
+]);
+
+const OUTCOME: Value = Value::Map(&[
+    Key::required("state", STATE, "Final poses of all objects."),
+    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
+    Key::optional(
+        "heading_error",
+        HEADING_ERROR,
+        "Heading error, radians; by default none is asked for.",
+    ),
+    Key::optional(
+        "further",
+        Value::List { of: &MISS, items: "objects with goals", min: 0, max: 64 },
+        "The same of further goals' objects; by default there are none.",
+    ),
+    Key::required("reached", Value::Switch, "Whether all goals are reached at rest."),
     Key::optional(
         "lying",
         Value::Map(&[
@@ -307,7 +322,7 @@ const GOES_WRONG: Value = Value::Map(&[
 
 const MISSES: Value = Value::Map(&[
     Key::required("engine", ENGINE, "Which engine says so."),
-    Key::required("error", UNSIGNED, "Distance of the goal object from the goal, metres."),
+    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
     Key::optional(
         "heading_error",
         HEADING_ERROR,

@@ -19,7 +19,9 @@ use super::{frictions, joints};
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
-    let goal = goal(root.get("goal")?, &scene)?;
+    let goals = goals(root.get("goal")?).iter().map(|node| goal(node, &scene));
+    let mut goals: Vec<Goal> = goals.collect::<Option<_>>()?;
+    let further = goals.split_off(1);
     let robot = robot(root.get("robot")?)?;
     scene.obstacles.extend(robot.column());
     if let Some(keep) = root.get("keep") {
@@ -41,7 +43,8 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
             None => PushRules::default(),
         },
         levers: None,
-        goal,
+        goal: goals.pop()?,
+        further,
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
 }
@@ -214,6 +217,14 @@ fn directions(node: &Node) -> Option<Directions> {
 
 fn numbers(list: &Node) -> Option<Vec<f64>> {
     list.items().iter().map(Node::number).collect()
+}
+
+/// The goals of a task's key: it holds one, or a list.
+pub(super) fn goals(node: &Node) -> &[Node] {
+    match &node.content {
+        Content::List(_) => node.items(),
+        _ => std::slice::from_ref(node),
+    }
 }
 
 fn goal(node: &Node, scene: &Scene) -> Option<Goal> {

@@ -34,9 +34,11 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     robot(section("robot"), pushes, ledger);
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
-    goal(section("goal"), objects, obstacles, ledger);
-    keep(section("keep"), section("goal"), objects, ledger);
-    on_table(scene, section("goal"), ledger);
+    let goals = build::goals(section("goal"));
+    goals.iter().for_each(|one| goal(one, objects, obstacles, ledger));
+    one_each(goals, ledger);
+    keep(section("keep"), goals, objects, ledger);
+    on_table(scene, goals, ledger);
 }
 
 /// What is unknown is named once, and joints are not stated where they are unknown.
@@ -57,16 +59,30 @@ pub(in crate::asset) fn unknown(unknown: &Node, scene: &Node, ledger: &mut Ledge
     }
 }
 
+/// No object has two goals.
+fn one_each(goals: &[Node], ledger: &mut Ledger) {
+    let name = |goal: &Node| goal.get("object").and_then(Node::text).map(str::to_owned);
+    for (k, goal) in goals.iter().enumerate() {
+        if let Some(object) = name(goal)
+            && goals[..k].iter().any(|before| name(before).as_ref() == Some(&object))
+        {
+            let message = format!("`{object}` has two goals");
+            ledger.fault(goal, message, "keep one of them; a heading belongs to the position");
+        }
+    }
+}
+
 /// What is kept is there, and is not what must be moved.
-fn keep(keep: &Node, goal: &Node, objects: &[Node], ledger: &mut Ledger) {
-    let wanted = goal.get("object").and_then(Node::text);
+fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
+    let wanted: Vec<&str> =
+        goals.iter().filter_map(|goal| goal.get("object").and_then(Node::text)).collect();
     let names: Vec<&str> = objects.iter().filter_map(name_of).collect();
     for node in keep.get("objects").map(Node::items).unwrap_or_default() {
         let Some(name) = node.text() else { continue };
         if !names.contains(&name) {
             let message = format!("no object is called `{name}`");
             ledger.fault(node, message, format!("name one of `{}`", names.join("`, `")));
-        } else if wanted == Some(name) {
+        } else if wanted.contains(&name) {
             ledger.fault(
                 node,
                 format!("`{name}` is to be moved and kept"),
@@ -77,7 +93,7 @@ fn keep(keep: &Node, goal: &Node, objects: &[Node], ledger: &mut Ledger) {
 }
 
 /// Objects and goal must lie on a table that ends.
-fn on_table(scene: &Node, goal: &Node, ledger: &mut Ledger) {
+fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
     let Some(table) = scene.get("table") else { return };
     let Some(top) = table.get("size").and_then(|_| build::table_top(table)) else {
         if let (Some(position), None) = (table.get("position"), table.get("size")) {
@@ -88,7 +104,8 @@ fn on_table(scene: &Node, goal: &Node, ledger: &mut Ledger) {
     };
     let objects = scene.get("objects").map(Node::items).unwrap_or_default();
     let named = objects.iter().map(|object| (object, name_of(object).unwrap_or("?").to_owned()));
-    for (node, what) in named.chain([(goal, "the goal".to_owned())]) {
+    let goals = goals.iter().map(|goal| (goal, "the goal".to_owned()));
+    for (node, what) in named.chain(goals) {
         let Some(position) = node.get("position") else { continue };
         if vector(position).is_some_and(|position| !top.holds(position)) {
             let (size, middle) = (top.size, top.middle);

@@ -36,7 +36,11 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::required("robot", ROBOT, "Where the end effector can be."),
     TOOLS,
     Key::optional("pushes", PUSHES, "The pushes a plan may contain; every key has a default."),
-    Key::required("goal", GOAL, "Where an object must come to rest."),
+    Key::required(
+        "goal",
+        Value::Either(&[GOAL, Value::List { of: &GOAL, items: "goals", min: 1, max: 8 }]),
+        "Where an object must come to rest; or a list, for several objects, in any order.",
+    ),
     Key::optional(
         "keep",
         Value::Map(&[

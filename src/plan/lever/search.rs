@@ -123,7 +123,7 @@ impl LeverSearch<'_> {
             let jobs: Vec<Job> = batch.iter().map(|candidate| self.job(candidate)).collect();
             let (scene, goal) = (&self.task.scene, &self.task.goal);
             outcomes.extend(predict(&jobs).into_iter().map(|trajectory| {
-                let outcome = Outcome::judge(scene, goal, &trajectory);
+                let outcome = Outcome::judge(scene, self.task, &trajectory);
                 let merit = merit(goal, &outcome, &trajectory);
                 (outcome, merit)
             }));

@@ -72,6 +72,8 @@ pub struct Stage {
     pub reach: Vec<i64>,
     /// Of a recording there is none.
     pub goal: Option<Goal>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub further: Vec<Goal>,
 }
 
 /// What is measured over time.

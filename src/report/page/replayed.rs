@@ -33,7 +33,7 @@ pub fn verdict_page(
     plan.standing = standing(verdict);
     plan.verdict = verdict_line(task, Some(verdict));
     let shown = predicted.map(|trajectory| {
-        let reached = Outcome::judge(&task.scene, &task.goal, trajectory).reached;
+        let reached = Outcome::judge(&task.scene, task, trajectory).reached;
         (Layer::Predicted, trajectory, reached)
     });
     let own = (&file.plan, &file.tools[..]);
@@ -80,7 +80,7 @@ pub fn prediction_page(
     let page = making.plan(tools, plan, recipe);
     let mut ends = Vec::new();
     for (k, trajectory) in trajectories.iter().enumerate() {
-        let outcome = Outcome::judge(&task.scene, &task.goal, trajectory);
+        let outcome = Outcome::judge(&task.scene, task, trajectory);
         let end = match (outcome.lying, outcome.reached) {
             (None, _) => millimetres(outcome.error),
             (Some(_), true) => "reaches the goal".to_owned(),

@@ -10,18 +10,19 @@ use super::data::{Body, Goal, Outline, Stage, Tool, fine, length, point, pose};
 
 /// Scene, reach and goal of a task.
 pub fn stage(task: &Task) -> Stage {
-    let goal = &task.goal;
+    let goal = |goal: &scene::Goal| Goal {
+        object: goal.object,
+        at: point(goal.position),
+        // In space something else is measured than the distance.
+        tolerance: if task.in_space() { 0 } else { length(goal.tolerance) },
+        heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
+        alike: goal.alike,
+        words: goal_line(task),
+    };
     Stage {
         reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
-        goal: Some(Goal {
-            object: goal.object,
-            at: point(goal.position),
-            // In space something else is measured than the distance.
-            tolerance: if task.in_space() { 0 } else { length(goal.tolerance) },
-            heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
-            alike: goal.alike,
-            words: goal_line(task),
-        }),
+        goal: Some(goal(&task.goal)),
+        further: task.further.iter().map(goal).collect(),
         ..table(&task.scene)
     }
 }
@@ -50,6 +51,7 @@ pub fn table(scene: &Scene) -> Stage {
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
         reach: Vec::new(),
         goal: None,
+        further: Vec::new(),
     }
 }
 

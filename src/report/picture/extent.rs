@@ -12,7 +12,7 @@ const FOLLOW: f64 = 1.0;
 /// Everything that must be seen.
 pub struct Extent<'a> {
     pub scene: &'a Scene,
-    pub goal: Option<&'a Goal>,
+    pub goals: Vec<&'a Goal>,
     pub robot: Option<&'a Robot>,
     pub motion: Option<&'a ToolMotion>,
     pub trajectories: Vec<&'a Trajectory>,
@@ -27,7 +27,7 @@ impl Extent<'_> {
         for obstacle in &self.scene.obstacles {
             bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
         }
-        if let Some(goal) = self.goal {
+        for goal in &self.goals {
             bounds.add(goal.position, goal.tolerance);
         }
         if let Some(robot) = self.robot {

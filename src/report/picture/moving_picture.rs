@@ -7,7 +7,7 @@ use crate::geometry::{Pose, Vector};
 use crate::report::keyframes::{Key, short};
 use crate::report::number::millimetres;
 use crate::report::svg::{Font, Style};
-use crate::scene::{Frame, Goal, Object, Robot, Scene, ToolMotion, Trajectory};
+use crate::scene::{Frame, Object, Task, ToolMotion, Trajectory};
 
 use super::{
     bodies,
@@ -36,12 +36,8 @@ pub struct MovingPicture<'a> {
     pub plan: String,
     /// Who says what happens.
     pub source: Source,
-    /// Objects at their start, obstacles.
-    pub scene: &'a Scene,
-    /// Where which object must come.
-    pub goal: &'a Goal,
-    /// Reach of the end effector.
-    pub robot: &'a Robot,
+    /// Objects at their start, obstacles, where which object must come, and the end effector's reach.
+    pub task: &'a Task,
     /// What the tool does.
     pub motion: &'a ToolMotion,
     /// What happens, frame by frame.
@@ -81,38 +77,42 @@ impl MovingPicture<'_> {
 
     fn plot(&self, stage: &mut Stage) {
         let view = stage.view;
-        bodies::reach(&mut stage.svg, &view, self.robot);
+        bodies::reach(&mut stage.svg, &view, &self.task.robot);
         view.grid_lines(&mut stage.svg);
-        bodies::goal_area(&mut stage.svg, &view, self.goal);
-        for obstacle in &self.scene.obstacles {
+        for goal in self.task.goals() {
+            bodies::goal_area(&mut stage.svg, &view, goal);
+        }
+        for obstacle in &self.task.scene.obstacles {
             let svg = &mut stage.svg;
             bodies::obstacle(svg, &view, obstacle);
             bodies::name(svg, &view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
         }
         let ends = self.ends();
-        for (k, object) in self.scene.objects.iter().enumerate() {
+        for (k, object) in self.task.scene.objects.iter().enumerate() {
             if bodies::moved(object, &ends[k]) {
                 stage.svg.open_faded(palette::START);
-                bodies::object(&mut stage.svg, &view, object, k == self.goal.object);
+                bodies::object(&mut stage.svg, &view, object, self.task.wants(k));
                 stage.svg.close();
                 self.way(stage, k);
             }
         }
         stage.open_layer();
-        for (k, object) in self.scene.objects.iter().enumerate() {
+        for (k, object) in self.task.scene.objects.iter().enumerate() {
             self.animate(stage, k);
             self.open_object(stage, k, &ends[k]);
             let own = Object { pose: Pose::default(), ..object.clone() };
-            bodies::object(&mut stage.svg, &view.centred(), &own, k == self.goal.object);
+            bodies::object(&mut stage.svg, &view.centred(), &own, self.task.wants(k));
             stage.close(2);
         }
         self.joints(stage, &ends);
         stage.close(1);
-        bodies::goal(&mut stage.svg, &view, self.goal);
+        for goal in self.task.goals() {
+            bodies::goal(&mut stage.svg, &view, goal);
+        }
         self.story().reached(stage);
         stage.open_layer();
         moving_tool::tool(stage, self.motion);
-        for (k, object) in self.scene.objects.iter().enumerate() {
+        for (k, object) in self.task.scene.objects.iter().enumerate() {
             stage.svg.open_moved(&format!("o{k}"), view.map(ends[k].position), 0.0);
             let upright = Pose { position: Vector::zeros(), heading: object.pose.heading };
             let centred = view.centred();
@@ -142,7 +142,7 @@ impl MovingPicture<'_> {
         stage.loops.animate(&class, &keys, [SEEN / length], |[left]| {
             format!("stroke-dashoffset:{}", short(left, 4))
         });
-        let style = if k == self.goal.object { palette::GOAL_WAY } else { palette::OTHER_WAY };
+        let style = if self.task.wants(k) { palette::GOAL_WAY } else { palette::OTHER_WAY };
         stage.svg.drawn_line(&class, &points, style);
     }
 
@@ -154,7 +154,7 @@ impl MovingPicture<'_> {
             [at.x, at.y]
         });
         stage.loops.animate(&format!("o{k}"), &keys, [SEEN; 2], shift);
-        if !self.scene.objects[k].shape.is_cylinder() {
+        if !self.task.scene.objects[k].shape.is_cylinder() {
             let keys = self.keys(&stage.timeline, |_, frame| [clockwise(&frame.state.poses[k])]);
             stage.loops.animate(&format!("r{k}"), &keys, [SEEN], turn);
         }
@@ -162,7 +162,7 @@ impl MovingPicture<'_> {
 
     /// Opens two groups that move and turn with object `k`.
     fn open_object(&self, stage: &mut Stage, k: usize, end: &Pose) {
-        let cylinder = self.scene.objects[k].shape.is_cylinder();
+        let cylinder = self.task.scene.objects[k].shape.is_cylinder();
         let turned = if cylinder { 0.0 } else { clockwise(end) };
         let place = stage.view.map(end.position);
         stage.svg.open_moved(&format!("o{k}"), place, 0.0);
@@ -171,8 +171,8 @@ impl MovingPicture<'_> {
 
     /// Every joint moves with its first object, in whose frame it is given.
     fn joints(&self, stage: &mut Stage, ends: &[Pose]) {
-        let objects = &self.scene.objects;
-        for joint in &self.scene.joints {
+        let objects = &self.task.scene.objects;
+        for joint in &self.task.scene.joints {
             let first = joint.between[0];
             let own = objects[first].pose.inverse();
             let poses: Vec<Pose> = objects.iter().map(|object| own * object.pose).collect();
@@ -184,8 +184,8 @@ impl MovingPicture<'_> {
     }
 
     fn story(&self) -> Story<'_> {
-        let Self { scene, goal, motion, trajectory, .. } = *self;
-        Story { scene, goal, motion, trajectory }
+        let Self { task, motion, trajectory, .. } = *self;
+        Story { task, motion, trajectory }
     }
 
     /// The frames that can be drawn.
@@ -195,7 +195,7 @@ impl MovingPicture<'_> {
 
     /// Where the objects end.
     fn ends(&self) -> Vec<Pose> {
-        let start = || self.scene.objects.iter().map(|object| object.pose).collect();
+        let start = || self.task.scene.objects.iter().map(|object| object.pose).collect();
         self.frames().last().map_or_else(start, |frame| frame.state.poses.clone())
     }
 
@@ -220,25 +220,25 @@ impl MovingPicture<'_> {
 
     fn extent(&self) -> Extent<'_> {
         Extent {
-            scene: self.scene,
-            goal: Some(self.goal),
-            robot: Some(self.robot),
+            scene: &self.task.scene,
+            goals: self.task.goals().collect(),
+            robot: Some(&self.task.robot),
             motion: Some(self.motion),
             trajectories: vec![self.trajectory],
         }
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
-        let tolerance = format!("goal, tolerance {}", millimetres(self.goal.tolerance));
+        let tolerance = format!("goal, tolerance {}", millimetres(self.task.goal.tolerance));
         let tool = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
         let mut entries = vec![(Sample::Area(palette::GOAL_OBJECT), "object to move".to_owned())];
-        if self.scene.objects.len() > 1 {
+        if self.task.scene.objects.len() > 1 {
             entries.push((Sample::Area(palette::OTHER_OBJECT), "other object".to_owned()));
         }
         entries.push((Sample::Ring(palette::GOAL_RIM), tolerance));
         entries.push((Sample::Area(tool), self.motion.tool.name.clone()));
         for (symbol, words) in Symbol::ALL {
-            if self.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
+            if self.task.scene.joints.iter().any(|joint| Symbol::of(joint) == symbol) {
                 entries.push((Sample::Joint(symbol), words.to_owned()));
             }
         }

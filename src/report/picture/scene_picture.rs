@@ -60,8 +60,8 @@ pub struct ScenePicture<'a> {
     pub notes: Vec<String>,
     /// Objects at their start, obstacles.
     pub scene: &'a Scene,
-    /// Goal circle, and which object is drawn as the one that matters.
-    pub goal: Option<&'a Goal>,
+    /// Goal circles, and which objects are drawn as those that matter.
+    pub goals: Vec<&'a Goal>,
     /// Reach of the end effector.
     pub robot: Option<&'a Robot>,
     /// Tool outlines and push arrows.
@@ -99,7 +99,7 @@ impl ScenePicture<'_> {
     fn extent(&self) -> Extent<'_> {
         Extent {
             scene: self.scene,
-            goal: self.goal,
+            goals: self.goals.clone(),
             robot: self.robot,
             motion: self.motion,
             trajectories: self.tracks.iter().map(|track| track.trajectory).collect(),
@@ -114,7 +114,7 @@ impl ScenePicture<'_> {
         }
         view.grid(svg);
         svg.open_clipped("plot", view.corner, view.size);
-        if let Some(goal) = self.goal {
+        for goal in &self.goals {
             bodies::goal_area(svg, view, goal);
         }
         for obstacle in &self.scene.obstacles {
@@ -131,7 +131,7 @@ impl ScenePicture<'_> {
         for joint in &self.scene.joints {
             joints::joint(svg, view, &self.scene.objects, joint, &start, palette::INK);
         }
-        if let Some(goal) = self.goal {
+        for goal in &self.goals {
             bodies::goal(svg, view, goal);
         }
         for track in &self.tracks {
@@ -161,9 +161,8 @@ impl ScenePicture<'_> {
             drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
-            if let Some(goal) =
-                self.goal.filter(|goal| self.is_goal(k) && !goal.reached(&last.state))
-            {
+            let missed = |goal: &&&Goal| goal.object == k && !goal.reached(&last.state);
+            if let Some(goal) = self.goals.iter().find(missed) {
                 bodies::miss(svg, view, goal, end.position);
             }
         }
@@ -178,16 +177,16 @@ impl ScenePicture<'_> {
     }
 
     fn is_goal(&self, object: usize) -> bool {
-        self.goal.is_some_and(|goal| goal.object == object)
+        self.goals.iter().any(|goal| goal.object == object)
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
         let mut entries = Vec::new();
         let mut add = |sample, words: String| entries.push((sample, words));
-        if self.goal.is_some() {
+        if !self.goals.is_empty() {
             add(Sample::Area(palette::GOAL_OBJECT), "object to move, at the start".to_owned());
         }
-        if self.scene.objects.len() > usize::from(self.goal.is_some()) {
+        if self.scene.objects.len() > self.goals.len() {
             add(Sample::Area(palette::OTHER_OBJECT), "other object, at the start".to_owned());
         }
         for (symbol, words) in Symbol::ALL {
@@ -205,7 +204,7 @@ impl ScenePicture<'_> {
             };
             add(Sample::Way(style(track.source)), words.to_owned());
         }
-        if let Some(goal) = self.goal {
+        if let Some(goal) = self.goals.first() {
             let heading = goal.heading.map_or(String::new(), |(_, tolerance)| {
                 format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
             });

@@ -4,7 +4,7 @@ use crate::geometry::Vector;
 use crate::report::keyframes::{Key, short};
 use crate::report::number::millimetres;
 use crate::report::svg::{Font, Style, Svg};
-use crate::scene::{Goal, Outcome, Scene, ToolMotion, Trajectory};
+use crate::scene::{Goal, Outcome, Task, ToolMotion, Trajectory};
 
 use super::{palette, stage::Stage, timeline::LIFT};
 
@@ -12,8 +12,7 @@ const CAPTION: Font = Font::new(14.0, palette::INK).bold();
 
 /// What there is to say.
 pub struct Story<'a> {
-    pub scene: &'a Scene,
-    pub goal: &'a Goal,
+    pub task: &'a Task,
     pub motion: &'a ToolMotion,
     pub trajectory: &'a Trajectory,
 }
@@ -38,8 +37,9 @@ impl Story<'_> {
     /// What happens now, with its first letter at `at`; a still picture shows the end.
     pub fn captions(&self, stage: &mut Stage, at: Vector) {
         let rest = stage.timeline.rest();
-        let name = self.scene.objects.get(self.goal.object).map_or("object", |object| &object.name);
-        let within = millimetres(self.goal.tolerance);
+        let name =
+            self.task.scene.objects.get(self.goal().object).map_or("object", |object| &object.name);
+        let within = millimetres(self.goal().tolerance);
         let mut captions = vec![(0.0, format!("{name} must come within {within} of the goal"))];
         let count = self.motion.strokes.len();
         let spans = stage.timeline.strokes.iter();
@@ -77,8 +77,8 @@ impl Story<'_> {
         stage.loops.animate("ring", &keys, [0.01; 2], |[size, shown]| {
             format!("transform:scale({});opacity:{}", short(size, 2), short(shown, 2))
         });
-        let place = stage.view.map(self.goal.position);
-        let radius = stage.view.length(self.goal.tolerance).max(14.0);
+        let place = stage.view.map(self.goal().position);
+        let radius = stage.view.length(self.goal().tolerance).max(14.0);
         stage.svg.open_moved("goal", place, 0.0);
         stage.svg.open_shown("ring", 0.0);
         stage.svg.circle(Vector::zeros(), radius, Style::stroke(palette::GOOD, 2.5));
@@ -88,8 +88,8 @@ impl Story<'_> {
     /// How it ended, behind a tick or a cross.
     fn ending(&self, svg: &mut Svg, at: Vector) {
         let Some(last) = self.trajectory.frames.last() else { return };
-        let error = millimetres(self.goal.error(&last.state));
-        let allowed = millimetres(self.goal.tolerance);
+        let error = millimetres(self.goal().error(&last.state));
+        let allowed = millimetres(self.goal().tolerance);
         let (colour, words, mark): (_, _, &[[f64; 2]]) = if self.is_reached() {
             let tick = &[[-3.6, 0.2], [-1.2, 2.8], [3.8, -2.6]];
             (palette::GOOD, format!("reached: at rest {error} from the goal"), tick)
@@ -105,8 +105,13 @@ impl Story<'_> {
         svg.text(at + Vector::new(24.0, 0.0), &words, Font { colour, ..CAPTION });
     }
 
+    /// The first goal.
+    fn goal(&self) -> &Goal {
+        &self.task.goal
+    }
+
     fn is_reached(&self) -> bool {
         !self.trajectory.frames.is_empty()
-            && Outcome::judge(self.scene, self.goal, self.trajectory).reached
+            && Outcome::judge(&self.task.scene, self.task, self.trajectory).reached
     }
 }

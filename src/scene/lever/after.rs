@@ -59,6 +59,7 @@ impl Task {
             pushes: self.pushes.clone(),
             levers: None,
             goal: goal?,
+            further: Vec::new(),
             robustness: self.robustness,
         })
     }

@@ -89,7 +89,7 @@ impl Steps<'_> {
                     let watched = (Record::Outcome, &Unwatched as _);
                     let trajectory = engine.run_all((really, &planned), None, &motion, watched);
                     let scene = Scene { obstacles: really.blocks.clone(), ..task.scene.clone() };
-                    let outcome = Outcome::judge(&scene, &task.goal, &trajectory);
+                    let outcome = Outcome::judge(&scene, task, &trajectory);
                     (trajectory, outcome)
                 };
                 let (trajectory, outcome) = run(&planned);

@@ -136,7 +136,7 @@ impl<'a> Steps<'a> {
     /// How solving ended, by its plans.
     fn status(&self, plans: &[RankedPlan]) -> PlanStatus {
         let verdicts = plans.iter().filter_map(|plan| plan.verdict.as_ref());
-        let best = verdicts.map(|verdict| Grade::of(&self.task.goal, verdict).class).max();
+        let best = verdicts.map(|verdict| Grade::of(self.task, verdict).class).max();
         best.map_or(PlanStatus::NoPlan, Class::status)
     }
 
@@ -301,7 +301,7 @@ impl<'a> Steps<'a> {
             return Ok(None);
         };
         let scene: &Scene = &self.task.scene;
-        let outcome = Outcome::judge(scene, &self.task.goal, &trajectory);
+        let outcome = Outcome::judge(scene, self.task, &trajectory);
         let verdict = self.verify(self.task, &plan, &tools);
         self.statistics.verified += 1;
         let mut whole = self.ranked(plan, &tools, trajectory, outcome);

@@ -36,8 +36,14 @@ fn the_next_aim_lies_as_far_on_the_other_side_as_the_last_replay_ended() {
     };
     let ended = |x: f64, y: f64, heading: f64| {
         let state = State::at_rest(vec![Pose::new(x, y, heading)]);
-        let outcome =
-            Outcome { error: 0.0, heading_error: None, reached: false, lying: None, state };
+        let outcome = Outcome {
+            error: 0.0,
+            heading_error: None,
+            further: Vec::new(),
+            reached: false,
+            lying: None,
+            state,
+        };
         let evidence = Evidence {
             engine: Engine::Spatial,
             disturbance: Disturbance::Nominal,

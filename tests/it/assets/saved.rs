@@ -24,6 +24,7 @@ pub fn plan_file(name: &str) -> PlanFile {
         state: task.scene.start(),
         error: 0.1,
         heading_error: Some(0.2),
+        further: Vec::new(),
         reached: false,
         lying: None,
     };

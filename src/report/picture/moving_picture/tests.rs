@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::scene::{Engine, Part, Push, State, Tool, Warning};
+use crate::scene::{Engine, Goal, Part, Push, Robot, Scene, State, Tool, Warning};
 
 /// Two boxes of which the first goes through `ways`, a place for each frame.
 fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String {
@@ -38,13 +38,12 @@ fn picture_of(ways: &[[f64; 2]], placed: bool, warnings: Vec<Warning>) -> String
         heading: None,
         ..Goal::of(0)
     };
+    let robot = Robot { home: Vector::zeros(), ..Robot::reaching(0.1, 0.9).without_body() };
     MovingPicture {
         title: "a test".to_owned(),
         plan: "bar, 2 pushes".to_owned(),
         source: Source::Simulated(Engine::Spatial),
-        scene: &scene,
-        goal: &goal,
-        robot: &Robot { home: Vector::zeros(), ..Robot::reaching(0.1, 0.9).without_body() },
+        task: &Task::new("test", scene, robot, goal),
         motion: &motion,
         trajectory: &trajectory,
     }

@@ -19,7 +19,7 @@ fn jointed_picture_of(ends: Vec<Pose>, joints: Vec<Joint>) -> String {
         title: "a test".to_owned(),
         notes: Vec::new(),
         scene: &scene,
-        goal: None,
+        goals: Vec::new(),
         robot: None,
         motion: None,
         tracks: vec![Track { source: Source::Predicted, trajectory: &trajectory }],

@@ -120,7 +120,7 @@ impl LeverSuite {
             works,
             robustness: verdict.and_then(|verdict| verdict.robustness),
             further: further.unwrap_or(0.0),
-            random: Outcome::judge(&task.scene, &task.goal, &moved).reached,
+            random: Outcome::judge(&task.scene, &task, &moved).reached,
             candidates: search.rollouts,
             promising: search.promising,
         };

@@ -112,5 +112,5 @@ impl RandomSuite {
 fn nothing(made: &SuiteTask) -> End {
     let state = made.task.scene.start();
     let trajectory = Trajectory::standing(ModelKind::Still.into(), Pose::default(), state);
-    End::of(&Outcome::judge(&made.task.scene, &made.task.goal, &trajectory))
+    End::of(&Outcome::judge(&made.task.scene, &made.task, &trajectory))
 }

@@ -1,0 +1,86 @@
+//! Several objects, each with a goal of its own.
+
+use pushplan::asset::PlanFile;
+use pushplan::{Effort, Goal, PlanStatus, Planner, Solution, Task, ToolLibrary};
+
+const TWO: &str = include_str!("../../tasks/two-places.yaml");
+
+fn solve(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).unwrap().build();
+    planner.solve(task, &ToolLibrary::embedded().unwrap()).unwrap()
+}
+
+fn faults(change: impl Fn(&str) -> String) -> String {
+    Task::parse(&change(TWO), "two.yaml").unwrap_err().to_string()
+}
+
+#[test]
+fn a_plan_counts_only_if_it_reaches_all_of_them() {
+    let task = Task::parse(TWO, "two-places.yaml").unwrap();
+    assert_eq!(task.goals().map(|goal| goal.object).collect::<Vec<_>>(), [0, 1]);
+    let solution = solve(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = &solution.plans[0];
+    for evidence in &best.verdict.as_ref().unwrap().evidence[..2] {
+        assert!(task.goals().all(|goal| goal.reached(&evidence.outcome.state)));
+        let [further] = evidence.outcome.further[..] else { panic!("two goals") };
+        assert_eq!(further.object, 1);
+        assert!(further.error <= 0.02 && further.heading_error.unwrap() < 10f64.to_radians());
+    }
+    // With one push less allowed, one of them stays behind.
+    let hasty = TWO.replace("max_count: 4", "max_count: 1");
+    assert_ne!(solve(&Task::parse(&hasty, "two.yaml").unwrap()).status, PlanStatus::Solved);
+}
+
+#[test]
+fn the_order_in_which_they_are_written_does_not_matter_to_whether_they_are_reached() {
+    let task = Task::parse(TWO, "two-places.yaml").unwrap();
+    let mut turned = task.clone();
+    std::mem::swap(&mut turned.goal, &mut turned.further[0]);
+    let state = task.scene.start();
+    assert_eq!(task.score(&state), turned.score(&state));
+    assert_eq!(solve(&turned).status, PlanStatus::Solved);
+}
+
+#[test]
+fn a_list_is_read_as_it_is_written_and_a_plan_file_keeps_it() {
+    let task = Task::parse(TWO, "two-places.yaml").unwrap();
+    assert_eq!(Task::parse(&task.to_yaml().unwrap(), "two-places.yaml").unwrap(), task);
+    let made = Task { further: Vec::new(), ..task.clone() }.and(task.further[0]);
+    assert_eq!(made, task);
+    let one = Task { further: Vec::new(), ..task.clone() };
+    assert_eq!(Task::parse(&one.to_yaml().unwrap(), "two-places.yaml").unwrap(), one);
+
+    let solution = solve(&task);
+    let best = &solution.plans[0];
+    let file = PlanFile {
+        predicted: Some(best.outcome.clone()),
+        ..PlanFile::new(task, best.tools.clone(), best.plan.clone())
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.plan.json");
+    file.write(&path).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    let read = PlanFile::parse(&text, "two.plan.json").unwrap();
+    assert_eq!((read.task, read.predicted), (file.task, file.predicted));
+    let mixed = text.replacen("\"object\": 1,", "\"object\": 0,", 1);
+    assert_ne!(mixed, text);
+    assert!(PlanFile::parse(&mixed, "two.plan.json").is_err());
+}
+
+#[test]
+fn what_makes_no_sense_in_a_list_is_a_fault_with_its_place() {
+    let twice = faults(|yaml| yaml.replace("object: box, position", "object: can, position"));
+    assert!(twice.contains("`can` has two goals"), "{twice}");
+    let unknown = faults(|yaml| yaml.replace("object: box, position", "object: bx, position"));
+    assert!(unknown.contains("no object is called `bx`"), "{unknown}");
+    let kept = faults(|yaml| format!("{yaml}\nkeep: {{objects: [box]}}\n"));
+    assert!(kept.contains("`box` is to be moved and kept"), "{kept}");
+    let none = faults(|yaml| {
+        let at = yaml.find("goal:").unwrap();
+        format!("{}goal: []\n", &yaml[..at])
+    });
+    assert!(none.contains("goals"), "{none}");
+    let far = Task::parse(TWO, "two.yaml").unwrap();
+    assert!(far.aiming(&[Goal::new(0, [0.1, 0.1], 0.01)]).further == far.further);
+}
