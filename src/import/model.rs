@@ -15,9 +15,9 @@ pub struct Model {
     pub pairs: Vec<([String; 2], f64)>,
     /// What the file has besides bodies that would change pushes, such as actuators.
     pub beyond: Vec<(Place, String)>,
-    /// Where an object should end, if the file says so: its body, x and y, tolerance (metres) and,
+    /// Where objects should end, if the file says so: body, x and y, tolerance (metres) and,
     /// where it matters, heading and its tolerance (radians).
-    pub goal: Option<(String, Vec<f64>)>,
+    pub goals: Vec<(String, Vec<f64>)>,
     /// Whether the file was written by `pushplan export`, so that its tool is known.
     pub ours: bool,
     /// How the language makes one coefficient of two.

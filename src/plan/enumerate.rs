@@ -164,3 +164,25 @@ fn extend(
         .fold(f64::INFINITY, f64::min);
     Ok(Extension { node: index, pair, planned, push, scored: None, promise })
 }
+
+/// Cuts a list to the budget, keeping the most promising and the order; returns how many fell
+/// away. Equal promise is broken by a fixed scatter, so that no tool is favoured for its place
+/// in the list.
+pub(super) fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize {
+    if list.len() <= budget {
+        return 0;
+    }
+    /// The golden section: its multiples scatter evenly over [0, 1).
+    const SCATTER: f64 = 0.618_033_988_749_894_9;
+    let mut order: Vec<usize> = (0..list.len()).collect();
+    let scatter = |k: usize| (k as f64 * SCATTER).fract();
+    order.sort_by(|&a, &b| {
+        let promise = list[a].promise.total_cmp(&list[b].promise);
+        promise.then(scatter(a).total_cmp(&scatter(b))).then(a.cmp(&b))
+    });
+    order.truncate(budget);
+    order.sort_unstable();
+    let dropped = list.len() - budget;
+    *list = order.into_iter().map(|k| list[k].clone()).collect();
+    dropped
+}

@@ -14,7 +14,7 @@ use crate::scene::{Job, Push, PushForm, Record, Situation, State, ToolMotion, Tr
 use crate::watch::Watch;
 
 use super::beam::{Stop, choose};
-use super::enumerate::{Extension, extensions};
+use super::enumerate::{Extension, extensions, keep_promising};
 use super::field::Field;
 use super::rollouts::{single_push, stops};
 use super::score::{final_score, finite_score, is_blocked};
@@ -380,26 +380,4 @@ impl<'a> Search<'a> {
         };
         nodes.into_iter().map(finish).collect()
     }
-}
-
-/// Cuts a list to the budget, keeping the most promising and the order; returns how many fell
-/// away. Equal promise is broken by a fixed scatter, so that no tool is favoured for its place
-/// in the list.
-fn keep_promising(list: &mut Vec<Extension>, budget: usize) -> usize {
-    if list.len() <= budget {
-        return 0;
-    }
-    /// The golden section: its multiples scatter evenly over [0, 1).
-    const SCATTER: f64 = 0.618_033_988_749_894_9;
-    let mut order: Vec<usize> = (0..list.len()).collect();
-    let scatter = |k: usize| (k as f64 * SCATTER).fract();
-    order.sort_by(|&a, &b| {
-        let promise = list[a].promise.total_cmp(&list[b].promise);
-        promise.then(scatter(a).total_cmp(&scatter(b))).then(a.cmp(&b))
-    });
-    order.truncate(budget);
-    order.sort_unstable();
-    let dropped = list.len() - budget;
-    *list = order.into_iter().map(|k| list[k].clone()).collect();
-    dropped
 }

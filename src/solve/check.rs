@@ -16,12 +16,11 @@ pub(super) fn check(
     tools: &[Arc<Tool>],
 ) -> Result<(), SolveError> {
     let fault = |what: String| Err(SolveError::BadTask { task: task.name.clone(), what });
-    let (rules, goal, robot) = (&task.pushes, &task.goal, &task.robot);
+    let (rules, robot) = (&task.pushes, &task.robot);
     let Situation { scene, start, physics } = situation;
     for (name, value) in [
         ("the length of a push", rules.length),
         ("the speed of a push", rules.speed),
-        ("the tolerance of the goal", goal.tolerance),
         ("the largest reach", robot.reach_max),
     ] {
         if !(value.is_finite() && value > 0.0) {
@@ -60,13 +59,25 @@ pub(super) fn check(
     {
         return fault("the offsets must be finite numbers, at least one".into());
     }
-    if goal.object >= scene.objects.len() {
-        return fault(format!("the goal names object {}, which does not exist", goal.object));
-    }
-    let heading = goal.alike > 0
-        && goal.heading.is_none_or(|(h, t)| h.is_finite() && t.is_finite() && t > 0.0);
-    if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
-        return fault("the goal must be finite, its heading tolerance positive".into());
+    for (k, goal) in task.goals().enumerate() {
+        if goal.object >= scene.objects.len() {
+            return fault(format!("the goal names object {}, which does not exist", goal.object));
+        }
+        if task.goals().take(k).any(|before| before.object == goal.object) {
+            return fault(format!("object {} has two goals", goal.object));
+        }
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        if !positive(goal.tolerance) {
+            let tolerance = goal.tolerance;
+            return fault(format!(
+                "the tolerance of the goal is {tolerance}, but must be a positive number"
+            ));
+        }
+        let heading =
+            goal.alike > 0 && goal.heading.is_none_or(|(h, t)| h.is_finite() && positive(t));
+        if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
+            return fault("the goal must be finite, its heading tolerance positive".into());
+        }
     }
     if !robot.home.iter().all(|v| v.is_finite()) {
         return fault("the robot's home must be finite".into());

@@ -9,6 +9,7 @@ mod read;
 mod spec;
 mod steps;
 mod trajectory;
+mod verdict;
 
 pub use plan::PlanFile;
 pub use spec::{PLAN_VERSION, SCHEMA_VERSION};

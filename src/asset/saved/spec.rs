@@ -5,7 +5,8 @@ use crate::asset::spec::{Key, Range, Value, numbers};
 use crate::asset::task::TASK_FILE;
 use crate::asset::tool::TOOL_FILE;
 
-use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, SCORE, STEPS};
+use super::steps::{LIFT, OLD_LEVER_KEYS, POSE_IN_SPACE, PUSHES, STEPS};
+use super::verdict::{OUTCOME, VERDICT, WARNINGS};
 
 /// Version of recordings and of what commands print; raised when older readers would fail.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -191,7 +192,7 @@ pub(super) const UNSIGNED: Value = Value::Number(Range {
 pub(super) const INDEX: Value =
     Value::Count(Range { what: "an index", low: 0.0, high: 1e6, advice: "is the file damaged?" });
 
-const DRAW: Value = Value::Count(Range {
+pub(super) const DRAW: Value = Value::Count(Range {
     what: "the number of a draw",
     low: 1.0,
     high: 1e6,
@@ -213,7 +214,7 @@ const VELOCITY: Value = Value::Map(&[
     Key::required("angular", REAL, "About the vertical, rad/s."),
 ]);
 
-const STATE: Value = Value::Map(&[
+pub(super) const STATE: Value = Value::Map(&[
     Key::required(
         "poses",
         Value::List { of: &POSE, items: "poses", min: 1, max: 64 },
@@ -229,130 +230,6 @@ const STATE: Value = Value::Map(&[
         Value::List { of: &POSE_IN_SPACE, items: "poses", min: 1, max: 64 },
         "Poses in space, once something has left the plane; by default nothing has.",
     ),
-]);
-
-const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
-
-const ENGINE: Value = Value::Word(&["planar", "spatial"]);
-
-const MISS: Value = Value::Map(&[
-    Key::required("object", INDEX, "Index into the scene's objects."),
-    Key::required("error", UNSIGNED, "Distance from its goal, metres."),
-    Key::optional(
-        "heading_error",
-        HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
-    ),
-]);
-
-const OUTCOME: Value = Value::Map(&[
-    Key::required("state", STATE, "Final poses of all objects."),
-    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
-    Key::optional(
-        "heading_error",
-        HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
-    ),
-    Key::optional(
-        "further",
-        Value::List { of: &MISS, items: "objects with goals", min: 0, max: 64 },
-        "The same of further goals' objects; by default there are none.",
-    ),
-    Key::required("reached", Value::Switch, "Whether all goals are reached at rest."),
-    Key::optional(
-        "lying",
-        Value::Map(&[
-            Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
-            Key::required("raised", REAL, "How much higher its edge lay at the end, metres."),
-            Key::required(
-                "ending",
-                Value::Word(&["back", "flipped", "leaning"]),
-                "How it lies at rest.",
-            ),
-        ]),
-        "How the goal object lies in space; by default nothing left the plane.",
-    ),
-]);
-
-const WARNINGS: Value = Value::List { of: &Value::Anything, items: "warnings", min: 0, max: 1000 };
-
-const VERDICT: Value = Value::Map(&[
-    Key::required(
-        "passed",
-        Value::Switch,
-        "Whether the plan breaks no rule and reaches the goal, as written and often enough disturbed.",
-    ),
-    Key::optional("reason", REASON, "Why not; by default unknown."),
-    Key::optional("forbidden", WARNINGS, "What the task does not allow; by default nothing."),
-    Key::required(
-        "evidence",
-        Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 200_002 },
-        "All replays, nominal ones first.",
-    ),
-    Key::optional(
-        "robustness",
-        Value::Either(&[SHARE, Value::Nothing]),
-        "Share of the disturbed replays that reach the goal; by default none was made.",
-    ),
-]);
-
-const REASON: Value = Value::Variant(&[
-    Key::optional(
-        "forbidden",
-        Value::Anything,
-        "The plan does what its task does not allow; no default.",
-    ),
-    Key::optional(
-        "goes_wrong",
-        GOES_WRONG,
-        "Something goes wrong when it is replayed as written; no default.",
-    ),
-    Key::optional("misses", MISSES, "The object misses the goal; no default."),
-    Key::optional(
-        "fragile",
-        FRAGILE,
-        "Too few of the disturbed replays reach the goal; no default.",
-    ),
-]);
-
-const GOES_WRONG: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine says so."),
-    Key::required("fault", Value::Anything, "What goes wrong."),
-]);
-
-const MISSES: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine says so."),
-    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
-    Key::optional(
-        "heading_error",
-        HEADING_ERROR,
-        "Heading error, radians; by default none is asked for.",
-    ),
-]);
-
-const FRAGILE: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "In which engine fewer reach it."),
-    Key::required("reached", INDEX, "Disturbed replays that reach the goal."),
-    Key::required("replays", INDEX, "Disturbed replays."),
-    Key::required("wanted", SHARE, "Share that was asked for."),
-]);
-
-const DISTURBED: Key = Key::required(
-    "disturbed",
-    Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
-    "Starts and frictions were, by little and at random.",
-);
-
-const EVIDENCE: Value = Value::Map(&[
-    Key::required("engine", ENGINE, "Which engine replayed it."),
-    Key::required(
-        "disturbance",
-        Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[DISTURBED])]),
-        "What was changed: `nominal` for nothing.",
-    ),
-    Key::required("outcome", OUTCOME, "Where it ended."),
-    Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
-    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
 ]);
 
 const TRAJECTORY: Value = Value::Map(&[
@@ -379,7 +256,7 @@ const SPREAD: Value = Value::Map(&[
     Key::required("heading", UNSIGNED, "Mean error, radians."),
 ]);
 
-const FORCE: Value = Value::Map(&[
+pub(super) const FORCE: Value = Value::Map(&[
     Key::required("peak", UNSIGNED, "Largest force in one time step, newtons."),
     Key::required("lasting", UNSIGNED, "Largest force that lasted three time steps, newtons."),
 ]);

@@ -72,18 +72,21 @@ pub fn objects(
         frictions,
         ..empty(&statics, wanted.shift)
     };
-    let goal = model.goal.as_ref().and_then(|(body, numbers)| {
+    let goals = model.goals.iter().filter_map(|(body, numbers)| {
         let object = found.iter().position(|draft| same(body, model.name_of(draft.body)))?;
         goal(&scene, object, numbers, wanted.shift)
     });
-    let has_goal = goal.is_some();
+    let mut goals: std::collections::VecDeque<Goal> = goals.collect();
+    let has_goal = !goals.is_empty();
     let first = scene.objects.first().map_or(Vector::zeros(), |object| object.pose.position);
+    let goal = goals.pop_front();
     let goal = goal.unwrap_or_else(|| Goal::new(0, [first.x, first.y], TOLERANCE));
     let farthest =
         scene.objects.iter().map(|object| object.pose.position.norm()).fold(0.0, f64::max);
     let most = REACH[1].max(((farthest + 0.3) * 10.0).ceil() / 10.0);
     let name = wanted.name.clone().unwrap_or_else(|| super::tool::name(model, file));
     let task = Task::new(name, scene, Robot::reaching(REACH[0], most), goal);
+    let task = goals.into_iter().fold(task, Task::and);
     // What spans several bodies, such as overlaps, is judged where every task is.
     match task.to_yaml().and_then(|text| Task::parse(&text, file)) {
         Ok(_) => {}

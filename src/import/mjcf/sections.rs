@@ -94,7 +94,7 @@ fn custom<'a>(source: &mut Source<'a>, section: Node<'a, 'a>, model: &mut Model)
         if let (Some(body), Some(data)) = (goal, numeric.attribute_node("data"))
             && let Some(numbers) = source.list(data)
         {
-            model.goal = Some((body.to_owned(), numbers));
+            model.goals.push((body.to_owned(), numbers));
         }
     }
 }

@@ -18,6 +18,9 @@ pub(in crate::solve) fn check(
     let positive = |value: f64| value.is_finite() && value > 0.0;
     let from_zero = |value: f64| value.is_finite() && value >= 0.0;
     let (goal, scene) = (&task.goal, &*situation.scene);
+    if !task.further.is_empty() {
+        return fault("where something leaves the plane there is one goal".into());
+    }
     if goal.object >= scene.objects.len() {
         return fault(format!("the goal names object {}, which does not exist", goal.object));
     }

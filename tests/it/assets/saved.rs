@@ -6,8 +6,9 @@ use pushplan::asset::{
 };
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, HeadSpread, ModelKind, Narrowed,
-    Outcome, Plan, Push, Spread, Step, TableFit, Task, Tool, Trajectory, Verdict, Warning,
+    Body, Contact, Disturbance, Engine, Evidence, Force, Frame, HeadSpread, Miss, ModelKind,
+    Narrowed, Outcome, Plan, Push, Spread, Step, TableFit, Task, Tool, Trajectory, Verdict,
+    Warning,
 };
 
 use super::{folder, shipped_tasks};
@@ -20,11 +21,16 @@ pub fn plan_file(name: &str) -> PlanFile {
     let push = Push { start: Vector::new(0.1, 0.2 / 3.0), direction: 1.1, length: 0.2, speed: 0.1 };
     let (yaw, rules) = (90f64.to_radians(), &task.pushes);
     let plan = Plan::pushing(&tool.name, yaw, rules.form, rules.lift, [push; 2]);
+    let further = task.further.iter().map(|goal| Miss {
+        object: goal.object,
+        error: 0.2,
+        heading_error: None,
+    });
     let outcome = Outcome {
         state: task.scene.start(),
         error: 0.1,
         heading_error: Some(0.2),
-        further: Vec::new(),
+        further: further.collect(),
         reached: false,
         lying: None,
     };

@@ -132,12 +132,15 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
         // Where a table ends, and what presses how high, MJCF has no word for.
         same_scene(&task.scene, &found.scene, &task.name);
         assert!(has_goal && found.name == task.name);
-        let goals =
-            [&task, &found].map(|task| (&task.scene.objects[task.goal.object].name, task.goal));
-        assert_eq!(goals[0].0, goals[1].0);
-        near((goals[0].1.position - goals[1].1.position).norm(), 0.0, "goal");
-        near(goals[0].1.tolerance, goals[1].1.tolerance, "tolerance");
-        assert_eq!(goals[0].1.alike, goals[1].1.alike.max(1), "{}", task.name);
+        assert_eq!(task.goals().count(), found.goals().count());
+        for (wanted, goal) in task.goals().zip(found.goals()) {
+            let names = [(&task, wanted), (&found, goal)]
+                .map(|(task, goal)| &task.scene.objects[goal.object].name);
+            assert_eq!(names[0], names[1]);
+            near((wanted.position - goal.position).norm(), 0.0, "goal");
+            near(wanted.tolerance, goal.tolerance, "tolerance");
+            assert_eq!(wanted.alike, goal.alike.max(1), "{}", task.name);
+        }
     }
 }
 

@@ -1,0 +1,131 @@
+//! What a file says of where a plan ends, and of whether it works.
+
+use crate::asset::spec::{Key, Value};
+
+use super::spec::{DRAW, FORCE, INDEX, REAL, SHARE, STATE, UNSIGNED};
+use super::steps::SCORE;
+
+const HEADING_ERROR: Value = Value::Either(&[UNSIGNED, Value::Nothing]);
+
+const ENGINE: Value = Value::Word(&["planar", "spatial"]);
+
+const MISS: Value = Value::Map(&[
+    Key::required("object", INDEX, "Index into the scene's objects."),
+    Key::required("error", UNSIGNED, "Distance from its goal, metres."),
+    Key::optional(
+        "heading_error",
+        HEADING_ERROR,
+        "Heading error, radians; by default none is asked for.",
+    ),
+]);
+
+pub(super) const OUTCOME: Value = Value::Map(&[
+    Key::required("state", STATE, "Final poses of all objects."),
+    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
+    Key::optional(
+        "heading_error",
+        HEADING_ERROR,
+        "Heading error, radians; by default none is asked for.",
+    ),
+    Key::optional(
+        "further",
+        Value::List { of: &MISS, items: "objects with goals", min: 0, max: 64 },
+        "The same of further goals' objects; by default there are none.",
+    ),
+    Key::required("reached", Value::Switch, "Whether all goals are reached at rest."),
+    Key::optional(
+        "lying",
+        Value::Map(&[
+            Key::required("score", SCORE, "The demand that is met worst, at most 1 if it is met."),
+            Key::required("raised", REAL, "How much higher its edge lay at the end, metres."),
+            Key::required(
+                "ending",
+                Value::Word(&["back", "flipped", "leaning"]),
+                "How it lies at rest.",
+            ),
+        ]),
+        "How the goal object lies in space; by default nothing left the plane.",
+    ),
+]);
+
+pub(super) const WARNINGS: Value =
+    Value::List { of: &Value::Anything, items: "warnings", min: 0, max: 1000 };
+
+pub(super) const VERDICT: Value = Value::Map(&[
+    Key::required(
+        "passed",
+        Value::Switch,
+        "Whether the plan breaks no rule and reaches the goal, as written and often enough disturbed.",
+    ),
+    Key::optional("reason", REASON, "Why not; by default unknown."),
+    Key::optional("forbidden", WARNINGS, "What the task does not allow; by default nothing."),
+    Key::required(
+        "evidence",
+        Value::List { of: &EVIDENCE, items: "replays", min: 0, max: 200_002 },
+        "All replays, nominal ones first.",
+    ),
+    Key::optional(
+        "robustness",
+        Value::Either(&[SHARE, Value::Nothing]),
+        "Share of the disturbed replays that reach the goal; by default none was made.",
+    ),
+]);
+
+const REASON: Value = Value::Variant(&[
+    Key::optional(
+        "forbidden",
+        Value::Anything,
+        "The plan does what its task does not allow; no default.",
+    ),
+    Key::optional(
+        "goes_wrong",
+        GOES_WRONG,
+        "Something goes wrong when it is replayed as written; no default.",
+    ),
+    Key::optional("misses", MISSES, "The object misses the goal; no default."),
+    Key::optional(
+        "fragile",
+        FRAGILE,
+        "Too few of the disturbed replays reach the goal; no default.",
+    ),
+]);
+
+const GOES_WRONG: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "Which engine says so."),
+    Key::required("fault", Value::Anything, "What goes wrong."),
+]);
+
+const MISSES: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "Which engine says so."),
+    Key::required("error", UNSIGNED, "Distance of the first goal's object from its goal, metres."),
+    Key::optional(
+        "heading_error",
+        HEADING_ERROR,
+        "Heading error, radians; by default none is asked for.",
+    ),
+]);
+
+const FRAGILE: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "In which engine fewer reach it."),
+    Key::required("reached", INDEX, "Disturbed replays that reach the goal."),
+    Key::required("replays", INDEX, "Disturbed replays."),
+    Key::required("wanted", SHARE, "Share that was asked for."),
+]);
+
+const DISTURBED: Key = Key::required(
+    "disturbed",
+    Value::Map(&[Key::required("draw", DRAW, "Number of the draw, from 1.")]),
+    "Starts and frictions were, by little and at random.",
+);
+
+const EVIDENCE: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "Which engine replayed it."),
+    Key::required(
+        "disturbance",
+        Value::Either(&[Value::Word(&["nominal"]), Value::Variant(&[DISTURBED])]),
+        "What was changed: `nominal` for nothing.",
+    ),
+    Key::required("outcome", OUTCOME, "Where it ended."),
+    Key::optional("warnings", WARNINGS, "What a reader should know; by default nothing."),
+    Key::optional("force", FORCE, "How hard the tool pressed; by default unknown."),
+]);
