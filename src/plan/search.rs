@@ -95,6 +95,9 @@ pub struct Search<'a> {
     field: Field<'a>,
     grips: Vec<(usize, f64)>,
     nodes: Vec<Node>,
+    /// Where the last pushes may stop, and those pushes: from some of these the next level starts. They
+    /// become nodes when it is asked for, as rolling them out is wasted where shorter plans work.
+    ends: (Vec<Extension>, Vec<Stop>),
     spread: Spread,
     depth: usize,
     statistics: SearchStatistics,
@@ -145,6 +148,7 @@ impl<'a> Search<'a> {
             field,
             grips,
             nodes: vec![start],
+            ends: Default::default(),
             spread,
             depth: 0,
             statistics: SearchStatistics::default(),
@@ -169,7 +173,8 @@ impl<'a> Search<'a> {
 
     /// Whether sequences of one push more are allowed and any state is left to continue.
     pub fn can_deepen(&self) -> bool {
-        self.depth < self.workspace.task.pushes.max_count && !self.nodes.is_empty()
+        let any = self.depth == 0 || !self.ends.1.is_empty();
+        self.depth < self.workspace.task.pushes.max_count && any
     }
 
     /// Looks at all sequences of one push more and returns the best of them, best first.
@@ -177,6 +182,10 @@ impl<'a> Search<'a> {
     /// returned.
     pub fn deepen(&mut self, rollouts: &mut Rollouts, watch: &dyn Watch) -> Vec<Found> {
         let before = rollouts.used();
+        if self.depth > 0 {
+            let (list, offers) = std::mem::take(&mut self.ends);
+            self.nodes = self.continue_from(rollouts, &list, offers);
+        }
         self.scores.deepen();
         let mut list = extensions(
             &self.workspace,
@@ -214,9 +223,7 @@ impl<'a> Search<'a> {
         }
         watch.progress(list.len() as u64, list.len() as u64);
         self.depth += 1;
-        if self.depth < self.workspace.task.pushes.max_count && !watch.cancelled() {
-            self.nodes = self.continue_from(rollouts, &list, offers);
-        }
+        self.ends = if watch.cancelled() { Default::default() } else { (list, offers) };
         self.statistics.rollouts += rollouts.used() - before;
         // Stable, so equal scores keep the order in which they were enumerated.
         found.sort_by(|a, b| a.score.total_cmp(&b.score));

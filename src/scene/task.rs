@@ -134,6 +134,8 @@ impl PushRules {
     pub const LENGTH: f64 = 0.20;
     /// Default speed of a push, m/s: that of the reference benchmark.
     pub const SPEED: f64 = 0.10;
+    /// Default of the most pushes in a row: around a corner. Fewer are tried first.
+    pub const MAX_COUNT: usize = 3;
     /// Default height of the tool above the table, metres: clear of it, yet below every object.
     pub const LIFT: f64 = 0.002;
 
@@ -143,7 +145,7 @@ impl PushRules {
     }
 }
 
-/// One placed push in a principal direction, with the grip yaws of the reference benchmark.
+/// Placed pushes in principal directions, with the grip yaws of the reference benchmark.
 impl Default for PushRules {
     fn default() -> Self {
         Self {
@@ -153,7 +155,7 @@ impl Default for PushRules {
             grip_yaws: [0.0, 90.0, -90.0].map(f64::to_radians).to_vec(),
             length: Self::LENGTH,
             speed: Self::SPEED,
-            max_count: 1,
+            max_count: Self::MAX_COUNT,
             lift: Self::LIFT,
         }
     }

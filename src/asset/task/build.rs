@@ -177,7 +177,7 @@ pub(in crate::asset) fn tools(node: &Node) -> ToolChoice {
 
 pub(in crate::asset) fn pushes(node: &Node) -> Option<PushRules> {
     let usual = PushRules::default();
-    let max_count = number_or(node, "max_count", 1.0)?;
+    let max_count = number_or(node, "max_count", PushRules::MAX_COUNT as f64)?;
     Some(PushRules {
         form: match node.get("form").map(Node::text) {
             None | Some(Some("placed")) => PushForm::Placed,

@@ -311,9 +311,17 @@ pub(in crate::asset) const PUSHES: Value = Value::Map(&[
         Value::List { of: &ANGLE, items: "angles in degrees", min: 1, max: 16 },
         "Turns of the end effector against world +x, degrees, one per plan; default 0, 90, -90.",
     ),
-    Key::optional("length", LENGTH, "Travel of a push in metres; default 0.20."),
+    Key::optional(
+        "length",
+        LENGTH,
+        "Travel of a push in metres, which planning may shorten or lengthen by half; default 0.20.",
+    ),
     Key::optional("speed", SPEED, "Speed of a push in m/s; default 0.10."),
-    Key::optional("max_count", MAX_COUNT, "Largest number of pushes in a plan; default 1."),
+    Key::optional(
+        "max_count",
+        MAX_COUNT,
+        "Largest number of pushes in a plan; default 3. More are tried only where fewer do not do.",
+    ),
     Key::optional(
         "lift",
         LIFT,
