@@ -35,7 +35,12 @@ impl fmt::Display for Outside {
     }
 }
 
+/// Where a prediction differs from the planar simulation by less, metres, nothing is said of it: engines
+/// differ by more.
+const SAME: f64 = 1e-3;
+
 /// Models of which each job gets the first that takes it, or else the last.
+#[derive(Clone)]
 pub struct Routed {
     models: Vec<Arc<dyn EffectModel>>,
     spec: ModelSpec,
@@ -182,7 +187,8 @@ pub fn consequence(scene: &Scene, job: &Job, predicted: &State) -> Option<Warnin
     let run = Simulator::planar().run(scene, job, Record::Outcome);
     let apart = |k: usize| (run.outcome().poses[k].position - predicted.poses[k].position).norm();
     let far = (0..scene.objects.len()).max_by(|&a, &b| apart(a).total_cmp(&apart(b)))?;
-    Some(Warning::Differs { object: scene.objects[far].name.clone(), distance: apart(far) })
+    let object = scene.objects[far].name.clone();
+    (apart(far) >= SAME).then(|| Warning::Differs { object, distance: apart(far) })
 }
 
 fn simulated(reason: Warning) -> Warning {

@@ -39,4 +39,5 @@ pub use search::{Found, Search, SearchSettings, kinds};
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{
     Infeasible, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,
+    distance_to_origin,
 };

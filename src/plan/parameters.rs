@@ -1,6 +1,7 @@
 //! The continuous parameters of a candidate: offset, direction and length of every push, counted
 //! in steps of about equal effect.
 
+use crate::geometry::wrap_angle;
 use crate::scene::State;
 
 use super::workspace::MIN_LENGTH;
@@ -60,7 +61,10 @@ impl Parameters {
                 add(Quantity::Offset, OFFSET_STEP, -span, span);
                 longest *= LONGEST;
             }
-            let (low, high) = (push.direction - LARGEST_TURN, push.direction + LARGEST_TURN);
+            // However often it was turned before, as plans are that are aimed again.
+            let from = push.direction - turned(workspace, push.direction);
+            let low = (from - LARGEST_TURN).min(push.direction);
+            let high = (from + LARGEST_TURN).max(push.direction);
             add(Quantity::Direction, DIRECTION_STEP, low, high);
             add(Quantity::Length, LENGTH_STEP, MIN_LENGTH.min(longest), longest);
         }
@@ -93,6 +97,13 @@ impl Parameters {
         }
         (next, made)
     }
+}
+
+/// How far a direction is turned from the nearest one that the task allows, radians.
+fn turned(workspace: &Workspace, direction: f64) -> f64 {
+    let allowed = workspace.task.pushes.directions.headings();
+    let turns = allowed.iter().map(|heading| wrap_angle(direction - heading));
+    turns.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
 }
 
 fn read(candidate: &Candidate, parameter: &Parameter) -> f64 {

@@ -375,7 +375,7 @@ fn axes(direction: f64) -> (Vector, Vector) {
 }
 
 /// Distance of the straight way between two points from the origin, metres.
-fn distance_to_origin(from: Vector, to: Vector) -> f64 {
+pub fn distance_to_origin(from: Vector, to: Vector) -> f64 {
     let way = to - from;
     let square = way.norm_squared();
     let t = if square > 0.0 { (-from.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 };

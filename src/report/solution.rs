@@ -48,7 +48,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
 pub(super) fn headline(solution: &Solution) -> String {
     let Some(best) = solution.best() else {
         let step = if solution.statistics.levers.is_some() { "lever-up" } else { "push" };
-        return format!("no plan; no {step} can be made at all");
+        return format!("no plan{}; no {step} can be made at all", cause(solution));
     };
     let plan = plan_line(&best.plan);
     let headline = match solution.status {
@@ -58,9 +58,9 @@ pub(super) fn headline(solution: &Solution) -> String {
         PlanStatus::Solved => format!("solved with {plan}"),
         PlanStatus::Fragile => format!("fragile; the most robust is {plan}"),
         PlanStatus::NoPlan if best.plan.is_empty() => {
-            "no plan; no push brings the object nearer".to_owned()
+            format!("no plan{}; no push brings the object nearer", cause(solution))
         }
-        PlanStatus::NoPlan => format!("no plan; the nearest is {plan}"),
+        PlanStatus::NoPlan => format!("no plan{}; the nearest is {plan}", cause(solution)),
         PlanStatus::FailedVerification => {
             format!("failed verification; the best by prediction is {plan}")
         }
@@ -69,6 +69,11 @@ pub(super) fn headline(solution: &Solution) -> String {
         true => format!("{headline} (stopped before the search was over)"),
         false => headline,
     }
+}
+
+/// Why there is none, if that is known.
+fn cause(solution: &Solution) -> String {
+    solution.cause.as_ref().map_or(String::new(), |cause| format!(": {cause}"))
 }
 
 /// Why pushes were not tried, most frequent first.
@@ -89,7 +94,7 @@ fn refusals(solution: &Solution) -> Option<Section> {
     // Stable: equal ones keep the order of their kinds.
     reasons.sort_by_key(|reason| std::cmp::Reverse(reason.1));
     (!reasons.is_empty()).then(|| Section {
-        lines: vec![format!("{considered} {what} were considered; of these could not be made:")],
+        title: format!("{considered} {what} were considered; of these could not be made"),
         table: Table::of(
             reasons,
             &[
@@ -180,6 +185,7 @@ fn json(task: &Task, solution: &Solution) -> Json {
         "models": solution.models,
         "status": solution.status,
         "stopped": solution.stopped,
+        "cause": solution.cause.as_ref().map(ToString::to_string),
         "reason": solution.best().map(|best| verdict_line(task, best.verdict.as_ref())),
         "moved": solution.best().map(|best| {
             bystanders::json(&bystanders(task, Some(&best.outcome), best.verdict.as_ref()))

@@ -57,7 +57,11 @@ pub(super) fn outcome_section(
         predicted.map(|(model, outcome, fault)| (format!("predicted ({model})"), outcome, fault));
     let replayed = verdict.into_iter().flat_map(nominal);
     let replayed = replayed.map(|e| (engine_name(e.engine).to_owned(), &e.outcome, e.fault()));
-    let mut lines = vec![format!("verdict: {}", verdict_line(task, verdict))];
+    let reached = predicted.as_ref().is_some_and(|(_, outcome, _)| outcome.reached);
+    let mut lines = vec![match verdict {
+        None if reached => "verdict: not verified, as it was stopped before".to_owned(),
+        _ => format!("verdict: {}", verdict_line(task, verdict)),
+    }];
     lines.extend(verdict.and_then(force_line).map(|force| format!("force: {force}")));
     let moved = bystanders(task, predicted.as_ref().map(|(_, outcome, _)| *outcome), verdict);
     lines.extend(bystanders::line(&moved));

@@ -8,6 +8,7 @@
 
 mod aside;
 mod asked;
+mod cause;
 mod check;
 mod efforts;
 mod error;
@@ -21,8 +22,10 @@ mod settings;
 mod solution;
 mod solving;
 mod tried;
+mod widen;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};
+pub use cause::Cause;
 pub use error::SolveError;
 pub use levering::{AskedLever, AskedPlace, LeverActionError, LeverSettings, asked_lever};
 pub use planner::{Planner, PlannerBuilder, Prediction};

@@ -10,15 +10,15 @@ use crate::asset::ToolLibrary;
 use crate::effect::{EffectModel, EffectModels, Job, ModelError, Outside, Routed, consequence};
 use crate::geometry::Pose;
 use crate::scene::{
-    ModelKind, Models, Outcome, Plan, Push, Record, Situation, State, TableFit, Task, Tool,
-    ToolMotion, Trajectory, Warning,
+    ModelKind, Models, Outcome, Plan, Record, Situation, State, TableFit, Task, Tool, ToolMotion,
+    Trajectory, Warning,
 };
 use crate::watch::{Until, Unwatched, Watch};
 
 use super::check::check;
 use super::levering::{self, Steps};
-use super::solving::Solving;
-use super::{Effort, Settings, Solution, SolveError};
+use super::solving::{Solving, typical};
+use super::{Effort, PlanStatus, Settings, Solution, SolveError};
 
 /// Finds tools and pushes for tasks, with one effect model, or one that screens and one that decides,
 /// and one effort.
@@ -188,6 +188,13 @@ impl Planner {
         self.screen.is_some()
     }
 
+    /// A planner that looks once, with the model that screens.
+    pub(super) fn first_look(&self) -> Self {
+        let model = self.screen.as_ref().unwrap_or(&self.model).clone();
+        let settings = Effort::Draft.settings();
+        Self { model, screen: None, settings, time_limit: None, fit: None, ..*self }
+    }
+
     /// What its models are.
     pub fn models(&self) -> Models {
         Models::from(self.model.spec().clone()).screened_by(self.screen().spec().clone())
@@ -229,7 +236,11 @@ impl Planner {
         library: &ToolLibrary,
         watch: &dyn Watch,
     ) -> Result<Solution, SolveError> {
-        let mut solution = self.solve_from(&stated(task), task, library, watch)?;
+        let until = Until::new(watch, self.time_limit);
+        let mut solution = self.solve_from(&stated(task), task, library, &until)?;
+        if solution.status == PlanStatus::NoPlan && !task.in_space() {
+            solution.cause = self.cause(task, library, &until);
+        }
         if task.unknown.any() {
             solution.warnings.push(Warning::Guessed { unknown: task.unknown });
         }
@@ -361,28 +372,12 @@ impl Planner {
 }
 
 /// What a task states, and whether it says what objects rest on.
-fn stated(task: &Task) -> Situation {
+pub(super) fn stated(task: &Task) -> Situation {
     let mut situation = Situation::stated(&task.scene);
     if task.unknown.support {
         Arc::make_mut(&mut situation.physics).supports_known = false;
     }
     situation
-}
-
-/// A push of the goal's object towards the goal by the tool's first part: what a model would be
-/// used for, as far as can be known beforehand.
-pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
-    let (rules, goal) = (&task.pushes, &task.goal);
-    let object = start.poses[goal.object].position;
-    let way = goal.position - object;
-    let part = tool.part_pose(0, &tool.pose(Pose::default()));
-    let push = Push {
-        start: object - part.position,
-        direction: way.y.atan2(way.x),
-        length: rules.length,
-        speed: rules.speed,
-    };
-    ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
 }
 
 /// The trajectory of doing nothing.

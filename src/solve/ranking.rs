@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::plan::bare;
 use crate::scene::{Plan, Tool};
 
 use super::solving::{Solving, Tried};
@@ -11,7 +12,20 @@ use super::{PlanStatus, RankedPlan, Solution};
 /// At most this many plans are returned: as many as a reader looks at.
 const REPORTED: usize = 8;
 
+/// A plan that brings the object nearer to the goal by less, metres, or turns it nearer to the wanted
+/// heading by less, radians, is none to look at: simulations differ by as much.
+const NEARER: f64 = 0.01;
+const TURNED: f64 = 0.1;
+
 impl Solving<'_> {
+    /// Whether a plan, by prediction, is clearly better than doing nothing.
+    fn is_nearer(&self, tried: &Tried) -> bool {
+        let (goal, start) = (&self.task.goal, &self.situation.start);
+        let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
+        let least = (NEARER / goal.tolerance).min(turned);
+        bare(tried.score) <= goal.score(start) - least
+    }
+
     /// Ranks what was tried: the best; then those that passed, are untried, have failed - or, where
     /// none passed, the evidence first.
     pub(super) fn ranked(
@@ -32,9 +46,11 @@ impl Solving<'_> {
             (Some(_), _) => 1,
             (None, _) => 2,
         };
+        let nearest = status == PlanStatus::NoPlan;
         let mut order: Vec<(usize, Tried)> = std::mem::take(&mut self.tried)
             .into_iter()
             .enumerate()
+            .filter(|(_, tried)| !nearest || tried.plan.is_empty() || self.is_nearer(tried))
             .map(|(index, tried)| (rank(index, &tried), tried))
             .collect();
         order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.score.total_cmp(&b.1.score)));
@@ -75,6 +91,7 @@ impl Solving<'_> {
             tools: self.workspace.tools.iter().map(|tool| Tool::clone(tool)).collect(),
             candidates: self.candidates,
             statistics: self.statistics,
+            cause: None,
             warnings,
         }
     }

@@ -13,6 +13,8 @@ use crate::scene::{
 };
 use crate::verify::{Verifier, VerifySettings};
 
+use super::Cause;
+
 /// How solving ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -167,6 +169,9 @@ pub struct Solution {
     pub candidates: Vec<ScoredPush>,
     /// What it cost.
     pub statistics: Statistics,
+    /// Why there is no plan, where that was looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<Cause>,
     /// What lowers the trust in the predictions of the first plan.
     pub warnings: Vec<Warning>,
 }

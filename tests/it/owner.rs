@@ -12,7 +12,7 @@ use pushplan::scene::{
     Truth, Verdict, Warning,
 };
 use pushplan::sim::Simulator;
-use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+use pushplan::solve::{Cause, Effort, PlanStatus, Planner, RankedPlan, Solution};
 use pushplan::verify::{Verifier, VerifySettings};
 use pushplan::watch::Unwatched;
 
@@ -292,4 +292,64 @@ fn what_works_by_a_millimetre_is_fragile() {
     let held = |lift: f64| low.replace("length: 0.3", &format!("length: 0.3, lift: {lift}"));
     assert_eq!(status(&held(0.0798)), PlanStatus::Fragile);
     assert_eq!(status(&held(0.06)), PlanStatus::Solved);
+}
+
+/// A can whose goal is farther than one push goes.
+const FAR: &str = "
+scene:
+  objects: [{name: can, shape: {cylinder: {radius: 0.04, height: 0.1}}, mass: 0.4, friction: 0.4, position: [0.35, 0]}]
+robot: {reach: {min: 0.1, max: 0.95}}
+tools: all
+goal: {object: can, position: [0.81, 0], tolerance: 0.02}
+";
+
+#[test]
+fn as_many_pushes_are_made_as_it_takes_and_no_more() {
+    let pushes = |task: &Task| {
+        let found = solved(task);
+        assert_eq!(found.status, PlanStatus::Solved);
+        found.best().expect("a plan").plan.pushes().len()
+    };
+    assert_eq!(pushes(&task(FAR)), 2);
+    assert_eq!(pushes(&task(&FAR.replace("0.81", "0.5"))), 1);
+}
+
+#[test]
+fn what_stands_in_the_way_of_a_plan_is_named() {
+    let cause = |text: &str| {
+        let task = task(text);
+        let found = solved(&task);
+        assert_eq!(found.status, PlanStatus::NoPlan, "{text}");
+        let first = solution_document(&task, &found).title;
+        let cause = found.cause.expect("a cause");
+        assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
+        // What is not clearly nearer than doing nothing is no plan to look at.
+        let start = task.goal.error(&task.scene.start());
+        let nearer = |ranked: &RankedPlan| ranked.outcome.error < start - 5e-3;
+        assert!(found.plans.iter().filter(|ranked| !ranked.plan.is_empty()).all(nearer));
+        cause
+    };
+    let with =
+        |pushes: &str| FAR.replace("tools: all", &format!("tools: all\npushes: {{{pushes}}}"));
+    assert_eq!(cause(&with("max_count: 1")), Cause::Pushes { allowed: 1, needed: 2 });
+    let one = cause(&with("max_count: 2, length: 0.05").replace("0.81", "0.7"));
+    let Cause::Pushes { needed: 3.., .. } = one else { panic!("{one:?}") };
+    let narrow = with("directions: [0]").replace("[0.81, 0]", "[0.35, 0.3]");
+    assert_eq!(cause(&narrow), Cause::Directions);
+    let finger = FAR.replace("tools: all", "tools: [finger]");
+    let far = finger.replace("max: 0.95", "max: 0.6").replace("0.81", "0.75");
+    let Cause::Tool { .. } = cause(&far) else { panic!("the task names few tools") };
+    let away = FAR.replace("0.35, 0]", "1.6, 0]").replace("0.81", "1.8");
+    let Cause::Far { allowed: 0.95, needed } = cause(&away) else { panic!("it is far away") };
+    assert!((1.0..1.7).contains(&needed), "{needed}");
+    assert_eq!(cause(&PEN.replace("tools: [stick]", "tools: all")), Cause::Hand);
+}
+
+#[test]
+fn pushes_turn_no_farther_from_what_is_allowed_however_often_they_are_aimed_again() {
+    let text = FAR.replace("tools: all", "tools: all\npushes: {directions: [0]}");
+    let found = solved(&task(&text.replace("[0.81, 0]", "[0.4, 0.2]")));
+    let pushes = found.plans.iter().flat_map(|ranked| ranked.plan.pushes());
+    let most = pushes.map(|push| push.direction.abs()).fold(0.0, f64::max);
+    assert!(most > 0.1 && most < 0.44, "{most}");
 }

@@ -1,0 +1,123 @@
+//! Why there is no plan: the one limit without which there would be one.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// What alone stands between a task and a plan that is predicted to reach the goal. It was tried: with
+/// the limit wider there is such a plan. Lengths are in metres; what is `needed` is what the plan that
+/// needs least of it takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cause {
+    /// It takes more pushes.
+    Pushes {
+        /// As many may be made.
+        allowed: usize,
+        /// As many do.
+        needed: usize,
+    },
+    /// A push would have to be longer.
+    Length {
+        /// What the task says.
+        allowed: f64,
+        /// What it would have to say.
+        needed: f64,
+    },
+    /// No push in an allowed direction leads there.
+    Directions,
+    /// The tool would have to be gripped at another turn.
+    GripYaws {
+        /// One that does, radians.
+        needed: f64,
+    },
+    /// The end effector would have to reach farther.
+    Far {
+        /// The largest reach.
+        allowed: f64,
+        /// What it would have to be.
+        needed: f64,
+    },
+    /// The end effector would have to come nearer to the base.
+    Near {
+        /// The smallest reach.
+        allowed: f64,
+        /// What it would have to be.
+        needed: f64,
+    },
+    /// A tool that the task does not name would do.
+    Tool {
+        /// Its name.
+        needed: String,
+    },
+    /// What hangs together with the goal's object can be pushed, and it cannot.
+    Joined {
+        /// The object to name.
+        needed: String,
+    },
+    /// What is to be kept is in the way.
+    Kept,
+    /// The hand would meet something.
+    Hand,
+    /// The robot stands in the way.
+    Base,
+    /// This obstacle is in the way.
+    Obstacle {
+        /// Its name.
+        name: String,
+    },
+    /// No single limit: wider ones were tried one by one.
+    Several,
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let centimetres = |metres: f64| (metres * 100.0).round() / 100.0;
+        match self {
+            Cause::Pushes { allowed, needed } => {
+                write!(f, "it takes {needed} pushes, and `pushes.max_count` is {allowed}")
+            }
+            Cause::Length { allowed, needed } => write!(
+                f,
+                "pushes are too short; `pushes.length` is {allowed} m, and {} would do",
+                centimetres(*needed)
+            ),
+            Cause::Directions => f.write_str(
+                "no allowed direction leads there, and others do; widen `pushes.directions`",
+            ),
+            Cause::GripYaws { needed } => write!(
+                f,
+                "the tool would have to be gripped at another turn; {:.0} degrees in \
+                 `pushes.grip_yaws_deg` would do",
+                needed.to_degrees()
+            ),
+            Cause::Far { allowed, needed } => write!(
+                f,
+                "it is too far away; the end effector would have to reach {} m, and \
+                 `robot.reach.max` is {allowed}",
+                centimetres(*needed)
+            ),
+            Cause::Near { allowed, needed } => write!(
+                f,
+                "it is too near; the end effector would have to come within {} m of the base, and \
+                 `robot.reach.min` is {allowed}",
+                centimetres(*needed)
+            ),
+            Cause::Tool { needed } => {
+                write!(f, "the tools do not do; `{needed}` would, which `tools` does not name")
+            }
+            Cause::Joined { needed } => write!(
+                f,
+                "`goal.object` cannot be pushed there itself; `{needed}` can, which hangs together \
+                 with it"
+            ),
+            Cause::Kept => f.write_str("what `keep` names is in the way"),
+            Cause::Hand => f.write_str(
+                "the hand would meet something; without it there is a way, see `robot.hand`",
+            ),
+            Cause::Base => f.write_str("the robot's base is in the way, see `robot.base`"),
+            Cause::Obstacle { name } => write!(f, "obstacle `{name}` is in the way"),
+            Cause::Several => f.write_str("no wider limit alone would do"),
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Widens the limits of a task without a plan one by one, to find the one that is the cause.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::asset::ToolLibrary;
+use crate::geometry::Pose;
+use crate::plan::{Search, distance_to_origin, is_behind};
+use crate::scene::{Directions, JointKind, Obstacle, Plan, Robot, Task, Tool, ToolChoice};
+use crate::watch::Watch;
+
+use super::planner::stated;
+use super::solving::Solving;
+use super::{Cause, Planner};
+
+/// Pushes that a wider task allows beyond its own.
+const MORE_PUSHES: usize = 2;
+
+/// What a push or a reach is multiplied by in a wider task.
+const LONGER: f64 = 4.0;
+
+/// Directions and turns of the grip of a wider task.
+const WAYS: usize = 16;
+
+/// Limits are told in whole steps of this size, metres.
+const STEP: f64 = 0.01;
+
+/// Of so many obstacles each is taken away to see whether it is the cause.
+const OBSTACLES: usize = 8;
+
+/// Stops as another does and tells nothing: many tasks are looked at side by side.
+struct Quiet<'a>(&'a dyn Watch);
+
+impl Watch for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+/// A task with one limit wider, and what it means if that has a plan.
+struct Wider<'a> {
+    task: Task,
+    tools: Vec<Arc<Tool>>,
+    cause: Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>,
+}
+
+/// A plan that is predicted to reach the goal.
+struct Way {
+    plan: Plan,
+    tool: String,
+}
+
+impl Planner {
+    /// What keeps `task`, of which no plan was found, from being solved: each of its limits is widened,
+    /// and the first with which a plan is predicted to reach the goal is it. A first look with the
+    /// model that screens: nothing is verified.
+    pub(super) fn cause(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Option<Cause> {
+        let tools = task.tools(library).ok()?;
+        let first_look = self.first_look();
+        let watch = &Quiet(watch);
+        let found = wider(task, &tools, library).into_par_iter().find_map_first(|wider| {
+            let situation = stated(&wider.task);
+            let solving = Solving::new(&first_look, &wider.task, &situation, &wider.tools, watch);
+            let ways = solving.ways();
+            (!ways.is_empty()).then(|| (wider.cause)(&ways))
+        });
+        (!watch.cancelled()).then(|| found.unwrap_or(Cause::Several))
+    }
+}
+
+impl Solving<'_> {
+    /// Plans that are predicted to reach the goal, with as few pushes as do.
+    fn ways(mut self) -> Vec<Way> {
+        let settings = self.planner.settings();
+        let mut search = Search::new(self.workspace, self.situation, settings.search(0.0));
+        while search.can_deepen() && !self.watch.cancelled() {
+            let found = search.deepen(&mut self.rollouts, self.watch);
+            let candidates = self.choose(&found, settings.refined, &[]);
+            self.refined(&candidates, self.task.goal, search.depth());
+            let reach = self.tried.iter().filter(|one| one.score <= 1.0 && !is_behind(one.score));
+            let ways: Vec<Way> = reach
+                .map(|one| Way { plan: one.plan.clone(), tool: one.tool.name.clone() })
+                .collect();
+            if !ways.is_empty() {
+                return ways;
+            }
+        }
+        Vec::new()
+    }
+}
+
+/// The tasks with one limit wider: first those that cost nothing to widen, last what stands there.
+fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<Wider<'a>> {
+    let mut all: Vec<Wider> = Vec::new();
+    let mut add = |change: &dyn Fn(&mut Task),
+                   cause: Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>| {
+        let mut wider = task.clone();
+        change(&mut wider);
+        if wider != *task {
+            all.push(Wider { task: wider, tools: tools.to_vec(), cause });
+        }
+    };
+    let (rules, robot) = (&task.pushes, &task.robot);
+    add(
+        &|task| task.pushes.max_count += MORE_PUSHES,
+        Box::new(|ways| Cause::Pushes {
+            allowed: rules.max_count,
+            needed: ways.iter().map(|way| way.plan.pushes().len()).min().unwrap_or_default(),
+        }),
+    );
+    add(
+        &|task| task.pushes.length *= LONGER,
+        Box::new(|ways| Cause::Length {
+            allowed: rules.length,
+            needed: least(ways, |way| {
+                way.plan.pushes().iter().map(|push| push.length).fold(0.0, f64::max)
+            }),
+        }),
+    );
+    add(&|task| task.pushes.directions = Directions::Count(WAYS), Box::new(|_| Cause::Directions));
+    add(
+        &|task| task.pushes.grip_yaws = Directions::Count(WAYS / 2).headings(),
+        Box::new(|ways| Cause::GripYaws {
+            needed: ways.first().and_then(|way| way.plan.push_steps().next()).map_or(0.0, |step| {
+                let turn = step.grip_yaw.rem_euclid(TAU);
+                if turn > 0.5 * TAU { turn - TAU } else { turn }
+            }),
+        }),
+    );
+    add(
+        &|task| task.robot.reach_max *= LONGER,
+        Box::new(|ways| Cause::Far {
+            allowed: robot.reach_max,
+            needed: least(ways, |way| {
+                let pushes = way.plan.pushes();
+                let ends = pushes.iter().flat_map(|push| [push.start.norm(), push.end().norm()]);
+                ends.fold(0.0, f64::max)
+            }),
+        }),
+    );
+    add(
+        &|task| task.robot.reach_min = 0.0,
+        Box::new(|ways| Cause::Near {
+            allowed: robot.reach_min,
+            needed: -least(ways, |way| {
+                let pushes = way.plan.pushes();
+                let near = pushes.iter().map(|push| distance_to_origin(push.start, push.end()));
+                -near.fold(f64::INFINITY, f64::min)
+            }),
+        }),
+    );
+    for (index, pose) in joined(task) {
+        add(
+            &|task| {
+                let goal = &mut task.goal;
+                let heading = goal.heading.map_or(0.0, |(heading, _)| heading);
+                let there = Pose { position: goal.position, heading } * pose;
+                (goal.object, goal.position) = (index, there.position);
+                goal.heading = goal.heading.map(|(_, tolerance)| (there.heading, tolerance));
+            },
+            Box::new(move |_| Cause::Joined { needed: task.scene.objects[index].name.clone() }),
+        );
+    }
+    add(
+        &|task| task.scene.objects.iter_mut().for_each(|object| object.keep = None),
+        Box::new(|_| Cause::Kept),
+    );
+    add(&|task| task.robot.hand = None, Box::new(|_| Cause::Hand));
+    for obstacle in nearest(task) {
+        let name = &obstacle.name;
+        add(
+            &|task| task.scene.obstacles.retain(|other| other.name != *name),
+            Box::new(move |_| match name.as_str() {
+                Robot::BASE => Cause::Base,
+                _ => Cause::Obstacle { name: name.clone() },
+            }),
+        );
+    }
+    let others = Task { tools: ToolChoice::All, ..task.clone() };
+    if let (true, Ok(tools)) = (others != *task, others.tools(library)) {
+        let cause = |ways: &[Way]| Cause::Tool {
+            needed: ways.first().map(|way| way.tool.clone()).unwrap_or_default(),
+        };
+        // After what the robot and the pushes are, before what stands there.
+        let at = all.len().min(4);
+        all.insert(at, Wider { task: others, tools, cause: Box::new(cause) });
+    }
+    all
+}
+
+/// The obstacles that stand nearest to the goal and to its object.
+fn nearest(task: &Task) -> Vec<&Obstacle> {
+    let (goal, from) = (&task.goal, task.scene.objects[task.goal.object].pose.position);
+    let far = |obstacle: &Obstacle| {
+        let at = obstacle.pose.position;
+        (at - goal.position).norm().min((at - from).norm())
+    };
+    let mut obstacles: Vec<&Obstacle> = task.scene.obstacles.iter().collect();
+    obstacles.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    obstacles.truncate(OBSTACLES);
+    obstacles
+}
+
+/// The least of what the ways need, in whole steps.
+fn least(ways: &[Way], of: impl Fn(&Way) -> f64) -> f64 {
+    let least = ways.iter().map(of).fold(f64::INFINITY, f64::min);
+    (least / STEP).ceil() * STEP
+}
+
+/// What is rigidly joined to the goal's object, and where from it.
+fn joined(task: &Task) -> Vec<(usize, Pose)> {
+    let mut found = vec![task.goal.object];
+    let mut next = 0;
+    while let Some(&one) = found.get(next) {
+        let fixed = task.scene.joints.iter().filter(|joint| joint.kind == JointKind::Fixed);
+        let of_one = fixed.filter(|joint| joint.between.contains(&one));
+        let others: Vec<usize> = of_one.flat_map(|joint| joint.between).collect();
+        others.into_iter().for_each(|other| {
+            if !found.contains(&other) {
+                found.push(other)
+            }
+        });
+        next += 1;
+    }
+    let poses = &task.scene.objects;
+    let from = poses[task.goal.object].pose.inverse();
+    found.into_iter().skip(1).map(|index| (index, from * poses[index].pose)).collect()
+}
