@@ -1,11 +1,9 @@
 //! What was seen during a motion, put in order.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector;
-use crate::scene::{FRAME_TRAVEL, Observation, Sight, State, Stroke, ToolMotion};
+use crate::scene::{FRAME_TRAVEL, Observation, Scene, Sight, State, Stroke, ToolMotion};
 
 use super::error::ActError;
 use super::world::{Look, Stop};
@@ -65,33 +63,31 @@ pub enum Note {
     },
 }
 
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Note::OutOfOrder => write!(f, "looks came late and were put in order"),
-            Note::Untimely => write!(f, "looks from another time were left out"),
+impl Note {
+    /// In words, with the names of `scene`.
+    pub fn words(&self, scene: &Scene) -> String {
+        let name = |k: usize| scene.objects.get(k).map_or("?", |object| object.name.as_str());
+        match *self {
+            Note::OutOfOrder => "looks came late and were put in order".to_owned(),
+            Note::Untimely => "looks from another time were left out".to_owned(),
             Note::Unreadable { object } => {
-                write!(f, "object {object} was seen without a finite place; left out")
+                format!("{} was seen without a finite place; left out", name(object))
             }
             Note::Swapped { between: [a, b] } => {
-                write!(f, "objects {a} and {b} were mistaken for each other; swapped back")
+                format!("{} and {} were mistaken for each other; swapped back", name(a), name(b))
             }
             Note::Jumped { object } => {
-                write!(f, "object {object} was seen where it cannot be; left out")
+                format!("{} was seen where it cannot be; left out", name(object))
             }
             Note::Unseen { object } => {
-                write!(
-                    f,
-                    "object {object} was not seen at rest; taken to be where it was predicted"
-                )
+                format!("{} was not seen at rest; taken to be where it was predicted", name(object))
             }
-            Note::Ended { why } => write!(f, "the push ended early: {why}"),
-            Note::Elsewhere { object } => write!(
-                f,
-                "object {object} stands elsewhere than the task says; it is taken to be where it \
-                 is seen"
+            Note::Ended { ref why } => format!("the push ended early: {why}"),
+            Note::Elsewhere { object } => format!(
+                "{} stands elsewhere than the task says; it is taken to be where it is seen",
+                name(object)
             ),
-            Note::Moved { object } => write!(f, "object {object} was moved by somebody else"),
+            Note::Moved { object } => format!("{} was moved by somebody else", name(object)),
         }
     }
 }

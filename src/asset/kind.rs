@@ -30,6 +30,8 @@ pub enum Kind {
     Recording,
     /// A world file.
     World,
+    /// A run that was kept.
+    Run,
 }
 
 impl fmt::Display for Kind {
@@ -41,11 +43,12 @@ impl fmt::Display for Kind {
             Kind::Trajectory => "trajectory",
             Kind::Recording => "recording",
             Kind::World => "world",
+            Kind::Run => "run",
         })
     }
 }
 
-/// Recognises the file at `path` by its content and checks all of it; the tools that a task names
+/// Recognises the file at `path` by its content and checks all of it, unless it is a run; the tools that a task names
 /// must be in `library`, if one is given.
 ///
 /// # Errors
@@ -61,6 +64,8 @@ pub fn check(path: impl AsRef<Path>, library: Option<&ToolLibrary>) -> Result<Ki
         Kind::Recording => Recording::parse(&text, &file).map(|_| kind),
         // What it says about a task's objects can be checked only together with the task.
         Kind::World => world::check_world(&text, &file).map(|()| kind),
+        // Only recognised: what acts reads it.
+        Kind::Run => Ok(kind),
     }
 }
 
@@ -70,6 +75,7 @@ fn recognise(file: &str, text: &str) -> Result<Kind, Faults> {
         Some("plan" | "lever_plan") => return Ok(Kind::Plan),
         Some("trajectory") => return Ok(Kind::Trajectory),
         Some("recording") => return Ok(Kind::Recording),
+        Some("run") => return Ok(Kind::Run),
         _ => {}
     }
     // By the number of keys that fit, so that a misspelled one does not hide what was meant.

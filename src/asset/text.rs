@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use crate::checksum::checksum;
+
 use super::fault::Fault;
 
 /// The largest file that is read, bytes; a trajectory of hundreds of objects is smaller.
@@ -63,6 +65,18 @@ pub fn named_after(stem: &str) -> String {
     let dashed = |c: char| if is_in_names(c) { c } else { '-' };
     let name: String = stem.chars().map(dashed).take(LONGEST_NAME).collect();
     if name.is_empty() { "unnamed".to_owned() } else { name }
+}
+
+/// The same for what results are named after: names that are cut or dashed end in a checksum, so that
+/// two files do not write over each other's results.
+pub fn apart_by_name(stem: &str) -> String {
+    let name = named_after(stem);
+    if name == stem {
+        return name;
+    }
+    let sum = format!("{:08x}", checksum(stem.as_bytes()) as u32);
+    let kept: String = name.chars().take(LONGEST_NAME - 1 - sum.len()).collect();
+    format!("{kept}-{sum}")
 }
 
 /// The file's name for messages, and its text.

@@ -1,11 +1,14 @@
 //! `pushplan check`: reads files and says everything that is wrong with them; JSON schemas of files
 //! that people write.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use crate::asset::{self, Faults, recording_schema, task_schema, tool_schema, world_schema};
+use crate::act::{ActError, Trace};
+use crate::asset::{
+    self, Fault, Faults, Kind, recording_schema, task_schema, tool_schema, world_schema,
+};
 
 use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
 
@@ -17,7 +20,7 @@ use super::{action::LibraryArgs, error::CliError, exit_code, session::Session};
   # then, as the first line of a task file:
   # yaml-language-server: $schema=task.schema.json")]
 pub struct CheckArgs {
-    /// Tool, task, plan, trajectory, recording and world files; content tells their kind
+    /// Tool, task, plan, trajectory, recording, world and run files; content tells their kind
     #[arg(required_unless_present = "schema", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print the JSON schema of this kind of file
@@ -36,6 +39,11 @@ enum Schema {
     World,
 }
 
+fn damaged(file: &Path, error: &ActError) -> Faults {
+    let advice = "the file is damaged, or of another version; make it again";
+    Fault::of_file(&file.display().to_string(), error.to_string(), advice).into()
+}
+
 pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
     if let Some(kind) = args.schema {
         let schema = match kind {
@@ -50,7 +58,11 @@ pub fn run(args: &CheckArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
     let mut faults = Vec::new();
     for file in &args.files {
-        match asset::check(file, Some(&library)) {
+        let read = |kind| match kind {
+            Kind::Run => Trace::load(file).map(|_| kind).map_err(|error| damaged(file, &error)),
+            _ => Ok(kind),
+        };
+        match asset::check(file, Some(&library)).and_then(read) {
             Ok(kind) => session.print(&format!("{}: {kind}, fine\n", file.display()))?,
             Err(found) => faults.extend(found.0),
         }

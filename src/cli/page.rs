@@ -9,7 +9,7 @@ use crate::scene::{Job, ModelSpec, Record, Trajectory, Verdict};
 
 use super::{error::CliError, model, output, session::Session};
 
-/// Writes the page `<task>.html` with what the plan's effect model says next to the replays, and
+/// Writes the page `<task>.verify.html` with what the plan's effect model says next to the replays, and
 /// gives its path; `recipe` makes the replays
 /// again.
 ///
@@ -28,7 +28,7 @@ pub fn write(
         predicted.map_err(warn).ok()?
     });
     let page = verdict_page(file, predicted.as_ref(), verdict, recipe, view);
-    output::write(out, &format!("{}.html", file.task.name), page.as_bytes())
+    output::write(out, &format!("{}.verify.html", file.task.name), page.as_bytes())
 }
 
 /// What a model says of a plan; `None` if it gives no trajectory.

@@ -187,7 +187,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
         let recipe = args.library.origin(file, Some(spec.into())).plan(&plan);
         let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
         let mut written =
-            vec![output::write(out, &format!("{}.html", task.name), page.as_bytes())?];
+            vec![output::write(out, &format!("{}.predict.html", task.name), page.as_bytes())?];
         if args.trajectories {
             let planned = (&task, &tools[..], &plan);
             written.extend(write_trajectories(planned, trajectories, args.animate, out)?);

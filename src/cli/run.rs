@@ -12,6 +12,7 @@ use crate::effect::{EffectModels, Outside};
 use crate::report::{PageView, Recipe, Setting, run_document, run_page, table_fit_section};
 use crate::scene::{Models, Task, Truth};
 use crate::solve::{Effort, Planner};
+use crate::store::FolderLock;
 
 use super::{
     action::LibraryArgs,
@@ -37,7 +38,7 @@ it is drawn. Every plan is judged under samples of what is believed; after every
 plan is judged again, and another one is made where too few samples reach the goal.
 
 Writes <out>/<task>.run.json after every push; after an interruption the same command with --resume
-goes on from there, and the file ends up the same to the byte. <task>.html plays the run: what
+goes on from there, and the file ends up the same to the byte. <task>.run.html plays the run: what
 was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.svg and
 <task>.belief.svg. Exit code 0: reached, as far as can be seen; 4: no push brings the object nearer;
 5: all pushes are used up.
@@ -158,17 +159,19 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     if let Some((regulator, _)) = regulator {
         runner = runner.regulated(regulator);
     }
+    interrupt::watch();
+    let following = Following::bar(session, "pushes");
+    // Until the results are written: what another run writes here would be lost.
+    let _alone = FolderLock::take(&args.out, &following)?;
     let begun = Trace::new(task, settings, planned_by, Some(truth.clone()));
     let mut trace = begin(&path, begun, args.resume)?;
     let mut world = SimulatedWorld::new(truth).pushed_with(trace.task.robot.max_force);
-    interrupt::watch();
-    let following = Following::bar(session, "pushes");
     let mut keep = |trace: &Trace| trace.write(&path);
     let ran = session.compute(|| runner.run(&mut trace, &mut world, &mut keep, &following));
     following.finish()?;
     ran.map_err(|error| act_error(error, &path))?;
     for note in trace.all_notes() {
-        session.warn(&note.to_string());
+        session.warn(&note.words(&trace.task.scene));
     }
     let mut document = run_document(&trace);
     let mut written = vec![path];
@@ -180,7 +183,7 @@ pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     written.extend(output::write_figures(&args.out, document.figures())?);
     let real = session.compute(|| really(&trace));
     let page = run_page(&trace, &real, recipe(args), args.page);
-    let name = format!("{}.html", trace.task.name);
+    let name = format!("{}.run.html", trace.task.name);
     written.push(output::write(&args.out, &name, page.as_bytes())?);
     document.wrote(&written);
     args.form.show(session, &document)?;

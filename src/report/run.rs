@@ -133,7 +133,10 @@ fn why(why: Why) -> &'static str {
 pub fn notes(trace: &Trace) -> Vec<String> {
     let steps = trace.steps.iter().enumerate();
     let of = |(k, step): (usize, &Step)| {
-        step.notes.iter().map(|note| format!("push {}: {note}", k + 1)).collect::<Vec<_>>()
+        step.notes
+            .iter()
+            .map(|note| format!("push {}: {}", k + 1, note.words(&trace.task.scene)))
+            .collect::<Vec<_>>()
     };
     steps.flat_map(of).collect()
 }

@@ -6,6 +6,9 @@ use std::process::Stdio;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
+use pushplan::store::FolderLock;
+use pushplan::watch::Unwatched;
+
 use crate::program::{command, run, stderr};
 
 /// The transcripts in `tests/cmd`, with what was printed and the exit codes.
@@ -56,7 +59,8 @@ fn a_simulation_leaves_files_that_check_finds_fine() {
     let trajectory = folder.path().join("pull-back.planar.trajectory.json");
     let output = run(&["check", trajectory.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    let names = ["pull-back.html", "pull-back.planar.svg", "pull-back.planar.trajectory.json"];
+    let names =
+        ["pull-back.planar.svg", "pull-back.planar.trajectory.json", "pull-back.predict.html"];
     assert_eq!(files(folder.path()), names);
 }
 
@@ -202,7 +206,7 @@ fn a_solved_task_leaves_a_plan_that_verifies_and_the_same_files_for_any_number_o
     let out = page.to_str().expect("UTF-8");
     let output = run(&["verify", plan, "--disturbed", "2", "--out", out]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert_eq!(files(&page), ["pull-back.html"]);
+    assert_eq!(files(&page), ["pull-back.verify.html"]);
 
     // The same plan without its last centimetres misses the goal.
     let text = String::from_utf8(one.0).expect("UTF-8");
@@ -227,6 +231,42 @@ fn a_task_without_a_solution_ends_with_code_4_and_shows_the_nearest_plan() {
     assert_eq!(report["status"], "no_plan");
     let names = ["too-far.nearest.html", "too-far.nearest.plan.json", "too-far.nearest.svg"];
     assert_eq!(files(folder.path()), names);
+}
+
+#[test]
+fn results_of_one_kind_or_task_do_not_write_over_those_of_another() {
+    let folder = TempDir::new().expect("a folder");
+    let within = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let out = within("out");
+    let long = "a".repeat(80);
+    for name in ["my task", "my-task", "my+task", &format!("{long}1"), &format!("{long}2")] {
+        let file = within(&format!("{name}.yaml"));
+        std::fs::copy("tasks/pull-back.yaml", &file).expect("a task");
+        let ran = run(&["run", &file, "--world", "1", "--out", &out]);
+        assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
+        let action = ["predict", &file, "--tool", "l-hook", "--push", "can:180", "--out", &out];
+        let ran = run(&action);
+        assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
+    }
+    let names = files(Path::new(&out));
+    let count = |end: &str| names.iter().filter(|name| name.ends_with(end)).count();
+    assert_eq!([count(".run.html"), count(".run.json"), count(".predict.html")], [5, 5, 5]);
+    assert!(names.contains(&"my-task.run.html".to_owned()), "{names:?}");
+    let trace = within("out/my-task.run.json");
+    let checked = run(&["check", &trace]);
+    assert_eq!(String::from_utf8_lossy(&checked.stdout), format!("{trace}: run, fine\n"));
+    let text = std::fs::read_to_string(&trace).expect("a trace");
+    std::fs::write(&trace, &text[..text.len() / 2]).expect("half of it");
+    assert_eq!(run(&["check", &trace]).status.code(), Some(3));
+
+    // Nor do two runs at once.
+    let _lock = FolderLock::take(Path::new(&out), &Unwatched).expect("a free folder");
+    let busy = run(&["run", "tasks/pull-back.yaml", "--world", "1", "--out", &out]);
+    assert!(
+        busy.status.code() == Some(1) && stderr(&busy).contains("process"),
+        "{}",
+        stderr(&busy)
+    );
 }
 
 /// Names of the files in a folder, sorted.

@@ -261,12 +261,12 @@ fn an_action_and_a_task_of_a_benchmark_have_pages() {
     let out = within("predicted");
     let predict = ["predict", task, "--tool", "l-hook", "--push", "can:180", "--out", &out];
     assert_eq!(exit_code(&predict), 0);
-    assert_eq!(replays(&format!("{out}/pull-back.html")), [1, 1, 1]);
+    assert_eq!(replays(&format!("{out}/pull-back.predict.html")), [1, 1, 1]);
 
     assert_eq!(exit_code(&["bench", "tasks", task, "--out", &run]), 0);
     let out = within("pages");
     assert_eq!(exit_code(&["bench", "report", &run, "--page", task, "--out", &out]), 0);
-    assert_eq!(replays(&format!("{out}/pull-back.html")), [1, 1, 1]);
+    assert_eq!(replays(&format!("{out}/pull-back.verify.html")), [1, 1, 1]);
     // Another task was not measured, and one that was changed since not as it is now.
     let other = ["bench", "report", &run, "--page", "tasks/pull-back-twice.yaml", "--out", &out];
     assert_eq!(exit_code(&other), 2);

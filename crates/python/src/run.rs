@@ -120,7 +120,7 @@ impl PyRun {
     /// What was wrong with what was seen, in words.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.0.all_notes().map(ToString::to_string).collect()
+        self.0.all_notes().map(|note| note.words(&self.0.task.scene)).collect()
     }
 
     /// Writes the trace, `*.run.json`, as the command does; a partial file is never left behind.

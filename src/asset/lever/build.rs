@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::asset::node::Node;
 use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
 use crate::asset::task::{named_tools, pushes_of, reach_of, unknown_of};
-use crate::asset::text::named_after;
+use crate::asset::text::apart_by_name;
 use crate::geometry::{Pose, Vector, centroid, cross};
 use crate::scene::{
     Goal, LeverRules, Object, Obstacle, Pivot, Plate, PushRules, Scene, Slab, Task,
@@ -29,7 +29,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
     };
     let scene = Scene { obstacles, ..Scene::new(objects).on_table(friction) };
     Some(Task {
-        name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
+        name: name_of(root).map_or_else(|| apart_by_name(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         goal: goal(root.get("goal")?, &scene)?,
         further: Vec::new(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
 use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
-use crate::asset::text::named_after;
+use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::scene::{
     Directions, Goal, Hand, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
@@ -32,7 +32,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
         }
     }
     Some(Task {
-        name: name_of(root).map_or_else(|| named_after(&stem()), str::to_owned),
+        name: name_of(root).map_or_else(|| apart_by_name(&stem()), str::to_owned),
         description: root.get("description").and_then(Node::text).unwrap_or_default().into(),
         scene,
         unknown: unknown(root)?,
