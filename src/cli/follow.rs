@@ -6,12 +6,18 @@ use indicatif::ProgressBar;
 
 use crate::watch::Watch;
 
-use super::{error::CliError, interrupt, session::Session};
+use super::{
+    error::CliError,
+    interrupt,
+    session::{Session, count},
+};
 
 /// Follows a job with a bar or a spinner.
 pub struct Following<'a> {
     session: &'a Session,
     bar: ProgressBar,
+    /// Whether the units that it counts are those of a stage.
+    staged: bool,
     /// What went wrong while showing; the job is asked to stop then.
     trouble: Mutex<Option<CliError>>,
 }
@@ -19,12 +25,12 @@ pub struct Following<'a> {
 impl<'a> Following<'a> {
     /// A bar, for many equal units of `what`.
     pub fn bar(session: &'a Session, what: &str) -> Self {
-        Self { session, bar: session.bar(what), trouble: Mutex::default() }
+        Self { session, bar: session.bar(what), staged: false, trouble: Mutex::default() }
     }
 
     /// A spinner with the stage and how far it is.
     pub fn spinner(session: &'a Session, what: &str) -> Self {
-        Self { session, bar: session.staged(what), trouble: Mutex::default() }
+        Self { session, bar: session.staged(what), staged: true, trouble: Mutex::default() }
     }
 
     /// Ends the bar.
@@ -48,10 +54,16 @@ impl<'a> Following<'a> {
 
 impl Watch for Following<'_> {
     fn stage(&self, what: &str) {
+        if self.staged {
+            count(&self.bar, false);
+        }
         self.bar.set_message(what.to_owned());
     }
 
     fn progress(&self, done: u64, total: u64) {
+        if self.staged {
+            count(&self.bar, total > 0);
+        }
         self.bar.set_length(total);
         self.bar.set_position(done);
     }

@@ -24,6 +24,10 @@ pub struct GlobalArgs {
     pub quiet: bool,
 }
 
+/// What is being done, and how much of it is, once that is known.
+const STAGE: &str = "{spinner} {prefix}, {elapsed} {msg}";
+const COUNTED: &str = "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}";
+
 /// Work that ends sooner shows no progress.
 const SHOW_AFTER: Duration = Duration::from_millis(500);
 
@@ -113,12 +117,12 @@ impl Session {
     /// A spinner for work whose length is not known, shown once it has taken a while. Invisible
     /// unless stderr is a terminal.
     pub fn spinner(&self, what: &str) -> ProgressBar {
-        self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}")
+        self.spinning(what, STAGE)
     }
 
     /// The same for work in stages, each of a number of units.
     pub fn staged(&self, what: &str) -> ProgressBar {
-        self.spinning(what, "{spinner} {prefix}, {elapsed} {msg}, {pos}/{len}")
+        self.spinning(what, STAGE)
     }
 
     fn spinning(&self, what: &str, template: &str) -> ProgressBar {
@@ -137,6 +141,11 @@ impl Session {
         }
         bar
     }
+}
+
+/// Shows the number of units of a stage, or none where there is nothing to count.
+pub fn count(bar: &ProgressBar, counted: bool) {
+    bar.set_style(style(if counted { COUNTED } else { STAGE }));
 }
 
 /// Of `cores`, as many as Slurm has allotted to the task, if it has.

@@ -151,7 +151,7 @@ fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
             }
         }
         if !plate.has_feet() && !is_held(plate, &blocks) {
-            let message = format!("nothing holds `{}` at {} m", plate.name, plate.z);
+            let message = format!("nothing holds `{}` at {} m", plate.name, micrometres(plate.z));
             let advice = "obstacles below it must end at `z` on both sides of its centre of mass; \
                           or let it stand on feet: leave `z` out";
             ledger.fault(node.get("z").unwrap_or(place), message, advice);
@@ -275,4 +275,9 @@ mod tests {
         assert!(!held(&[block(-0.03, 0.01), block(0.03, 0.009)]), "one is too low");
         assert_eq!(plate.solids()[0].lowest(), plate.z);
     }
+}
+
+/// A height without what adding lengths in binary leaves behind.
+fn micrometres(metres: f64) -> f64 {
+    (metres * 1e6).round() / 1e6
 }
