@@ -49,8 +49,8 @@ pub struct SolveArgs {
     /// Seed of refinement's samples and of the disturbed replays
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Disturbed replays of the winning plan in each simulation; more of them measure its robustness
-    /// more finely [default: 4, 8 or 16 by effort]
+    /// Disturbed replays of the winning plan in each simulation, at least; up to 64 are made as long as
+    /// it is not clear whether enough of them reach the goal [default: 4, 8 or 16 by effort]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(0..=10_000))]
     pub disturbed: Option<u16>,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task

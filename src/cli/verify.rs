@@ -38,8 +38,9 @@ Example:
 pub struct VerifyArgs {
     /// The plan file; it holds the task and the tool as well
     plan: PathBuf,
-    /// Disturbed replays in each simulation
-    #[arg(long, value_name = "N", default_value_t = 16,
+    /// Disturbed replays in each simulation, at least; up to 64 are made as long as it is not clear
+    /// whether enough of them reach the goal
+    #[arg(long, value_name = "N", default_value_t = 8,
           value_parser = clap::value_parser!(u32).range(0..=100_000))]
     disturbed: u32,
     /// Share of the disturbed replays that must reach the goal, 0 to 1 [default: what the task
@@ -70,7 +71,7 @@ pub fn run(args: &VerifyArgs, session: &Session) -> Result<u8, CliError> {
     let situation = Situation::stated(&file.task.scene);
     let following = Following::spinner(session, "replaying");
     let until = Until::new(&following, args.time_limit);
-    let verifier = Verifier::new(settings).watched(&until);
+    let verifier = Verifier::new(settings).watched(&until).until_clear();
     let seconds = verifier.seconds(&file.task.scene, &file.plan) / session.threads() as f64;
     if seconds > LONG {
         session.warn(&format!(

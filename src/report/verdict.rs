@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::asset::PlanFile;
-use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Task, Verdict, Warning};
+use crate::scene::{Engine, Evidence, Force, Outcome, Reason, Support, Task, Verdict, Warning};
 
 use super::bystanders::{self, bystanders};
 use super::document::{Document, Section};
@@ -115,12 +115,28 @@ pub(super) fn verdict_line(task: &Task, verdict: Option<&Verdict>) -> String {
             };
             format!("failed: misses the goal{by} in the {} simulation", engine_name(*engine))
         }
+        Some(Reason::NeverOn { engine, support, replays }) => format!(
+            "fragile: works as written, but never where objects rest on {}: in {replays} of {replays} \
+             {} replays with small errors",
+            resting(support),
+            engine_name(*engine)
+        ),
         Some(Reason::Fragile { engine, reached, replays, wanted }) => format!(
             "fragile: works as written, but with small errors of starts and frictions {reached} of \
              {replays} {} replays reach the goal ({:.0} % asked for)",
             engine_name(*engine),
             100.0 * wanted
         ),
+    }
+}
+
+/// What objects rest on.
+fn resting(support: &Support) -> String {
+    match support {
+        Support::Even => "all of their underside".to_owned(),
+        Support::Corners => "their corners or rims".to_owned(),
+        Support::Spread(share) => format!("points at {:.0} % of their corners", 100.0 * share),
+        Support::Points(_) => "points".to_owned(),
     }
 }
 

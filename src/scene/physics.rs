@@ -66,10 +66,15 @@ impl Physics {
     /// Lets all objects rest on the table in another plausible way, in turn for each `draw`; every
     /// fourth one leaves them as they are believed to be.
     pub fn doubt_supports(&mut self, scene: &Scene, draw: usize) {
-        let count = Self::PLAUSIBLE_SUPPORTS.len();
-        if let Some(number) = (draw % (count + 1)).checked_sub(1) {
-            self.support_all(scene, &Self::PLAUSIBLE_SUPPORTS[number]);
+        if let Some(support) = Self::doubted(draw) {
+            self.support_all(scene, support);
         }
+    }
+
+    /// What objects rest on in this draw, if not as they are believed to.
+    pub fn doubted(draw: usize) -> Option<&'static Support> {
+        const SUPPORTS: &[Support] = &Physics::PLAUSIBLE_SUPPORTS;
+        (draw % (SUPPORTS.len() + 1)).checked_sub(1).map(|number| &SUPPORTS[number])
     }
 
     /// Lets all objects rest on the table in this way.

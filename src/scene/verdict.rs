@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Engine, Force, Outcome, Trajectory, Warning};
+use super::{Engine, Force, Outcome, Physics, Support, Trajectory, Warning};
+
+/// As many failed replays on one support, and none that reaches the goal, are no chance: with three of
+/// four reaching it, one plan in 250 would show that.
+const NEVER: usize = 4;
 
 /// What a replay changes against the task as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,6 +82,15 @@ pub enum Reason {
         /// Share that was asked for.
         wanted: f64,
     },
+    /// It works as written, but never where objects rest on the table in a way that is as plausible.
+    NeverOn {
+        /// In which engine.
+        engine: Engine,
+        /// What they rest on then.
+        support: Support,
+        /// How many replays were made so.
+        replays: usize,
+    },
 }
 
 /// Whether a plan works, with the evidence.
@@ -114,7 +127,7 @@ impl Verdict {
 
     /// Whether the plan works as written, though perhaps too seldom under disturbances.
     pub fn works(&self) -> bool {
-        matches!(self.reason, None | Some(Reason::Fragile { .. }))
+        matches!(self.reason, None | Some(Reason::Fragile { .. } | Reason::NeverOn { .. }))
     }
 
     /// Whether a replay was stopped before it was over, so that the verdict says nothing.
@@ -162,8 +175,31 @@ impl Verdict {
         let shares = [Engine::Spatial, Engine::Planar].map(|engine| (engine, self.share(engine)));
         let shares = shares.into_iter().filter_map(|(engine, share)| Some((engine, share?)));
         let least = shares.min_by(|a, b| a.1.2.total_cmp(&b.1.2));
-        least.filter(|(_, (_, _, share))| *share < wanted).map(|(engine, (reached, replays, _))| {
-            Reason::Fragile { engine, reached, replays, wanted }
+        let least = least.filter(|(_, (_, _, share))| *share < wanted);
+        let fragile = least.map(|(engine, (reached, replays, _))| Reason::Fragile {
+            engine,
+            reached,
+            replays,
+            wanted,
+        });
+        self.never_on().filter(|_| wanted > 0.0).or(fragile)
+    }
+
+    /// A support on which the plan never works, by so many replays that this is no chance. Of lever-ups,
+    /// which the planar engine does not replay, supports are no part of what is disturbed.
+    fn never_on(&self) -> Option<Reason> {
+        self.nominal(Engine::Planar)?;
+        [Engine::Spatial, Engine::Planar].into_iter().find_map(|engine| {
+            Physics::PLAUSIBLE_SUPPORTS.iter().find_map(|support| {
+                let on = |evidence: &&Evidence| match evidence.disturbance {
+                    Disturbance::Disturbed { draw } => Physics::doubted(draw - 1) == Some(support),
+                    Disturbance::Nominal => false,
+                };
+                let replays = self.disturbed(engine).filter(on).count();
+                let reached = self.disturbed(engine).filter(on).any(|one| one.outcome.reached);
+                let (support, never) = (support.clone(), replays >= NEVER && !reached);
+                never.then_some(Reason::NeverOn { engine, support, replays })
+            })
         })
     }
 }

@@ -103,7 +103,7 @@ impl<'a> Solving<'a> {
             workspace: Workspace { task, tools },
             rollouts: rollouts(planner.screen()),
             deciding: planner.is_screened().then(|| rollouts(planner.model())),
-            verifier: Verifier::new(verify).watched(watch),
+            verifier: Verifier::new(verify).watched(watch).until_clear(),
             watch,
             statistics: Statistics::default(),
             candidates: Vec::new(),

@@ -4,6 +4,7 @@
 //! in both engines, and so does a wanted share of those with small errors. What leaves the plane is
 //! replayed in 3-D alone. Knows nothing of how plans are found.
 
+mod clear;
 mod disturbance;
 mod rules;
 mod space;

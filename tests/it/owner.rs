@@ -353,3 +353,19 @@ fn pushes_turn_no_farther_from_what_is_allowed_however_often_they_are_aimed_agai
     let most = pushes.map(|push| push.direction.abs()).fold(0.0, f64::max);
     assert!(most > 0.1 && most < 0.44, "{most}");
 }
+
+#[test]
+fn what_is_solved_is_not_fragile_when_it_is_verified() {
+    let folder = std::path::Path::new(crate::ROOT).join("tasks");
+    for name in ["triangle-turned", "turn-the-box", "pull-back"] {
+        let task = Task::load(folder.join(format!("{name}.yaml"))).expect("a shipped task");
+        let planner = Planner::for_effort(Effort::Standard).expect("its models").build();
+        let found = planner.solve(&task, &library()).expect("a sound task");
+        let best = found.best().expect("a plan");
+        let situation = Situation::stated(&task.scene);
+        let verifier = Verifier::new(VerifySettings { disturbed: 8, seed: 0 }).until_clear();
+        let verdict = verifier.verify(&task, &situation, &best.tools, &best.plan);
+        assert_eq!(verdict.passed, found.status == PlanStatus::Solved, "{name}");
+        assert_eq!(Some(&verdict.robustness), best.verdict.as_ref().map(|own| &own.robustness));
+    }
+}

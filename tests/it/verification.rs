@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Disturbance, Engine, Obstacle, Part, Plan, Push, PushForm, Reason, Situation, TableTop, Task,
-    Tool, ToolChoice, Warning,
+    Disturbance, Engine, Evidence, Obstacle, Part, Physics, Plan, Push, PushForm, Reason,
+    Situation, Support, TableTop, Task, Tool, ToolChoice, Verdict, Warning,
 };
 use pushplan::verify::{Verifier, VerifySettings};
 
@@ -181,4 +181,56 @@ fn an_object_pushed_beyond_the_table_falls() {
     let verdict = verifier.verify(&task, &Situation::stated(&task.scene), &[paddle()], &off);
     let fell = Warning::OffTable { object: "can".into() };
     assert!(!verdict.passed && verdict.evidence.iter().all(|e| e.warnings.contains(&fell)));
+}
+
+#[test]
+fn replays_go_on_until_the_answer_is_clear_and_no_longer() {
+    let counted = |length: f64, most: usize| {
+        let verifier = Verifier::new(VerifySettings { disturbed: 4, seed: 1 }).until_clear();
+        let plan = plan(vec![push([0.235, 0.0], 0.0, length)]);
+        let verdict =
+            verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &plan);
+        let replays = verdict.disturbed(Engine::Spatial).count();
+        assert_eq!(replays, verdict.disturbed(Engine::Planar).count());
+        let draws =
+            |engine| verdict.disturbed(engine).map(|one| one.disturbance).collect::<Vec<_>>();
+        assert_eq!(draws(Engine::Spatial), draws(Engine::Planar));
+        assert!(replays <= most, "{replays}");
+        (verdict.passed, replays)
+    };
+    // In the middle of the goal; then nearer and nearer to where the tolerance ends.
+    assert_eq!(counted(0.155, 8), (true, 8));
+    let edge = (0..24).map(|k| counted(0.168 + 5e-4 * f64::from(k), 64));
+    let most = edge.map(|(_, replays)| replays).max();
+    assert!(most.is_some_and(|most| most > 12), "{most:?}");
+}
+
+#[test]
+fn a_support_on_which_a_plan_never_works_makes_it_fragile_by_name() {
+    let verifier = Verifier::new(VerifySettings { disturbed: 16, seed: 1 });
+    let good = plan(vec![push([0.235, 0.0], 0.0, 0.155)]);
+    let verdict = verifier.verify(&task(), &Situation::stated(&task().scene), &[paddle()], &good);
+    let fails = |replays: usize| {
+        let mut left = replays;
+        let failing = |mut evidence: Evidence| {
+            if let Disturbance::Disturbed { draw } = evidence.disturbance
+                && Physics::doubted(draw - 1) == Some(&Support::Corners)
+                && evidence.engine == Engine::Spatial
+                && left > 0
+            {
+                left -= 1;
+                evidence.outcome.reached = false;
+            }
+            evidence
+        };
+        let evidence = verdict.evidence.iter().cloned().map(failing).collect();
+        Verdict::judge(Vec::new(), evidence, 0.75)
+    };
+    // A quarter of all replays: the share that is asked for is met.
+    let never = fails(4);
+    assert_eq!(never.robustness, Some(0.75));
+    let (engine, support) = (Engine::Spatial, Support::Corners);
+    assert_eq!(never.reason, Some(Reason::NeverOn { engine, support, replays: 4 }));
+    assert!(never.works() && !never.passed);
+    assert!(fails(3).passed);
 }

@@ -463,7 +463,7 @@ def predict(
 def verify(
     plan: Plan,
     *,
-    disturbed: int = 16,
+    disturbed: int = 8,
     seed: int = 0,
     robustness: float | None = None,
     time_limit: float | None = None,

@@ -217,7 +217,7 @@ pub fn predicted(model: &Routed, file: &PlanFile) -> Trajectory {
 /// `robustness` is the share of the disturbed replays that must reach the goal, by default the
 /// task's; `time_limit` is in seconds, and replays that are not over then do not pass.
 #[pyfunction]
-#[pyo3(signature = (plan, *, disturbed = 16, seed = 0, robustness = None, time_limit = None,
+#[pyo3(signature = (plan, *, disturbed = 8, seed = 0, robustness = None, time_limit = None,
                     threads = 0))]
 pub fn verify(
     py: Python<'_>,
@@ -240,7 +240,7 @@ pub fn verify(
     let verdict = work::run(py, words::threads(threads)?, |cancel| {
         let until = Until::new(cancel, limit);
         let situation = Situation::stated(&file.task.scene);
-        let verifier = Verifier::new(settings).watched(&until);
+        let verifier = Verifier::new(settings).watched(&until).until_clear();
         verifier.verify(&file.task, &situation, &file.tools, &file.plan)
     })?;
     Ok(PyVerdict { file, verdict })

@@ -60,7 +60,7 @@ impl PageArgs {
             CliError::usage(message, "give the --tools or --more-tools of the run")
         })?;
         let disturbed = run.settings["budget"]["disturbed"].as_u64().unwrap_or(0) as usize;
-        let verifier = Verifier::new(VerifySettings { disturbed, seed });
+        let verifier = Verifier::new(VerifySettings { disturbed, seed }).until_clear();
         let situation = Situation::stated(&task.scene);
         let verdict = session
             .compute(|| verifier.verify(&task, &situation, std::slice::from_ref(tool), &plan));
