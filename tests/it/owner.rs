@@ -333,7 +333,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         |pushes: &str| FAR.replace("tools: all", &format!("tools: all\npushes: {{{pushes}}}"));
     assert_eq!(cause(&with("max_count: 1")), Cause::Pushes { allowed: 1, needed: 2 });
     let one = cause(&with("max_count: 2, length: 0.05").replace("0.81", "0.7"));
-    let Cause::Pushes { needed: 3.., .. } = one else { panic!("{one:?}") };
+    let Cause::Length { allowed: 0.05, needed: 0.1..=0.4 } = one else { panic!("{one:?}") };
     let narrow = with("directions: [0]").replace("[0.81, 0]", "[0.35, 0.3]");
     assert_eq!(cause(&narrow), Cause::Directions);
     let finger = FAR.replace("tools: all", "tools: [finger]");
