@@ -41,7 +41,13 @@ pub(super) fn origin(shape: &Node) -> Option<Vector> {
 
 /// Notes what makes the `shape` of a body no convex prism.
 pub(super) fn check(shape: Option<&Node>, ledger: &mut Ledger) {
-    let Some(node) = shape.and_then(|shape| shape.get("prism")) else { return };
+    if let Some(node) = shape.and_then(|shape| shape.get("prism")) {
+        check_base(node, ledger);
+    }
+}
+
+/// Notes what makes the corners of `node` no convex polygon.
+pub(super) fn check_base(node: &Node, ledger: &mut Ledger) {
     let (Some(corners), Some(centre)) = (corners(node), centre(node)) else { return };
     let Err(error) = base(&corners, centre) else { return };
     let list = node.get("corners");

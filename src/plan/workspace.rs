@@ -67,7 +67,7 @@ pub enum Infeasible {
     #[error("the tool would come down on an object")]
     OnObject,
     /// The tool would come down on an obstacle or pass through one.
-    #[error("an obstacle is in the tool's way")]
+    #[error("an obstacle, or a region that is kept out of, is in the tool's way")]
     Obstacle,
     /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
     #[error("the hand would meet something")]
@@ -220,6 +220,17 @@ impl Workspace<'_> {
                 }
             }
         }
+        for (k, part) in tool.parts().iter().enumerate() {
+            for region in self.task.scene.keep_out.iter().filter(|region| region.tool) {
+                let grown = region.footprint().grown(OBSTACLE_CLEARANCE);
+                let moving = (&part.footprint(), &tool.part_pose(k, &frame));
+                match travel_to_contact(moving, ahead, (&grown, &region.pose)) {
+                    Some(t) if t <= 0.0 => return Err(Infeasible::Obstacle),
+                    Some(t) => free = free.min(t),
+                    None => {}
+                }
+            }
+        }
         if free < MIN_LENGTH {
             return Err(Infeasible::NoRoom);
         }
@@ -228,6 +239,11 @@ impl Workspace<'_> {
             for obstacle in self.task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
                 let grown = obstacle.shape().footprint().grown(HAND_CLEARANCE);
                 let room = travel_to_contact(moving, ahead, (&grown, &obstacle.pose));
+                free = free.min(room.unwrap_or(f64::INFINITY));
+            }
+            for region in self.task.scene.keep_out.iter().filter(|region| region.hand) {
+                let grown = region.footprint().grown(HAND_CLEARANCE);
+                let room = travel_to_contact(moving, ahead, (&grown, &region.pose));
                 free = free.min(room.unwrap_or(f64::INFINITY));
             }
         }
@@ -249,6 +265,10 @@ impl Workspace<'_> {
             let [from, to] = [from, to].map(|frame| *frame * carried.pose);
             for other in task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
                 let still = (&other.shape().footprint(), &other.pose);
+                least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
+            }
+            for region in task.scene.keep_out.iter().filter(|region| region.hand) {
+                let still = (&region.footprint(), &region.pose);
                 least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
             }
             let objects = task.scene.objects.iter().zip(&state.poses).enumerate();
@@ -287,6 +307,11 @@ impl Workspace<'_> {
                 (part.footprint(), tool.part_pose(k, &from), tool.part_pose(k, &to));
             for other in task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
                 let still = (&other.shape().footprint(), &other.pose);
+                let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
+                obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
+            }
+            for region in task.scene.keep_out.iter().filter(|region| region.tool) {
+                let still = (&region.footprint(), &region.pose);
                 let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
                 obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
             }

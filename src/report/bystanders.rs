@@ -35,7 +35,9 @@ pub(super) fn bystanders<'a>(
         false => replayed,
     };
     let falls = |name: &str, warning: &Warning| match warning {
-        Warning::Toppled { object } | Warning::OffTable { object } => object == name,
+        Warning::Toppled { object } | Warning::OffTable { object } | Warning::Fell { object } => {
+            object == name
+        }
         _ => false,
     };
     let of = |(index, object): (usize, &'a crate::scene::Object)| {

@@ -263,9 +263,14 @@ impl<'a> Run<'a> {
             self.keep_between(step);
         }
         self.time += step.duration;
-        if let Some(object) = self.scene.off_table(&self.state).filter(|_| !self.blocked) {
-            let object = self.scene.objects[object].name.clone();
-            self.trajectory.warnings.push(Warning::OffTable { object });
+        let ends = || {
+            let name = |object: usize| self.scene.objects[object].name.clone();
+            let off = self.scene.off_table(&self.state);
+            let off = off.map(|object| Warning::OffTable { object: name(object) });
+            off.or_else(|| self.scene.kept_out(&self.state))
+        };
+        if let Some(warning) = (!self.blocked).then(ends).flatten() {
+            self.trajectory.warnings.push(warning);
             self.blocked = true;
         }
         if self.record == Record::Frames && !self.blocked {

@@ -73,6 +73,18 @@ pub enum Warning {
         /// How far it may be, metres.
         within: f64,
     },
+    /// An object came where objects keep out. The replay ended.
+    KeptOut {
+        /// Its name.
+        object: String,
+        /// The region's name.
+        region: String,
+    },
+    /// An object toppled or left the table, which it may.
+    Fell {
+        /// Its name.
+        object: String,
+    },
     /// The tool pressed harder than the robot's arm can.
     TooMuchForce {
         /// How hard, newtons; to within a factor of two.
@@ -207,6 +219,7 @@ impl Warning {
             | Warning::Simulated { .. }
             | Warning::HardPush { .. }
             | Warning::Slipped { .. }
+            | Warning::Fell { .. }
             | Warning::Guessed { .. } => false,
             Warning::NotAtRest { .. }
             | Warning::NotFinite
@@ -219,6 +232,7 @@ impl Warning {
             | Warning::Jammed { .. }
             | Warning::OffTable { .. }
             | Warning::NotKept { .. }
+            | Warning::KeptOut { .. }
             | Warning::TooMuchForce { .. }
             | Warning::OutOfReach { .. }
             | Warning::ThroughObstacle { .. }
@@ -244,7 +258,13 @@ impl Warning {
     /// Whether something on the way cannot pass. An engine ends a replay there; an effect model
     /// records no frames from there on but the last.
     pub fn blocks(&self) -> bool {
-        matches!(self, Warning::Jammed { .. } | Warning::Strained | Warning::OffTable { .. })
+        matches!(
+            self,
+            Warning::Jammed { .. }
+                | Warning::Strained
+                | Warning::OffTable { .. }
+                | Warning::KeptOut { .. }
+        )
     }
 
     /// Whether this is about the model, so that simulating instead would help.
@@ -274,6 +294,8 @@ impl Warning {
             Warning::Jammed { .. } => "jammed",
             Warning::OffTable { .. } => "off the table",
             Warning::NotKept { .. } => "not kept",
+            Warning::KeptOut { .. } => "not kept out",
+            Warning::Fell { .. } => "fallen",
             Warning::TooMuchForce { .. } => "too much force",
             Warning::HardPush { .. } => "a hard push",
             Warning::OutOfReach { .. } => "out of reach",

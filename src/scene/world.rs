@@ -6,7 +6,8 @@ use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Solid, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, PairFriction, REST_SPEED, Slab, State, Support, Surface, pair_friction,
+    Feet, Joint, JointKind, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface,
+    pair_friction,
 };
 
 /// A movable body.
@@ -28,6 +29,9 @@ pub struct Object {
     /// How far a plan may move it, metres; as far as it likes where nothing is said.
     #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<f64>,
+    /// Whether it may topple or leave the table.
+    #[serde(with = "planar_only", default, skip_serializing_if = "std::ops::Not::not")]
+    pub may_fall: bool,
     /// Solids that are fixed on it, of the same density.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Slab>,
@@ -86,6 +90,7 @@ impl Object {
             friction: Self::FRICTION,
             pose: Pose::default(),
             keep: None,
+            may_fall: false,
             parts: Vec::new(),
             clearance: 0.0,
             z: 0.0,
@@ -223,6 +228,9 @@ pub struct Scene {
     /// Frictions of pairs that are not the mean of the two values.
     #[serde(default)]
     pub frictions: Vec<PairFriction>,
+    /// Regions that are to be kept out of.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
+    pub keep_out: Vec<Region>,
 }
 
 impl Scene {
@@ -240,6 +248,7 @@ impl Scene {
             joints: Vec::new(),
             obstacles: Vec::new(),
             frictions: Vec::new(),
+            keep_out: Vec::new(),
         }
     }
 
@@ -307,10 +316,11 @@ impl Scene {
         }
     }
 
-    /// The first object whose centre has left the table.
+    /// The first object whose centre has left the table and may not.
     pub fn off_table(&self, state: &State) -> Option<usize> {
         let top = self.table_top?;
-        state.poses.iter().position(|pose| !top.holds(pose.position))
+        let off = |k: &usize| !top.holds(state.poses[*k].position) && !self.objects[*k].may_fall;
+        (0..state.poses.len()).find(off)
     }
 
     /// The index of the object called `name`.

@@ -137,6 +137,7 @@ pub(super) fn drive<W: World>(
                 fallen.map(|k| Warning::OffTable { object: scene.objects[k].name.clone() });
             let weak = arm.and_then(|arm| arm.gives_up(&recorder.strain));
             let stopped = || watch.cancelled().then_some(Warning::Stopped);
+            let fallen = fallen.or_else(|| scene.kept_out(&recorder.last().state));
             let ends = jam.or(fallen).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);
@@ -254,8 +255,11 @@ impl Recorder {
         let toppled = self
             .toppled
             .iter()
+            .filter(|&&index| !scene.objects[index].may_fall)
             .map(|&index| Warning::Toppled { object: scene.objects[index].name.clone() });
         self.trajectory.warnings.extend(toppled);
+        let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
+        self.trajectory.warnings.extend(fallen);
         self.trajectory.force = Some(self.strain.force);
         self.trajectory
     }

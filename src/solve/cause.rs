@@ -55,7 +55,7 @@ pub enum Cause {
         /// The object to name.
         needed: String,
     },
-    /// What is to be kept is in the way.
+    /// What is to be kept, or kept out of, is in the way.
     Kept,
     /// The hand would meet something.
     Hand,
@@ -111,7 +111,7 @@ impl fmt::Display for Cause {
                 "`goal.object` cannot be pushed there itself; `{needed}` can, which hangs together \
                  with it"
             ),
-            Cause::Kept => f.write_str("what `keep` names is in the way"),
+            Cause::Kept => f.write_str("what `keep` or `keep_out` names is in the way"),
             Cause::Hand => f.write_str(
                 "the hand would meet something; without it there is a way, see `robot.hand`",
             ),

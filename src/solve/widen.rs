@@ -169,7 +169,10 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
         );
     }
     add(
-        &|task| task.scene.objects.iter_mut().for_each(|object| object.keep = None),
+        &|task| {
+            task.scene.objects.iter_mut().for_each(|object| object.keep = None);
+            task.scene.keep_out.clear();
+        },
         Box::new(|_| Cause::Kept),
     );
     add(&|task| task.robot.hand = None, Box::new(|_| Cause::Hand));

@@ -3,10 +3,10 @@
 //! Written apart from the planner's own rules, which are stricter: it keeps distances; this only
 //! says what no robot can do or the task forbids.
 
-use crate::geometry::{Pose, Vector, swept_clearance, wrap_angle};
+use crate::geometry::{Footprint, Pose, Vector, swept_clearance, wrap_angle};
 use crate::scene::{
-    Obstacle, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
-    Warning,
+    Obstacle, Plan, Push, PushFault, PushForm, PushStep, Region, Robot, Scene, Task, Tool,
+    ToolChoice, Warning,
 };
 
 /// Slack for rounding, metres and radians.
@@ -46,12 +46,15 @@ pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec
         if !is_within_reach(&task.robot, &step.push) {
             found.push(Warning::OutOfReach { push: index });
         }
-        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, step) {
-            let obstacle = obstacle.name.clone();
+        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, step)
+            .map(|obstacle| &obstacle.name)
+            .or_else(|| tool_in(scene, tool, step))
+        {
+            let obstacle = obstacle.clone();
             found.push(Warning::ThroughObstacle { push: index, obstacle });
         }
         if let Some(obstacle) = at_the_hand(task, scene, tool, step) {
-            let obstacle = obstacle.name.clone();
+            let obstacle = obstacle.clone();
             found.push(Warning::HandThrough { push: index, obstacle });
         }
     }
@@ -118,18 +121,37 @@ fn at_the_hand<'a>(
     scene: &'a Scene,
     tool: &Tool,
     step: &PushStep,
-) -> Option<&'a Obstacle> {
+) -> Option<&'a String> {
     let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
     let (from, to) = (frame(step.push.start), frame(step.push.end()));
     let carried = task.robot.carried(tool, step.lift).into_iter().flatten();
     let mut carried = carried.map(|one| (one, from * one.pose, to * one.pose));
     carried.find_map(|(one, from, to)| {
-        scene.obstacles.iter().find(|obstacle| {
-            let still = (&obstacle.shape().footprint(), &obstacle.pose);
-            one.from < obstacle.size[2]
-                && swept_clearance(&one.footprint, &from, &to, still, SLACK) <= 0.0
-        })
+        let met = |footprint: &Footprint, pose: &Pose| {
+            swept_clearance(&one.footprint, &from, &to, (footprint, pose), SLACK) <= 0.0
+        };
+        let obstacle = scene.obstacles.iter().find(|obstacle| {
+            one.from < obstacle.size[2] && met(&obstacle.shape().footprint(), &obstacle.pose)
+        });
+        let mut regions = scene.keep_out.iter().filter(|region| region.hand);
+        let mut region = || regions.find(|region| met(&region.footprint(), &region.pose));
+        obstacle.map(|one| &one.name).or_else(|| Some(&region()?.name))
     })
+}
+
+/// The first region that the tool goes through and keeps out of.
+fn tool_in<'a>(scene: &'a Scene, tool: &Tool, step: &PushStep) -> Option<&'a String> {
+    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
+    let ends = [frame(step.push.start), frame(step.push.end())];
+    let mut regions = scene.keep_out.iter().filter(|region| region.tool);
+    let through = |region: &&Region| {
+        let still = (&region.footprint(), &region.pose);
+        (0..tool.parts().len()).any(|k| {
+            let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
+            swept_clearance(&tool.parts()[k].footprint(), &from, &to, still, SLACK) <= 0.0
+        })
+    };
+    regions.find(through).map(|region| &region.name)
 }
 
 /// Whether the end effector is within reach all along a push.

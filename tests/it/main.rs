@@ -12,6 +12,7 @@ mod benchmarks;
 mod book;
 mod cli;
 mod closed_loop;
+mod constraints;
 mod export;
 mod facade;
 mod fitting;

@@ -18,7 +18,9 @@ else:
     from typing_extensions import NotRequired
 
 __all__ = [
+    "AreaKeys",
     "BladeKeys",
+    "CircleKeys",
     "CuboidKeys",
     "CylinderKeys",
     "FixedKeys",
@@ -37,9 +39,12 @@ __all__ = [
     "ObjectShapeKeys",
     "ObstacleKeys",
     "PartKeys",
+    "PolygonKeys",
     "PrismKeys",
     "PushKeys",
     "ReachKeys",
+    "RectangleKeys",
+    "RegionKeys",
     "RobotKeys",
     "SceneKeys",
     "ShapeKeys",
@@ -144,6 +149,7 @@ class ObjectKeys(TypedDict):
     position: Numbers
     yaw_deg: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
+    may_fall: NotRequired[bool]
     parts: NotRequired[Sequence[FixedKeys]]
     clearance: NotRequired[float]
     z: NotRequired[float]
@@ -255,6 +261,44 @@ class KeepKeys(TypedDict):
     within: NotRequired[float]
 
 
+class CircleKeys(TypedDict):
+    """A circle, metres."""
+
+    radius: float
+
+
+class RectangleKeys(TypedDict):
+    """A rectangle, full extents [x, y] in metres."""
+
+    size: Numbers
+
+
+class PolygonKeys(TypedDict):
+    """A convex polygon, corners [x, y] in metres."""
+
+    corners: Sequence[Numbers]
+
+
+class AreaKeys(TypedDict, total=False):
+    """The outline of a region: exactly one of these."""
+
+    circle: CircleKeys
+    rectangle: RectangleKeys
+    polygon: PolygonKeys
+
+
+RegionKeys = TypedDict(
+    "RegionKeys",
+    {
+        "name": str,
+        "area": AreaKeys,
+        "position": NotRequired[Numbers],
+        "yaw_deg": NotRequired[float],
+        "for": NotRequired[Sequence[Literal["objects", "tool", "hand"]]],
+    },
+)
+
+
 class TaskFile(TypedDict):
     """The keys of a task file."""
 
@@ -269,6 +313,7 @@ class TaskFile(TypedDict):
     unknown: NotRequired[Sequence[Literal["joints", "masses", "frictions", "support"]]]
     levers: NotRequired[LeversKeys]
     keep: NotRequired[KeepKeys]
+    keep_out: NotRequired[Sequence[RegionKeys]]
 
 
 class GripKeys(TypedDict):

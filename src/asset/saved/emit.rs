@@ -63,6 +63,11 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
         let names: Vec<&String> = kept.iter().map(|object| &object.name).collect();
         fields["keep"] = json!({"objects": names, "within": within});
     }
+    if !task.scene.keep_out.is_empty() {
+        let regions = task.scene.keep_out.iter();
+        let regions = regions.map(|region| posed(crate::asset::task::region(region), &region.pose));
+        fields["keep_out"] = regions.collect();
+    }
     if task.unknown.any() {
         let unknown = task.unknown.words().into_iter().filter(|(_, unknown)| *unknown);
         fields["unknown"] = unknown.map(|(word, _)| word).collect();
@@ -131,10 +136,13 @@ fn support(support: &Support) -> Json {
 /// A scene as in a task file.
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let object = |object: &Object| {
-        let fields = json!({
+        let mut fields = json!({
             "name": object.name, "shape": shape(&object.shape), "support": support(&object.support),
             "mass": object.mass, "friction": object.friction,
         });
+        if object.may_fall {
+            fields["may_fall"] = json!(true);
+        }
         posed(fields, &object.pose)
     };
     let obstacle = |obstacle: &Obstacle| {

@@ -13,7 +13,7 @@ use crate::scene::{
 };
 
 use super::spec::default;
-use super::{frictions, joints};
+use super::{frictions, joints, keep};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -24,6 +24,7 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let further = goals.split_off(1);
     let robot = robot(root.get("robot")?)?;
     scene.obstacles.extend(robot.column());
+    scene.keep_out = keep::regions(root)?;
     if let Some(keep) = root.get("keep") {
         let within = number_or(keep, "within", default::KEEP)?;
         for name in keep.get("objects").map(Node::items).unwrap_or_default() {
@@ -79,6 +80,7 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             .collect::<Option<_>>()?,
         obstacles,
         objects,
+        ..Scene::default()
     })
 }
 
@@ -98,6 +100,10 @@ fn object(node: &Node) -> Option<Object> {
         mass: node.get("mass")?.number()?,
         friction: node.get("friction")?.number()?,
         pose: pose(node)?,
+        may_fall: match node.get("may_fall") {
+            Some(may_fall) => may_fall.switch()?,
+            None => false,
+        },
         ..Object::new(name_of(node)?, shape(node.get("shape")?)?)
     })
 }

@@ -4,6 +4,7 @@ mod build;
 mod emit;
 mod frictions;
 mod joints;
+mod keep;
 mod load;
 mod rules;
 mod spec;
@@ -14,6 +15,7 @@ pub(super) use build::{
 };
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use joints::joint as joint_of;
+pub(super) use keep::emitted as region;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use rules::{

@@ -8,7 +8,7 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, frictions, joints};
+use super::{build, frictions, joints, keep as regions};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -39,6 +39,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     one_each(goals, ledger);
     keep(section("keep"), goals, objects, ledger);
     on_table(scene, goals, ledger);
+    regions::check(root, &objects.iter().chain(obstacles).collect::<Vec<_>>(), objects, ledger);
+    goals.iter().for_each(|one| may_fall(one, objects, ledger));
 }
 
 /// What is unknown is named once, and joints are not stated where they are unknown.
@@ -88,6 +90,17 @@ fn keep(keep: &Node, goals: &[Node], objects: &[Node], ledger: &mut Ledger) {
                 format!("`{name}` is to be moved and kept"),
                 "take it from one of both",
             );
+        }
+    }
+}
+
+/// What is to be moved must not fall.
+fn may_fall(goal: &Node, objects: &[Node], ledger: &mut Ledger) {
+    let wanted = goal.get("object").and_then(Node::text);
+    for object in objects.iter().filter(|object| wanted.is_some() && name_of(object) == wanted) {
+        if let Some(node) = object.get("may_fall").filter(|node| node.switch() == Some(true)) {
+            let message = format!("`{}` is to be moved and may fall", wanted.unwrap_or_default());
+            ledger.fault(node, message, "leave it out: what has fallen is at no goal");
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::asset::spec::{
 
 use super::frictions::FRICTIONS;
 use super::joints::JOINT;
+use super::keep::{KEEP, KEEP_OUT};
 
 /// Defaults of optional keys; the words of the keys below repeat them.
 pub(in crate::asset) mod default {
@@ -41,19 +42,8 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
         Value::Either(&[GOAL, Value::List { of: &GOAL, items: "goals", min: 1, max: 8 }]),
         "Where an object must come to rest; or a list, for several objects, in any order.",
     ),
-    Key::optional(
-        "keep",
-        Value::Map(&[
-            Key::required(
-                "objects",
-                Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 64 },
-                "Names of objects that stay where they are.",
-            ),
-            Key::optional("within", SIZE, "How far they may be moved, metres; default 0.005."),
-        ]),
-        "What no plan may move; by default everything may be pushed aside, though nothing may topple \
-         or fall.",
-    ),
+    KEEP,
+    KEEP_OUT,
     ROBUSTNESS,
 ];
 
@@ -164,6 +154,11 @@ const OBJECT: Value = Value::Map(&[
         "Friction value; the coefficient of a pair is the mean of the two values.",
     ),
     OBJECT_SUPPORT,
+    Key::optional(
+        "may_fall",
+        Value::Switch,
+        "Whether it may topple or be pushed off the table; default false.",
+    ),
     Key::required("position", POSITION, "Centre at the start, [x, y] in metres."),
     Key::optional("yaw_deg", ANGLE, "Heading at the start, degrees; default 0."),
 ]);

@@ -111,6 +111,7 @@ impl Plate {
             mass: self.mass,
             friction: self.friction,
             keep: None,
+            may_fall: false,
             pose: self.pose,
             parts: slabs.collect(),
             clearance: self.clearance,

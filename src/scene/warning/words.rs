@@ -101,6 +101,10 @@ impl fmt::Display for Warning {
                 moved * 1e3,
                 within * 1e3
             ),
+            Warning::KeptOut { object, region } => {
+                write!(f, "{object} comes into {region}, which objects keep out of")
+            }
+            Warning::Fell { object } => write!(f, "{object} falls, which it may"),
             Warning::TooMuchForce { needed, limit } => write!(
                 f,
                 "pushing takes about {needed:.0} N for longer than an impact, and the robot has {limit:.0}"

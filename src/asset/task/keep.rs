@@ -1,0 +1,164 @@
+//! What a task file says must be left alone: objects that stay, regions that nothing enters.
+
+use serde_json::{Value as Json, json};
+
+use crate::asset::node::Node;
+use crate::asset::prism;
+use crate::asset::spec::{ANGLE, Key, POSITION, SIZE, Value, numbers};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{name_of, pose, vector};
+use crate::geometry::{ConvexPolygon, MAX_CORNERS, Pose, Shape};
+use crate::scene::Region;
+
+use super::rules::body;
+
+/// Height of a region as a solid, metres: no height matters.
+const HEIGHT: f64 = 1.0;
+
+/// What stays where it is.
+pub(in crate::asset) const KEEP: Key = Key::optional(
+    "keep",
+    Value::Map(&[
+        Key::required(
+            "objects",
+            Value::List { of: &Value::Name, items: "names of objects", min: 1, max: 64 },
+            "Names of objects that stay where they are.",
+        ),
+        Key::optional("within", SIZE, "How far they may be moved, metres; default 0.005."),
+    ]),
+    "What no plan may move; by default everything may be pushed aside, though nothing may topple \
+     or fall.",
+);
+
+/// Where nothing may be.
+pub(in crate::asset) const KEEP_OUT: Key = Key::optional(
+    "keep_out",
+    Value::List { of: &REGION, items: "regions", min: 0, max: 16 },
+    "Regions of the table that objects, tool or hand keep out of, from the table to the ceiling; by \
+     default none.",
+);
+
+const REGION: Value = Value::Map(&[
+    Key::required("name", Value::Name, "The region's name, unlike that of any body."),
+    Key::required(
+        "area",
+        Value::Variant(&[
+            Key::optional(
+                "circle",
+                Value::Map(&[Key::required("radius", SIZE, "Its radius in metres.")]),
+                "A circle.",
+            ),
+            Key::optional(
+                "rectangle",
+                Value::Map(&[Key::required(
+                    "size",
+                    numbers(&SIZE, 2),
+                    "Full extents [x, y] in metres.",
+                )]),
+                "A rectangle.",
+            ),
+            Key::optional(
+                "polygon",
+                Value::Map(&[Key::required(
+                    "corners",
+                    Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
+                    "Its corners in order, [x, y] in metres from the region's position.",
+                )]),
+                "A convex polygon.",
+            ),
+        ]),
+        "Its outline.",
+    ),
+    Key::optional(
+        "position",
+        POSITION,
+        "Where it is, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
+    ),
+    Key::optional("yaw_deg", ANGLE, "Its turn, degrees; default 0."),
+    Key::optional(
+        "for",
+        Value::List { of: &Value::Word(WORDS), items: "words", min: 1, max: 3 },
+        "What keeps out of it: `objects`, `tool`, `hand`; by default all of them.",
+    ),
+]);
+
+const WORDS: &[&str] = &["objects", "tool", "hand"];
+
+/// The regions, or `None` if one is faulty.
+pub(super) fn regions(root: &Node) -> Option<Vec<Region>> {
+    root.get("keep_out").map(Node::items).unwrap_or_default().iter().map(region).collect()
+}
+
+fn region(node: &Node) -> Option<Region> {
+    let area = node.get("area")?;
+    let at = match node.get("position") {
+        Some(_) => pose(node)?,
+        None => {
+            Pose { heading: crate::asset::take::angle(node, "yaw_deg", 0.0)?, ..Pose::default() }
+        }
+    };
+    let (shape, pose) = if let Some(circle) = area.get("circle") {
+        (Shape::Cylinder { radius: circle.get("radius")?.number()?, height: HEIGHT }, at)
+    } else if let Some(rectangle) = area.get("rectangle") {
+        let size = vector(rectangle.get("size")?)?;
+        (Shape::Cuboid { size: [size.x, size.y, HEIGHT] }, at)
+    } else {
+        let corners = area.get("polygon")?.get("corners")?.items();
+        let corners: Vec<_> = corners.iter().map(vector).collect::<Option<_>>()?;
+        let centre = crate::geometry::centroid(&corners);
+        let base = ConvexPolygon::new(&corners).ok()?;
+        let middle = Pose { position: centre, heading: 0.0 };
+        (Shape::Prism { base, height: HEIGHT }, at * middle)
+    };
+    let words = node.get("for").map(Node::items);
+    let is_for =
+        |word: &str| words.is_none_or(|words| words.iter().any(|one| one.text() == Some(word)));
+    Some(Region {
+        name: name_of(node)?.into(),
+        shape,
+        pose,
+        objects: is_for("objects"),
+        tool: is_for("tool"),
+        hand: is_for("hand"),
+    })
+}
+
+/// Notes regions that are none, that have another's name, or that an object stands in.
+pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mut Ledger) {
+    let regions = root.get("keep_out").map(Node::items).unwrap_or_default();
+    crate::asset::take::unique_names(
+        bodies.iter().copied().chain(regions),
+        "bodies and regions",
+        ledger,
+    );
+    for node in regions {
+        if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
+            prism::check_base(polygon, ledger);
+        }
+        let Some(region) = region(node).filter(|region| region.objects) else { continue };
+        for object in objects {
+            let inside = body(object).is_some_and(|(shape, pose)| region.holds(&shape, &pose));
+            if inside {
+                let name = name_of(object).unwrap_or("?");
+                let message =
+                    format!("`{name}` stands in `{}`, which objects keep out of", region.name);
+                ledger.fault(node, message, "move one of them, or leave `objects` out of `for`");
+            }
+        }
+    }
+}
+
+/// A region as in a task file.
+pub(in crate::asset) fn emitted(region: &Region) -> Json {
+    let area = match region.shape {
+        Shape::Cylinder { radius, .. } => json!({"circle": {"radius": radius}}),
+        Shape::Cuboid { size: [x, y, _] } => json!({"rectangle": {"size": [x, y]}}),
+        Shape::Prism { base, .. } => {
+            let corners: Vec<[f64; 2]> = base.corners().iter().map(|at| (*at).into()).collect();
+            json!({"polygon": {"corners": corners}})
+        }
+    };
+    let words = [(region.objects, "objects"), (region.tool, "tool"), (region.hand, "hand")];
+    let words = words.iter().filter(|(is_for, _)| *is_for).map(|(_, word)| *word);
+    json!({"name": region.name, "area": area, "for": words.collect::<Vec<_>>()})
+}

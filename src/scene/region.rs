@@ -1,0 +1,64 @@
+//! Regions of the table that are to be kept out of.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Footprint, Pose, Shape, clearance};
+
+use super::{Scene, State, Warning};
+
+/// What overlaps a region by less is outside of it, metres: rounding.
+const SLACK: f64 = 1e-6;
+
+/// A region of the table that some bodies keep out of, at whatever height.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Region {
+    /// Unique among objects, obstacles and regions.
+    pub name: String,
+    /// Its outline is that of this solid; the height does not matter.
+    pub shape: Shape,
+    /// Where it is.
+    pub pose: Pose,
+    /// Whether objects keep out of it.
+    pub objects: bool,
+    /// Whether the tool does.
+    pub tool: bool,
+    /// Whether the hand does.
+    pub hand: bool,
+}
+
+impl Region {
+    /// What it covers.
+    pub fn footprint(&self) -> Footprint {
+        self.shape.footprint()
+    }
+
+    /// Whether this footprint is in it, there.
+    pub fn holds(&self, footprint: &Footprint, pose: &Pose) -> bool {
+        let own = self.footprint().shrunk(SLACK);
+        clearance((footprint, pose), (&own, &self.pose), SLACK) <= 0.0
+    }
+}
+
+impl Scene {
+    /// The first object that is where objects keep out.
+    pub fn kept_out(&self, state: &State) -> Option<Warning> {
+        let regions = || self.keep_out.iter().filter(|region| region.objects);
+        // Most scenes have none.
+        regions().next()?;
+        self.objects.iter().zip(&state.poses).find_map(|(object, pose)| {
+            let footprint = object.shape.footprint();
+            let region = regions().find(|region| region.holds(&footprint, pose))?;
+            let (object, region) = (object.name.clone(), region.name.clone());
+            Some(Warning::KeptOut { object, region })
+        })
+    }
+
+    /// What toppled or left the table by the end, though it may.
+    pub fn fallen(&self, state: &State, toppled: &[usize]) -> Vec<Warning> {
+        let off =
+            |k: &usize| self.table_top.is_some_and(|top| !top.holds(state.poses[*k].position));
+        let may = (0..self.objects.len()).filter(|&k| self.objects[k].may_fall);
+        let fell = may.filter(|k| toppled.contains(k) || off(k));
+        fell.map(|k| Warning::Fell { object: self.objects[k].name.clone() }).collect()
+    }
+}

@@ -1,0 +1,145 @@
+//! What a task says of more than its goal: where nothing may come, and what may fall.
+
+use pushplan::asset::ToolLibrary;
+use pushplan::scene::{Engine, Region, Task, Warning};
+use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+
+fn task(text: &str) -> Task {
+    Task::parse(text, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn solved(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    planner.solve(task, &ToolLibrary::embedded().expect("the shipped tools")).expect("a sound task")
+}
+
+/// A can that goes straight ahead by itself.
+const CAN: &str = "
+scene:
+  objects: [{name: can, shape: {cylinder: {radius: 0.03, height: 0.08}}, mass: 0.4, friction: 0.4, position: [0.45, 0]}]
+robot: {reach: {min: 0.05, max: 0.95}}
+tools: [finger, stick]
+pushes: {directions: 8, length: 0.3}
+goal: {object: can, position: [0.7, 0], tolerance: 0.02}
+";
+
+/// The same with regions that are kept out of.
+fn keeping_out(regions: &str) -> Task {
+    task(&format!("{CAN}keep_out: [{regions}]\n"))
+}
+
+/// How far the goal's object gets from the straight way to its goal, metres, and how often it or
+/// the tool is in `region`.
+fn followed(solution: &Solution, region: &Region) -> (f64, usize, usize) {
+    let best = solution.best().expect("a plan");
+    let verdict = best.verdict.as_ref().expect("replays");
+    let (mut aside, mut object, mut tool) = (0.0f64, 0, 0);
+    for engine in Engine::ALL {
+        let trajectory = verdict.nominal(engine).and_then(|one| one.trajectory.as_ref());
+        for frame in &trajectory.expect("a nominal replay").frames {
+            let pose = frame.state.poses[0];
+            aside = aside.max(pose.position.y.abs());
+            let can = pushplan::geometry::Footprint::Disc { radius: 0.03 };
+            object += usize::from(region.holds(&can, &pose));
+            let parts = best.tool().parts().iter().enumerate();
+            let mut inside = parts.map(|(k, part)| {
+                region.holds(&part.footprint(), &best.tool().part_pose(k, &frame.tool))
+            });
+            tool += usize::from(inside.any(|inside| inside));
+        }
+    }
+    (aside, object, tool)
+}
+
+#[test]
+fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
+    let free = solved(&task(CAN));
+    assert_eq!(free.status, PlanStatus::Solved);
+    let circle = |who: &str| {
+        format!(
+            "{{name: spill, area: {{circle: {{radius: 0.04}}}}, position: [0.575, 0], for: [{who}]}}"
+        )
+    };
+    let around = keeping_out(&circle("objects"));
+    let region = &around.scene.keep_out[0];
+    let (aside, object, _) = followed(&free, region);
+    assert!(aside < 0.03 && object > 0, "it would go straight through: {aside}");
+
+    let found = solved(&around);
+    assert_eq!(found.status, PlanStatus::Solved);
+    let (aside, object, _) = followed(&found, region);
+    assert!(aside > 0.06 && object == 0, "{aside}, {object} frames inside");
+
+    // A tool that goes behind the can comes there after it; a hook or a push from elsewhere need not.
+    let tool = keeping_out(&circle("tool"));
+    let found = solved(&tool);
+    if matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile) {
+        assert_eq!(followed(&found, &tool.scene.keep_out[0]).2, 0);
+    }
+    // The finger's hand is 5 cm wide and above its tip.
+    let hand = keeping_out(&circle("hand").replace("0.04", "0.3"));
+    assert!(!matches!(solved(&hand).status, PlanStatus::Solved | PlanStatus::Fragile));
+}
+
+#[test]
+fn regions_of_every_outline_are_written_and_read() {
+    let text = "
+  {name: a, area: {rectangle: {size: [0.1, 0.2]}}, position: [0.2, 0.4], yaw_deg: 30},
+  {name: b, area: {polygon: {corners: [[0.6, 0.3], [0.8, 0.3], [0.7, 0.5]]}}, for: [hand, tool]},
+  {name: c, area: {circle: {radius: 0.1}}, position: [0.2, -0.4], for: [tool]}";
+    let stated = keeping_out(text);
+    let written = stated.to_yaml().expect("a file");
+    let read = Task::parse(&written, "task.yaml").expect("what is written");
+    assert_eq!(read.scene.keep_out.len(), 3);
+    for (one, other) in stated.scene.keep_out.iter().zip(&read.scene.keep_out) {
+        let moved = (one.pose.position - other.pose.position).norm();
+        assert!(moved < 1e-12 && (one.pose.heading - other.pose.heading).abs() < 1e-12);
+        assert_eq!(
+            (&one.name, one.objects, one.tool, one.hand),
+            (&other.name, other.objects, other.tool, other.hand)
+        );
+    }
+    let fault = |regions: &str| {
+        let text = format!("{CAN}keep_out: [{regions}]\n");
+        Task::parse(&text, "task.yaml").expect_err("a fault").to_string()
+    };
+    let there = fault("{name: a, area: {circle: {radius: 0.1}}, position: [0.5, 0]}");
+    assert!(there.contains("`can` stands in `a`, which objects keep out of"), "{there}");
+    let named = fault("{name: can, area: {circle: {radius: 0.1}}, position: [0.9, 0]}");
+    assert!(named.contains("can"), "{named}");
+    let bent =
+        "{name: a, area: {polygon: {corners: [[0, 0], [1, 0], [0.2, 0.2], [0, 1]]}}, for: [tool]}";
+    assert!(fault(bent).contains("convex"), "{}", fault(bent));
+}
+
+/// A box with a tall bottle before it, at the table's end.
+const BOTTLE: &str = "
+scene:
+  table: {size: [0.5, 1], position: [0.45, 0]}
+  objects:
+    - {name: box, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}
+    - {name: cap, shape: {cylinder: {radius: 0.02, height: 0.03}}, mass: 0.05, friction: 0.4, position: [0.66, 0]}
+robot: {reach: {min: 0.05, max: 0.95}, hand: none}
+tools: [finger, paddle]
+pushes: {directions: [0], length: 0.2, max_count: 1}
+goal: {object: box, position: [0.65, 0], tolerance: 0.01}
+";
+
+#[test]
+fn what_may_fall_is_pushed_off_and_said_to_fall() {
+    let kept = solved(&task(BOTTLE));
+    assert!(!matches!(kept.status, PlanStatus::Solved | PlanStatus::Fragile));
+    let text = BOTTLE.replace("position: [0.66, 0]}", "position: [0.66, 0], may_fall: true}");
+    let free = task(&text);
+    let found = solved(&free);
+    assert_eq!(found.status, PlanStatus::Solved);
+    let verdict = found.best().and_then(|best| best.verdict.as_ref()).expect("replays");
+    for engine in Engine::ALL {
+        let nominal = verdict.nominal(engine).expect("a nominal replay");
+        assert!(nominal.warnings.contains(&Warning::Fell { object: "cap".into() }), "{engine:?}");
+    }
+    assert_eq!(Task::parse(&free.to_yaml().expect("a file"), "task.yaml"), Ok(free));
+    let goal = text.replace("position: [0.5, 0]}", "position: [0.5, 0], may_fall: true}");
+    let fault = Task::parse(&goal, "task.yaml").expect_err("a fault").to_string();
+    assert!(fault.contains("`box` is to be moved and may fall"), "{fault}");
+}
