@@ -11,6 +11,8 @@ mod corridor;
 mod enumerate;
 mod evaluate;
 mod field;
+mod found;
+mod infeasible;
 pub mod lever;
 mod linear;
 mod misses;
@@ -30,14 +32,16 @@ pub use candidate::{Candidate, CandidatePush, Start};
 pub use corridor::{Corridor, alone};
 pub use evaluate::{Evaluation, evaluate};
 pub use field::Field;
+pub use found::{Found, kinds};
+pub use infeasible::Infeasible;
 pub use qp::{QpProblem, QpSolution, QpSolver, QpStatus};
 pub use refine::{FOUND_RADIUS, RefineSettings, Refined, refine};
 pub use rollouts::Rollouts;
 pub use score::{bare, behind, is_behind};
 pub use scored::ScoredPush;
-pub use search::{Found, Search, SearchSettings, kinds};
+pub use search::{Search, SearchSettings};
 pub use statistics::{RefineStatistics, SearchStatistics};
 pub use workspace::{
-    Infeasible, MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,
+    MIN_LENGTH, Margins, OBSTACLE_CLEARANCE, SET_DOWN_CLEARANCE, STAND_OFF, Workspace,
     distance_to_origin,
 };

@@ -3,15 +3,12 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-use thiserror::Error;
-
 use crate::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance, travel_to_contact,
 };
 use crate::scene::{Push, PushForm, State, Task, Tool};
 
-use super::{CandidatePush, Start};
+use super::{CandidatePush, Infeasible, Start};
 
 /// Travel of the contacting face before it meets the object, metres (by the definition of a
 /// placed push).
@@ -50,35 +47,6 @@ const ROUNDING: f64 = 1e-9;
 
 /// Slack in the rules, metres: iterative closest points are not exact to the last digit.
 const SLACK: f64 = 1e-6;
-
-/// Why a push cannot be made.
-#[derive(
-    Clone, Copy, Debug, Error, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-)]
-#[serde(rename_all = "snake_case")]
-pub enum Infeasible {
-    /// The face passes next to or above the object.
-    #[error("the face does not meet the object")]
-    NoContact,
-    /// Another part of the tool meets the object before the face does, or overlaps it.
-    #[error("another part of the tool meets the object first")]
-    OtherPartFirst,
-    /// The tool would come down on an object.
-    #[error("the tool would come down on an object")]
-    OnObject,
-    /// The tool would come down on an obstacle or pass through one.
-    #[error("an obstacle, or a region that is kept out of, is in the tool's way")]
-    Obstacle,
-    /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
-    #[error("the hand would meet something")]
-    Hand,
-    /// The end effector would leave the robot's reach.
-    #[error("the end effector would leave the robot's reach")]
-    Reach,
-    /// Hardly any travel is left before the reach ends or an obstacle comes.
-    #[error("there is no room to push")]
-    NoRoom,
-}
 
 /// How far a push is from breaking each rule, metres; negative where it breaks one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,33 @@
+//! Why a push cannot be made.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Why a push cannot be made.
+#[derive(
+    Clone, Copy, Debug, Error, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Infeasible {
+    /// The face passes next to or above the object.
+    #[error("the face does not meet the object")]
+    NoContact,
+    /// Another part of the tool meets the object before the face does, or overlaps it.
+    #[error("another part of the tool meets the object first")]
+    OtherPartFirst,
+    /// The tool would come down on an object.
+    #[error("the tool would come down on an object")]
+    OnObject,
+    /// The tool would come down on an obstacle or pass through one.
+    #[error("an obstacle, or a region that is kept out of, is in the tool's way")]
+    Obstacle,
+    /// The hand or the handle of the tool would meet an obstacle, or something taller than the tool.
+    #[error("the hand would meet something")]
+    Hand,
+    /// The end effector would leave the robot's reach.
+    #[error("the end effector would leave the robot's reach")]
+    Reach,
+    /// Hardly any travel is left before the reach ends or an obstacle comes.
+    #[error("there is no room to push")]
+    NoRoom,
+}
