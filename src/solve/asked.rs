@@ -130,8 +130,8 @@ fn with_yaw(
     let (form, lift) = (rules.form, rules.lift);
     let mut plan = Plan::default();
     let mut broken = Vec::new();
+    let mut state = situation.start.clone();
     for (k, asked) in pushes.iter().enumerate() {
-        let state = after(situation, tool, &plan);
         let previous = plan.push_steps().last().map(|step| step.push.end());
         let (start, pushed) = start(task, (tool, grip_yaw), asked, &state, previous)?;
         let push = Push {
@@ -145,17 +145,20 @@ fn with_yaw(
         let workspace = Workspace { task, tools };
         let rule = workspace.margins((0, grip_yaw), (&state, pushed), &push, set_down).broken();
         broken.extend(rule.map(|rule| (k, rule)));
-        plan = plan.then(Plan::pushing(&tool.name, grip_yaw, form, lift, [push]));
+        let made = Plan::pushing(&tool.name, grip_yaw, form, lift, [push]);
+        // Where a chained push starts does not depend on the objects.
+        if form == PushForm::Placed && k + 1 < pushes.len() {
+            state = after(situation, tool, &made, state);
+        }
+        plan = plan.then(made);
     }
     Ok(Asked { plan, broken })
 }
 
-/// Where the pushes so far leave the objects.
-fn after(situation: &Situation, tool: &Arc<Tool>, plan: &Plan) -> State {
-    if plan.is_empty() {
-        return situation.start.clone();
-    }
-    let job = Job::new(situation, plan.motion(tool));
+/// Where a push leaves objects that rest at `start`: to the bit as if all the pushes before had been made
+/// with it.
+fn after(situation: &Situation, tool: &Arc<Tool>, push: &Plan, start: State) -> State {
+    let job = Job { start, ..Job::new(situation, push.motion(tool)) };
     Simulator::planar().run(&situation.scene, &job, Record::Outcome).outcome().clone()
 }
 
