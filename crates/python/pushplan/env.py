@@ -77,6 +77,8 @@ class PushEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         library = tools if tools is not None else ToolLibrary.shipped()
         #: The tools, in the order of the action's first number.
         self.tools = [library[name] for name in task.tools or library.names]
+        # A model that does not exist is found out now, not at the first push.
+        predict(Plan.of(task, self.tools[0], []), model)
         self.model = model
         self.pushes = 2 * task.max_pushes if pushes is None else pushes
         self.spread = spread

@@ -21,3 +21,13 @@ pub fn unpickled<'py>(py: Python<'py>, class: &str, json: &Json) -> PyResult<Bou
         serde_json::to_string(json).map_err(|error| PyValueError::new_err(error.to_string()));
     Ok((parse, (text?,)).into_pyobject(py)?.into_any())
 }
+
+/// What pickle kept: an object.
+pub fn kept(text: &str) -> PyResult<Json> {
+    serde_json::from_str(text).map_err(damaged)
+}
+
+/// That pickle kept something else.
+pub fn damaged(error: serde_json::Error) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}

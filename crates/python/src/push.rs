@@ -4,6 +4,7 @@ use pushplan::solve::{AskedPush, AskedStart};
 use pushplan::{Push, Vector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyAny;
 
 /// The longest push and the fastest, metres and m/s: those of the command.
 pub const MOST: f64 = 2.0;
@@ -88,6 +89,26 @@ impl PyPush {
     #[getter]
     fn speed(&self) -> Option<f64> {
         self.0.speed
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let class = py.import("pushplan")?.getattr("Push")?;
+        let AskedPush { start, direction, length, speed } = &self.0;
+        let (direction, length, speed) = (*direction, *length, *speed);
+        match start {
+            AskedStart::At(at) => {
+                let start = Some((at.x, at.y));
+                Ok((class, (start, direction, length, speed)).into_pyobject(py)?.into_any())
+            }
+            AskedStart::Last => {
+                let start = None::<(f64, f64)>;
+                Ok((class, (start, direction, length, speed)).into_pyobject(py)?.into_any())
+            }
+            AskedStart::Before { object, offset } => {
+                let arguments = (object.as_str(), direction, *offset, length, speed);
+                Ok((class.getattr("before")?, arguments).into_pyobject(py)?.into_any())
+            }
+        }
     }
 
     fn __repr__(&self) -> String {

@@ -6,8 +6,10 @@ use pushplan::report::{Origin, PageView, solution_document, solution_page};
 use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, TableFit, Task};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
+use serde_json::json;
 
 use crate::plan::PyPlan;
 use crate::task::PyTask;
@@ -95,6 +97,28 @@ impl PySolution {
             Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };
         Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
+    }
+
+    /// Reads what pickle keeps.
+    #[staticmethod]
+    fn parse(text: &str) -> PyResult<Self> {
+        let mut kept = json::kept(text)?;
+        let mut take = |key: &str| kept[key].take();
+        let task_file = take("task_file").as_str().unwrap_or_default().to_owned();
+        let task = Task::parse(take("task").as_str().unwrap_or_default(), &task_file);
+        let task = task.map_err(|faults| PyValueError::new_err(faults.to_string()))?;
+        let solution = serde_json::from_value(take("solution")).map_err(json::damaged)?;
+        let fit = serde_json::from_value(take("fit")).map_err(json::damaged)?;
+        Ok(Self { task: Arc::new(task), task_file, solution, fit })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Self { task, task_file, solution, fit } = self;
+        let kept = json!({
+            "task": task.to_json().to_string(), "task_file": task_file, "solution": solution,
+            "fit": fit,
+        });
+        json::unpickled(py, "Solution", &kept)
     }
 
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {

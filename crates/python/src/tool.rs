@@ -122,6 +122,14 @@ impl PyToolLibrary {
         library(py, self.0.clone().with_folder(folder))
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let of = py.import("pushplan")?.getattr("ToolLibrary")?.getattr("of")?;
+        let all = self.0.iter().chain(self.0.blades());
+        let tools = all.map(|tool| Py::new(py, PyTool(Arc::clone(tool))));
+        let tools: Vec<Py<PyTool>> = tools.collect::<PyResult<_>>()?;
+        Ok((of, (tools,)).into_pyobject(py)?.into_any())
+    }
+
     /// Names of all tools, sorted.
     #[getter]
     fn names(&self) -> Vec<&str> {

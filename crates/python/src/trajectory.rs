@@ -6,8 +6,10 @@ use numpy::{PyArray1, PyArray2, PyArray3};
 use pushplan::scene::Warning;
 use pushplan::{Outcome, Task, Trajectory};
 use pyo3::prelude::*;
+use pyo3::types::PyAny;
+use serde_json::json;
 
-use crate::arrays;
+use crate::{arrays, json};
 
 /// What pushes do according to one model, frame by frame until everything rests.
 #[pyclass(name = "Trajectory", module = "pushplan", frozen)]
@@ -112,6 +114,23 @@ impl PyTrajectory {
             "<Trajectory of {frames} frames by {by}: goal {reached}, off by {:.2} mm>",
             1e3 * self.outcome.error
         )
+    }
+
+    /// Reads what pickle keeps.
+    #[staticmethod]
+    fn parse(text: &str) -> PyResult<Self> {
+        let mut kept = json::kept(text)?;
+        let mut take = |key: &str| kept[key].take();
+        let trajectory = serde_json::from_value(take("trajectory")).map_err(json::damaged)?;
+        let outcome = serde_json::from_value(take("outcome")).map_err(json::damaged)?;
+        let objects = serde_json::from_value(take("objects")).map_err(json::damaged)?;
+        Ok(Self { trajectory, outcome, objects })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Self { trajectory, outcome, objects } = self;
+        let kept = json!({"trajectory": trajectory, "outcome": outcome, "objects": objects});
+        json::unpickled(py, "Trajectory", &kept)
     }
 }
 

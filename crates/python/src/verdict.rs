@@ -7,8 +7,10 @@ use pushplan::asset::PlanFile;
 use pushplan::report::{Origin, PageView, replay_warnings, verdict_document, verdict_page};
 use pushplan::scene::{Disturbance, Evidence, Warning};
 use pushplan::{Task, Verdict};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
+use serde_json::json;
 
 use crate::trajectory::PyTrajectory;
 use crate::{arrays, json, page, words};
@@ -75,6 +77,21 @@ impl PyVerdict {
         let task_file = format!("{}.yaml", self.file.task.name);
         let recipe = Origin { task: task_file, ..Origin::default() }.plan(&self.file.plan);
         verdict_page(&self.file, None, &self.verdict, recipe, PageView::Above)
+    }
+
+    /// Reads what pickle keeps.
+    #[staticmethod]
+    fn parse(text: &str) -> PyResult<Self> {
+        let mut kept = json::kept(text)?;
+        let file = PlanFile::parse(&kept["file"].to_string(), "plan.json");
+        let file = file.map_err(|faults| PyValueError::new_err(faults.to_string()))?;
+        let verdict = serde_json::from_value(kept["verdict"].take()).map_err(json::damaged)?;
+        Ok(Self { file, verdict })
+    }
+
+    /// Without the replays' frames, which replaying the plan gives again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        json::unpickled(py, "Verdict", &json!({"file": self.file, "verdict": self.verdict}))
     }
 
     fn _repr_html_(&self) -> String {

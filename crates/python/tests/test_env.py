@@ -34,6 +34,11 @@ def test_a_good_push_reaches_the_goal(task: pushplan.Task) -> None:
     assert env.render().startswith("<!DOCTYPE html>")
 
 
+def test_a_model_that_does_not_exist_is_found_out_at_once(task: pushplan.Task) -> None:
+    with pytest.raises(pushplan.ModelError, match="nope"):
+        pushplan.env.PushEnv(task, model="nope")
+
+
 def test_its_physics_are_those_of_predict(task: pushplan.Task) -> None:
     env = pushplan.env.PushEnv(task, model="prior")
     env.reset()

@@ -122,6 +122,23 @@ def test_plans_tasks_and_tools_can_be_pickled(task: pushplan.Task) -> None:
     assert pickle.loads(pickle.dumps(best.tool)) == best.tool
 
 
+def test_what_solving_gives_can_be_pickled(task: pushplan.Task) -> None:
+    def again(value: Any) -> Any:
+        return pickle.loads(pickle.dumps(value))
+
+    solution = pushplan.solve(task, effort="draft")
+    assert again(solution).to_dict() == solution.to_dict()
+    assert solution.best is not None
+    verdict = pushplan.verify(solution.best, disturbed=1)
+    assert (again(verdict).passed, again(verdict).reason) == (verdict.passed, verdict.reason)
+    trajectory = pushplan.predict(solution.best)
+    assert (again(trajectory).poses == trajectory.poses).all()
+    pushes = [pushplan.Push((0.1, 0.2), 1.0, 0.3), pushplan.Push.before("can", 0.5, speed=0.1)]
+    assert [again(push) for push in pushes] == pushes
+    library = pushplan.ToolLibrary.shipped()
+    assert again(library).names == library.names
+
+
 def solved_draft(task: pushplan.Task) -> str:
     return pushplan.solve(task, effort="draft", threads=2).status
 
