@@ -29,15 +29,15 @@
 //!
 //! # Example
 //!
-//! A can behind a wall is pulled 17 cm towards the robot, with one of the tools that come with the
-//! library:
+//! A can behind a wall is pulled 17 cm towards the robot, in a task and with one of the tools that come
+//! with the library:
 //!
 //! ```
 //! use pushplan::{Effort, PlanStatus, Planner, Task, ToolLibrary};
 //!
 //! fn main() -> Result<(), pushplan::Error> {
 //!     let library = ToolLibrary::embedded()?;
-//!     let task = Task::load("tasks/pull-back-behind-wall.yaml")?;
+//!     let task = Task::example("pull-back-behind-wall")?;
 //!     let planner = Planner::for_effort(Effort::Standard)?.build();
 //!     let solution = planner.solve(&task, &library)?;
 //!     assert_eq!(solution.status, PlanStatus::Solved);

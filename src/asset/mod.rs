@@ -6,6 +6,7 @@
 //! `strict`), and the rules that span several keys are applied while the domain's type is
 //! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
 
+mod example;
 mod fault;
 mod folder;
 mod kind;
@@ -28,6 +29,7 @@ mod tool;
 mod world;
 mod write;
 
+pub use example::{example_text, load_example};
 pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
 pub use kind::{Kind, check};

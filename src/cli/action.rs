@@ -1,12 +1,12 @@
 //! One action from the command line: a task, a tool and pushes become a tool motion.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 
 use crate::asset::ToolLibrary;
-use crate::report::Origin;
+use crate::report::{Origin, TaskSource};
 use crate::scene::{Models, Plan, Situation, Task, Tool};
 use crate::solve::{ActionError, AskedLever, AskedPush, asked_lever, asked_plan};
 
@@ -38,11 +38,11 @@ impl LibraryArgs {
         })
     }
 
-    /// What is made from these tools, the task file and, where it is said, models.
-    pub fn origin(&self, task: &Path, model: Option<Models>) -> Origin {
+    /// What is made from these tools, the task and, where it is said, models.
+    pub fn origin(&self, task: TaskSource, model: Option<Models>) -> Origin {
         let shown = |folder: &PathBuf| folder.display().to_string();
         Origin {
-            task: task.display().to_string(),
+            task,
             tools: self.tools.as_ref().map(shown),
             more_tools: self.more_tools.as_ref().map(shown),
             model,

@@ -12,7 +12,7 @@ use super::{
     error::CliError,
     exit_code, export, fit,
     groups::{Groups, grouped},
-    infer, interrupt, moved, predict,
+    infer, interrupt, moved, new, predict,
     session::{GlobalArgs, Session, shown},
     solve, verify,
 };
@@ -30,6 +30,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    New(new::NewArgs),
     Solve(solve::SolveArgs),
     Run(super::run::RunArgs),
     Verify(verify::VerifyArgs),
@@ -47,7 +48,7 @@ enum Command {
 
 /// What the commands are for, in the order of `--help`.
 const GROUPS: Groups = &[
-    ("Plan and carry out", &["solve", "run", "verify", "predict"]),
+    ("Plan and carry out", &["new", "solve", "run", "verify", "predict"]),
     ("Files", &["check", "import", "export"]),
     ("Learn from what was recorded", &["fit", "infer"]),
     ("Measure", &["bench"]),
@@ -99,6 +100,7 @@ pub fn start<C: Parser>(
 
 fn execute(cli: &Cli, session: &Session) -> Result<u8, CliError> {
     match &cli.command {
+        Command::New(args) => new::run(args, session),
         Command::Solve(args) => solve::run(args, session),
         Command::Run(args) => super::run::run(args, session),
         Command::Verify(args) => verify::run(args, session),

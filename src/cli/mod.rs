@@ -21,6 +21,7 @@ pub mod interrupt;
 pub mod lever_argument;
 pub mod model;
 pub mod moved;
+pub mod new;
 pub mod noise;
 pub mod output;
 pub mod page;
@@ -33,6 +34,7 @@ pub mod regulator;
 pub mod run;
 pub mod session;
 pub mod solve;
+pub mod task_argument;
 pub mod verify;
 pub mod words;
 

@@ -9,7 +9,9 @@ use crate::asset::{self, Kind, PlanFile, TrajectoryFile};
 use crate::bench::timed_effect;
 use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::report::{PageView, PoseRow, prediction_document, prediction_page, trajectory_figures};
+use crate::report::{
+    PageView, PoseRow, TaskSource, prediction_document, prediction_page, trajectory_figures,
+};
 use crate::scene::{
     Engine, Frame, Job, ModelKind, ModelSpec, Object, Plan, Record, TableFit, Task, Tool,
     Trajectory, Warning,
@@ -27,6 +29,7 @@ use super::{
     push_argument::forms,
     recorded,
     session::Session,
+    task_argument,
     words::{VIEWS, words},
 };
 
@@ -36,8 +39,11 @@ use super::{
 pub struct PredictArgs {
     /// A task, with --tool and --push or with --lever; a plan; or recordings, trajectories and
     /// folders of them, which every model is compared with
-    #[arg(required = true, value_name = "TASK|PLAN|RECORDING")]
+    #[arg(required_unless_present = "example", value_name = "TASK|PLAN|RECORDING")]
     pub files: Vec<PathBuf>,
+    #[arg(long, value_name = "NAME", help = task_argument::HELP, conflicts_with = "files",
+          value_parser = task_argument::example())]
+    example: Option<String>,
     #[command(flatten)]
     action: ActionArgs,
     #[command(flatten)]
@@ -73,9 +79,17 @@ pub struct PredictArgs {
     pub form: Form,
 }
 
+/// What the command line names.
+enum Named<'a> {
+    Example(&'a str),
+    /// A task or a plan.
+    File(&'a Path, Kind),
+    Recordings,
+}
+
 /// What is predicted.
-struct Asked<'a> {
-    file: &'a Path,
+struct Asked {
+    source: TaskSource,
     task: Task,
     tools: Vec<Arc<Tool>>,
     plan: Plan,
@@ -84,15 +98,19 @@ struct Asked<'a> {
 }
 
 pub fn run(args: &PredictArgs, session: &Session) -> Result<u8, CliError> {
-    let motion = args.motion()?;
+    let named = args.named()?;
     args.out.as_deref().map(output::prepare).transpose()?;
-    match motion {
-        Some((file, kind)) => predict(args, args.asked(file, kind, session)?, session),
-        None if args.action.given() => Err(CliError::usage(
+    match named {
+        Named::Example(name) => {
+            let source = TaskSource::Example(name.to_owned());
+            predict(args, args.acted(Task::example(name)?, source, session)?, session)
+        }
+        Named::File(file, kind) => predict(args, args.asked(file, kind, session)?, session),
+        Named::Recordings if args.action.given() => Err(CliError::usage(
             "recordings already say what was done",
             "leave --tool and --push out, or name one task",
         )),
-        None => recorded::run(args, session),
+        Named::Recordings => recorded::run(args, session),
     }
 }
 
@@ -102,38 +120,42 @@ impl PredictArgs {
         self.model.clone().unwrap_or(ModelKind::NETWORK.into())
     }
 
-    /// The task or plan; none where recordings are named.
-    fn motion(&self) -> Result<Option<(&Path, Kind)>, CliError> {
-        let [file] = &self.files[..] else { return Ok(None) };
-        if file.is_dir() {
-            return Ok(None);
+    fn named(&self) -> Result<Named<'_>, CliError> {
+        if let Some(name) = &self.example {
+            return Ok(Named::Example(name));
         }
-        let kind = asset::check(file, None)?;
-        Ok((!matches!(kind, Kind::Recording | Kind::Trajectory)).then_some((&**file, kind)))
+        let file = match &self.files[..] {
+            [file] if !file.is_dir() => file,
+            _ => return Ok(Named::Recordings),
+        };
+        Ok(match asset::check(file, None)? {
+            Kind::Recording | Kind::Trajectory => Named::Recordings,
+            kind => Named::File(file, kind),
+        })
     }
 
     /// The plan of a plan file, or the action in a task.
-    fn asked<'a>(
-        &self,
-        file: &'a Path,
-        kind: Kind,
-        session: &Session,
-    ) -> Result<Asked<'a>, CliError> {
+    fn asked(&self, file: &Path, kind: Kind, session: &Session) -> Result<Asked, CliError> {
+        let source = TaskSource::of(file);
         if kind == Kind::Plan {
             let PlanFile { task, tools, plan, model, fit, .. } = PlanFile::load(file)?;
             // It is of the network that made the plan, and of no other.
             let fit = fit.filter(|_| self.model.is_none() || self.model == model);
-            return Ok(Asked { file, task, tools, plan, fit });
+            return Ok(Asked { source, task, tools, plan, fit });
         }
+        self.acted(Task::load(file)?, source, session)
+    }
+
+    /// The action in a task.
+    fn acted(&self, task: Task, source: TaskSource, session: &Session) -> Result<Asked, CliError> {
         let library = self.library.load()?;
-        let task = Task::load(file)?;
         let (plan, tool) = self.action.plan(&task, &library, session)?;
-        Ok(Asked { file, task, tools: vec![tool], plan, fit: None })
+        Ok(Asked { source, task, tools: vec![tool], plan, fit: None })
     }
 }
 
 fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, CliError> {
-    let Asked { file, mut task, tools, plan, fit } = asked;
+    let Asked { source, mut task, tools, plan, fit } = asked;
     let fit = args.table.load()?.or(fit);
     if let Some(fit) = &fit {
         model::state(fit, &mut task.scene, session);
@@ -184,7 +206,7 @@ fn predict(args: &PredictArgs, asked: Asked, session: &Session) -> Result<u8, Cl
     args.poses.write(&rows)?;
     let mut document = prediction_document(&task, &plan, &effects);
     if let Some(out) = &args.out {
-        let recipe = args.library.origin(file, Some(spec.into())).plan(&plan);
+        let recipe = args.library.origin(source, Some(spec.into())).plan(&plan);
         let page = prediction_page(&task, &tools, &plan, &trajectories, recipe, args.page);
         let mut written =
             vec![output::write(out, &format!("{}.predict.html", task.name), page.as_bytes())?];

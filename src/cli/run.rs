@@ -7,7 +7,7 @@ use clap::Args;
 use crate::act::{
     ActError, End, ProbeRule, RunSettings, Runner, SimulatedWorld, Trace, hidden, really,
 };
-use crate::asset::{ToolLibrary, load_task, load_world};
+use crate::asset::{ToolLibrary, load_world};
 use crate::effect::{EffectModels, Outside};
 use crate::report::{PageView, Recipe, Setting, run_document, run_page, table_fit_section};
 use crate::scene::{Models, Task, Truth};
@@ -26,6 +26,7 @@ use super::{
     regulator::RegulatorArgs,
     session::Session,
     solve::{share, solve_error},
+    task_argument::TaskArgs,
     words::{EFFORTS, PROBES, VIEWS, words},
 };
 
@@ -44,12 +45,12 @@ was predicted, what happened, what was believed meanwhile. Pictures: <task>.run.
 5: all pushes are used up.
 
 Examples:
-  pushplan run tasks/hidden-hinge.yaml --world 1
+  pushplan run --example hidden-hinge --world 1
   pushplan run my-task.yaml --world my-world.yaml --pushes 20 --out runs --resume"
 )]
 pub struct RunArgs {
-    /// The task file
-    task: PathBuf,
+    #[command(flatten)]
+    task: TaskArgs,
     /// What is really there: a world file, or a seed from which it is drawn
     #[arg(long, value_name = "FILE|SEED")]
     world: String,
@@ -106,7 +107,7 @@ pub struct RunArgs {
 
 pub fn run(args: &RunArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let mut task = load_task(&args.task, &library)?;
+    let mut task = args.task.load(&library)?;
     if task.in_space() {
         return Err(CliError::usage(
             "what leaves the plane cannot be run: after a lever-up nobody looks",
@@ -220,7 +221,7 @@ fn recipe(args: &RunArgs) -> Recipe {
         value,
     });
     let settings: Vec<Setting> = settings.chain(files.into_iter().flatten()).collect();
-    args.library.origin(&args.task, args.model.clone()).run(&args.world, &settings)
+    args.library.origin(args.task.source(), args.model.clone()).run(&args.world, &settings)
 }
 
 /// The world in a file, or drawn from a number.

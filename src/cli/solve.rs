@@ -1,12 +1,12 @@
 //! `pushplan solve`: from a task file to a verified plan with a picture and a page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
 
-use crate::asset::{PlanFile, load_task};
-use crate::report::{PageView, plan_figures, solution_document, solution_page};
+use crate::asset::PlanFile;
+use crate::report::{PageView, TaskSource, plan_figures, solution_document, solution_page};
 use crate::scene::{Models, Situation, Task};
 use crate::solve::{Effort, PlanStatus, Planner, RankedPlan, Solution, SolveError};
 
@@ -19,15 +19,16 @@ use super::{
     model::{self, OutsideArgs},
     output,
     session::Session,
+    task_argument::TaskArgs,
     words::{EFFORTS, VIEWS, words},
 };
 
 /// Choose a tool and pushes, or a lever-up, for a task, verify them, write plan, picture and page
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
-  pushplan solve tasks/pull-back.yaml
-  pushplan solve tasks/narrow-gap.yaml --effort thorough --json
-  pushplan solve tasks/levers/raise-plate.yaml
+  pushplan solve my-task.yaml
+  pushplan solve --example narrow-gap --effort thorough --json
+  pushplan solve --example raise-plate
   pushplan solve my-task.yaml --tools my-tools --out results --animate
 
 Writes <out>/<task>.plan.json, <out>/<task>.svg and <out>/<task>.html, a page that plays the plan and
@@ -35,8 +36,8 @@ shows why the others lost; with --animate <out>/<task>.animated.svg, too.
 Without a plan that works, the nearest one is written as <task>.nearest.* (exit code 4) or
 <task>.failed.* (exit code 5); one that works too seldom as <task>.fragile.* (exit code 7).")]
 pub struct SolveArgs {
-    /// The task file
-    task: PathBuf,
+    #[command(flatten)]
+    task: TaskArgs,
     /// How hard to try
     #[arg(long, value_parser = words(&EFFORTS), default_value = "standard")]
     effort: Effort,
@@ -77,7 +78,7 @@ pub struct SolveArgs {
 
 pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     let library = args.library.load()?;
-    let mut task = load_task(&args.task, &library)?;
+    let mut task = args.task.load(&library)?;
     task.robustness = args.robustness.unwrap_or(task.robustness);
     let effort = args.effort;
     let fit = args.table.load()?;
@@ -111,7 +112,7 @@ pub fn run(args: &SolveArgs, session: &Session) -> Result<u8, CliError> {
     };
     let written = match solution.best() {
         Some(best) => {
-            write(args, session, (&task, &args.task), &planner, (&solution, best), suffix)
+            write(args, session, (&task, args.task.source()), &planner, (&solution, best), suffix)
         }
         None => Ok(Vec::new()),
     };
@@ -151,14 +152,14 @@ pub fn solve_error(error: SolveError) -> CliError {
     }
 }
 
-/// The plan file, the pictures and the page of a task that can be read from `origin`.
+/// The plan file, the pictures and the page of a task that was read from `source`.
 ///
 /// # Errors
 /// Results that cannot be written.
 fn write(
     args: &SolveArgs,
     session: &Session,
-    (task, origin): (&Task, &Path),
+    (task, source): (&Task, TaskSource),
     planner: &Planner,
     (solution, best): (&Solution, &RankedPlan),
     suffix: &str,
@@ -182,7 +183,7 @@ fn write(
     written.extend(output::write_figures(&args.out, &figures)?);
     let recipe = |ranked: &RankedPlan| {
         let model = Some(ranked.predicted.by.clone().into());
-        args.library.origin(origin, model).plan(&ranked.plan)
+        args.library.origin(source.clone(), model).plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, args.page);
     written.push(output::write(&args.out, &format!("{name}.html"), page.as_bytes())?);

@@ -35,8 +35,8 @@ pub use document::{Document, Drawing, Figure, Section};
 pub use fit::{fit_document, table_fit_section};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
-    Origin, PageView, Recipe, Setting, prediction_page, recording_page, run_page, solution_page,
-    verdict_page,
+    Origin, PageView, Recipe, Setting, TaskSource, prediction_page, recording_page, run_page,
+    solution_page, verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::{plan_figures, space_figures};

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::geometry::Shape;
-use pushplan::scene::Tool;
+use pushplan::scene::{Task, Tool};
 
 use crate::ROOT;
 
@@ -36,6 +36,19 @@ fn every_shipped_tool_is_embedded() {
         let file = folder("tools").join(format!("{}.yaml", tool.name));
         assert_eq!(&Tool::load(file).unwrap(), &**tool, "the file is named after its tool");
     }
+}
+
+#[test]
+fn every_shipped_task_is_an_example() {
+    let there = [tasks_in("tasks"), tasks_in("tasks/levers")].concat();
+    let stem = |path: &PathBuf| path.file_stem().unwrap().to_string_lossy().into_owned();
+    let names: Vec<String> = there.iter().map(stem).collect();
+    assert_eq!(Task::examples().collect::<Vec<_>>(), names);
+    for (name, path) in names.iter().zip(&there) {
+        assert_eq!(Task::example(name).unwrap(), Task::load(path).unwrap());
+    }
+    let faults = Task::example("pul-back").unwrap_err().to_string();
+    assert!(faults.contains("did you mean `pull-back`?"), "{faults}");
 }
 
 #[test]
@@ -74,7 +87,11 @@ fn the_reference_tools_have_the_reference_geometry() {
 
 /// Every task file; pictures lie next to some of them.
 pub fn shipped_tasks() -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder("tasks")).unwrap();
+    tasks_in("tasks")
+}
+
+fn tasks_in(name: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder(name)).unwrap();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|end| end == "yaml"));
     paths.sort();

@@ -48,6 +48,46 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
 }
 
 #[test]
+fn a_new_task_is_a_file_and_overwrites_none() {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("my.task");
+    let name = path.to_str().expect("UTF-8");
+    let written = || std::fs::read_to_string(folder.path().join("my.task.yaml")).expect("a file");
+    assert_eq!(run(&["new", name]).status.code(), Some(0));
+    let first = written();
+    let output = run(&["new", name, "--example", "narrow-gap"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("my.task.yaml is there already"), "{said}");
+    assert_eq!(written(), first);
+    let other = folder.path().join("gap.yml");
+    let other = other.to_str().expect("UTF-8");
+    assert_eq!(run(&["new", other, "--example", "narrow-gap"]).status.code(), Some(0));
+    assert_eq!(files(folder.path()), ["gap.yml", "my.task.yaml"]);
+    assert_eq!(run(&["check", other, &format!("{name}.yaml")]).status.code(), Some(0));
+}
+
+#[test]
+fn an_example_is_the_file_of_its_name() {
+    let push = &["--tool", "l-hook", "--push", "can:180", "--model", "prior", "--alone"];
+    let prints = |task: &[&str]| run(&[&["predict"], task, push].concat()).stdout;
+    let [example, file] = [prints(&["--example", "pull-back"]), prints(&["tasks/pull-back.yaml"])]
+        .map(|out| {
+            let text = String::from_utf8(out).expect("UTF-8");
+            // Times differ.
+            text.lines().filter(|line| !line.contains(" ms")).map(str::to_owned).collect::<Vec<_>>()
+        });
+    assert!(example.len() > 2, "{example:?}");
+    assert_eq!(example, file);
+    for command in ["solve", "run", "predict"] {
+        let output = run(&[command, "--example", "pull-bakc"]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = stderr(&output);
+        assert!(said.contains("pull-back") && said.contains("drive-board"), "{said}");
+    }
+}
+
+#[test]
 fn a_simulation_leaves_files_that_check_finds_fine() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");

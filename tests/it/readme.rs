@@ -15,8 +15,8 @@ use crate::program::succeed;
 
 const README: &str = include_str!("../../README.md");
 
-/// How the README starts the program from a checkout.
-const RUN: &str = "cargo run --release -- ";
+/// How the README starts the program.
+const RUN: &str = "pushplan ";
 
 #[test]
 fn its_commands_run() {
@@ -41,6 +41,9 @@ fn its_commands_run() {
         assert!(made.unwrap() == shown.unwrap(), "{old}");
     }
     assert!(README.contains("`cargo test --release`"));
+    assert!(README.contains("`pushplan new my-task`"));
+    succeed(&format!("new {folder}/my-task"));
+    succeed(&format!("solve {folder}/my-task.yaml --out {folder}"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
     import pushplan
 
-    task = pushplan.Task.load("tasks/pull-back-behind-wall.yaml")
+    task = pushplan.Task.example("pull-back-behind-wall")
     solution = pushplan.solve(task)
     print(solution.status, solution.best)
 

@@ -3,7 +3,7 @@
     import gymnasium
     import pushplan.env
 
-    env = gymnasium.make("pushplan/Push-v0", task=pushplan.Task.load("tasks/pull-back.yaml"))
+    env = gymnasium.make("pushplan/Push-v0", task=pushplan.Task.example("pull-back"))
 
 It needs the package ``gymnasium``: ``pip install 'pushplan[gym]'``.
 """

@@ -63,7 +63,7 @@ pub fn import_task(
     let (bodies, shift) = (bodies.unwrap_or_default(), Vector::new(shift.0, shift.1));
     let wanted = Wanted { bodies, name, friction, shift };
     let scene = imported(py, path, &wanted, import::objects)?;
-    Ok(PyTask { task: Arc::new(scene.task), file: None })
+    Ok(PyTask { task: Arc::new(scene.task), source: None })
 }
 
 /// What one of the library's ways to import makes of a file; its notes become warnings.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
-use pushplan::report::{Origin, PageView, verdict_page};
+use pushplan::report::{Origin, PageView, TaskSource, verdict_page};
 use pushplan::scene::{Engine, PushForm, Situation, TableFit, Warning};
 use pushplan::solve::{AskedPush, asked_plan};
 use pushplan::verify::{VerifySettings, broken_rules};
@@ -28,8 +28,8 @@ use crate::{errors, json, page, work};
 #[pyclass(name = "Plan", module = "pushplan", frozen)]
 pub struct PyPlan {
     pub file: PlanFile,
-    /// The task file, as a command line calls it.
-    task_file: String,
+    /// Where its task was read.
+    source: TaskSource,
     trajectory: Option<Trajectory>,
     broken: Vec<String>,
 }
@@ -86,13 +86,13 @@ impl PyPlan {
         let margins = asked.broken.iter().map(|(push, rule)| format!("push {}: {rule}", push + 1));
         let broken: Vec<String> = margins.chain(forms.map(Warning::to_string)).collect();
         let file = PlanFile::new(Task::clone(&task.task), vec![tool], asked.plan);
-        Ok(Self { file, task_file: task.path(), trajectory: None, broken })
+        Ok(Self { file, source: task.source(), trajectory: None, broken })
     }
 
     /// The task.
     #[getter]
     fn task(&self) -> PyTask {
-        PyTask { task: Arc::new(self.file.task.clone()), file: Some(self.task_file.clone()) }
+        PyTask { task: Arc::new(self.file.task.clone()), source: Some(self.source.clone()) }
     }
 
     /// The first tool. A plan without steps, which only a file can hold, has none: `ValueError`.
@@ -236,7 +236,7 @@ impl PyPlan {
             Some(verdict) if recorded(verdict) => verdict.clone(),
             _ => work::run(py, 0, |_| self.replayed())?,
         };
-        let origin = Origin { task: self.task_file.clone(), ..Origin::default() };
+        let origin = Origin { task: self.source.clone(), ..Origin::default() };
         let recipe = origin.plan(&self.file.plan);
         Ok(verdict_page(&self.file, self.trajectory.as_ref(), &verdict, recipe, PageView::Above))
     }
@@ -268,7 +268,7 @@ impl PyPlan {
 impl PyPlan {
     /// A plan that solving returned.
     pub fn ranked(
-        (task, task_file): (&Task, &str),
+        (task, source): (&Task, &TaskSource),
         fit: Option<&TableFit>,
         ranked: &RankedPlan,
     ) -> Self {
@@ -282,12 +282,12 @@ impl PyPlan {
             verdict: ranked.verdict.clone(),
         };
         let trajectory = Some(ranked.predicted.clone());
-        Self { file, task_file: task_file.to_owned(), trajectory, broken: Vec::new() }
+        Self { file, source: source.clone(), trajectory, broken: Vec::new() }
     }
 
     fn read(file: PlanFile) -> Self {
-        let task_file = format!("{}.yaml", file.task.name);
-        Self { file, task_file, trajectory: None, broken: Vec::new() }
+        let source = TaskSource::File(format!("{}.yaml", file.task.name));
+        Self { file, source, trajectory: None, broken: Vec::new() }
     }
 
     /// Replayed as written in both engines.

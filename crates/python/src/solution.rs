@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pushplan::report::{Origin, PageView, solution_document, solution_page};
+use pushplan::report::{Origin, PageView, TaskSource, solution_document, solution_page};
 use pushplan::scene::{Situation, Warning};
 use pushplan::solve::PlanStatus;
 use pushplan::{RankedPlan, Solution, TableFit, Task};
@@ -19,7 +19,7 @@ use crate::{json, page, work};
 #[pyclass(name = "Solution", module = "pushplan", frozen)]
 pub struct PySolution {
     pub task: Arc<Task>,
-    pub task_file: String,
+    pub source: TaskSource,
     pub solution: Solution,
     /// What the planner knew of the table.
     pub fit: Option<TableFit>,
@@ -68,7 +68,7 @@ impl PySolution {
     /// The task.
     #[getter]
     fn task(&self) -> PyTask {
-        PyTask { task: Arc::clone(&self.task), file: Some(self.task_file.clone()) }
+        PyTask { task: Arc::clone(&self.task), source: Some(self.source.clone()) }
     }
 
     /// What lowers the trust in the predictions of the first plan.
@@ -85,7 +85,7 @@ impl PySolution {
     /// The page of the solution: one HTML file that plays its plans and shows why the others lost,
     /// without server or network.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
-        let Self { task, solution, task_file, .. } = self;
+        let Self { task, solution, source, .. } = self;
         let Some(best) = solution.best() else {
             return Ok(solution_document(task, solution).to_html());
         };
@@ -93,7 +93,7 @@ impl PySolution {
         let replays = work::run(py, 0, |_| best.replays(task, &situation))?;
         let recipe = |ranked: &RankedPlan| {
             let model = Some(ranked.predicted.by.clone().into());
-            let task = task_file.clone();
+            let task = source.clone();
             Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
         };
         Ok(solution_page(task, solution, &replays, &recipe, PageView::Above))
@@ -136,6 +136,6 @@ impl PySolution {
 
 impl PySolution {
     fn plan(&self, ranked: &RankedPlan) -> PyPlan {
-        PyPlan::ranked((&self.task, &self.task_file), self.fit.as_ref(), ranked)
+        PyPlan::ranked((&self.task, &self.source), self.fit.as_ref(), ranked)
     }
 }

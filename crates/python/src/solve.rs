@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pushplan::asset::PlanFile;
 use pushplan::effect::{EffectModel, Routed};
+use pushplan::report::TaskSource;
 use pushplan::scene::{ModelKind, Situation, TableFit, Warning};
 use pushplan::verify::VerifySettings;
 use pushplan::watch::{Cancel, Until};
@@ -60,7 +61,7 @@ pub fn solve(
     let stated = stated(task.robust(robustness)?, fit);
     let threads = words::threads(threads)?;
     let solved = work::run(py, threads, |cancel| planner.solve_with(&stated, &library, cancel))?;
-    solution(py, stated, task.path(), solved, &planner)
+    solution(py, stated, task.source(), solved, &planner)
 }
 
 /// The task as `fit` has it.
@@ -103,7 +104,7 @@ pub fn solve_all(
     let solved = work::run(py, threads, |cancel| solve_each(&planner, &stated, &library, cancel))?;
     let results = stated.into_iter().zip(&tasks).zip(solved);
     results
-        .map(|((stated, task), solved)| solution(py, stated, task.get().path(), solved, &planner))
+        .map(|((stated, task), solved)| solution(py, stated, task.get().source(), solved, &planner))
         .collect()
 }
 
@@ -152,12 +153,12 @@ impl Asked<'_> {
 fn solution(
     py: Python<'_>,
     task: Arc<Task>,
-    task_file: String,
+    source: TaskSource,
     solved: Result<Solution, SolveError>,
     planner: &Planner,
 ) -> PyResult<PySolution> {
     let solution = solved.map_err(|error| errors::solve(py, &error))?;
-    Ok(PySolution { task, task_file, solution, fit: planner.fit().cloned() })
+    Ok(PySolution { task, source, solution, fit: planner.fit().cloned() })
 }
 
 /// What `model` predicts for a plan, frame by frame: "network", "prior", "planar", "3d" and so on.
@@ -233,7 +234,7 @@ pub fn verify(
         return Err(pyo3::exceptions::PyValueError::new_err(message));
     }
     let mut file = plan.file.clone();
-    let task = PyTask { task: Arc::new(file.task.clone()), file: None };
+    let task = PyTask { task: Arc::new(file.task.clone()), source: None };
     file.task = Task::clone(&*task.robust(robustness)?);
     let settings = VerifySettings { disturbed, seed };
     let limit = words::limit(time_limit)?;

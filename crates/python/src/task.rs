@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use pushplan::asset::load_task;
+use pushplan::asset::{load_example, load_task};
+use pushplan::report::TaskSource;
 use pushplan::scene::ToolChoice;
 use pushplan::{Pose, State, Task};
 use pyo3::exceptions::PyValueError;
@@ -25,8 +26,8 @@ use crate::{arrays, errors};
 #[pyclass(name = "Task", module = "pushplan", frozen)]
 pub struct PyTask {
     pub task: Arc<Task>,
-    /// Where it was read from, if it was.
-    pub file: Option<String>,
+    /// Where it was read, if it was.
+    pub source: Option<TaskSource>,
 }
 
 #[pymethods]
@@ -41,7 +42,26 @@ impl PyTask {
             None => Task::load(&path),
         };
         let task = task.map_err(|faults| errors::files(py, &faults, None))?;
-        Ok(Self { task: Arc::new(task), file: Some(path.display().to_string()) })
+        Ok(Self { task: Arc::new(task), source: Some(TaskSource::of(path)) })
+    }
+
+    /// A shipped task; `Task.examples` lists them. Raises `FileError` if there is none of this name,
+    /// and if it names tools that are not among `tools`, where those are given.
+    #[staticmethod]
+    #[pyo3(signature = (name, tools = None))]
+    fn example(py: Python<'_>, name: &str, tools: Option<&PyToolLibrary>) -> PyResult<Self> {
+        let task = match tools {
+            Some(tools) => load_example(name, &tools.0),
+            None => Task::example(name),
+        };
+        let task = task.map_err(|faults| errors::files(py, &faults, None))?;
+        Ok(Self { task: Arc::new(task), source: Some(TaskSource::Example(name.to_owned())) })
+    }
+
+    /// Names of the shipped tasks.
+    #[staticmethod]
+    fn examples() -> Vec<&'static str> {
+        Task::examples().collect()
     }
 
     /// Reads the text of a task file; `name` names it in faults, and a task without a name.
@@ -49,7 +69,7 @@ impl PyTask {
     #[pyo3(signature = (text, name = "task"))]
     fn parse(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
         let task = Task::parse(text, name).map_err(|faults| errors::files(py, &faults, None))?;
-        Ok(Self { task: Arc::new(task), file: None })
+        Ok(Self { task: Arc::new(task), source: None })
     }
 
     /// Builds a task from a mapping with the keys of a task file: lengths in metres, masses in
@@ -57,7 +77,7 @@ impl PyTask {
     #[staticmethod]
     fn of(py: Python<'_>, mapping: &Bound<'_, PyAny>) -> PyResult<Self> {
         let task = Text::of(mapping)?.read(py, "task", Task::parse)?;
-        Ok(Self { task: Arc::new(task), file: None })
+        Ok(Self { task: Arc::new(task), source: None })
     }
 
     /// Its name.
@@ -165,7 +185,7 @@ impl PyTask {
     /// radians): to plan on from where they are by now. Joints move along.
     fn at(&self, poses: Numbers<'_>) -> PyResult<Self> {
         let poses = self.poses(&poses)?;
-        Ok(Self { task: Arc::new(moved(&self.task, &poses)), file: self.file.clone() })
+        Ok(Self { task: Arc::new(moved(&self.task, &poses)), source: self.source.clone() })
     }
 
     /// How far the goal's object is from the goal with the objects at these poses, `[objects, 3]`, in
@@ -195,8 +215,9 @@ impl PyTask {
 
 impl PyTask {
     /// What a command line calls it.
-    pub fn path(&self) -> String {
-        self.file.clone().unwrap_or_else(|| format!("{}.yaml", self.task.name))
+    pub fn source(&self) -> TaskSource {
+        let unread = || TaskSource::File(format!("{}.yaml", self.task.name));
+        self.source.clone().unwrap_or_else(unread)
     }
 
     /// Poses of its objects.

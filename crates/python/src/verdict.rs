@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use numpy::PyArray2;
 use pushplan::asset::PlanFile;
-use pushplan::report::{Origin, PageView, replay_warnings, verdict_document, verdict_page};
+use pushplan::report::{
+    Origin, PageView, TaskSource, replay_warnings, verdict_document, verdict_page,
+};
 use pushplan::scene::{Disturbance, Evidence, Warning};
 use pushplan::{Task, Verdict};
 use pyo3::exceptions::PyValueError;
@@ -74,8 +76,8 @@ impl PyVerdict {
 
     /// A page that plays the replays: one HTML file, without server or network.
     fn page(&self) -> String {
-        let task_file = format!("{}.yaml", self.file.task.name);
-        let recipe = Origin { task: task_file, ..Origin::default() }.plan(&self.file.plan);
+        let task = TaskSource::File(format!("{}.yaml", self.file.task.name));
+        let recipe = Origin { task, ..Origin::default() }.plan(&self.file.plan);
         verdict_page(&self.file, None, &self.verdict, recipe, PageView::Above)
     }
 

@@ -8,7 +8,7 @@ use clap::Args;
 use crate::asset::{PlanFile, load_task};
 use crate::bench::{End, SolvedTask};
 use crate::cli::{action::LibraryArgs, error::CliError, output, page, session::Session};
-use crate::report::PageView;
+use crate::report::{PageView, TaskSource};
 use crate::scene::{Engine, Models, Situation};
 use crate::store::RunManifest;
 use crate::verify::{Verifier, VerifySettings};
@@ -73,7 +73,8 @@ impl PageArgs {
         }
         let models: Option<Models> = run.model.parse().ok();
         let model = models.map(|models| models.decided);
-        let recipe = self.library.origin(path, model.clone().map(Models::from)).plan(&plan);
+        let recipe =
+            self.library.origin(TaskSource::of(path), model.clone().map(Models::from)).plan(&plan);
         let file = PlanFile { model, ..PlanFile::new(task, vec![Arc::clone(tool)], plan) };
         page::write(out, session, &file, &verdict, (recipe, PageView::Above))
     }

@@ -20,7 +20,7 @@ mod stage;
 
 pub use html::PageView;
 pub use inferred::recording_page;
-pub use recipe::{Origin, Recipe, Setting};
+pub use recipe::{Origin, Recipe, Setting, TaskSource};
 pub use replayed::{prediction_page, verdict_page};
 pub use run::run_page;
 pub use solution::solution_page;

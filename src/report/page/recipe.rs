@@ -1,12 +1,44 @@
 //! How to make a page's replays again: a command line, and a script in Python.
 
+use std::path::Path;
+
 use crate::scene::{Models, Plan, Push, PushForm, Span};
+
+/// Where a task was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TaskSource {
+    /// A file, as people name it.
+    File(String),
+    /// One of the shipped tasks.
+    Example(String),
+}
+
+impl TaskSource {
+    /// The file at `path`.
+    pub fn of(path: impl AsRef<Path>) -> Self {
+        Self::File(path.as_ref().display().to_string())
+    }
+
+    /// The words of a command line that name it.
+    fn words(&self) -> Vec<String> {
+        match self {
+            Self::File(path) => vec![quoted(path)],
+            Self::Example(name) => vec!["--example".to_owned(), quoted(name)],
+        }
+    }
+}
+
+impl Default for TaskSource {
+    fn default() -> Self {
+        Self::File(String::new())
+    }
+}
 
 /// Files and models that a page was made from, as people name them.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
-    /// The task file.
-    pub task: String,
+    /// The task.
+    pub task: TaskSource,
     /// Folder of the tools that were chosen from instead of the shipped ones.
     pub tools: Option<String>,
     /// Folder of further tools.
@@ -57,7 +89,8 @@ impl Origin {
     /// Of a run in a world, which is a file or a number; `settings` are those that were not as
     /// usual.
     pub fn run(&self, world: &str, settings: &[Setting]) -> Recipe {
-        let mut words = ["pushplan", "run", &quoted(&self.task)].map(str::to_owned).to_vec();
+        let mut words = ["pushplan", "run"].map(str::to_owned).to_vec();
+        words.extend(self.task.words());
         words.extend(["--world".to_owned(), quoted(world)]);
         words.extend(self.options());
         for setting in settings {
@@ -86,7 +119,8 @@ impl Origin {
         // What several tools do in turn has no command of its own.
         let found = plan.is_empty() || plan.levers();
         let verb = if found { "solve" } else { "predict" };
-        let mut words = vec!["pushplan".to_owned(), verb.to_owned(), quoted(&self.task)];
+        let mut words = ["pushplan", verb].map(str::to_owned).to_vec();
+        words.extend(self.task.words());
         words.extend(self.options());
         if found {
             return words.join(" ");
@@ -153,14 +187,13 @@ impl Origin {
             let known = tools.unwrap_or(shipped);
             tools = Some(format!("{known}.with_folder({})", literal(folder)));
         }
-        let task = literal(&self.task);
-        match &tools {
-            Some(tools) => {
-                lines.push(format!("tools = {tools}"));
-                lines.push(format!("task = pushplan.Task.load({task}, tools)"));
-            }
-            None => lines.push(format!("task = pushplan.Task.load({task})")),
-        }
+        let (reads, name) = match &self.task {
+            TaskSource::File(path) => ("load", literal(path)),
+            TaskSource::Example(name) => ("example", literal(name)),
+        };
+        lines.extend(tools.as_ref().map(|tools| format!("tools = {tools}")));
+        let with = tools.as_ref().map_or("", |_| ", tools");
+        lines.push(format!("task = pushplan.Task.{reads}({name}{with})"));
         (lines, tools.map(|_| "tools"))
     }
 }

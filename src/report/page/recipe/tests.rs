@@ -12,7 +12,7 @@ fn plan() -> Plan {
 #[test]
 fn a_plan_becomes_a_command_that_a_shell_takes_as_it_is() {
     let origin = Origin {
-        task: "my tasks/a.yaml".to_owned(),
+        task: TaskSource::of("my tasks/a.yaml"),
         tools: Some("mine".to_owned()),
         ..Origin::default()
     };
@@ -21,13 +21,17 @@ fn a_plan_becomes_a_command_that_a_shell_takes_as_it_is() {
         @r"pushplan predict 'my tasks/a.yaml' --tools mine --tool 'bob'\''s hook' --grip-yaw-deg 0 --push 'start=0.5,0.25 direction_deg=180 length=0.1 speed=0.1' --push 'direction_deg=180 length=0.1 speed=0.1'"
     );
     let nothing = Plan::default();
-    let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
+    let origin = Origin { task: TaskSource::of("a.yaml"), ..Origin::default() };
     assert_eq!(origin.plan(&nothing).command, "pushplan solve a.yaml");
+    let origin = Origin { task: TaskSource::Example("pull-back".to_owned()), ..origin };
+    let recipe = origin.plan(&nothing);
+    assert_eq!(recipe.command, "pushplan solve --example pull-back");
+    assert!(recipe.python.contains("task = pushplan.Task.example(\"pull-back\")"));
 }
 
 #[test]
 fn a_run_becomes_a_script_where_python_can_do_the_same() {
-    let origin = Origin { task: "a.yaml".to_owned(), ..Origin::default() };
+    let origin = Origin { task: TaskSource::of("a.yaml"), ..Origin::default() };
     let setting = |option, keyword, value: &str| {
         let value = value.to_owned();
         Setting { option, keyword, value }
@@ -44,7 +48,7 @@ fn a_run_becomes_a_script_where_python_can_do_the_same() {
 #[test]
 fn a_plan_becomes_a_script() {
     let origin = Origin {
-        task: "my \"tasks\"/a.yaml".to_owned(),
+        task: TaskSource::of("my \"tasks\"/a.yaml"),
         more_tools: Some("mine".to_owned()),
         model: Some(crate::scene::ModelKind::PLANAR.into()),
         ..Origin::default()

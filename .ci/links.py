@@ -1,0 +1,58 @@
+"""Follows every link of the HTML pages in FOLDER that does not leave it, to its file and its anchor."""
+
+import sys
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+
+class Page(HTMLParser):
+    """What a page links to, and what can be linked to in it."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.links: set[str] = set()
+        self.anchors = {"", "top"}
+        self.feed(path.read_text())
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        for name, value in attributes:
+            if name in ("href", "src") and value and tag != "base":
+                self.links.add(value)
+            elif name in ("id", "name") and value:
+                self.anchors.add(value)
+
+
+@cache
+def page(path: Path) -> Page:
+    return Page(path)
+
+
+def fault(source: Path, link: str) -> str | None:
+    """What is wrong with a link, if anything."""
+    to = urlsplit(link)
+    if to.scheme or to.netloc:
+        return None
+    target = (source.parent / unquote(to.path)).resolve() if to.path else source
+    if target.is_dir():
+        target /= "index.html"
+    if not target.is_file():
+        return "no such file"
+    # Lines of a source file are a range; a search is no anchor.
+    first = to.fragment.split("-")[0] if to.fragment[:1].isdigit() else unquote(to.fragment)
+    if target.suffix == ".html" and first not in page(target).anchors:
+        return "no such anchor"
+    return None
+
+
+folder = Path(sys.argv[1]).resolve()
+pages = sorted(folder.rglob("*.html"))
+count, faults = 0, []
+for source in pages:
+    for link in sorted(page(source).links):
+        count += 1
+        if wrong := fault(source, link):
+            faults.append(f"{source.relative_to(folder)}: {link}: {wrong}")
+print(*faults, f"{len(pages)} pages, {count} links, {len(faults)} wrong", sep="\n")
+sys.exit(bool(faults) or not pages)
