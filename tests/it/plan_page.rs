@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use pushplan::asset::{PlanFile, load_task};
-use pushplan::report::{Origin, PageView, solution_page};
+use pushplan::report::{Origin, PageView, TaskSource, solution_page};
 use pushplan::scene::{Engine, Situation, Trajectory};
 use pushplan::solve::RankedPlan;
 use pushplan::{
@@ -316,7 +316,7 @@ fn written_with(
     let replays = best.replays(task, &situation);
     let recipe = |ranked: &RankedPlan| {
         let model = Some(ranked.predicted.by.clone().into());
-        let task = format!("tasks/{name}.yaml");
+        let task = TaskSource::of(format!("tasks/{name}.yaml"));
         Origin { task, model, ..Origin::default() }.plan(&ranked.plan)
     };
     let page = solution_page(task, solution, &replays, &recipe, view);
