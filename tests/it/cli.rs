@@ -47,6 +47,12 @@ fn results_are_the_same_for_any_number_of_threads_and_progress_stays_off_stdout(
     assert_eq!(one, run("3"));
 }
 
+/// More than that nobody finds their way among.
+#[test]
+fn there_are_at_most_twelve_commands() {
+    assert!(pushplan::cli::command().get_subcommands().count() <= 12);
+}
+
 #[test]
 fn a_new_task_is_a_file_and_overwrites_none() {
     let folder = TempDir::new().expect("a folder");

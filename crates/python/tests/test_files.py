@@ -94,6 +94,18 @@ def test_mappings_and_files_are_the_same_task(root: Path) -> None:
         assert pushplan.Tool.of(tool.to_dict()) == tool
 
 
+def test_examples_are_the_shipped_tasks(root: Path) -> None:
+    files = {path.stem: path for path in root.glob("tasks/**/*.yaml")}
+    assert sorted(pushplan.Task.examples()) == sorted(files)
+    for name, path in files.items():
+        assert pushplan.Task.example(name).to_dict() == pushplan.Task.load(path).to_dict()
+    with pytest.raises(pushplan.FileError, match="there is no such task"):
+        pushplan.Task.example("pul-back")
+    few = pushplan.ToolLibrary.of([pushplan.ToolLibrary.shipped()["stick"]])
+    with pytest.raises(pushplan.FileError, match="unknown tool"):
+        pushplan.Task.example("pull-back", few)
+
+
 def test_arrays_are_taken_as_lists(task: pushplan.Task) -> None:
     keys = task.to_dict()
     keys["goal"]["position"] = np.array([0.6, 0.14])
