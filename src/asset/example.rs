@@ -40,6 +40,7 @@ const SHIPPED: &[(&str, &str)] = shipped! {
     "push-out-of-reach"
     "reference-chain"
     "sideways-sweep"
+    "taken-place"
     "too-far"
     "triangle-turned"
     "turn-the-box"
