@@ -10,7 +10,7 @@ use super::solving::Solving;
 /// Kinds of plans of one length that are looked at for what stands in their way.
 const KINDS: usize = 16;
 
-/// In how many ways of one length room is made, those with the least in them first.
+/// In how many corridors of one length room is made, those with the nearest ends first.
 const TRIED: usize = 3;
 
 /// A plan is looked at if it misses the goal by at most this many tolerances: refinement brings it
@@ -22,17 +22,17 @@ const NEAR: f64 = 2.0;
 const MORE: usize = 1;
 
 /// The ways on which the goal's object would come to its goal if nothing else stood on the table.
-pub(super) struct Ways<'a> {
+pub(super) struct Clearings<'a> {
     workspace: Workspace<'a>,
     situation: &'a Situation,
     settings: SearchSettings,
     rollouts: Rollouts<'a>,
     search: Search<'a>,
-    found: Vec<Way>,
+    found: Vec<Clearing>,
 }
 
 /// One of them.
-struct Way {
+struct Clearing {
     corridor: Corridor,
     /// How the tool is held on it.
     grip: (usize, f64),
@@ -40,7 +40,7 @@ struct Way {
     pushes: usize,
 }
 
-impl<'a> Ways<'a> {
+impl<'a> Clearings<'a> {
     /// Those of a task `without` all other things; nothing is searched yet.
     pub fn new(
         solving: &Solving<'a>,
@@ -72,7 +72,7 @@ impl<'a> Ways<'a> {
             if !blocking.is_empty() && blocking.iter().all(|(k, _)| objects[*k].keep.is_none()) {
                 let grip = (one.candidate.tool, one.candidate.grip_yaw);
                 let pushes = one.pushes.len() + blocking.len();
-                self.found.push(Way { corridor, grip, pushes });
+                self.found.push(Clearing { corridor, grip, pushes });
             }
         }
     }
@@ -80,24 +80,24 @@ impl<'a> Ways<'a> {
 
 impl Solving<'_> {
     /// Searches, refines and verifies plans of about so many pushes that make room first.
-    pub(super) fn clear_the_way(&mut self, ways: &mut Ways, pushes: usize) {
+    pub(super) fn clear_the_way(&mut self, clearings: &mut Clearings, pushes: usize) {
         if !self.goes_on() || pushes < 2 || !self.workspace.is_placed() {
             return;
         }
-        if ways.search.can_deepen() {
+        if clearings.search.can_deepen() {
             self.watch.stage("search, what stands in the way");
-            let before = ways.rollouts.used();
-            ways.deepen(self);
-            self.rollouts.count(ways.rollouts.used() - before);
+            let before = clearings.rollouts.used();
+            clearings.deepen(self);
+            self.rollouts.count(clearings.rollouts.used() - before);
         }
-        let (now, later): (Vec<Way>, Vec<Way>) =
-            std::mem::take(&mut ways.found).into_iter().partition(|way| way.pushes <= pushes);
-        ways.found = later;
+        let (now, later): (Vec<Clearing>, Vec<Clearing>) =
+            std::mem::take(&mut clearings.found).into_iter().partition(|one| one.pushes <= pushes);
+        clearings.found = later;
         // In the order in which they were found: nearest ends first.
-        for Way { corridor, grip, pushes } in now.into_iter().take(TRIED) {
+        for Clearing { corridor, grip, pushes } in now.into_iter().take(TRIED) {
             let through = (corridor, grip);
             let mut search =
-                Search::clearing(self.workspace, self.situation, ways.settings, through);
+                Search::clearing(self.workspace, self.situation, clearings.settings, through);
             while self.goes_on() && search.can_deepen() && search.depth() < pushes + MORE {
                 self.attempt(&mut search);
             }

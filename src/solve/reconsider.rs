@@ -104,7 +104,7 @@ impl Solving<'_> {
             let known: Vec<&Candidate> =
                 self.tried[first..].iter().filter_map(|tried| tried.candidate.as_ref()).collect();
             let others = self.choose(found, missing, &known);
-            let goals: Vec<Goal> = self.task.goals().copied().collect();
+            let goals = self.goals();
             next.extend(self.refined(&others, &goals, pushes));
         }
         next.extend(rest);
@@ -174,7 +174,7 @@ impl Solving<'_> {
                 wider.push(candidate);
             }
         }
-        let goals: Vec<Goal> = self.task.goals().copied().collect();
+        let goals = self.goals();
         match wider.is_empty() {
             true => Vec::new(),
             false => self.refined_again(&wider, &goals, pushes),

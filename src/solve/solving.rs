@@ -15,7 +15,7 @@ use crate::scene::{Goal, Job, Plan, Push, Situation, State, Task, Tool, ToolMoti
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
-use super::aside::Ways;
+use super::aside::Clearings;
 use super::grade::{Class, Grade};
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
@@ -130,12 +130,13 @@ impl<'a> Solving<'a> {
         let settings = self.planner.settings().search(error);
         let mut search = Search::new(self.workspace, self.situation, settings);
         let without = alone(self.task, self.situation);
-        let mut ways = without.as_ref().map(|without| Ways::new(&self, without, settings));
+        let mut clearings =
+            without.as_ref().map(|without| Clearings::new(&self, without, settings));
         // Longer plans are no better than one that passes.
         while self.goes_on() && search.can_deepen() {
             self.attempt(&mut search);
-            if let Some(ways) = &mut ways {
-                self.clear_the_way(ways, search.depth());
+            if let Some(clearings) = &mut clearings {
+                self.clear_the_way(clearings, search.depth());
             }
         }
         let status = match self.best {
@@ -150,6 +151,11 @@ impl<'a> Solving<'a> {
         self.candidates = search.scored().to_vec();
         self.statistics.depth = search.depth();
         self.ranked(status, best, began)
+    }
+
+    /// The task's goals.
+    pub(super) fn goals(&self) -> Vec<Goal> {
+        self.task.goals().copied().collect()
     }
 
     /// Whether no plan passes yet.
@@ -178,7 +184,7 @@ impl<'a> Solving<'a> {
         let most_disturbed = (DISTURBED_SHARE * most as f64).ceil() as usize;
         let before = self.disturbed;
         let first = self.tried.len();
-        let goals: Vec<Goal> = self.task.goals().copied().collect();
+        let goals = self.goals();
         let mut queue = self.refined(&candidates, &goals, pushes);
         self.statistics.timing.refinement += began.elapsed().as_secs_f64();
 

@@ -50,7 +50,7 @@ impl Solving<'_> {
             plan: Plan::default(),
             tool,
             candidate: None,
-            aims: self.task.goals().copied().collect(),
+            aims: self.goals(),
             refinement: Refinement {
                 before: error,
                 after: error,

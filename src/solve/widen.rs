@@ -83,7 +83,8 @@ impl Solving<'_> {
         while search.can_deepen() && !self.watch.cancelled() {
             let found = search.deepen(&mut self.rollouts, self.watch);
             let candidates = self.choose(&found, settings.refined, &[]);
-            self.refined(&candidates, self.task.goal, search.depth());
+            let goals = self.goals();
+            self.refined(&candidates, &goals, search.depth());
             let reach = self.tried.iter().filter(|one| one.score <= 1.0 && !is_behind(one.score));
             let ways: Vec<Way> = reach
                 .map(|one| Way { plan: one.plan.clone(), tool: one.tool.name.clone() })

@@ -104,18 +104,18 @@ impl PySolution {
     fn parse(text: &str) -> PyResult<Self> {
         let mut kept = json::kept(text)?;
         let mut take = |key: &str| kept[key].take();
-        let task_file = take("task_file").as_str().unwrap_or_default().to_owned();
-        let task = Task::parse(take("task").as_str().unwrap_or_default(), &task_file);
+        let source = serde_json::from_value(take("source")).map_err(json::damaged)?;
+        let task = Task::parse(take("task").as_str().unwrap_or_default(), "task");
         let task = task.map_err(|faults| PyValueError::new_err(faults.to_string()))?;
         let solution = serde_json::from_value(take("solution")).map_err(json::damaged)?;
         let fit = serde_json::from_value(take("fit")).map_err(json::damaged)?;
-        Ok(Self { task: Arc::new(task), task_file, solution, fit })
+        Ok(Self { task: Arc::new(task), source, solution, fit })
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Self { task, task_file, solution, fit } = self;
+        let Self { task, source, solution, fit } = self;
         let kept = json!({
-            "task": task.to_json().to_string(), "task_file": task_file, "solution": solution,
+            "task": task.to_json().to_string(), "source": source, "solution": solution,
             "fit": fit,
         });
         json::unpickled(py, "Solution", &kept)
