@@ -13,7 +13,11 @@ use super::Workspace;
 
 /// What stands nearer than this to the corridor stands in the way, metres: less than the play in
 /// which things are pushed past each other.
-const ROOM: f64 = 0.005;
+const NEEDED: f64 = 0.005;
+
+/// Things are moved so far from the corridor where they can be, metres: at least as far as an object
+/// comes to lie from where it is predicted.
+const ROOM: f64 = 0.03;
 
 /// How densely the way of a tool or an object is sampled, metres: less than what anything that stands
 /// on a table is wide.
@@ -98,16 +102,18 @@ impl Corridor {
         Self { passed, others: others.map(|k| (k, footprint(k))).collect() }
     }
 
-    /// What stands in it, each with how far it has to move at least, metres.
-    pub fn blocking(&self, state: &State) -> Vec<(usize, f64)> {
-        let depth = |&(k, footprint): &(usize, Footprint)| {
-            let depth = self.depth(&footprint, &state.poses[k]);
-            (depth > 0.0).then_some((k, depth))
-        };
-        self.others.iter().filter_map(depth).collect()
+    /// What stands in it.
+    pub fn blocking(&self, state: &State) -> Vec<usize> {
+        let depths = self.depths(state);
+        depths.filter(|(_, depth)| *depth > ROOM - NEEDED).map(|(k, _)| k).collect()
     }
 
-    /// How far an object at `pose` stands in it, metres; 0 beside it.
+    /// How far all that may stand in it would have to move to leave room, metres.
+    pub(super) fn depths(&self, state: &State) -> impl Iterator<Item = (usize, f64)> {
+        self.others.iter().map(|(k, footprint)| (*k, self.depth(footprint, &state.poses[*k])))
+    }
+
+    /// How far an object at `pose` would have to move, metres; 0 beside it, with room.
     fn depth(&self, footprint: &Footprint, pose: &Pose) -> f64 {
         let into = |(shape, at): &(Footprint, Pose)| {
             let (points, _) = contact_points((footprint, pose), (shape, at), ROOM);

@@ -58,7 +58,7 @@ impl<'a> Field<'a> {
     pub fn movers(&self, state: &State) -> Vec<usize> {
         let blocking = self.blocking(state);
         if !blocking.is_empty() {
-            return blocking.into_iter().map(|(object, _)| object).collect();
+            return blocking;
         }
         let goals = || self.task.goals();
         let left: Vec<usize> =
@@ -69,7 +69,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    fn blocking(&self, state: &State) -> Vec<(usize, f64)> {
+    fn blocking(&self, state: &State) -> Vec<usize> {
         self.corridor.as_ref().map_or(Vec::new(), |corridor| corridor.blocking(state))
     }
 
@@ -102,7 +102,8 @@ impl<'a> Field<'a> {
         };
         let cost: f64 = self.task.goals().zip(&self.grids).map(cost).sum();
         let tolerance = self.task.goal.tolerance;
-        let aside: f64 = self.blocking(state).iter().map(|(_, depth)| depth / tolerance).sum();
+        let depths = self.corridor.iter().flat_map(|corridor| corridor.depths(state));
+        let aside: f64 = depths.map(|(_, depth)| depth / tolerance).sum();
         let cost = cost + ASIDE_WEIGHT * aside;
         if cost.is_nan() { f64::INFINITY } else { cost }
     }

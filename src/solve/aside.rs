@@ -69,7 +69,7 @@ impl<'a> Clearings<'a> {
         for ((one, motion), trajectory) in made.iter().zip(&motions).zip(&trajectories) {
             let corridor = Corridor::of(&solving.workspace, solving.situation, motion, trajectory);
             let blocking = corridor.blocking(&solving.situation.start);
-            if !blocking.is_empty() && blocking.iter().all(|(k, _)| objects[*k].keep.is_none()) {
+            if !blocking.is_empty() && blocking.iter().all(|&k| objects[k].keep.is_none()) {
                 let grip = (one.candidate.tool, one.candidate.grip_yaw);
                 let pushes = one.pushes.len() + blocking.len();
                 self.found.push(Clearing { corridor, grip, pushes });
@@ -81,7 +81,7 @@ impl<'a> Clearings<'a> {
 impl Solving<'_> {
     /// Searches, refines and verifies plans of about so many pushes that make room first.
     pub(super) fn clear_the_way(&mut self, clearings: &mut Clearings, pushes: usize) {
-        if !self.goes_on() || pushes < 2 || !self.workspace.is_placed() {
+        if !self.goes_on(pushes - 1) || pushes < 2 || !self.workspace.is_placed() {
             return;
         }
         if clearings.search.can_deepen() {
@@ -98,7 +98,10 @@ impl Solving<'_> {
             let through = (corridor, grip);
             let mut search =
                 Search::clearing(self.workspace, self.situation, clearings.settings, through);
-            while self.goes_on() && search.can_deepen() && search.depth() < pushes + MORE {
+            while self.goes_on(search.depth())
+                && search.can_deepen()
+                && search.depth() < pushes + MORE
+            {
                 self.attempt(&mut search);
             }
         }

@@ -18,7 +18,9 @@ pub(super) enum Class {
     Fails,
     /// Works as written, too seldom under disturbances.
     Fragile,
-    /// Passes.
+    /// Passes, near the edge of the tolerance: one push more may bring it inside.
+    Edge,
+    /// Passes inside of it.
     Passes,
     /// Passes well inside the tolerance and in every disturbed replay: nothing better is looked
     /// for.
@@ -31,7 +33,7 @@ impl Class {
         match self {
             Class::Fails => PlanStatus::FailedVerification,
             Class::Fragile => PlanStatus::Fragile,
-            Class::Passes | Class::Safe => PlanStatus::Solved,
+            Class::Edge | Class::Passes | Class::Safe => PlanStatus::Solved,
         }
     }
 }
@@ -54,7 +56,8 @@ impl Grade {
         let robustness = verdict.robustness.unwrap_or(1.0);
         let class = match (verdict.passed, verdict.works()) {
             (true, _) if robustness == 1.0 && score <= WELL_INSIDE => Class::Safe,
-            (true, _) => Class::Passes,
+            (true, _) if score <= WELL_INSIDE => Class::Passes,
+            (true, _) => Class::Edge,
             (false, true) => Class::Fragile,
             (false, false) => Class::Fails,
         };

@@ -132,8 +132,7 @@ impl<'a> Solving<'a> {
         let without = alone(self.task, self.situation);
         let mut clearings =
             without.as_ref().map(|without| Clearings::new(&self, without, settings));
-        // Longer plans are no better than one that passes.
-        while self.goes_on() && search.can_deepen() {
+        while self.goes_on(search.depth()) && search.can_deepen() {
             self.attempt(&mut search);
             if let Some(clearings) = &mut clearings {
                 self.clear_the_way(clearings, search.depth());
@@ -158,10 +157,15 @@ impl<'a> Solving<'a> {
         self.task.goals().copied().collect()
     }
 
-    /// Whether no plan passes yet.
-    pub(super) fn goes_on(&self) -> bool {
-        let none = self.best.is_none_or(|(grade, _)| grade.class < Class::Passes);
-        none && !self.watch.cancelled()
+    /// Whether plans of more than `depth` pushes are looked at: longer ones are no better than one that
+    /// passes, but one push more is better than an end near the edge of the tolerance.
+    pub(super) fn goes_on(&self, depth: usize) -> bool {
+        let wanted = self.best.is_none_or(|(grade, k)| match grade.class {
+            Class::Fails | Class::Fragile => true,
+            Class::Edge => depth <= self.tried[k].plan.steps.len(),
+            Class::Passes | Class::Safe => false,
+        });
+        wanted && !self.watch.cancelled()
     }
 
     /// Searches, refines and verifies plans of one push more, until one is safe.

@@ -155,7 +155,7 @@ def replay(path):
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
     wanted = {name: scene.numbers.get(f"goal of {name}") for name in scene.objects}
-    misses = {name: miss(poses[name], goal) for name, goal in wanted.items() if goal}
+    misses = {name: miss(poses[name], goal) for name, goal in wanted.items() if goal is not None}
     if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
     # Of several objects with goals the first is told of.
