@@ -20,10 +20,14 @@ const TURNED: f64 = 0.1;
 impl Solving<'_> {
     /// Whether a plan, by prediction, is clearly better than doing nothing.
     fn is_nearer(&self, tried: &Tried) -> bool {
-        let (goal, start) = (&self.task.goal, &self.situation.start);
-        let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
-        let least = (NEARER / goal.tolerance).min(turned);
-        bare(tried.score) <= goal.score(start) - least
+        let start = &self.situation.start;
+        // By the goal that asks for least, as scores are in units of tolerances.
+        let least = self.task.goals().map(|goal| {
+            let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
+            (NEARER / goal.tolerance).min(turned)
+        });
+        let least = least.fold(f64::INFINITY, f64::min);
+        bare(tried.score) <= self.task.score(start) - least
     }
 
     /// Ranks what was tried: the best; then those that passed, are untried, have failed - or, where
