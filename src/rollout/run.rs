@@ -19,6 +19,10 @@ use super::{
     work::Work,
 };
 
+/// Objects are predicted to keep this far out of regions, metres: predictions are off by millimetres,
+/// and starts are known no better.
+const KEPT_OUT: f64 = 0.01;
+
 /// Memory of one job, reused for the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
@@ -267,7 +271,7 @@ impl<'a> Run<'a> {
             let name = |object: usize| self.scene.objects[object].name.clone();
             let off = self.scene.off_table(&self.state);
             let off = off.map(|object| Warning::OffTable { object: name(object) });
-            off.or_else(|| self.scene.kept_out(&self.state))
+            off.or_else(|| self.scene.kept_out(&self.state, KEPT_OUT))
         };
         if let Some(warning) = (!self.blocked).then(ends).flatten() {
             self.trajectory.warnings.push(warning);

@@ -32,22 +32,29 @@ impl Region {
         self.shape.footprint()
     }
 
-    /// Whether this footprint is in it, there.
-    pub fn holds(&self, footprint: &Footprint, pose: &Pose) -> bool {
-        let own = self.footprint().shrunk(SLACK);
+    /// Whether this footprint is in it, there, or nearer to it than `margin` metres.
+    pub fn holds(&self, footprint: &Footprint, pose: &Pose, margin: f64) -> bool {
+        let own = match margin {
+            margin if margin > 0.0 => self.footprint().grown(margin),
+            _ => self.footprint().shrunk(SLACK),
+        };
         clearance((footprint, pose), (&own, &self.pose), SLACK) <= 0.0
     }
 }
 
 impl Scene {
-    /// The first object that is where objects keep out.
-    pub fn kept_out(&self, state: &State) -> Option<Warning> {
+    /// The first object that is where objects keep out, or nearer to it than `margin` metres.
+    pub fn kept_out(&self, state: &State, margin: f64) -> Option<Warning> {
         let regions = || self.keep_out.iter().filter(|region| region.objects);
         // Most scenes have none.
         regions().next()?;
         self.objects.iter().zip(&state.poses).find_map(|(object, pose)| {
             let footprint = object.shape.footprint();
-            let region = regions().find(|region| region.holds(&footprint, pose))?;
+            // What stands nearer at first may go on standing there.
+            let margin = |region: &Region| {
+                if region.holds(&footprint, &object.pose, margin) { 0.0 } else { margin }
+            };
+            let region = regions().find(|region| region.holds(&footprint, pose, margin(region)))?;
             let (object, region) = (object.name.clone(), region.name.clone());
             Some(Warning::KeptOut { object, region })
         })

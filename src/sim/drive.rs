@@ -137,7 +137,7 @@ pub(super) fn drive<W: World>(
                 fallen.map(|k| Warning::OffTable { object: scene.objects[k].name.clone() });
             let weak = arm.and_then(|arm| arm.gives_up(&recorder.strain));
             let stopped = || watch.cancelled().then_some(Warning::Stopped);
-            let fallen = fallen.or_else(|| scene.kept_out(&recorder.last().state));
+            let fallen = fallen.or_else(|| scene.kept_out(&recorder.last().state, 0.0));
             let ends = jam.or(fallen).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);

@@ -40,10 +40,10 @@ fn followed(solution: &Solution, region: &Region) -> (f64, usize, usize) {
             let pose = frame.state.poses[0];
             aside = aside.max(pose.position.y.abs());
             let can = pushplan::geometry::Footprint::Disc { radius: 0.03 };
-            object += usize::from(region.holds(&can, &pose));
+            object += usize::from(region.holds(&can, &pose, 0.0));
             let parts = best.tool().parts().iter().enumerate();
             let mut inside = parts.map(|(k, part)| {
-                region.holds(&part.footprint(), &best.tool().part_pose(k, &frame.tool))
+                region.holds(&part.footprint(), &best.tool().part_pose(k, &frame.tool), 0.0)
             });
             tool += usize::from(inside.any(|inside| inside));
         }
@@ -70,15 +70,27 @@ fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
     let (aside, object, _) = followed(&found, region);
     assert!(aside > 0.06 && object == 0, "{aside}, {object} frames inside");
 
-    // A tool that goes behind the can comes there after it; a hook or a push from elsewhere need not.
-    let tool = keeping_out(&circle("tool"));
+    // Where the tool stands at first.
+    let starts = free.best().expect("a plan").plan.pushes()[0].start;
+    let there = format!("[{}, {}], for: [tool]", starts.x, starts.y);
+    let tool = keeping_out(&circle("tool").replace("[0.575, 0], for: [tool]", &there));
+    let region = &tool.scene.keep_out[0];
+    assert!(followed(&free, region).2 > 0);
     let found = solved(&tool);
-    if matches!(found.status, PlanStatus::Solved | PlanStatus::Fragile) {
-        assert_eq!(followed(&found, &tool.scene.keep_out[0]).2, 0);
-    }
-    // The finger's hand is 5 cm wide and above its tip.
-    let hand = keeping_out(&circle("hand").replace("0.04", "0.3"));
-    assert!(!matches!(solved(&hand).status, PlanStatus::Solved | PlanStatus::Fragile));
+    assert_eq!(found.status, PlanStatus::Solved);
+    assert_eq!(followed(&found, region).2, 0);
+
+    // A hand that is not to come near pushes with what reaches far.
+    let hand = keeping_out(&circle("hand").replace("radius: 0.04", "radius: 0.3"));
+    let found = solved(&hand);
+    assert_eq!(found.status, PlanStatus::Solved);
+    let nearest = |solution: &Solution| {
+        let pushes = solution.best().expect("a plan").plan.pushes();
+        let middle = pushplan::geometry::Vector::new(0.575, 0.0);
+        let ends = pushes.iter().flat_map(|push| [push.start, push.end()]);
+        ends.map(|at| (at - middle).norm()).fold(f64::INFINITY, f64::min)
+    };
+    assert!(nearest(&free) < 0.35 && nearest(&found) >= 0.35, "{}", nearest(&found));
 }
 
 #[test]

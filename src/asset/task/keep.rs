@@ -137,7 +137,7 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
         }
         let Some(region) = region(node).filter(|region| region.objects) else { continue };
         for object in objects {
-            let inside = body(object).is_some_and(|(shape, pose)| region.holds(&shape, &pose));
+            let inside = body(object).is_some_and(|(shape, pose)| region.holds(&shape, &pose, 0.0));
             if inside {
                 let name = name_of(object).unwrap_or("?");
                 let message =
