@@ -5,7 +5,7 @@ use crate::{
     geometry::{Pose, Vector},
     scene::{
         Body, COAST_FRAME, Contact, Frame, FrameStep, Job, MAX_COAST_FRAMES, ModelSpec, REST_SPEED,
-        Record, Scene, Spread, State, Stroke, Trajectory, Velocity, Warning,
+        Record, Region, Scene, Spread, State, Stroke, Trajectory, Velocity, Warning,
     },
 };
 
@@ -18,10 +18,6 @@ use super::{
     stepper::{Found, Walk},
     work::Work,
 };
-
-/// Objects are predicted to keep this far out of regions, metres: predictions are off by millimetres,
-/// and starts are known no better.
-const KEPT_OUT: f64 = 0.01;
 
 /// Memory of one job, reused for the next.
 #[derive(Clone, Debug, Default)]
@@ -267,13 +263,8 @@ impl<'a> Run<'a> {
             self.keep_between(step);
         }
         self.time += step.duration;
-        let ends = || {
-            let name = |object: usize| self.scene.objects[object].name.clone();
-            let off = self.scene.off_table(&self.state);
-            let off = off.map(|object| Warning::OffTable { object: name(object) });
-            off.or_else(|| self.scene.kept_out(&self.state, KEPT_OUT))
-        };
-        if let Some(warning) = (!self.blocked).then(ends).flatten() {
+        let strays = (!self.blocked).then(|| self.scene.strays(&self.state, Region::MARGIN));
+        if let Some(warning) = strays.flatten() {
             self.trajectory.warnings.push(warning);
             self.blocked = true;
         }

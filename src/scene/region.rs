@@ -27,6 +27,10 @@ pub struct Region {
 }
 
 impl Region {
+    /// Objects are predicted to keep this far out of regions, metres: predictions are off by
+    /// millimetres, and starts are known no better.
+    pub const MARGIN: f64 = 0.01;
+
     /// What it covers.
     pub fn footprint(&self) -> Footprint {
         self.shape.footprint()
@@ -58,6 +62,13 @@ impl Scene {
             let (object, region) = (object.name.clone(), region.name.clone());
             Some(Warning::KeptOut { object, region })
         })
+    }
+
+    /// The first object that left the table and may not, or is where objects keep out.
+    pub fn strays(&self, state: &State, margin: f64) -> Option<Warning> {
+        let name = |object: usize| self.objects[object].name.clone();
+        let off = self.off_table(state).map(|object| Warning::OffTable { object: name(object) });
+        off.or_else(|| self.kept_out(state, margin))
     }
 
     /// What toppled or left the table by the end, though it may.

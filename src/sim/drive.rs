@@ -131,14 +131,11 @@ pub(super) fn drive<W: World>(
             time += played.share * frame.duration;
             let tool = frame.from.towards(&frame.to, played.share);
             let recorded = recorder.record(world, time, index, tool);
-            let fallen = scene.off_table(&recorder.last().state);
+            let strays = scene.strays(&recorder.last().state, 0.0);
             let jam = played.jam.map(|jam| jammed(scene, motion, jam));
-            let fallen =
-                fallen.map(|k| Warning::OffTable { object: scene.objects[k].name.clone() });
             let weak = arm.and_then(|arm| arm.gives_up(&recorder.strain));
             let stopped = || watch.cancelled().then_some(Warning::Stopped);
-            let fallen = fallen.or_else(|| scene.kept_out(&recorder.last().state, 0.0));
-            let ends = jam.or(fallen).or(weak).or_else(stopped);
+            let ends = jam.or(strays).or(weak).or_else(stopped);
             let goes_on = recorded && ends.is_none();
             recorder.trajectory.warnings.extend(ends);
             goes_on

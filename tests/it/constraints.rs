@@ -60,15 +60,15 @@ fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
             "{{name: spill, area: {{circle: {{radius: 0.04}}}}, position: [0.575, 0], for: [{who}]}}"
         )
     };
-    let around = keeping_out(&circle("objects"));
+    let around = keeping_out(&circle("objects").replace("0.575, 0]", "0.575, 0.05]"));
     let region = &around.scene.keep_out[0];
     let (aside, object, _) = followed(&free, region);
-    assert!(aside < 0.03 && object > 0, "it would go straight through: {aside}");
+    assert!(aside < 0.02 && object > 0, "it would go straight through: {aside}");
 
     let found = solved(&around);
     assert_eq!(found.status, PlanStatus::Solved);
     let (aside, object, _) = followed(&found, region);
-    assert!(aside > 0.06 && object == 0, "{aside}, {object} frames inside");
+    assert!(aside > 0.02 && object == 0, "{aside}, {object} frames inside");
 
     // Where the tool stands at first.
     let starts = free.best().expect("a plan").plan.pushes()[0].start;
@@ -124,24 +124,24 @@ fn regions_of_every_outline_are_written_and_read() {
     assert!(fault(bent).contains("convex"), "{}", fault(bent));
 }
 
-/// A box with a tall bottle before it, at the table's end.
-const BOTTLE: &str = "
+/// A box with a cap before it, which is pushed over the table's end.
+const CAP: &str = "
 scene:
   table: {size: [0.5, 1], position: [0.45, 0]}
   objects:
     - {name: box, shape: {cuboid: {size: [0.06, 0.06, 0.06]}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}
-    - {name: cap, shape: {cylinder: {radius: 0.02, height: 0.03}}, mass: 0.05, friction: 0.4, position: [0.66, 0]}
+    - {name: cap, shape: {cylinder: {radius: 0.02, height: 0.03}}, mass: 0.05, friction: 0.4, position: [0.62, 0]}
 robot: {reach: {min: 0.05, max: 0.95}, hand: none}
 tools: [finger, paddle]
 pushes: {directions: [0], length: 0.2, max_count: 1}
-goal: {object: box, position: [0.65, 0], tolerance: 0.01}
+goal: {object: box, position: [0.67, 0], tolerance: 0.01}
 ";
 
 #[test]
 fn what_may_fall_is_pushed_off_and_said_to_fall() {
-    let kept = solved(&task(BOTTLE));
+    let kept = solved(&task(CAP));
     assert!(!matches!(kept.status, PlanStatus::Solved | PlanStatus::Fragile));
-    let text = BOTTLE.replace("position: [0.66, 0]}", "position: [0.66, 0], may_fall: true}");
+    let text = CAP.replace("position: [0.62, 0]}", "position: [0.62, 0], may_fall: true}");
     let free = task(&text);
     let found = solved(&free);
     assert_eq!(found.status, PlanStatus::Solved);

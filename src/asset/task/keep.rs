@@ -126,12 +126,16 @@ fn region(node: &Node) -> Option<Region> {
 /// Notes regions that are none, that have another's name, or that an object stands in.
 pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mut Ledger) {
     let regions = root.get("keep_out").map(Node::items).unwrap_or_default();
-    crate::asset::take::unique_names(
-        bodies.iter().copied().chain(regions),
-        "bodies and regions",
-        ledger,
-    );
-    for node in regions {
+    for (k, node) in regions.iter().enumerate() {
+        let taken = |other: &&Node| name_of(other).is_some() && name_of(other) == name_of(node);
+        if bodies.iter().copied().chain(&regions[..k]).any(|other| taken(&other)) {
+            let message = format!("something else is called `{}`", name_of(node).unwrap_or("?"));
+            ledger.fault(
+                node.get("name").unwrap_or(node),
+                message,
+                "rename one; messages refer to names",
+            );
+        }
         if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
             prism::check_base(polygon, ledger);
         }

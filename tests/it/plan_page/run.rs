@@ -115,7 +115,7 @@ fn the_command_writes_the_page_and_says_how_to_make_it_again() {
     let task = "tasks/coupled-or-not.yaml";
     let run = ["run", task, "--world", "2", "--seed", "1", "--page", "3d", "--out", out];
     assert_eq!(exit_code(&run), 0);
-    let file = folder.path().join("coupled-or-not.html");
+    let file = folder.path().join("coupled-or-not.run.html");
     assert!(std::fs::read_to_string(&file).expect("a page").contains("id=\"three\""));
     let plan = &data(&file)["plans"][0];
     assert_eq!(plan["command"], format!("pushplan run {task} --world 2 --seed 1"));

@@ -117,16 +117,20 @@ fn commands_write_it_where_it_is_asked_for() {
     let folder = TempDir::new().expect("a folder");
     let out = folder.path().to_str().expect("UTF-8");
     let task = "tasks/pull-back.yaml";
-    let page = || std::fs::read_to_string(folder.path().join("pull-back.html")).expect("a page");
+    let page = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("a page");
     let solve = ["solve", task, "--effort", "draft", "--out", out];
     assert_eq!(exit_code(&solve), 0);
-    assert!(!page().contains("id=\"three\""));
+    assert!(!page("pull-back.html").contains("id=\"three\""));
     let plan = format!("{out}/pull-back.plan.json");
     let predict = ["predict", task, "--tool", "l-hook", "--push", "can:180", "--out", out];
-    for command in [&solve[..], &["verify", &plan, "--out", out], &predict] {
+    let commands = [
+        ("pull-back.html", &solve[..]),
+        ("pull-back.verify.html", &["verify", &plan, "--out", out]),
+        ("pull-back.predict.html", &predict),
+    ];
+    for (name, command) in commands {
         assert_eq!(exit_code(&[command, &["--page", "3d"]].concat()), 0, "{command:?}");
-        assert!(page().contains("id=\"three\""), "{command:?}");
-        std::fs::remove_file(folder.path().join("pull-back.html")).expect("it is there");
+        assert!(page(name).contains("id=\"three\""), "{command:?}");
     }
     // Without a folder there is no page that could have a view.
     assert_eq!(exit_code(&["verify", &plan, "--page", "3d"]), 2);
