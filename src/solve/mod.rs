@@ -22,6 +22,7 @@ mod settings;
 mod solution;
 mod solving;
 mod tried;
+mod typical;
 mod widen;
 
 pub use asked::{ActionError, Asked, AskedPush, AskedStart, asked_plan};

@@ -17,7 +17,8 @@ use crate::watch::{Until, Unwatched, Watch};
 
 use super::check::check;
 use super::levering::{self, Steps};
-use super::solving::{Solving, typical};
+use super::solving::Solving;
+use super::typical::typical;
 use super::{Effort, PlanStatus, Settings, Solution, SolveError};
 
 /// Finds tools and pushes for tasks, with one effect model, or one that screens and one that decides,

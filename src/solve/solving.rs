@@ -6,12 +6,11 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use crate::effect::EffectModel;
-use crate::geometry::Pose;
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
     alone, bare, is_behind, refine,
 };
-use crate::scene::{Goal, Job, Plan, Push, Situation, State, Task, Tool, ToolMotion, Verdict};
+use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
@@ -19,6 +18,7 @@ use super::aside::Clearings;
 use super::grade::{Class, Grade};
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
+use super::typical::typical;
 use super::{PlanStatus, Planner, Refinement, Solution, Statistics};
 
 /// Later pushes get room for the model's error, but no more than this, metres: a longer approach
@@ -380,22 +380,6 @@ impl<'a> Solving<'a> {
             }
         }
     }
-}
-
-/// A push of the goal's object towards the goal by the tool's first part: what a model would be
-/// used for, as far as can be known beforehand.
-pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
-    let (rules, goal) = (&task.pushes, &task.goal);
-    let object = start.poses[goal.object].position;
-    let way = goal.position - object;
-    let part = tool.part_pose(0, &tool.pose(Pose::default()));
-    let push = Push {
-        start: object - part.position,
-        direction: way.y.atan2(way.x),
-        length: rules.length,
-        speed: rules.speed,
-    };
-    ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
 }
 
 /// What the model that decides made of a candidate after the one that screens had refined it.

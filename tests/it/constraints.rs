@@ -70,10 +70,10 @@ fn what_is_kept_out_of_is_gone_around_by_those_who_are_to() {
     let (aside, object, _) = followed(&found, region);
     assert!(aside > 0.02 && object == 0, "{aside}, {object} frames inside");
 
-    // Where the tool stands at first.
-    let starts = free.best().expect("a plan").plan.pushes()[0].start;
-    let there = format!("[{}, {}], for: [tool]", starts.x, starts.y);
-    let tool = keeping_out(&circle("tool").replace("[0.575, 0], for: [tool]", &there));
+    // Beside the end of the tool's way.
+    let there = "[0.62, 0.03], for: [tool]";
+    let tool = circle("tool").replace("[0.575, 0], for: [tool]", there);
+    let tool = keeping_out(&tool.replace("radius: 0.04", "radius: 0.02"));
     let region = &tool.scene.keep_out[0];
     assert!(followed(&free, region).2 > 0);
     let found = solved(&tool);

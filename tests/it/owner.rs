@@ -342,7 +342,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
     let away = FAR.replace("0.35, 0]", "1.6, 0]").replace("0.81", "1.8");
     let Cause::Far { allowed: 0.95, needed } = cause(&away) else { panic!("it is far away") };
     assert!((1.0..1.7).contains(&needed), "{needed}");
-    assert_eq!(cause(&PEN.replace("tools: [stick]", "tools: all")), Cause::Hand);
+    assert_eq!(cause(PEN), Cause::Tool { needed: "finger".into() });
 }
 
 #[test]

@@ -88,6 +88,13 @@ const REASON: Value = Value::Variant(&[
         FRAGILE,
         "Too few of the disturbed replays reach the goal; no default.",
     ),
+    Key::optional("never_on", NEVER_ON, "On one support none of them does; no default."),
+]);
+
+const NEVER_ON: Value = Value::Map(&[
+    Key::required("engine", ENGINE, "In which engine."),
+    Key::required("support", Value::Anything, "What objects rest on then."),
+    Key::required("replays", INDEX, "Disturbed replays on it."),
 ]);
 
 const GOES_WRONG: Value = Value::Map(&[

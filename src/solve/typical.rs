@@ -1,0 +1,22 @@
+//! What a model would be used for, before anything is searched.
+
+use std::sync::Arc;
+
+use crate::geometry::Pose;
+use crate::scene::{Push, State, Task, Tool, ToolMotion};
+
+/// A push of the goal's object towards the goal by the tool's first part: what a model would be
+/// used for, as far as can be known beforehand.
+pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotion {
+    let (rules, goal) = (&task.pushes, &task.goal);
+    let object = start.poses[goal.object].position;
+    let way = goal.position - object;
+    let part = tool.part_pose(0, &tool.pose(Pose::default()));
+    let push = Push {
+        start: object - part.position,
+        direction: way.y.atan2(way.x),
+        length: rules.length,
+        speed: rules.speed,
+    };
+    ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
+}
