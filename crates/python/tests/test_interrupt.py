@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -42,6 +44,18 @@ def test_ctrl_c_interrupts(work: Callable[[pushplan.Task], None], root: Path) ->
     assert time.monotonic() - began < 20.0
     # And the next call works.
     assert pushplan.solve(task, effort="draft").solved
+
+
+def test_ctrl_c_ends_the_command_as_it_does_the_binary(tmp_path: Path) -> None:
+    words = [sys.executable, "-m", "pushplan", "bench", "tools", "--out", str(tmp_path)]
+    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as job:
+        until = time.monotonic() + 60.0
+        while not (tmp_path / "records.jsonl").exists() and time.monotonic() < until:
+            time.sleep(0.1)
+        job.send_signal(signal.SIGINT)
+        said = job.communicate(timeout=60)[1].decode()
+    assert job.returncode == 130, said
+    assert "goes on from there" in said and "Traceback" not in said
 
 
 def test_other_threads_run_meanwhile(task: pushplan.Task) -> None:
