@@ -44,6 +44,7 @@ const SHIPPED: &[(&str, &str)] = shipped! {
     "too-far"
     "triangle-turned"
     "turn-the-box"
+    "two-places"
     "unknown-slide"
     "unknown-train"
     "wide-sweep"
