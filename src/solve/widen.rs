@@ -43,8 +43,11 @@ impl Watch for Quiet<'_> {
 struct Wider<'a> {
     task: Task,
     tools: Vec<Arc<Tool>>,
-    cause: Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>,
+    cause: Told<'a>,
 }
+
+/// What plans of a wider task say of the task.
+type Told<'a> = Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>;
 
 /// A plan that is predicted to reach the goal.
 struct Way {
@@ -100,8 +103,7 @@ impl Solving<'_> {
 /// The tasks with one limit wider: first those that cost nothing to widen, last what stands there.
 fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<Wider<'a>> {
     let mut all: Vec<Wider> = Vec::new();
-    let mut add = |change: &dyn Fn(&mut Task),
-                   cause: Box<dyn Fn(&[Way]) -> Cause + Send + Sync + 'a>| {
+    let mut add = |change: &dyn Fn(&mut Task), cause: Told<'a>| {
         let mut wider = task.clone();
         change(&mut wider);
         if wider != *task {

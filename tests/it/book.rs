@@ -141,6 +141,9 @@ fn its_tables_of_keys_are_those_of_the_schemas() {
 
 /// The keys of a schema and of those below them, a row each.
 fn rows(schema: &Json, above: &str, table: &mut String) {
+    for alternative in schema["anyOf"].as_array().into_iter().flatten() {
+        rows(alternative, above, table);
+    }
     let Some(keys) = schema["properties"].as_object() else { return };
     let required = |key: &str| {
         schema["required"].as_array().is_some_and(|list| list.iter().any(|name| name == key))
@@ -150,6 +153,10 @@ fn rows(schema: &Json, above: &str, table: &mut String) {
         let meaning = value["description"].as_str().unwrap_or_default().replace('|', "\\|");
         let meaning = meaning.split_whitespace().collect::<Vec<_>>().join(" ");
         let path = format!("{above}{key}");
+        // Of several that have the same key the first tells it.
+        if table.contains(&format!("\n| `{path}`")) {
+            continue;
+        }
         table.push_str(&format!("| `{path}`{star} | {meaning} |\n"));
         rows(value, &format!("{path}."), table);
         rows(&value["items"], &format!("{path}[]."), table);
