@@ -238,6 +238,11 @@ pub(super) fn blades(
     }
 }
 
+/// A height without what adding lengths in binary leaves behind.
+fn micrometres(metres: f64) -> f64 {
+    (metres * 1e6).round() / 1e6
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -275,9 +280,4 @@ mod tests {
         assert!(!held(&[block(-0.03, 0.01), block(0.03, 0.009)]), "one is too low");
         assert_eq!(plate.solids()[0].lowest(), plate.z);
     }
-}
-
-/// A height without what adding lengths in binary leaves behind.
-fn micrometres(metres: f64) -> f64 {
-    (metres * 1e6).round() / 1e6
 }

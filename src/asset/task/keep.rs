@@ -46,7 +46,7 @@ const REGION: Value = Value::Map(&[
             Key::optional(
                 "circle",
                 Value::Map(&[Key::required("radius", SIZE, "Its radius in metres.")]),
-                "A circle.",
+                "A circle; no default.",
             ),
             Key::optional(
                 "rectangle",
@@ -55,7 +55,7 @@ const REGION: Value = Value::Map(&[
                     numbers(&SIZE, 2),
                     "Full extents [x, y] in metres.",
                 )]),
-                "A rectangle.",
+                "A rectangle; no default.",
             ),
             Key::optional(
                 "polygon",
@@ -64,7 +64,7 @@ const REGION: Value = Value::Map(&[
                     Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
                     "Its corners in order, [x, y] in metres from the region's position.",
                 )]),
-                "A convex polygon.",
+                "A convex polygon; no default.",
             ),
         ]),
         "Its outline.",
