@@ -5,6 +5,7 @@ use crate::plan::{
 };
 use crate::scene::{Job, Record, Situation, Task};
 
+use super::grade::Class;
 use super::solving::Solving;
 
 /// Kinds of plans of one length that are looked at for what stands in their way.
@@ -103,6 +104,7 @@ impl Solving<'_> {
                 && search.depth() < pushes + MORE
             {
                 self.attempt(&mut search);
+                self.settle(Class::Edge);
             }
         }
     }

@@ -19,6 +19,7 @@ mod rank;
 mod ranking;
 mod reconsider;
 mod settings;
+mod settle;
 mod solution;
 mod solving;
 mod tried;

@@ -145,6 +145,7 @@ impl Solving<'_> {
                     tool: tried.tool.clone(),
                     refinement: tried.refinement.clone(),
                     verdict: None,
+                    settled: false,
                     ..*tried
                 };
                 next.push(self.tried.len());

@@ -60,6 +60,8 @@ pub(super) struct Tried {
     pub refinement: Refinement,
     pub score: f64,
     pub verdict: Option<Verdict>,
+    /// Whether it was replayed until it was clear how often it works.
+    pub settled: bool,
 }
 
 pub(super) struct Solving<'a> {
@@ -71,7 +73,7 @@ pub(super) struct Solving<'a> {
     pub rollouts: Rollouts<'a>,
     /// Of the one that decides, if that is another.
     pub deciding: Option<Rollouts<'a>>,
-    verifier: Verifier<'a>,
+    pub verifier: Verifier<'a>,
     pub watch: &'a dyn Watch,
     pub statistics: Statistics,
     /// What the search made of every way to push.
@@ -103,7 +105,7 @@ impl<'a> Solving<'a> {
             workspace: Workspace { task, tools },
             rollouts: rollouts(planner.screen()),
             deciding: planner.is_screened().then(|| rollouts(planner.model())),
-            verifier: Verifier::new(verify).watched(watch).until_clear(),
+            verifier: Verifier::new(verify).watched(watch),
             watch,
             statistics: Statistics::default(),
             candidates: Vec::new(),
@@ -134,10 +136,12 @@ impl<'a> Solving<'a> {
             without.as_ref().map(|without| Clearings::new(&self, without, settings));
         while self.goes_on(search.depth()) && search.can_deepen() {
             self.attempt(&mut search);
+            self.settle(Class::Edge);
             if let Some(clearings) = &mut clearings {
                 self.clear_the_way(clearings, search.depth());
             }
         }
+        self.settle(Class::Fragile);
         let status = match self.best {
             Some((grade, _)) if grade.class > Class::Fails => grade.class.status(),
             _ if self.tried.iter().any(|tried| tried.verdict.is_some()) => {

@@ -28,6 +28,7 @@ impl Solving<'_> {
                 score => score,
             },
             verdict: None,
+            settled: false,
             plan: self.plan(&tool, &best),
             tool,
             candidate: Some(best.candidate),
@@ -59,6 +60,7 @@ impl Solving<'_> {
             },
             score: self.task.score(start),
             verdict: None,
+            settled: false,
         }
     }
 }

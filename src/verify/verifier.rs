@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use crate::geometry::Pose;
 use crate::scene::{
-    Disturbance, Evidence, Job, LeverScene, Outcome, Plan, Record, Scene, Situation, Task, Tool,
-    ToolMotion, Trajectory, Verdict, Warning,
+    Disturbance, Engine, Evidence, Job, LeverScene, Outcome, Plan, Record, Scene, Situation, Task,
+    Tool, ToolMotion, Trajectory, Verdict, Warning,
 };
 use crate::sim::{LeverSimulator, Simulator};
 use crate::watch::{Unwatched, Watch};
@@ -152,16 +152,17 @@ impl<'a> Verifier<'a> {
         if misses_by_a_hair(&scene, &motion) {
             motion.lift += HAIR;
         }
-        let mut replays = Vec::new();
-        let mut made = 0..self.settings.disturbed;
+        let (mut evidence, mut replays): (Vec<Evidence>, Vec<Evidence>) =
+            evidence.into_iter().partition(|one| one.disturbance == Disturbance::Nominal);
+        let mut done = replays.len() / Engine::ALL.len();
+        let mut next = self.settings.disturbed.max(done);
         loop {
-            replays.extend(self.disturbed(task, situation, tool, (&scene, &motion), made.clone()));
-            let (done, most) = (made.end, clear::MOST);
-            let over = !self.until_clear || done == 0 || done >= most || self.watch.cancelled();
+            replays.extend(self.disturbed(task, situation, tool, (&scene, &motion), done..next));
+            (done, next) = (next, (next + clear::LOOK).min(clear::MOST));
+            let over = !self.until_clear || done == 0 || done >= next || self.watch.cancelled();
             if over || clear::is_clear(&replays, task.robustness) {
                 break;
             }
-            made = done..(done + clear::LOOK).min(most);
         }
         // By engine, planar first; stable, so draws keep their order.
         replays.sort_by_key(|evidence| evidence.engine != self.planar.engine());
