@@ -32,6 +32,7 @@ __all__ = [
     "HandKeys",
     "JointKeys",
     "KeepKeys",
+    "LeverGoalKeys",
     "LeversKeys",
     "Numbers",
     "ObjectKeys",
@@ -233,14 +234,22 @@ class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
     object: str
+    position: Numbers
+    tolerance: float
+    heading_deg: NotRequired[float]
+    heading_tolerance_deg: NotRequired[float]
+    symmetric: NotRequired[bool]
+
+
+class LeverGoalKeys(TypedDict):
+    """How an object that is levered must come to rest; position [x, y] and lengths in metres."""
+
+    object: str
     position: NotRequired[Numbers]
     tolerance: NotRequired[float]
     outside: NotRequired[str]
     raised: NotRequired[float]
     flipped: NotRequired[bool]
-    heading_deg: NotRequired[float]
-    heading_tolerance_deg: NotRequired[float]
-    symmetric: NotRequired[bool]
 
 
 class LeversKeys(TypedDict, total=False):
@@ -305,7 +314,7 @@ class TaskFile(TypedDict):
     scene: SceneKeys
     robot: RobotKeys
     tools: Union[Literal["all"], Sequence[str]]
-    goal: GoalKeys
+    goal: Union[GoalKeys, Sequence[GoalKeys], LeverGoalKeys]
     name: NotRequired[str]
     description: NotRequired[str]
     pushes: NotRequired[PushKeys]

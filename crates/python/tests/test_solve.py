@@ -105,7 +105,8 @@ def test_verdicts_are_those_of_the_command(
     ran = command("verify", path, "--disturbed", 5, "--seed", 2, "--json")
     verdict = pushplan.verify(pushplan.Plan.load(path), disturbed=5, seed=2)
     assert verdict.to_dict() == json.loads(ran.stdout)
-    assert len(verdict.replays) == 12 and verdict.passed and verdict.robustness == 1.0
+    # At least five disturbed replays in each engine, and more until the answer is clear.
+    assert len(verdict.replays) >= 12 and verdict.passed and verdict.robustness == 1.0
     as_written = [replay for replay in verdict.replays if replay.draw is None]
     assert [replay.engine for replay in as_written] == ["planar", "3d"]
     for replay in as_written:
