@@ -107,7 +107,7 @@ def test_examples_are_the_shipped_tasks(root: Path) -> None:
 
 
 def test_arrays_are_taken_as_lists(task: pushplan.Task) -> None:
-    keys = task.to_dict()
+    keys: Any = task.to_dict()
     keys["goal"]["position"] = np.array([0.6, 0.14])
     assert pushplan.Task.of(keys).goal_position == (0.6, 0.14)
 
