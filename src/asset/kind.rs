@@ -48,8 +48,8 @@ impl fmt::Display for Kind {
     }
 }
 
-/// Recognises the file at `path` by its content and checks all of it, unless it is a run; the tools that a task names
-/// must be in `library`, if one is given.
+/// Recognises the file at `path` by its content and checks all of it, unless it is a run; the tools
+/// that a task names must be in `library`, if one is given.
 ///
 /// # Errors
 /// All faults of the file, each with its place.

@@ -31,7 +31,7 @@ const DISC: f64 = 1e-3;
 /// |---|---|---|---|
 /// | `/scene` | `foxglove.SceneUpdate` | at the start | solids of objects, obstacles, tool and goal, each in its frame |
 /// | `/tf` | `foxglove.FrameTransforms` | every frame | frames `object/NAME` and `tool` in `table` |
-/// | `/state` | `pushplan.State` | every frame | the same as x, y (metres) and heading (radians, turns counted), the push, and the distance from the goal (metres) |
+/// | `/state` | `pushplan.State` | every frame | the same as x, y (metres) and heading (radians, turns counted), the push, and the distance from the goal, the first of several (metres) |
 ///
 /// Messages are JSON with JSON schemas; times count from the start, in nanoseconds. The attachment
 /// `plan.json` is the plan file, complete; the metadata `pushplan` say tool, model and outcome. Nothing
@@ -105,7 +105,7 @@ fn nanoseconds(seconds: f64) -> u64 {
 
 /// Everything that is drawn.
 fn entities(plan: &PlanFile) -> Vec<Json> {
-    let (scene, goal) = (&plan.task.scene, &plan.task.goal);
+    let scene = &plan.task.scene;
     let mut found = Vec::new();
     for (index, object) in scene.objects.iter().enumerate() {
         let name = format!("object/{}", object.name);
@@ -128,12 +128,15 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
         }));
         found.push(entity(&frame_of(k), &frame_of(k), &parts, TOOL));
     }
-    if !goal.has_place() {
-        return found;
+    for (k, goal) in plan.task.goals().enumerate().filter(|(_, goal)| goal.has_place()) {
+        let disc = Shape::Cylinder { radius: goal.tolerance, height: DISC };
+        let there = Pose { position: goal.position, heading: 0.0 };
+        let name = match k {
+            0 => "goal".to_owned(),
+            _ => format!("goal/{}", scene.objects[goal.object].name),
+        };
+        found.push(entity(TABLE, &name, &[(disc, there, DISC / 2.0)], GOAL));
     }
-    let disc = Shape::Cylinder { radius: goal.tolerance, height: DISC };
-    let there = Pose { position: goal.position, heading: 0.0 };
-    found.push(entity(TABLE, "goal", &[(disc, there, DISC / 2.0)], GOAL));
     found
 }
 

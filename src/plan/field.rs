@@ -1,11 +1,12 @@
-//! How far an object still has to go around obstacles, and what has to be moved aside first. It ranks the beam over push sequences,
-//! because the straight distance leads into every dead end.
+//! How far objects still have to go around obstacles, and what has to be moved aside first. It ranks
+//! the beam over push sequences, because the straight distance leads into every dead end.
 //!
 //! Where the straight way to the goal is free the distance is Euclidean and exact; elsewhere it
 //! comes from Dijkstra's algorithm on a grid with sixteen neighbours.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
 use crate::scene::{Goal, State, Task};
@@ -33,10 +34,11 @@ const HEADING_WEIGHT: f64 = 0.5;
 const ASIDE_WEIGHT: f64 = 4.0;
 
 /// Distances to the goals for the centres of their objects.
+#[derive(Clone)]
 pub struct Field<'a> {
     task: &'a Task,
     /// One for every goal, if there are obstacles.
-    grids: Vec<Option<Grid>>,
+    grids: Arc<[Option<Grid>]>,
     /// What has to be free before the goal's object is pushed.
     corridor: Option<Corridor>,
 }
@@ -86,7 +88,7 @@ impl<'a> Field<'a> {
 
     /// The ways of all goals' objects, metres, each from where `position` has it.
     fn ways(&self, position: impl Fn(usize) -> Vector) -> f64 {
-        let goals = self.task.goals().zip(&self.grids);
+        let goals = self.task.goals().zip(self.grids.iter());
         goals.map(|(goal, grid)| distance(goal, grid, position(goal.object))).sum()
     }
 
@@ -100,7 +102,7 @@ impl<'a> Field<'a> {
                 _ => way,
             }
         };
-        let cost: f64 = self.task.goals().zip(&self.grids).map(cost).sum();
+        let cost: f64 = self.task.goals().zip(self.grids.iter()).map(cost).sum();
         let tolerance = self.task.goal.tolerance;
         let depths = self.corridor.iter().flat_map(|corridor| corridor.depths(state));
         let aside: f64 = depths.map(|(_, depth)| depth / tolerance).sum();

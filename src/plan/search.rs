@@ -85,29 +85,25 @@ impl<'a> Search<'a> {
         let grips = (0..workspace.tools.len())
             .flat_map(|tool| yaws.iter().map(move |&yaw| (tool, yaw)))
             .collect();
-        Self::through(workspace, situation, settings, Field::new(workspace.task), grips)
+        let (field, spread) = (Field::new(workspace.task), Spread::around(situation));
+        Self::from_start(workspace, situation, settings, (field, spread), grips)
     }
 
-    /// Prepares a search of plans that first move aside, held as the plan that the corridor is of, what
-    /// stands in it.
-    pub fn clearing(
+    /// The same search from its start for plans that first move aside what stands in `corridor`, with the
+    /// tool and grip yaw (radians) of the plan that needs it free.
+    pub fn clearing(&self, corridor: Corridor, grip: (usize, f64)) -> Self {
+        let field = self.field.clone().clearing(corridor);
+        let kept = (field, self.spread.clone());
+        Self::from_start(self.workspace, &self.situation, self.settings, kept, vec![grip])
+    }
+
+    fn from_start(
         workspace: Workspace<'a>,
         situation: &Situation,
         settings: SearchSettings,
-        (corridor, grip): (Corridor, (usize, f64)),
-    ) -> Self {
-        let field = Field::new(workspace.task).clearing(corridor);
-        Self::through(workspace, situation, settings, field, vec![grip])
-    }
-
-    fn through(
-        workspace: Workspace<'a>,
-        situation: &Situation,
-        settings: SearchSettings,
-        field: Field<'a>,
+        (field, spread): (Field<'a>, Spread),
         grips: Vec<(usize, f64)>,
     ) -> Self {
-        let spread = Spread::around(situation);
         let start = Node {
             candidate: None,
             state: situation.start.clone(),
@@ -128,6 +124,11 @@ impl<'a> Search<'a> {
             statistics: SearchStatistics::default(),
             scores: Scores::default(),
         }
+    }
+
+    /// How much it searches.
+    pub fn settings(&self) -> SearchSettings {
+        self.settings
     }
 
     /// Pushes per candidate that the last call of [`Search::deepen`] looked at.

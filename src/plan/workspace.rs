@@ -100,7 +100,8 @@ pub struct Workspace<'a> {
 
 impl Workspace<'_> {
     /// End-effector position at which the push of a candidate starts: for a placed push so that
-    /// the part's leading face meets the object after exactly the stand-off and the push's room, with the wanted offset; for a chained one `previous`, or home.
+    /// the part's leading face meets the object after exactly the stand-off and the push's room,
+    /// with the wanted offset; for a chained one `previous`, or home.
     ///
     /// # Errors
     /// [`Infeasible::NoContact`] and [`Infeasible::OtherPartFirst`]. Reach and collisions are
@@ -256,9 +257,9 @@ impl Workspace<'_> {
         least - HAND_CLEARANCE
     }
 
-    /// By how much a push of object `pushed` keeps every rule, when it starts from `state`. A tool that is set down
-    /// keeps clear of the objects, with the push's room as `set_down`; a chained push after the
-    /// first begins in contact.
+    /// By how much a push of object `pushed` keeps every rule, when it starts from `state`. A tool that
+    /// is set down keeps clear of the objects, with the push's room as `set_down`; a chained push after
+    /// the first begins in contact.
     pub fn margins(
         &self,
         (tool, grip_yaw): (usize, f64),

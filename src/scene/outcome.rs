@@ -54,8 +54,8 @@ pub struct Lying {
 }
 
 impl Outcome {
-    /// Judges where a trajectory in `scene` ended by the goals of `task`. One that did not come to rest, became NaN or
-    /// infinite, or in which an object fell does not count as reaching the goal.
+    /// Judges where a trajectory in `scene` ended by the goals of `task`. One that did not come to
+    /// rest, became NaN or infinite, or in which an object fell does not count as reaching them.
     pub fn judge(scene: &Scene, task: &Task, trajectory: &Trajectory) -> Self {
         let goal = &task.goal;
         let state = trajectory.outcome().clone();

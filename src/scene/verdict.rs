@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Engine, Force, Outcome, Physics, Support, Trajectory, Warning};
 
-/// As many failed replays on one support, and none that reaches the goal, are no chance: with three of
-/// four reaching it, one plan in 250 would show that.
+/// This many failed replays on one support, with none that reaches the goal, are no accident: if three
+/// in four reached it, one plan in 250 would show that.
 const NEVER: usize = 4;
 
 /// What a replay changes against the task as written.
@@ -185,8 +185,8 @@ impl Verdict {
         self.never_on().filter(|_| wanted > 0.0).or(fragile)
     }
 
-    /// A support on which the plan never works, by so many replays that this is no chance. Of lever-ups,
-    /// which the planar engine does not replay, supports are no part of what is disturbed.
+    /// A support on which no replay reaches the goal, where there are enough of them to rule out chance.
+    /// Lever-ups have none: the planar engine does not replay them, and their supports are not disturbed.
     fn never_on(&self) -> Option<Reason> {
         self.nominal(Engine::Planar)?;
         [Engine::Spatial, Engine::Planar].into_iter().find_map(|engine| {

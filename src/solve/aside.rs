@@ -18,15 +18,14 @@ const TRIED: usize = 3;
 /// nearer.
 const NEAR: f64 = 2.0;
 
-/// By how many pushes more than there are things in the way it may be cleared: what stands in a corner
-/// takes two.
+/// So many pushes more than one for each object in the way may be made: what stands in a corner takes
+/// two.
 const MORE: usize = 1;
 
-/// The ways on which the goal's object would come to its goal if nothing else stood on the table.
+/// Corridors in which the goals' objects would come to their goals if nothing else stood on the table.
 pub(super) struct Clearings<'a> {
     workspace: Workspace<'a>,
     situation: &'a Situation,
-    settings: SearchSettings,
     rollouts: Rollouts<'a>,
     search: Search<'a>,
     found: Vec<Clearing>,
@@ -37,12 +36,12 @@ struct Clearing {
     corridor: Corridor,
     /// How the tool is held on it.
     grip: (usize, f64),
-    /// Pushes of the goal's object, and as many as there are things that stand there.
+    /// Pushes of the goals' objects, and one for each object that stands there.
     pushes: usize,
 }
 
 impl<'a> Clearings<'a> {
-    /// Those of a task `without` all other things; nothing is searched yet.
+    /// Those of a task `without` everything else; nothing is searched yet.
     pub fn new(
         solving: &Solving<'a>,
         without: &'a (Task, Situation),
@@ -52,7 +51,7 @@ impl<'a> Clearings<'a> {
         let workspace = Workspace { task, ..solving.workspace };
         let rollouts = Rollouts::new(solving.planner.screen(), situation.clone());
         let search = Search::new(workspace, situation, settings);
-        Self { workspace, situation, settings, rollouts, search, found: Vec::new() }
+        Self { workspace, situation, rollouts, search, found: Vec::new() }
     }
 
     /// Looks at plans of one push more, and notes what stands in their way in `solving`.
@@ -79,12 +78,24 @@ impl<'a> Clearings<'a> {
     }
 }
 
-impl Solving<'_> {
-    /// Searches, refines and verifies plans of about so many pushes that make room first.
-    pub(super) fn clear_the_way(&mut self, clearings: &mut Clearings, pushes: usize) {
-        if !self.goes_on(pushes - 1) || pushes < 2 || !self.workspace.is_placed() {
+impl<'a> Solving<'a> {
+    /// Searches, refines and verifies plans that make room first, of as many pushes as the `usual` search
+    /// has come to and up to [`MORE`] beyond. `without` is the task without everything else.
+    pub(super) fn clear_the_way<'b>(
+        &mut self,
+        clearings: &mut Option<Clearings<'b>>,
+        without: &'b (Task, Situation),
+        usual: &Search,
+    ) where
+        'a: 'b,
+    {
+        // To move something aside and to push takes two pushes at least.
+        let pushes = usual.depth();
+        if pushes < 2 || !self.goes_on(pushes - 1) {
             return;
         }
+        let clearings =
+            clearings.get_or_insert_with(|| Clearings::new(self, without, usual.settings()));
         if clearings.search.can_deepen() {
             self.watch.stage("search, what stands in the way");
             let before = clearings.rollouts.used();
@@ -96,9 +107,7 @@ impl Solving<'_> {
         clearings.found = later;
         // In the order in which they were found: nearest ends first.
         for Clearing { corridor, grip, pushes } in now.into_iter().take(TRIED) {
-            let through = (corridor, grip);
-            let mut search =
-                Search::clearing(self.workspace, self.situation, clearings.settings, through);
+            let mut search = usual.clearing(corridor, grip);
             while self.goes_on(search.depth())
                 && search.can_deepen()
                 && search.depth() < pushes + MORE

@@ -14,7 +14,6 @@ use crate::scene::{Goal, Job, Plan, Situation, Task, Tool, Verdict};
 use crate::verify::{Verifier, VerifySettings};
 use crate::watch::Watch;
 
-use super::aside::Clearings;
 use super::grade::{Class, Grade};
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
@@ -131,14 +130,13 @@ impl<'a> Solving<'a> {
         let error = errors.fold(0.0, f64::max).min(MOST_ROOM_FOR_MODEL);
         let settings = self.planner.settings().search(error);
         let mut search = Search::new(self.workspace, self.situation, settings);
-        let without = alone(self.task, self.situation);
-        let mut clearings =
-            without.as_ref().map(|without| Clearings::new(&self, without, settings));
+        let without = alone(self.task, self.situation).filter(|_| self.workspace.is_placed());
+        let mut clearings = None;
         while self.goes_on(search.depth()) && search.can_deepen() {
             self.attempt(&mut search);
             self.settle(Class::Edge);
-            if let Some(clearings) = &mut clearings {
-                self.clear_the_way(clearings, search.depth());
+            if let Some(without) = &without {
+                self.clear_the_way(&mut clearings, without, &search);
             }
         }
         self.settle(Class::Fragile);
@@ -234,9 +232,9 @@ impl<'a> Solving<'a> {
         self.watch.stage(&format!("{stage}, plans of {pushes} push{s}"));
     }
 
-    /// Refines candidates that the search found towards `aims`, the task's goals or some next to them, keeps
-    /// the results, and returns the indices of those worth verifying, best first. Where one model
-    /// screens and another decides, the last rounds are the other's.
+    /// Refines candidates that the search found towards `aims`, the task's goals or some next to them,
+    /// keeps the results, and returns the indices of those worth verifying, best first. Where one
+    /// model screens and another decides, the last rounds are the other's.
     pub(super) fn refined(
         &mut self,
         candidates: &[Candidate],

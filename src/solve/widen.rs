@@ -24,10 +24,10 @@ const LONGER: f64 = 4.0;
 /// Directions and turns of the grip of a wider task.
 const WAYS: usize = 16;
 
-/// Limits are told in whole steps of this size, metres.
+/// Limits are reported in multiples of this, metres.
 const STEP: f64 = 0.01;
 
-/// Of so many obstacles each is taken away to see whether it is the cause.
+/// At most this many obstacles are removed, one at a time, to find the one that is the cause.
 const OBSTACLES: usize = 8;
 
 /// Stops as another does and tells nothing: many tasks are looked at side by side.

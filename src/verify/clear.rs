@@ -1,20 +1,25 @@
 //! When it is clear whether a plan works often enough: a sequential test.
 //!
 //! What share p of the disturbed replays of a plan would reach the goal, were all of them made, is
-//! distributed before any is made as of plans that work as written: most work nearly always, a quarter
-//! less often than three times in four, `P(1 - p < x) = x^0.2`. After every few replays the posterior says
-//! how likely it is that the share is below what is asked for; the answer is clear once that is less
-//! likely, or more likely, than one error in a hundred allows. As the posterior is exact whenever one
-//! looks, looking often adds no error (Wald 1945, doi:10.1214/aoms/1177731118; for priors Berger 1985,
+//! assumed to be distributed, before any is made, as `P(1 - p < x) = x^0.2`: most plans that work as
+//! written work nearly always, a quarter less often than three times in four. After every few replays
+//! the posterior says how likely it is that the share is below what is asked for; the answer is clear
+//! once that is less likely, or more likely, than one error in a hundred allows. A posterior does not
+//! depend on how often one looked (Wald 1945, doi:10.1214/aoms/1177731118; for priors Berger 1985,
 //! section 7.4).
+//!
+//! One in a hundred is an average over that prior, and of clear answers alone. With the rest taken as
+//! they are after the last replay, three in a hundred of all answers are wrong, nearly all of them where
+//! the share is within 0.1 of what is asked for. Simulated for 0.75 in one engine: a plan passes in
+//! 0.3 % at a share of 0.5, 8 % at 0.65, 26 % at 0.7, 88 % at 0.8 and 99 % at 0.85.
 
 use crate::scene::{Engine, Evidence, Physics};
 
 /// How often an answer that is clear may be wrong.
 const ERROR: f64 = 0.01;
 
-/// The exponent of the prior above. Of the plans that work as written of shipped and random tasks three
-/// quarters pass, most of these without a failed replay.
+/// The exponent of the prior above, an assumption: three quarters of the plans that work as written pass
+/// where three replays in four must.
 const PRIOR: f64 = 0.2;
 
 /// Steps of the integral over the prior.

@@ -67,7 +67,8 @@ impl<'a> Verifier<'a> {
     }
 
     /// The same, which goes on with disturbed pushes until it is clear whether the wanted share of them
-    /// reaches the goal, with one error in a hundred, or 64 have been replayed in each engine.
+    /// reaches the goal, or 64 have been replayed in each engine; one clear answer in a hundred is wrong
+    /// on average, see `clear`.
     pub fn until_clear(self) -> Self {
         Self { until_clear: true, ..self }
     }

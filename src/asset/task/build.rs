@@ -20,8 +20,8 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
     let goals = goals(root.get("goal")?).iter().map(|node| goal(node, &scene));
-    let mut goals: Vec<Goal> = goals.collect::<Option<_>>()?;
-    let further = goals.split_off(1);
+    let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
+    let (goal, further) = goals.split_first()?;
     let robot = robot(root.get("robot")?)?;
     scene.obstacles.extend(robot.column());
     scene.keep_out = keep::regions(root)?;
@@ -44,8 +44,8 @@ pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
             None => PushRules::default(),
         },
         levers: None,
-        goal: goals.pop()?,
-        further,
+        goal: *goal,
+        further: further.to_vec(),
         robustness: number_or(root, "robustness", Task::ROBUSTNESS)?,
     })
 }
