@@ -80,7 +80,7 @@ impl<'a> Runner<'a> {
         watch: &dyn Watch,
     ) -> Result<(), ActError> {
         if trace.first.is_none() {
-            trace.first = Some(world.look()?);
+            trace.first = Some(world.look()?.with_parts(&trace.task.scene));
             trace.before = world.save();
             let (belief, notes) = self.begin(trace)?;
             trace.notes = notes;
@@ -217,13 +217,15 @@ impl<'a> Runner<'a> {
         let predicted = self.predicted(&belief.situation(), &done, &tool, Record::Frames);
         let rest = predicted.outcome();
         let motion = done.motion(&tool);
-        let looks = world.act(&motion)?;
+        let scene = &trace.task.scene;
+        let looks: Vec<Look> =
+            world.act(&motion)?.into_iter().map(|look| look.with_parts(scene)).collect();
         let stop = world.stopped();
         let mut gatherer = Gatherer::new(&belief.situation().start, rest);
         let seen = gatherer.made(&motion, stop.as_ref(), looks.clone())?;
         let mut again = Vec::new();
         let mut look = || {
-            let look = world.look()?;
+            let look = world.look()?.with_parts(scene);
             again.push(look.clone());
             Ok(look)
         };

@@ -49,7 +49,8 @@ impl SimulatedWorld {
         let mut rng = generator(self.truth.seed, self.looks);
         self.looks += 1;
         let noise = self.truth.noise;
-        let seen = state.poses.iter().map(|pose| {
+        let things = self.truth.scene.things().count();
+        let seen = state.poses.iter().take(things).map(|pose| {
             let off = Vector::new(normal(&mut rng), normal(&mut rng)) * noise.position;
             let heading = pose.heading + noise.heading * normal(&mut rng);
             let position = pose.position + off;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::scene::{Sight, State, ToolMotion};
+use crate::scene::{Scene, Sight, State, ToolMotion};
 
 /// A table on which objects can be pushed and looked at; a robot can implement it.
 pub trait World {
@@ -45,8 +45,16 @@ pub trait World {
 pub struct Look {
     /// Since the motion began, seconds. What is seen at rest after it has a later time than its end.
     pub time: f64,
-    /// Every object of the scene; `None` where it is not seen.
+    /// Every object of the scene, with or without the parts of those of several solids; `None` where it
+    /// is not seen.
     pub seen: Vec<Option<Sight>>,
+}
+
+impl Look {
+    /// The look with the parts of all things, which nobody sees by themselves.
+    pub(super) fn with_parts(self, scene: &Scene) -> Self {
+        Self { seen: scene.sights_with_parts(self.seen), ..self }
+    }
 }
 
 /// A motion that ended before its end.

@@ -76,15 +76,17 @@ pub struct Step {
 
 impl Belief {
     /// What is believed of `scene` before anything has moved, but for its joints, which are not
-    /// known; its objects were seen where it states them. The tool's underside is `lift` metres above
+    /// known other than those within a thing; its objects were seen where it states them. The tool's underside is `lift` metres above
     /// the table.
     pub fn new(scene: &Scene, tool: Arc<Tool>, lift: f64, settings: BeliefSettings) -> Self {
+        let known = scene.seams().collect();
         let scene = Scene { joints: Vec::new(), ..scene.clone() };
         let particles = Particles::new(scene.objects.len(), Unknowns::NONE, 0);
         let track = Track::new(scene.start(), settings.noise);
         let doubt = gap_deviation(settings.noise);
         let pairs = pairs_within(&scene, JOINABLE + BEYOND * doubt)
             .into_iter()
+            .filter(|pair| !scene.same_thing(pair.between))
             .map(|NearPair { between: [a, b], gap, midway }| {
                 let [first, second] = [a, b].map(|k| &scene.objects[k].pose);
                 let seen = relative(first, second);
@@ -101,7 +103,7 @@ impl Belief {
             settings,
             pairs,
             track,
-            known: Vec::new(),
+            known,
             particles,
             masses: None,
             stretch: None,

@@ -130,7 +130,7 @@ impl Particles {
         }
     }
 
-    /// Means and standard deviations.
+    /// Means and standard deviations; masses are those of things with all their parts.
     pub fn numbers(&self, scene: &Scene, stated: &Physics) -> Numbers {
         let physics = match self.is_empty() {
             true => vec![stated.clone()],
@@ -151,7 +151,10 @@ impl Particles {
         };
         let objects = 0..self.objects;
         Numbers {
-            masses: objects.clone().map(|k| moments(&|physics| physics.masses[k])).collect(),
+            masses: objects
+                .clone()
+                .map(|k| moments(&|physics| scene.mass_in(physics, k)))
+                .collect(),
             frictions: objects.clone().map(|k| moments(&|physics| physics.frictions[k])).collect(),
             table_friction: moments(&|physics| physics.table_friction),
             spreads: objects.map(|k| moments(&far(k))).collect(),
@@ -211,7 +214,9 @@ impl Particles {
             (value * factor(Unknowns::FRICTION_FACTOR, place)).clamp(FRICTIONS[0], FRICTIONS[1])
         };
         for (k, object) in scene.objects.iter().enumerate() {
-            let [mass, rubs, rests] = [0, 1, 2].map(|which| place[which * self.objects + k]);
+            // All solids of a thing are of one kind.
+            let thing = scene.thing(k);
+            let [mass, rubs, rests] = [0, 1, 2].map(|which| place[which * self.objects + thing]);
             if self.unknown.masses {
                 physics.masses[k] *= factor(Unknowns::MASS_FACTOR, mass);
             }

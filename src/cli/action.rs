@@ -157,7 +157,7 @@ fn refused(error: &ActionError, task: &Task) -> CliError {
         ActionError::Chained => "write direction_deg=.. length=..".to_owned(),
         ActionError::NoStart => "write start=x,y, or use the form OBJECT:DIRECTION_DEG".to_owned(),
         ActionError::NoObject { .. } => {
-            let names: Vec<&str> = task.scene.objects.iter().map(|o| o.name.as_str()).collect();
+            let names: Vec<&str> = task.scene.things().map(|(_, o)| o.name.as_str()).collect();
             format!("use {}", names.join(", "))
         }
         ActionError::CannotPush { .. } => {

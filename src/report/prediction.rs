@@ -65,7 +65,7 @@ fn effect_table(task: &Task, effects: &[TimedEffect]) -> Table {
     let moved =
         |state: &State, k: usize| (state.poses[k].position - start.poses[k].position).norm();
     let mut rows = Vec::new();
-    for k in 0..task.scene.objects.len() {
+    for k in task.scene.things().map(|(k, _)| k) {
         let ends = effects.iter().map(|effect| effect.trajectory.outcome());
         if task.wants(k) || ends.into_iter().any(|end| moved(end, k) >= STILL) {
             rows.extend(effects.iter().map(|effect| (k, effect, effect.trajectory.outcome())));

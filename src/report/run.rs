@@ -217,7 +217,7 @@ fn numbers(trace: &Trace) -> Option<Section> {
         ("friction", Right),
         ("really", Right),
     ]);
-    for (k, object) in scene.objects.iter().enumerate() {
+    for (k, object) in scene.things() {
         let (Some(mass), Some(friction)) =
             (last.numbers.masses.get(k), last.numbers.frictions.get(k))
         else {
@@ -226,7 +226,7 @@ fn numbers(trace: &Trace) -> Option<Section> {
         table.row([
             object.name.clone(),
             believed(*mass),
-            really(&|truth| truth.masses[k]),
+            really(&|truth| scene.mass_in(truth, k)),
             believed(*friction),
             really(&|truth| truth.frictions[k]),
         ]);

@@ -47,6 +47,7 @@ mod underside;
 mod unknowns;
 mod verdict;
 mod warning;
+mod whole;
 mod world;
 
 pub use balance::carries;
@@ -95,4 +96,5 @@ pub use truth::Truth;
 pub use unknowns::Unknowns;
 pub use verdict::{Disturbance, Evidence, Reason, Verdict};
 pub use warning::Warning;
+pub use whole::Whole;
 pub use world::{GRAVITY, Object, Obstacle, Scene, TableTop};

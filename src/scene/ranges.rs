@@ -177,13 +177,18 @@ impl Ranges {
             }
         };
         let (whole, push) = (|| "scene".to_owned(), || "push".to_owned());
-        if !objects.is_empty() {
-            check(&whole, Quantity::Objects, objects.len() as f64, self.objects);
+        // A thing of several solids weighs and counts once.
+        let things: Vec<usize> =
+            objects.iter().copied().filter(|&k| !scene.objects[k].is_part()).collect();
+        if !things.is_empty() {
+            check(&whole, Quantity::Objects, things.len() as f64, self.objects);
         }
         check(&|| "table".to_owned(), Quantity::Friction, physics.table_friction, self.friction);
         for &index in objects {
             let name = || scene.objects[index].name.clone();
-            check(&name, Quantity::Mass, physics.masses[index], self.mass);
+            if !scene.objects[index].is_part() {
+                check(&name, Quantity::Mass, scene.mass_in(physics, index), self.mass);
+            }
             check(&name, Quantity::Friction, physics.frictions[index], self.friction);
             let shape = &scene.objects[index].shape;
             check(&name, Quantity::Height, shape.height(), self.height);
@@ -214,7 +219,7 @@ impl Ranges {
             let of = || format!("a pair of {}", scene.objects[pair.object].name);
             check(&of, Quantity::Friction, pair.coefficient, self.friction);
         }
-        let masses = objects.iter().map(|&index| physics.masses[index]);
+        let masses = things.iter().map(|&thing| scene.mass_in(physics, thing));
         let heaviest = masses.clone().fold(0.0, f64::max);
         let lightest = masses.fold(f64::INFINITY, f64::min);
         if lightest > 0.0 && lightest.is_finite() {

@@ -6,7 +6,7 @@ use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Solid, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface,
+    Feet, Joint, JointKind, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface, Whole,
     pair_friction,
 };
 
@@ -43,6 +43,9 @@ pub struct Object {
     /// Height of its underside above the table at the start, metres.
     #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
     pub z: f64,
+    /// What it is a part of, if it is no thing of its own.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Option::is_none")]
+    pub whole: Option<Whole>,
 }
 
 fn is_zero(value: &f64) -> bool {
@@ -94,6 +97,7 @@ impl Object {
             parts: Vec::new(),
             clearance: 0.0,
             z: 0.0,
+            whole: None,
         }
     }
 
@@ -308,8 +312,13 @@ impl Scene {
             };
             Some(PairFriction { object: place(pair.object)?, with, ..*pair })
         });
+        let kept = objects.iter().map(|&k| {
+            let object = &self.objects[k];
+            let whole = object.whole.and_then(|whole| whole.under(place(whole.object)?).into());
+            Object { whole, ..object.clone() }
+        });
         Self {
-            objects: objects.iter().map(|&k| self.objects[k].clone()).collect(),
+            objects: kept.collect(),
             joints: joints.collect(),
             frictions: frictions.collect(),
             ..self.clone()
@@ -319,8 +328,8 @@ impl Scene {
     /// The first object whose centre has left the table and may not.
     pub fn off_table(&self, state: &State) -> Option<usize> {
         let top = self.table_top?;
-        let off = |k: &usize| !top.holds(state.poses[*k].position) && !self.objects[*k].may_fall;
-        (0..state.poses.len()).find(off)
+        let off = |k: &usize| !top.holds(self.centre(*k, state)) && !self.objects[*k].may_fall;
+        self.things().map(|(k, _)| k).find(off)
     }
 
     /// The index of the object called `name`.

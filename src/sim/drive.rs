@@ -252,8 +252,9 @@ impl Recorder {
         let toppled = self
             .toppled
             .iter()
-            .filter(|&&index| !scene.objects[index].may_fall)
-            .map(|&index| Warning::Toppled { object: scene.objects[index].name.clone() });
+            .map(|&index| &scene.objects[index])
+            .filter(|object| !object.may_fall && !object.is_part())
+            .map(|object| Warning::Toppled { object: object.name.clone() });
         self.trajectory.warnings.extend(toppled);
         let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
         self.trajectory.warnings.extend(fallen);

@@ -39,8 +39,14 @@ pub(super) fn is_articulated(physics: &Physics) -> bool {
     physics.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
 }
 
-/// Whether the masses (kg) differ so much that contacts must be stiffened.
-pub(super) fn needs_stiff_contacts(masses: &[f64]) -> bool {
+/// Whether the masses of bodies that can meet differ so much that contacts must be stiffened.
+pub(super) fn needs_stiff_contacts(physics: &Physics) -> bool {
+    let mass = |group: &Vec<usize>| group.iter().map(|&k| physics.masses[k]).sum();
+    let masses: Vec<f64> = physics.rigid_groups().members.iter().map(mass).collect();
+    are_uneven(&masses)
+}
+
+fn are_uneven(masses: &[f64]) -> bool {
     let heaviest = masses.iter().copied().fold(0.0, f64::max);
     let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
     heaviest > SOFT_MASS_RATIO * lightest
@@ -60,8 +66,8 @@ mod tests {
 
     #[test]
     fn contacts_are_stiffened_only_above_a_ratio_of_ten() {
-        assert!(!needs_stiff_contacts(&[]));
-        assert!(!needs_stiff_contacts(&[0.1, 1.0]));
-        assert!(needs_stiff_contacts(&[0.1, 0.5, 1.1]));
+        assert!(!are_uneven(&[]));
+        assert!(!are_uneven(&[0.1, 1.0]));
+        assert!(are_uneven(&[0.1, 0.5, 1.1]));
     }
 }

@@ -368,7 +368,7 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    let stiff = articulated || needs_stiff_contacts(&physics.masses);
+    let stiff = articulated || needs_stiff_contacts(physics);
     let (frequency, damping) = if stiff { STIFF_CONTACT } else { PLANAR_CONTACT };
     settings.contact_softness = SpringCoefficients::new(frequency as Real, damping as Real);
     world

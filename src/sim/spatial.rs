@@ -387,7 +387,7 @@ fn empty_world(physics: &Physics) -> PhysicsWorld {
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }
-    if articulated || needs_stiff_contacts(&physics.masses) {
+    if articulated || needs_stiff_contacts(physics) {
         let (frequency, damping) = STIFF_CONTACT;
         settings.contact_softness = SpringCoefficients::new(frequency, damping);
     }

@@ -54,6 +54,7 @@ mod shards;
 mod simulation;
 mod solving;
 mod table_fit;
+mod things;
 mod tool_choice;
 mod tool_graph;
 mod verification;

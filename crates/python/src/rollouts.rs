@@ -146,7 +146,7 @@ fn roll(
         rolled.extend(model.rollout(&task.scene, some, record));
     }
     let frames = rolled.iter().map(|trajectory| trajectory.frames.len()).max().unwrap_or(0);
-    let objects = task.scene.objects.len();
+    let objects = task.scene.things().count();
     let mut packed = Packed {
         frames,
         poses: Vec::with_capacity(rolled.len() * frames * objects * 3),
@@ -154,7 +154,7 @@ fn roll(
         times: Vec::with_capacity(rolled.len() * frames),
         counts: Vec::with_capacity(rolled.len()),
         outcomes: Vec::with_capacity(rolled.len()),
-        objects: task.scene.objects.iter().map(|object| object.name.clone()).collect(),
+        objects: task.scene.things().map(|(_, object)| object.name.clone()).collect(),
         warnings: Vec::with_capacity(rolled.len()),
     };
     for trajectory in &rolled {
@@ -169,7 +169,8 @@ impl Packed {
         let last = trajectory.frames.last();
         let repeated = std::iter::repeat_n(last, self.frames - count).flatten();
         for frame in trajectory.frames.iter().chain(repeated) {
-            self.poses.extend(frame.state.poses.iter().flat_map(arrays::numbers));
+            let things = frame.state.poses.iter().take(self.objects.len());
+            self.poses.extend(things.flat_map(arrays::numbers));
             self.tool_poses.extend(arrays::numbers(&frame.tool));
             self.times.push(frame.time);
         }
@@ -255,11 +256,14 @@ fn starts(
     let Some(given) = given else { return Ok(None) };
     let given = given.as_array();
     arrays::finite("start", &given)?;
-    let objects = task.scene.objects.len();
+    let objects = task.scene.things().count();
+    let state = |given: numpy::ndarray::ArrayViewD<'_, f64>| {
+        pushplan::State::at_rest(task.scene.with_parts(arrays::state(given).poses))
+    };
     match *given.shape() {
-        [count, 3] if count == objects => Ok(Some(vec![arrays::state(given)])),
+        [count, 3] if count == objects => Ok(Some(vec![state(given)])),
         [all, count, 3] if count == objects && all == candidates => {
-            Ok(Some(given.axis_iter(Axis(0)).map(arrays::state).collect()))
+            Ok(Some(given.axis_iter(Axis(0)).map(state).collect()))
         }
         ref other => Err(PyValueError::new_err(format!(
             "`start` is [objects, 3] or [candidates, objects, 3] with {objects} objects, found \

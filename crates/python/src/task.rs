@@ -95,13 +95,13 @@ impl PyTask {
     /// Names of the objects; arrays of poses are in this order.
     #[getter]
     fn objects(&self) -> Vec<&str> {
-        self.task.scene.objects.iter().map(|object| object.name.as_str()).collect()
+        self.task.scene.things().map(|(_, object)| object.name.as_str()).collect()
     }
 
     /// Poses of the objects at the start, `[objects, 3]`: x and y in metres, heading in radians.
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let poses: Vec<Pose> = self.task.scene.objects.iter().map(|object| object.pose).collect();
+        let poses: Vec<Pose> = self.task.scene.things().map(|(_, object)| object.pose).collect();
         arrays::poses(py, &poses)
     }
 
@@ -222,13 +222,13 @@ impl PyTask {
 
     /// Poses of its objects.
     fn poses(&self, poses: &Numbers<'_>) -> PyResult<Vec<Pose>> {
-        let (poses, objects) = (poses.as_array(), self.task.scene.objects.len());
+        let (poses, objects) = (poses.as_array(), self.task.scene.things().count());
         arrays::finite("poses", &poses)?;
         if *poses.shape() != [objects, 3] {
             let message = format!("`poses` is [{objects}, 3], found {:?}", poses.shape());
             return Err(PyValueError::new_err(message));
         }
-        Ok(arrays::state(poses).poses)
+        Ok(self.task.scene.with_parts(arrays::state(poses).poses))
     }
 
     /// The task, which wants this robustness if one is given.

@@ -44,7 +44,8 @@ impl PyTrajectory {
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let frames = &self.trajectory.frames;
-        let poses = frames.iter().flat_map(|frame| &frame.state.poses);
+        let things = self.objects.len();
+        let poses = frames.iter().flat_map(|frame| frame.state.poses.iter().take(things));
         let numbers = poses.flat_map(arrays::numbers).collect();
         arrays::array(py, numbers, [frames.len(), self.objects.len(), 3])
     }
@@ -138,7 +139,7 @@ impl PyTrajectory {
     /// A trajectory on the table of `task`, judged by its goal.
     pub fn new(task: &Arc<Task>, trajectory: Trajectory) -> Self {
         let outcome = Outcome::judge(&task.scene, task, &trajectory);
-        let objects = task.scene.objects.iter().map(|object| object.name.clone()).collect();
+        let objects = task.scene.things().map(|(_, object)| object.name.clone()).collect();
         Self { trajectory, outcome, objects }
     }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value as Json, json};
 
+use super::things;
 use crate::asset::task::name_of_surface;
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
@@ -109,7 +110,7 @@ pub(in crate::asset) fn tool(tool: &Tool) -> Json {
     })
 }
 
-fn shape(shape: &Shape) -> Json {
+pub(super) fn shape(shape: &Shape) -> Json {
     match *shape {
         Shape::Cylinder { radius, height } => {
             json!({"cylinder": {"radius": radius, "height": height}})
@@ -122,7 +123,7 @@ fn shape(shape: &Shape) -> Json {
     }
 }
 
-fn support(support: &Support) -> Json {
+pub(super) fn support(support: &Support) -> Json {
     match support {
         Support::Even => json!("even"),
         Support::Corners => json!("corners"),
@@ -135,11 +136,15 @@ fn support(support: &Support) -> Json {
 
 /// A scene as in a task file.
 pub(in crate::asset) fn scene(scene: &Scene) -> Json {
-    let object = |object: &Object| {
+    let object = |(index, object): (usize, &Object)| {
+        let (mass, parts) = things::parts(scene, index);
         let mut fields = json!({
             "name": object.name, "shape": shape(&object.shape), "support": support(&object.support),
-            "mass": object.mass, "friction": object.friction,
+            "mass": mass, "friction": object.friction,
         });
+        if !parts.is_empty() {
+            fields["parts"] = json!(parts);
+        }
         if object.may_fall {
             fields["may_fall"] = json!(true);
         }
@@ -183,8 +188,8 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     }
     let mut fields = json!({
         "table": table,
-        "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
-        "joints": scene.joints.iter().map(joint).collect::<Vec<_>>(),
+        "objects": scene.things().map(object).collect::<Vec<_>>(),
+        "joints": scene.joints.iter().filter(|joint| !scene.is_seam(joint)).map(joint).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().filter(is_stated).map(obstacle).collect::<Vec<_>>(),
     });
     if !scene.frictions.is_empty() {
@@ -309,7 +314,7 @@ fn goal(goal: &Goal, scene: &Scene) -> Json {
     json
 }
 
-fn posed(mut fields: Json, pose: &Pose) -> Json {
+pub(super) fn posed(mut fields: Json, pose: &Pose) -> Json {
     fields["position"] = json!(vector(pose.position));
     fields["yaw_deg"] = json!(degrees(pose.heading));
     fields

@@ -8,6 +8,7 @@ mod plan;
 mod read;
 mod spec;
 mod steps;
+mod things;
 mod trajectory;
 mod verdict;
 

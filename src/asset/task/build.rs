@@ -8,12 +8,12 @@ use crate::asset::take::{angle, name_of, number_or, pose, position, shape, tripl
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::scene::{
-    Directions, Goal, Hand, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene, Support,
-    TableTop, Task, ToolChoice, Unknowns,
+    Directions, Goal, Hand, Joint, Object, Obstacle, Offsets, PushForm, PushRules, Robot, Scene,
+    Support, TableTop, Task, ToolChoice, Unknowns,
 };
 
 use super::spec::default;
-use super::{frictions, joints, keep};
+use super::{frictions, joints, keep, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -59,9 +59,10 @@ pub(in crate::asset) fn unknown(root: &Node) -> Option<Unknowns> {
 /// The scene, or `None` if anything needed is missing or was faulty.
 pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
-    let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
+    let nodes = node.get("objects").map(Node::items).unwrap_or_default();
+    let objects = parts::objects(nodes, object)?;
     let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle).collect::<Option<_>>()?;
-    Some(Scene {
+    let mut scene = Scene {
         table_friction: match node.get("table") {
             Some(table) => number_or(table, "friction", Scene::FRICTION)?,
             None => Scene::FRICTION,
@@ -81,7 +82,10 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
         obstacles,
         objects,
         ..Scene::default()
-    })
+    };
+    let seams: Vec<Joint> = scene.seams().collect();
+    scene.joints.splice(0..0, seams);
+    Some(scene)
 }
 
 /// Where a table with a size ends.

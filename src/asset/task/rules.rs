@@ -8,7 +8,7 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, frictions, joints, keep as regions};
+use super::{build, frictions, joints, keep as regions, parts};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -135,21 +135,30 @@ fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
 pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     let items = |key| scene.get(key).map(Node::items).unwrap_or_default();
     let (objects, obstacles) = (items("objects"), items("obstacles"));
-    unique_names(objects.iter().chain(obstacles), "bodies", ledger);
-    overlaps(objects, obstacles, slack, ledger);
+    let solids = parts::apart(objects);
+    unique_names(solids.iter().map(|(solid, _)| solid).chain(obstacles), "bodies", ledger);
+    overlaps(&solids, obstacles, slack, ledger);
     masses(objects, ledger);
     objects.iter().for_each(|object| prism::check(object.get("shape"), ledger));
+    objects.iter().for_each(|object| parts::check(object, ledger));
     objects.iter().for_each(|object| stands(object, ledger));
     joints::check(items("joints"), objects, obstacles, ledger);
     frictions::check(items("frictions"), objects, obstacles, ledger);
 }
 
-fn overlaps(objects: &[Node], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {
+/// Of `objects`, solid by solid with the number of the thing it belongs to, and obstacles: solids of
+/// one thing may overlap.
+fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &mut Ledger) {
     let solid = |node| body(node).map(|(footprint, pose)| (footprint.shrunk(slack / 2.0), pose));
-    let solids: Vec<_> = objects.iter().chain(obstacles).map(|n| (n, solid(n))).collect();
-    for (k, (node, solid)) in solids.iter().enumerate() {
-        for (other, other_solid) in &solids[..k.min(objects.len())] {
+    let bodies = objects.iter().map(|(node, thing)| (node, Some(*thing)));
+    let bodies = bodies.chain(obstacles.iter().map(|node| (node, None)));
+    let solids: Vec<_> = bodies.map(|(node, thing)| (node, thing, solid(node))).collect();
+    for (k, (node, thing, solid)) in solids.iter().enumerate() {
+        for (other, other_thing, other_solid) in &solids[..k.min(objects.len())] {
             let (Some((a, at)), Some((b, bt))) = (solid, other_solid) else { continue };
+            if thing == other_thing {
+                continue;
+            }
             if clearance((a, at), (b, bt), slack) <= 0.0 {
                 let name = |node| name_of(node).unwrap_or("?").to_owned();
                 ledger.fault(

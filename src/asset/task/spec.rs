@@ -9,6 +9,7 @@ use crate::asset::spec::{
 use super::frictions::FRICTIONS;
 use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
+use super::parts::PARTS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
 pub(in crate::asset) mod default {
@@ -147,7 +148,8 @@ pub(in crate::asset) const OBSTACLES: Key = Key::optional(
 const OBJECT: Value = Value::Map(&[
     OBJECT_NAME,
     OBJECT_SHAPE,
-    Key::required("mass", MASS, "Mass in kg."),
+    PARTS,
+    Key::required("mass", MASS, "Mass in kg, parts included."),
     Key::required(
         "friction",
         FRICTION,

@@ -46,7 +46,7 @@ fn items<'a>(root: &'a Node, key: &str) -> &'a [Node] {
 fn rules(root: &Node, task: &Task, ledger: &mut Ledger) {
     let objects = items(root, "objects");
     unique_names(objects, "objects", ledger);
-    let names = || task.scene.objects.iter().map(|object| object.name.as_str());
+    let names = || task.scene.things().map(|(_, object)| object.name.as_str());
     let joints = items(root, "joints");
     let between = joints.iter().filter_map(|joint| joint.get("between")).flat_map(Node::items);
     for node in objects.iter().filter_map(|object| object.get("name")).chain(between) {
@@ -102,9 +102,14 @@ fn truth(root: &Node, task: &Task) -> Option<Truth> {
     let mut scene: Scene = task.scene.clone();
     for node in items(root, "objects") {
         let index = scene.object(name_of(node)?)?;
+        let mass = number_or(node, "mass", scene.mass(index))?;
+        scene.weigh(index, mass);
+        let parts: Vec<usize> = scene.parts_of(index).collect();
+        for solid in parts.into_iter().chain([index]) {
+            let friction = &mut scene.objects[solid].friction;
+            *friction = number_or(node, "friction", *friction)?;
+        }
         let object = &mut scene.objects[index];
-        object.mass = number_or(node, "mass", object.mass)?;
-        object.friction = number_or(node, "friction", object.friction)?;
         if node.get("support").is_some() {
             object.support = support_of(node)?;
         }
@@ -114,11 +119,13 @@ fn truth(root: &Node, task: &Task) -> Option<Truth> {
         if let Some(yaw) = node.get("yaw_deg") {
             object.pose.heading = angle_of(yaw)?;
         }
+        scene.place_parts();
     }
     scene.table_friction = number_or(root, "table_friction", scene.table_friction)?;
     if root.get("joints").is_some() {
         let joints = items(root, "joints").iter().map(|node| joint_of(node, &scene.objects));
-        scene.joints = joints.collect::<Option<_>>()?;
+        let joints = joints.collect::<Option<Vec<_>>>()?;
+        scene.joints = scene.seams().chain(joints).collect();
     }
     let noise = match root.get("noise") {
         Some(noise) => Noise {

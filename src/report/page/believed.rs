@@ -43,10 +43,10 @@ pub fn numbers(trace: &Trace) -> Vec<Believed> {
         let really = truth.as_ref().and_then(real).map(thousandths);
         found.push(Believed { name, unit, values: values.collect(), really });
     };
-    for (k, object) in trace.task.scene.objects.iter().enumerate() {
+    for (k, object) in trace.task.scene.things() {
         if unknown.masses {
             let of = |numbers: &Numbers| numbers.masses.get(k).copied();
-            let real = |truth: &Physics| truth.masses.get(k).copied();
+            let real = |truth: &Physics| Some(trace.task.scene.mass_in(truth, k));
             add(format!("mass of {}", object.name), " kg", &of, &real);
         }
         if unknown.frictions {

@@ -112,7 +112,7 @@ impl MovingPicture<'_> {
         self.story().reached(stage);
         stage.open_layer();
         moving_tool::tool(stage, self.motion);
-        for (k, object) in self.task.scene.objects.iter().enumerate() {
+        for (k, object) in self.task.scene.things() {
             stage.svg.open_moved(&format!("o{k}"), view.map(ends[k].position), 0.0);
             let upright = Pose { position: Vector::zeros(), heading: object.pose.heading };
             let centred = view.centred();

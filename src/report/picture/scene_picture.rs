@@ -140,7 +140,7 @@ impl ScenePicture<'_> {
         if let Some(motion) = self.motion {
             strokes::pushes(svg, view, motion);
         }
-        for object in &self.scene.objects {
+        for (_, object) in self.scene.things() {
             bodies::name(svg, view, &object.name, &object.shape, &object.pose);
         }
         for obstacle in &self.scene.obstacles {

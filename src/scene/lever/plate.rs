@@ -116,6 +116,7 @@ impl Plate {
             parts: slabs.collect(),
             clearance: self.clearance,
             z: self.z,
+            whole: None,
         })
     }
 

@@ -1,0 +1,173 @@
+//! Objects of several solids: a mug with its handle, a T, a tray with its rim.
+//!
+//! A file says them as one object with `parts`; a scene has one object for every solid, see
+//! [`crate::scene::Whole`].
+
+use crate::asset::node::{Content, Node};
+use crate::asset::spec::{ANGLE, FRICTION, Key, MASS, POSITION, SHAPE, Value};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{angle, name_of, number_or, position, shape};
+use crate::geometry::Pose;
+use crate::scene::{Object, Whole};
+
+use super::build::support;
+use super::spec::OBJECT_SUPPORT;
+
+/// What else belongs to an object.
+pub(super) const PARTS: Key = Key::optional(
+    "parts",
+    Value::List { of: &PART, items: "parts", min: 0, max: 16 },
+    "Further solids that are one with it, as a mug's handle is; by default none.",
+);
+
+const PART: Value = Value::Map(&[
+    Key::optional(
+        "name",
+        Value::Name,
+        "What messages call it, after the object's name and a slash; by default its number.",
+    ),
+    Key::required("shape", SHAPE, "The part's solid, standing upright on the table."),
+    Key::required(
+        "position",
+        POSITION,
+        "Its centre in the object's frame, [x, y] in metres; [0, 0] is the object's position.",
+    ),
+    Key::optional("yaw_deg", ANGLE, "Its turn in the object's frame, degrees; default 0."),
+    Key::optional(
+        "mass",
+        MASS,
+        "Its share of the object's mass, kg; by default what the others leave, by volume.",
+    ),
+    Key::optional("friction", FRICTION, "Friction value; by default the object's."),
+    OBJECT_SUPPORT,
+]);
+
+/// The parts of an object in a file.
+pub(super) fn parts(object: &Node) -> &[Node] {
+    object.get("parts").map(Node::items).unwrap_or_default()
+}
+
+/// What messages call part `number` of an object.
+pub(super) fn part_name(object: &str, part: &Node, number: usize) -> String {
+    match name_of(part) {
+        Some(name) => format!("{object}/{name}"),
+        None => format!("{object}/{}", number + 1),
+    }
+}
+
+/// Where a part is in its object's frame.
+pub(super) fn place(part: &Node) -> Option<Pose> {
+    Some(Pose { position: position(part)?, heading: angle(part, "yaw_deg", 0.0)? })
+}
+
+/// Objects with all their parts, these after all of those; `None` if anything needed is missing or was
+/// faulty.
+pub(super) fn objects(
+    nodes: &[Node],
+    object: impl Fn(&Node) -> Option<Object>,
+) -> Option<Vec<Object>> {
+    let (mut things, mut parts) = (Vec::new(), Vec::new());
+    for node in nodes {
+        let mut solids = solids(node, object(node)?, things.len())?.into_iter();
+        things.extend(solids.next());
+        parts.extend(solids);
+    }
+    things.append(&mut parts);
+    Some(things)
+}
+
+/// The solids of an object that has number `index` in the scene, the object itself first.
+fn solids(node: &Node, object: Object, index: usize) -> Option<Vec<Object>> {
+    let parts = parts(node);
+    if parts.is_empty() {
+        return Some(vec![object]);
+    }
+    let part = |(k, part): (usize, &Node)| {
+        let place = place(part)?;
+        Some(Object {
+            friction: number_or(part, "friction", object.friction)?,
+            pose: object.pose * place,
+            support: support(part)?,
+            may_fall: object.may_fall,
+            whole: Some(Whole { object: index, place }),
+            ..Object::new(part_name(&object.name, part, k), shape(part.get("shape")?)?)
+        })
+    };
+    let mut solids = vec![object.clone()];
+    for found in parts.iter().enumerate().map(part) {
+        solids.push(found?);
+    }
+    let stated: Vec<Option<f64>> = std::iter::once(None)
+        .chain(parts.iter().map(|part| part.get("mass").and_then(Node::number)))
+        .collect();
+    let left = object.mass - stated.iter().flatten().sum::<f64>();
+    let masses = shares(left, &solids, &stated);
+    solids.iter_mut().zip(masses).for_each(|(solid, mass)| solid.mass = mass);
+    Some(solids)
+}
+
+/// The mass of every solid, kg: what is stated of it, or its share by volume of what that leaves.
+pub(in crate::asset) fn shares(left: f64, solids: &[Object], stated: &[Option<f64>]) -> Vec<f64> {
+    let volume = |solid: &Object| solid.shape.footprint().area() * solid.shape.height();
+    let open = || solids.iter().zip(stated).filter(|(_, stated)| stated.is_none());
+    let all: f64 = open().map(|(solid, _)| volume(solid)).sum();
+    let share = |(solid, stated): (&Object, &Option<f64>)| {
+        stated.unwrap_or_else(|| left * (volume(solid) / all))
+    };
+    solids.iter().zip(stated).map(share).collect()
+}
+
+/// Notes what is wrong with the parts of an object.
+pub(super) fn check(object: &Node, ledger: &mut Ledger) {
+    let parts = parts(object);
+    let mut names = Vec::new();
+    for (k, part) in parts.iter().enumerate() {
+        crate::asset::prism::check(part.get("shape"), ledger);
+        let name = part_name("", part, k);
+        if names.contains(&name) {
+            let message = format!("two parts are called `{}`", &name[1..]);
+            ledger.fault(part.get("name").unwrap_or(part), message, "rename one of them");
+        }
+        names.push(name);
+    }
+    let stated = parts.iter().filter_map(|part| part.get("mass").and_then(Node::number));
+    let (stated, whole) = (stated.sum::<f64>(), object.get("mass"));
+    if let (Some(node), Some(mass)) = (whole, whole.and_then(Node::number))
+        && stated >= mass
+    {
+        ledger.fault(
+            node,
+            format!(
+                "the parts alone have {stated} kg, so nothing is left for the object's own solid"
+            ),
+            "`mass` is that of everything, parts included",
+        );
+    }
+}
+
+/// The solids of objects, each as an object of its own at its place in the scene, and the number of the
+/// object that it belongs to: what rules about room look at.
+pub(super) fn apart(objects: &[Node]) -> Vec<(Node, usize)> {
+    let mut all = Vec::new();
+    for (k, object) in objects.iter().enumerate() {
+        all.push((object.clone(), k));
+        let Some(at) = crate::asset::take::pose(object) else { continue };
+        let name = name_of(object).unwrap_or("?");
+        for (number, part) in parts(object).iter().enumerate() {
+            let (Some(place), Some(shape)) = (place(part), part.get("shape")) else { continue };
+            let pose = at * place;
+            let node = |content| Node { id: part.id, content };
+            let text = |text: &str| node(Content::Text(text.to_owned()));
+            let number_of = |value: f64| node(Content::Number(value));
+            let position = vec![number_of(pose.position.x), number_of(pose.position.y)];
+            let pairs = vec![
+                (text("name"), text(&part_name(name, part, number))),
+                (text("shape"), shape.clone()),
+                (text("position"), node(Content::List(position))),
+                (text("yaw_deg"), number_of(pose.heading.to_degrees())),
+            ];
+            all.push((node(Content::Map(pairs)), k));
+        }
+    }
+    all
+}

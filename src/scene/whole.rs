@@ -1,0 +1,159 @@
+//! Things of several solids: a mug with its handle, a T, a tray with its rim.
+//!
+//! Every solid is an object of the scene, and those of one thing are joined by fixed joints, as the
+//! parts of a tool are. Models and engines make one rigid body of what is joined so; people see the
+//! thing alone, under the name and at the pose of its first solid. All parts come after all things, so
+//! that these keep their numbers.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pose, Vector};
+
+use super::{Joint, JointKind, Object, Physics, Scene, Sight, State};
+
+/// What an object is a part of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Whole {
+    /// Index of the thing's first solid in [`Scene::objects`].
+    pub object: usize,
+    /// The part's pose in the frame of that one.
+    pub place: Pose,
+}
+
+impl Whole {
+    /// The same where the first solid has another index.
+    pub(super) fn under(self, object: usize) -> Self {
+        Self { object, ..self }
+    }
+}
+
+impl Object {
+    /// Whether it is a part of another object.
+    pub fn is_part(&self) -> bool {
+        self.whole.is_some()
+    }
+}
+
+impl Scene {
+    /// The scene in which the object with this index has one more solid, joined to it at `place` in its
+    /// frame; `part` has its own mass.
+    ///
+    /// ```
+    /// use pushplan::{Object, Pose, Scene};
+    ///
+    /// let mug = Object::cylinder("mug", 0.04, 0.1).mass(0.25).at(0.5, 0.0, 0.0);
+    /// let handle = Object::cuboid("mug/handle", [0.03, 0.015, 0.1]).mass(0.05);
+    /// let scene = Scene::new([mug]).with_part(0, handle, Pose::new(0.055, 0.0, 0.0));
+    /// assert_eq!((scene.mass(0), scene.things().count()), (0.3, 1));
+    /// ```
+    pub fn with_part(mut self, object: usize, part: Object, place: Pose) -> Self {
+        let pose = self.objects[object].pose * place;
+        debug_assert!(!self.objects[object].is_part());
+        let part = Object { pose, whole: Some(Whole { object, place }), ..part };
+        self.joints.push(Joint::new([object, self.objects.len()], JointKind::Fixed));
+        self.objects.push(part);
+        self
+    }
+
+    /// The objects that are no parts of others, with their indices: what a person would count.
+    pub fn things(&self) -> impl Iterator<Item = (usize, &Object)> {
+        self.objects.iter().enumerate().filter(|(_, object)| !object.is_part())
+    }
+
+    /// The indices of the parts of an object, itself not among them.
+    pub fn parts_of(&self, object: usize) -> impl Iterator<Item = usize> {
+        let of =
+            move |k: &usize| self.objects[*k].whole.is_some_and(|whole| whole.object == object);
+        (0..self.objects.len()).filter(of)
+    }
+
+    /// The object that number `index` is, or is a part of.
+    pub fn thing(&self, index: usize) -> usize {
+        self.objects[index].whole.map_or(index, |whole| whole.object)
+    }
+
+    /// Mass of an object with all its parts, kg.
+    pub fn mass(&self, object: usize) -> f64 {
+        let parts: f64 = self.parts_of(object).map(|k| self.objects[k].mass).sum();
+        self.objects[object].mass + parts
+    }
+
+    /// The same where masses are not as stated, kg.
+    pub fn mass_in(&self, physics: &Physics, object: usize) -> f64 {
+        let parts: f64 = self.parts_of(object).map(|k| physics.masses[k]).sum();
+        physics.masses[object] + parts
+    }
+
+    /// Gives an object with its parts this mass, kg, spread over them as before.
+    pub fn weigh(&mut self, object: usize, mass: f64) {
+        let parts: Vec<usize> = self.parts_of(object).collect();
+        let heavier = mass / self.mass(object);
+        match parts.is_empty() {
+            true => self.objects[object].mass = mass,
+            false => {
+                parts.into_iter().chain([object]).for_each(|k| self.objects[k].mass *= heavier);
+            }
+        }
+    }
+
+    /// The centre of mass of an object with its parts where these are in `state`, metres.
+    pub fn centre(&self, object: usize, state: &State) -> Vector {
+        let mut solids = self.parts_of(object).peekable();
+        if solids.peek().is_none() {
+            return state.poses[object].position;
+        }
+        let solids = solids.chain([object]);
+        let moments = solids.map(|k| self.objects[k].mass * state.poses[k].position);
+        moments.sum::<Vector>() / self.mass(object)
+    }
+
+    /// Poses of all solids where things are at `poses`.
+    pub fn with_parts(&self, mut poses: Vec<Pose>) -> Vec<Pose> {
+        let parts = self.objects.iter().skip(poses.len()).map_while(|object| object.whole);
+        let parts: Vec<Pose> = parts.map(|part| poses[part.object] * part.place).collect();
+        poses.extend(parts);
+        poses
+    }
+
+    /// What is seen of all solids where `seen` is of things: their parts are where they must be.
+    pub fn sights_with_parts(&self, mut seen: Vec<Option<Sight>>) -> Vec<Option<Sight>> {
+        let parts = self.objects.iter().skip(seen.len()).map_while(|object| object.whole);
+        let of = |part: Whole| {
+            let Sight { position, heading } = seen[part.object]?;
+            let pose = Pose { position, heading: heading? } * part.place;
+            Some(Sight::new(&pose, true))
+        };
+        let parts: Vec<Option<Sight>> = parts.map(of).collect();
+        seen.extend(parts);
+        seen
+    }
+
+    /// Moves all parts to where their objects are.
+    pub fn place_parts(&mut self) {
+        for k in 0..self.objects.len() {
+            if let Some(Whole { object, place }) = self.objects[k].whole {
+                self.objects[k].pose = self.objects[object].pose * place;
+            }
+        }
+    }
+
+    /// The joints that make one thing of its solids.
+    pub fn seams(&self) -> impl Iterator<Item = Joint> {
+        let seam = |(k, object): (usize, &Object)| {
+            object.whole.map(|whole| Joint::new([whole.object, k], JointKind::Fixed))
+        };
+        self.objects.iter().enumerate().filter_map(seam)
+    }
+
+    /// Whether a joint is one of these.
+    pub fn is_seam(&self, joint: &Joint) -> bool {
+        let [a, b] = joint.between;
+        let whole = |k: usize| self.objects[k].whole.map(|whole| whole.object);
+        joint.kind == JointKind::Fixed && (whole(a) == Some(b) || whole(b) == Some(a))
+    }
+
+    /// Whether two objects are solids of one thing.
+    pub fn same_thing(&self, [a, b]: [usize; 2]) -> bool {
+        self.thing(a) == self.thing(b)
+    }
+}
