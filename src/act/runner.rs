@@ -364,12 +364,8 @@ fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
 
 /// The scene with its objects where they are seen; known joints go with them.
 pub(super) fn seen_at(scene: &Scene, start: &State) -> Scene {
-    let mut seen = scene.clone();
-    seen.joints = crate::belief::carried(&scene.joints, scene, start);
-    for (object, pose) in seen.objects.iter_mut().zip(&start.poses) {
-        object.pose = *pose;
-    }
-    seen
+    let joints = crate::belief::carried(&scene.joints, scene, start);
+    Scene { joints, ..scene.moved_to(start) }
 }
 
 /// A heading up to whole turns, near another.

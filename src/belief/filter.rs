@@ -317,11 +317,7 @@ impl Belief {
     }
 
     pub(super) fn scene_at(&self, state: &State) -> Scene {
-        let mut scene = self.scene.clone();
-        for (object, pose) in scene.objects.iter_mut().zip(&state.poses) {
-            object.pose = *pose;
-        }
-        scene
+        self.scene.moved_to(state)
     }
 }
 

@@ -82,6 +82,9 @@ impl Awake {
                 awake[object] |= moving(object);
             }
         }
+        for mount in &bodies.mounts {
+            awake[mount.object] |= moving(mount.object);
+        }
         // Whatever wakes one also wakes all that it is joined to.
         let lowest = sets.names();
         for object in 0..awake.len() {

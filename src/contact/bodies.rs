@@ -106,6 +106,26 @@ impl Jointed {
     }
 }
 
+/// A joint between an object and the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Mounted {
+    /// Index of the object.
+    pub object: usize,
+    /// What it allows.
+    pub kind: JointKind,
+    /// The joint's frame in the world, and as seen from the object, see [`crate::scene::Mount::frames`].
+    pub frames: [Pose; 2],
+    /// Range of turns (radians) or shifts (metres) against the start, where limited.
+    pub limits: Option<Span>,
+}
+
+impl Mounted {
+    /// How its two sides stand when the object is at `pose`.
+    pub fn separation(&self, pose: &Pose) -> Separation {
+        Separation { ends: [self.frames[0], *pose * self.frames[1]] }
+    }
+}
+
 /// Which objects move as one, because fixed joints hold them together.
 #[derive(Clone, Debug, Default)]
 pub struct Groups {
@@ -144,6 +164,8 @@ pub struct Bodies {
     pub obstacles: Vec<Given>,
     /// Joints between objects.
     pub joints: Vec<Jointed>,
+    /// Joints between objects and the world.
+    pub mounts: Vec<Mounted>,
     /// What every object of the scene stands on.
     pub feet: Arc<[Arc<Feet>]>,
     /// Whether that is known.
@@ -273,6 +295,16 @@ impl Bodies {
                 }
             })
             .collect();
+        let mounts = scene
+            .mounts
+            .iter()
+            .map(|mount| Mounted {
+                object: mount.object,
+                kind: mount.kind,
+                frames: mount.frames(&scene.objects),
+                limits: mount.limits(),
+            })
+            .collect();
         let groups = Groups::new(scene, physics);
         let mechanisms = physics.groups(|_| true);
         let pairs = Pairs::new(scene.objects.len(), scene.obstacles.len(), tool.outline().len());
@@ -286,6 +318,7 @@ impl Bodies {
             rims,
             obstacles,
             joints,
+            mounts,
             feet,
             supports_known: physics.supports_known,
             push_height_known,

@@ -197,10 +197,10 @@ impl Constraint {
 }
 
 /// Two scalar equations that a joint keeps exactly: `to . twist(b) - from . twist(a) = target`,
-/// metres.
+/// metres. Without `a` it holds its group to the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
-    pub a: GroupIndex,
+    pub a: Option<GroupIndex>,
     pub b: GroupIndex,
     pub to: [Vector3<f64>; 2],
     pub from: [Vector3<f64>; 2],
@@ -213,7 +213,9 @@ impl Tie {
     #[inline]
     pub fn press(&self, unknowns: &mut [Unknown]) {
         unknowns[self.b.0].pressed += self.to[0] * self.force.x + self.to[1] * self.force.y;
-        unknowns[self.a.0].pressed -= self.from[0] * self.force.x + self.from[1] * self.force.y;
+        if let Some(a) = self.a {
+            unknowns[a.0].pressed -= self.from[0] * self.force.x + self.from[1] * self.force.y;
+        }
     }
 }
 

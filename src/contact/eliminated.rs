@@ -12,7 +12,8 @@
 //! A_parent + P^T S P  and  f_parent + G^T f - P^T S target  are the parent's then
 //! ```
 //!
-//! from the leaves to the root, and back for the twists: as many steps as there are joints.
+//! from the leaves to the root, and back for the twists: as many steps as there are joints. A joint to the
+//! world is one whose parent does not move: x_parent = 0. Its group is the root of its mechanism.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -29,6 +30,8 @@ pub(super) struct Eliminated {
     /// The ties, each with the groups that it joins, from the roots of all mechanisms to their
     /// leaves.
     limbs: Vec<Limb>,
+    /// The ties to the world, of as many roots; each is its own parent, which feels nothing of it.
+    anchors: Vec<Limb>,
     /// Which groups are roots, or connected to one, as far as the tree has grown.
     reached: Vec<bool>,
     /// Which groups are connected by ties: the root of the mechanism of each.
@@ -46,8 +49,9 @@ impl Eliminated {
     /// Finds which of the groups `ties` join. One that closed a loop would be left out; nothing
     /// makes such ties.
     pub fn hang(&mut self, groups: usize, ties: &[Tie]) {
-        let Self { limbs, reached, mechanism, .. } = self;
+        let Self { limbs, anchors, reached, mechanism, .. } = self;
         limbs.clear();
+        anchors.clear();
         mechanism.clear();
         mechanism.extend(0..groups);
         if ties.is_empty() {
@@ -55,7 +59,11 @@ impl Eliminated {
         }
         reached.clear();
         reached.resize(groups, false);
-        for root in 0..groups {
+        let to_world = ties.iter().enumerate().filter(|(_, tie)| tie.a.is_none());
+        anchors.extend(to_world.map(|(index, tie)| Limb::new(index, [tie.b.0; 2], false)));
+        // None holds more than one of a mechanism, as that would close a loop.
+        let held = anchors.iter().map(|anchor| anchor.child);
+        for root in held.chain(0..groups) {
             if std::mem::replace(&mut reached[root], true) {
                 continue;
             }
@@ -63,9 +71,10 @@ impl Eliminated {
             let mut parent = root;
             loop {
                 for (index, tie) in ties.iter().enumerate() {
+                    let Some(GroupIndex(a)) = tie.a else { continue };
                     let turned = tie.b.0 == parent;
-                    let child = if turned { tie.a.0 } else { tie.b.0 };
-                    if (turned || tie.a.0 == parent) && !reached[child] {
+                    let child = if turned { a } else { tie.b.0 };
+                    if (turned || a == parent) && !reached[child] {
                         reached[child] = true;
                         mechanism[child] = root;
                         limbs.push(Limb::new(index, [parent, child], turned));
@@ -80,9 +89,10 @@ impl Eliminated {
 
     /// Takes the present weights.
     pub fn prepare(&mut self, unknowns: &[Unknown], ties: &[Tie]) {
-        let Self { limbs, mechanism, resistance, blocks, .. } = self;
+        let nothing = self.is_empty();
+        let Self { limbs, anchors, mechanism, resistance, blocks, .. } = self;
         blocks.clear();
-        if limbs.is_empty() {
+        if nothing {
             return;
         }
         resistance.clear();
@@ -95,6 +105,11 @@ impl Eliminated {
         blocks.resize(count * count, Matrix3::zeros());
         for root in (0..count).filter(|&group| mechanism[group] == group) {
             blocks[root * count + root] = inverse(&resistance[root]);
+        }
+        for anchor in anchors {
+            let root = anchor.child;
+            anchor.weigh(&ties[anchor.tie], &blocks[root * count + root]);
+            blocks[root * count + root] = anchor.held;
         }
         for (k, limb) in limbs.iter().enumerate() {
             let Limb { parent, child, carried, held, .. } = limb;
@@ -126,7 +141,7 @@ impl Eliminated {
     /// Whether nothing hangs together.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.limbs.is_empty()
+        self.limbs.is_empty() && self.anchors.is_empty()
     }
 
     /// Adds to `felt` what force and torque on every group make of `value` times the twist of `group`;
@@ -194,12 +209,13 @@ impl Eliminated {
         constraints: &[Constraint],
         ties: &mut [Tie],
     ) {
-        let Self { limbs, mechanism, load, moved, blocks, .. } = self;
+        let nothing = self.is_empty();
+        let Self { limbs, anchors, mechanism, load, moved, blocks, .. } = self;
         for unknown in unknowns.iter_mut() {
             (unknown.pressed, unknown.touched) = (Vector3::zeros(), false);
         }
         constraints.iter().for_each(|constraint| constraint.press(unknowns));
-        if limbs.is_empty() {
+        if nothing {
             unknowns.iter_mut().for_each(Unknown::settle);
             return;
         }
@@ -217,6 +233,15 @@ impl Eliminated {
             true => blocks[group * count + group] * load[group],
             false => Vector3::zeros(),
         }));
+        for anchor in anchors {
+            let root = anchor.child;
+            anchor.ask(&ties[anchor.tie], unknowns);
+            let gap = anchor.left - apply(&anchor.answer, &load[root]);
+            let tie = &mut ties[anchor.tie];
+            tie.force = anchor.stiffness * gap;
+            tie.press(unknowns);
+            moved[root] += pull(&anchor.drawn, &anchor.left);
+        }
         for limb in limbs.iter() {
             let (load, above) = (&load[limb.child], moved[limb.parent]);
             let gap = limb.left + apply(&limb.on_parent, &above) - apply(&limb.answer, load);

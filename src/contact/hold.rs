@@ -15,7 +15,7 @@ use crate::{
 };
 
 use super::{
-    bodies::{Bodies, Jointed},
+    bodies::{Bodies, Jointed, Mounted},
     index::GroupIndex,
 };
 
@@ -38,7 +38,7 @@ struct Group {
 /// Brings poses and velocities of jointed objects to what their joints allow, wherever one of
 /// those that `moved` says is among them.
 pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
-    if bodies.joints.is_empty() {
+    if bodies.joints.is_empty() && bodies.mounts.is_empty() {
         return;
     }
     let mut touched = vec![false; bodies.objects.len()];
@@ -50,13 +50,16 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         !joint.guessed && touched[bodies.mechanisms[joint.between[0]]]
     };
     let joints: Vec<&Jointed> = bodies.joints.iter().filter(|joint| wanted(joint)).collect();
-    if joints.is_empty() {
+    let mounts = bodies.mounts.iter().filter(|mount| touched[bodies.mechanisms[mount.object]]);
+    let joints = Joints { joints, mounts: mounts.collect() };
+    if joints.joints.is_empty() && joints.mounts.is_empty() {
         return;
     }
     let members = bodies.groups.members.iter();
     let mut groups: Vec<Group> = members.map(|members| gather(bodies, state, members)).collect();
+    groups.push(Group::WORLD);
     let places = place(bodies);
-    let mut limited = vec![false; joints.len()];
+    let mut limited = vec![false; joints.joints.len() + joints.mounts.len()];
     for _ in 0..STEPS {
         let rows = rows(bodies, &joints, &places, &groups, &mut limited);
         let missing = rows.iter().map(|row| row.missing.abs()).fold(0.0, f64::max);
@@ -84,7 +87,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         });
     }
     for (object, &group) in bodies.groups.of.iter().enumerate() {
-        if !joints.iter().any(|joint| joint.between.contains(&object)) {
+        if !joints.concern(object) {
             continue;
         }
         let Group { pose, velocity, spin, .. } = groups[group.0];
@@ -96,6 +99,30 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         let arm = held.position - pose.position;
         state.velocities[object].linear = velocity + spin * perpendicular(arm);
         state.velocities[object].angular = spin;
+    }
+}
+
+impl Group {
+    /// What nothing moves; it comes after all others.
+    const WORLD: Self = Self {
+        pose: Pose { position: Vector::new(0.0, 0.0), heading: 0.0 },
+        velocity: Vector::new(0.0, 0.0),
+        spin: 0.0,
+        lightness: 0.0,
+        ease: 0.0,
+    };
+}
+
+/// The joints to hold.
+struct Joints<'a> {
+    joints: Vec<&'a Jointed>,
+    mounts: Vec<&'a Mounted>,
+}
+
+impl Joints<'_> {
+    fn concern(&self, object: usize) -> bool {
+        self.joints.iter().any(|joint| joint.between.contains(&object))
+            || self.mounts.iter().any(|mount| mount.object == object)
     }
 }
 
@@ -213,13 +240,14 @@ impl Row {
 /// The rows of all joints between different groups. A limit has one once it is exceeded.
 fn rows(
     bodies: &Bodies,
-    joints: &[&Jointed],
+    joints: &Joints,
     places: &[Pose],
     groups: &[Group],
     limited: &mut [bool],
 ) -> Vec<Row> {
-    let mut rows = Vec::with_capacity(3 * joints.len());
-    for (joint, limited) in joints.iter().zip(limited) {
+    let mut rows = Vec::with_capacity(3 * limited.len());
+    let mut limited = limited.iter_mut();
+    for (joint, limited) in joints.joints.iter().zip(&mut limited) {
         let between = joint.between.map(|object| bodies.groups.of[object]);
         if between[0] == between[1] {
             continue;
@@ -247,6 +275,37 @@ fn rows(
                 rows.push(Row::of_turn(between, -turned));
                 let slid = apart.dot(&slide);
                 let held = beyond(slid);
+                rows.extend(held.map(|held| Row::of_shift(between, arms, slide, held)));
+            }
+        }
+    }
+    let world = GroupIndex(groups.len() - 1);
+    for (mount, limited) in joints.mounts.iter().zip(&mut limited) {
+        let between = [world, bodies.groups.of[mount.object]];
+        let pose = groups[between[1].0].pose * places[mount.object];
+        let ends = mount.separation(&pose).ends;
+        // Turns are counted, so that a limit beyond half of one is one.
+        let (apart, turned) =
+            (ends[1].position - ends[0].position, ends[1].heading - ends[0].heading);
+        let arms = between.map(|group| ends[1].position - groups[group.0].pose.position);
+        let mut beyond = |value: f64| {
+            let held = mount.limits.map(|limits| value.clamp(limits.low, limits.high) - value);
+            *limited |= held.is_some_and(|held| held != 0.0);
+            held.filter(|_| *limited)
+        };
+        match mount.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { .. } => {
+                rows.push(Row::of_shift(between, arms, Vector::x(), -apart.x));
+                rows.push(Row::of_shift(between, arms, Vector::y(), -apart.y));
+                rows.extend(beyond(turned).map(|held| Row::of_turn(between, held)));
+            }
+            JointKind::Prismatic { .. } => {
+                let slide = ends[0].vector(Vector::x());
+                let across = perpendicular(slide);
+                rows.push(Row::of_shift(between, arms, across, -apart.dot(&across)));
+                rows.push(Row::of_turn(between, -turned));
+                let held = beyond(apart.dot(&slide));
                 rows.extend(held.map(|held| Row::of_shift(between, arms, slide, held)));
             }
         }

@@ -8,7 +8,7 @@ use crate::{
 };
 
 use super::{
-    bodies::Jointed,
+    bodies::{Jointed, Mounted},
     constraint::{Constraint, Law, Tie},
     index::GroupIndex,
     points::Scenery,
@@ -19,9 +19,10 @@ use super::{
 /// A limit this far off, or nearer, is watched: metres, or radians at [`JOINT_ARM`].
 const NEAR_LIMIT: f64 = 0.03;
 
-/// Two rows of a joint between two groups: of the second against the first.
+/// Two rows of a joint between two groups, or between the world and a group: of the second against
+/// the first.
 pub(super) struct Rows {
-    between: [GroupIndex; 2],
+    between: (Option<GroupIndex>, GroupIndex),
     to: [Vector3<f64>; 2],
     from: [Vector3<f64>; 2],
     target: [f64; 2],
@@ -31,14 +32,14 @@ pub(super) struct Rows {
 
 impl Rows {
     pub fn tie(&self) -> Tie {
-        let [a, b] = self.between;
+        let (a, b) = self.between;
         let Self { to, from, target, .. } = *self;
         Tie { a, b, to, from, target, force: Vector2::zeros() }
     }
 
     pub fn constraint(&self) -> Constraint {
-        let [a, b] = self.between;
-        Constraint::new((b, self.to), (Some(a), self.from), self.target, Law::AtLeast)
+        let (a, b) = self.between;
+        Constraint::new((b, self.to), (a, self.from), self.target, Law::AtLeast)
     }
 
     pub fn turn_tie(&self, tie: &mut Tie) {
@@ -73,6 +74,7 @@ pub(super) fn rows(
     let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre));
     let turn = Vector3::new(0.0, 0.0, JOINT_ARM);
     let none = Vector3::zeros();
+    let between = (Some(between[0]), between[1]);
     let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });
     match joint.kind {
         JointKind::Fixed => {}
@@ -116,6 +118,50 @@ pub(super) fn rows(
     }
 }
 
+/// The same of a joint between an object and the world.
+pub(super) fn mounted_rows(
+    Scenery { bodies, state, .. }: Scenery,
+    mount: &Mounted,
+    axis: Vector,
+    unknowns: &[Unknown],
+    mut add: impl FnMut(Rows),
+) {
+    let index = bodies.groups.of[mount.object];
+    let group = &unknowns[index.0];
+    let start = mount.separation(&state.poses[mount.object]);
+    // Turns are counted, so that a limit beyond half of one is one.
+    let turned = start.ends[1].heading - start.ends[0].heading;
+    let arm = group.moved(start.ends[1].position) - group.moved(group.centre);
+    let (turn, none) = (Vector3::new(0.0, 0.0, JOINT_ARM), Vector3::zeros());
+    let between = (None, index);
+    let mut add = |to, target, limit| add(Rows { between, to, from: [none; 2], target, limit });
+    let (unit, come) = match mount.kind {
+        JointKind::Fixed => return,
+        JointKind::Revolute { .. } => {
+            let directions = [axis, perpendicular(axis)];
+            let target = directions.map(|d| -start.apart().dot(&d));
+            add(directions.map(|d| along(d, arm)), target, false);
+            (turn, turned * JOINT_ARM)
+        }
+        JointKind::Prismatic { .. } => {
+            let slide = start.ends[0].vector(Vector::x());
+            let across = perpendicular(slide);
+            let target = [-start.apart().dot(&across), -turned * JOINT_ARM];
+            add([along(across, arm), turn], target, false);
+            (along(slide, arm), start.apart().dot(&slide))
+        }
+    };
+    let scale = if matches!(mount.kind, JointKind::Revolute { .. }) { JOINT_ARM } else { 1.0 };
+    if let Some(limits) = mount.limits {
+        let (low, high) = (limits.low * scale, limits.high * scale);
+        for (sign, left) in [(1.0, come - low), (-1.0, high - come)] {
+            if left < NEAR_LIMIT {
+                add([sign * unit, none], [-left, 0.0], true);
+            }
+        }
+    }
+}
+
 /// Turns the rows of all joints, and of their limits, to where the groups have come to.
 pub(super) fn turn_joints(
     scenery: Scenery,
@@ -125,13 +171,17 @@ pub(super) fn turn_joints(
     limits: &mut [Constraint],
 ) {
     let (mut ties, mut limits) = (ties.iter_mut(), limits.iter_mut());
+    let mut turn = |rows: Rows| {
+        if rows.limit {
+            limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
+        } else {
+            ties.next().into_iter().for_each(|tie| rows.turn_tie(tie));
+        }
+    };
     for joint in &scenery.bodies.joints {
-        rows(scenery, joint, axis, unknowns, |rows| {
-            if rows.limit {
-                limits.next().into_iter().for_each(|limit| rows.turn_constraint(limit));
-            } else {
-                ties.next().into_iter().for_each(|tie| rows.turn_tie(tie));
-            }
-        });
+        rows(scenery, joint, axis, unknowns, &mut turn);
+    }
+    for mount in &scenery.bodies.mounts {
+        mounted_rows(scenery, mount, axis, unknowns, &mut turn);
     }
 }

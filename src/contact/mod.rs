@@ -38,7 +38,7 @@ mod tally;
 mod twist;
 mod unknown;
 
-pub use bodies::{Bodies, Given, Groups, Jointed, Movable, Partner};
+pub use bodies::{Bodies, Given, Groups, Jointed, Mounted, Movable, Partner};
 pub use forces::FrameForces;
 pub use frame::{Frame, FrameProblem, FrameSolution, Touch};
 pub use hold::hold;

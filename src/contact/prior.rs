@@ -9,7 +9,7 @@ use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
     gain::Gain,
-    joint::{rows, turn_joints},
+    joint::{mounted_rows, rows, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
     points::{Contact, Scenery},
@@ -115,6 +115,12 @@ impl Prior {
                 false => ties.push(rows.tie()),
             });
             joints.push((ties.len() > before).then_some(before));
+        }
+        for mount in &bodies.mounts {
+            mounted_rows(scenery, mount, axis, unknowns, |rows| match rows.limit {
+                true => constraints.push(rows.constraint()),
+                false => ties.push(rows.tie()),
+            });
         }
         system.solve(scenery, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));

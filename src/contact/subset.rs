@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::scene::State;
 
 use super::{
-    bodies::Bodies,
+    bodies::{Bodies, Mounted},
     index::{GroupIndex, Index},
 };
 
@@ -105,6 +105,10 @@ impl<Outer: Index, Own: Index> Subset<Outer, Own> {
             let mut own = *joint;
             own.between = joint.between.map(|object| number[object]);
             bodies.joints.push(own);
+        }
+        bodies.mounts.clear();
+        for mount in whole.mounts.iter().filter(|mount| taken(mount.object)) {
+            bodies.mounts.push(Mounted { object: number[mount.object], ..*mount });
         }
         let groups = &mut bodies.groups;
         groups.places.clear();

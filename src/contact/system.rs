@@ -94,6 +94,9 @@ impl System {
                 unknowns[bodies.groups.of[object].0].held = true;
             }
         }
+        for mount in &bodies.mounts {
+            unknowns[bodies.groups.of[mount.object].0].held = true;
+        }
         for (k, (unknown, members)) in unknowns.iter_mut().zip(&bodies.groups.members).enumerate() {
             if follows && unknown.coasts() {
                 unknown.coast(members[0], scenery, *quantity);

@@ -35,7 +35,12 @@ pub(super) fn forest(scene: &Scene) -> Result<Vec<Node<'_>>, ExportError> {
             return Err(ExportError::JointLoop { between });
         }
     }
-    let roots = (0..count).filter(|&object| trees.lowest(object) == object);
+    // What the world holds is the root of its tree.
+    let held = |tree: usize| {
+        let mut mounts = scene.mounts.iter().map(|mount| mount.object);
+        mounts.find(|&object| trees.lowest(object) == tree).unwrap_or(tree)
+    };
+    let roots = (0..count).filter(|&object| trees.lowest(object) == object).map(held);
     Ok(roots.map(|object| grow(object, None, &kept)).collect())
 }
 

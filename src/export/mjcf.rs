@@ -16,9 +16,9 @@
 //! eight shipped plans by at most 0.3 mm.
 
 use crate::asset::PlanFile;
-use crate::geometry::{Footprint, Pose, Shape};
+use crate::geometry::{Footprint, Pose, Shape, Vector};
 use crate::scene::{
-    COAST_FRAME, Carried, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Object, REST_SPEED,
+    COAST_FRAME, Carried, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Mount, Object, REST_SPEED,
     SHOWN_HAND, Scene, ToolMotion,
 };
 
@@ -247,7 +247,13 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     attributes.extend(placed(&pose, height));
     xml.open("body", &attributes);
     match node.parent {
-        None => xml.leaf("freejoint", &[]),
+        None => match scene.mounts.iter().find(|mount| mount.object == node.object) {
+            Some(mount) => {
+                let frame = mount.frames(&scene.objects)[1];
+                hinge(xml, &mount.kind, frame, 1.0, rubbing(scene, mount));
+            }
+            None => xml.leaf("freejoint", &[]),
+        },
         Some((_, link)) => joint(xml, scene, node.object, link),
     }
     let (shape, rise) = raised(&object.shape);
@@ -255,7 +261,9 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
     solid(xml, name, &shape, &Pose::default(), rise, (object.mass, object.friction));
-    for (index, (at, _)) in object.feet().each().enumerate() {
+    let feet = object.feet();
+    let stands = scene.mount(node.object).is_none();
+    for (index, (at, _)) in feet.each().enumerate().filter(|_| stands) {
         let at = numbers(&[at.x, at.y, FOOT - half]);
         let name = foot_name(object, index);
         xml.leaf("geom", &[("class", "foot".into()), ("name", name), ("pos", at)]);
@@ -292,8 +300,30 @@ fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
 fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
     // Limits are of the second object against the first, MuJoCo's of the child.
     let (side, sign) = if joint.between[1] == child { (1, 1.0) } else { (0, -1.0) };
-    let frame = joint.frames(&scene.objects)[side];
-    let (kind, axis, at) = match joint.kind {
+    hinge(xml, &joint.kind, joint.frames(&scene.objects)[side], sign, 0.0);
+}
+
+/// What the table's friction takes from the joint between a thing and the world, N or N m: it stands on
+/// the table all the same, but only along one way it can move. As contacts of feet it would be more
+/// than one way up has room for: a drawer of 32 feet bounces.
+fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
+    let [hinge, _] = mount.frames(&scene.objects);
+    let of = |k: usize| {
+        let object = &scene.objects[k];
+        let drag = |(at, share): (Vector, f64)| match mount.kind {
+            JointKind::Revolute { .. } => share * (object.pose.point(at) - hinge.position).norm(),
+            _ => share,
+        };
+        let arms: f64 = object.feet().each().map(drag).sum();
+        object.mass * GRAVITY * scene.support_friction(k) * arms
+    };
+    scene.parts_of(mount.object).chain([mount.object]).map(of).sum()
+}
+
+/// A hinge or a slide whose frame is this one of the body's, its positions counted with `sign`, and this
+/// much friction of its own, N or N m.
+fn hinge(xml: &mut Xml, kind: &JointKind, frame: Pose, sign: f64, friction: f64) {
+    let (name, axis, at) = match *kind {
         JointKind::Fixed => return,
         JointKind::Revolute { .. } => ("hinge", [0.0, 0.0, sign], frame.position),
         JointKind::Prismatic { .. } => {
@@ -302,8 +332,11 @@ fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
         }
     };
     let mut attributes =
-        vec![("type", kind.into()), ("pos", numbers(&[at.x, at.y, 0.0])), ("axis", numbers(&axis))];
-    if let Some(limits) = joint.limits() {
+        vec![("type", name.into()), ("pos", numbers(&[at.x, at.y, 0.0])), ("axis", numbers(&axis))];
+    if friction > 0.0 {
+        attributes.push(("frictionloss", numbers(&[friction])));
+    }
+    if let Some(limits) = kind.limits() {
         attributes.push(("range", numbers(&[limits.low, limits.high])));
     }
     xml.leaf("joint", &attributes);

@@ -23,10 +23,11 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             pairs.push(Pair { geoms: [geom, with], friction });
         };
         let own = || format!("object/{}", object.name);
-        if !object.shape.is_cylinder() {
+        if !object.shape.is_cylinder() && scene.mount(index).is_none() {
             add(own(), "table".into(), Surface::Table, scene.table_friction);
         }
-        for foot in 0..object.feet().count {
+        let stands = scene.mount(index).is_none();
+        for foot in (0..object.feet().count).filter(|_| stands) {
             add(foot_name(object, foot), "table".into(), Surface::Table, scene.table_friction);
         }
         for (k, obstacle) in scene.obstacles.iter().enumerate() {

@@ -56,7 +56,9 @@ impl Spread {
                 let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
                 // Joined objects are only shifted: turned apart, their joints would break.
                 let alone = (0..groups.len()).filter(|&k| groups[k] == first).count() == 1;
-                for k in (0..groups.len()).filter(|&k| groups[k] == first) {
+                // What is joined to the world stands where its joint lets it.
+                let free = |k: &usize| situation.scene.mount(*k).is_none();
+                for k in (0..groups.len()).filter(|&k| groups[k] == first).filter(free) {
                     let turn = if alone { turn } else { 0.0 };
                     let pose = start.poses[k];
                     start.poses[k] =

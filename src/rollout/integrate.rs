@@ -58,7 +58,8 @@ fn fastest(bodies: &Bodies, state: &State, motions: &[Motion], step: &FrameStep)
     let travel = (step.to.position - step.from.position).norm()
         + if turn > 0.0 { turn * reach.fold(0.0, f64::max) } else { 0.0 };
     let moves = |&k: &usize| motions[k] != Motion::default();
-    let levers = bodies.joints.iter().any(|joint| joint.between.iter().any(moves));
+    let levers = bodies.joints.iter().any(|joint| joint.between.iter().any(moves))
+        || bodies.mounts.iter().any(|mount| moves(&mount.object));
     let factor = if levers { LEVER } else { FASTER };
     bodies
         .objects

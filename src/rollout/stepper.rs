@@ -101,7 +101,9 @@ impl Stepper {
             let Some(problem) = *problem else { continue };
             let relations = batch.relation_count();
             let (frame, forces) = solver.finish(problem, frame, most);
-            if let Some(forces) = forces.filter(|_| correct.is_some()) {
+            // It has not learnt of joints to the world.
+            let learnt = correct.is_some() && frame.bodies.mounts.is_empty();
+            if let Some(forces) = forces.filter(|_| learnt) {
                 batch.add(graph as u32, &frame, &forces);
             }
             frame.fill(&mut step.motions);

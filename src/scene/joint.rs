@@ -29,6 +29,16 @@ pub enum JointKind {
     },
 }
 
+impl JointKind {
+    /// The range of turns (radians) or shifts (metres) against the start, where limited.
+    pub fn limits(&self) -> Option<Span> {
+        match *self {
+            JointKind::Fixed => None,
+            JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => limits,
+        }
+    }
+}
+
 /// A joint between two objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
@@ -64,9 +74,6 @@ impl Joint {
 
     /// The range of turns (radians) or shifts (metres) against the start, where limited.
     pub fn limits(&self) -> Option<Span> {
-        match self.kind {
-            JointKind::Fixed => None,
-            JointKind::Revolute { limits, .. } | JointKind::Prismatic { limits, .. } => limits,
-        }
+        self.kind.limits()
     }
 }

@@ -22,6 +22,7 @@ mod keep;
 mod lever;
 mod model;
 mod motion;
+mod mount;
 mod near;
 mod observation;
 mod outcome;
@@ -69,6 +70,7 @@ pub use model::{
     Assumptions, CORRECTED, JointBelief, ModelKind, ModelPart, ModelSpec, Models, Rate, SpecError,
     Stride,
 };
+pub use mount::Mount;
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,
     Stroke, ToolMotion,

@@ -6,7 +6,7 @@ use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Solid, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface, Whole,
+    Feet, Joint, JointKind, Mount, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface, Whole,
     pair_friction,
 };
 
@@ -227,6 +227,9 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Joints between objects.
     pub joints: Vec<Joint>,
+    /// Joints between objects and the world.
+    #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
+    pub mounts: Vec<Mount>,
     /// Fixed cuboids.
     pub obstacles: Vec<Obstacle>,
     /// Frictions of pairs that are not the mean of the two values.
@@ -250,6 +253,7 @@ impl Scene {
             push_height: None,
             objects,
             joints: Vec::new(),
+            mounts: Vec::new(),
             obstacles: Vec::new(),
             frictions: Vec::new(),
             keep_out: Vec::new(),
@@ -264,6 +268,12 @@ impl Scene {
     /// The scene with one more joint.
     pub fn with_joint(mut self, between: [usize; 2], kind: JointKind) -> Self {
         self.joints.push(Joint::new(between, kind));
+        self
+    }
+
+    /// The scene with one more joint between an object and the world.
+    pub fn with_mount(mut self, object: usize, kind: JointKind) -> Self {
+        self.mounts.push(Mount { object, kind });
         self
     }
 
@@ -305,6 +315,9 @@ impl Scene {
             let [a, b] = joint.between;
             Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
         });
+        let mounts = self.mounts.iter().filter_map(|mount| {
+            Some(Mount { object: place(mount.object)?, ..mount.clone() })
+        });
         let frictions = self.frictions.iter().filter_map(|pair| {
             let with = match pair.with {
                 Surface::Object(other) => Surface::Object(place(other)?),
@@ -320,6 +333,7 @@ impl Scene {
         Self {
             objects: kept.collect(),
             joints: joints.collect(),
+            mounts: mounts.collect(),
             frictions: frictions.collect(),
             ..self.clone()
         }

@@ -1,7 +1,7 @@
 //! Settings that both engines share, and why they are so.
 
 use crate::geometry::Vector;
-use crate::scene::{JointKind, Physics, State};
+use crate::scene::{JointKind, Physics, Scene, State};
 
 /// Penetration that is not corrected, metres. rapier's default of 1 mm lets bodies sink 1.4 mm.
 pub(super) const ALLOWED_ERROR: f64 = 1e-5;
@@ -30,13 +30,13 @@ pub(super) const STIFF_CONTACT: (f64, f64) = (300.0, 1.0);
 /// mm in the planar engine (0.92 in 3-D) with 4, 0.10 (0.16) with 6 and 0.06 (0.11) with 8.
 pub(super) const ARTICULATED_ITERATIONS: usize = 6;
 
-/// Whether some objects can move against others that they are joined with.
+/// Whether some objects can move against others that they are joined with, or against the world.
 ///
 /// Such neighbours also touch each other, with the leverage of everything attached to the joint:
 /// rapier's soft contacts let 12 boxes on revolute joints with gaps of 2 mm, which can turn by 3
 /// degrees, turn by 24 instead, and the row then never came to rest.
-pub(super) fn is_articulated(physics: &Physics) -> bool {
-    physics.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
+pub(super) fn is_articulated(scene: &Scene, physics: &Physics) -> bool {
+    !scene.mounts.is_empty() || physics.joints.iter().any(|joint| joint.kind != JointKind::Fixed)
 }
 
 /// Whether the masses of bodies that can meet differ so much that contacts must be stiffened.

@@ -91,7 +91,7 @@ impl World for PlanarWorld {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(physics),
+            world: empty_world(scene, physics),
             origin: centre(state).unwrap_or(tool.position),
             tool: RigidBodyHandle::invalid(),
             bodies: Vec::with_capacity(scene.objects.len()),
@@ -303,7 +303,7 @@ impl PlanarWorld {
         let (object, lift) = (&scene.objects[index], motion.lift);
         let lean = physics.lean(object, table, (&motion.tool, lift));
         let support = Support::new(feet, &footprint, table, mass, lean);
-        let support = if is_articulated(physics) { support.in_joints() } else { support };
+        let support = if is_articulated(scene, physics) { support.in_joints() } else { support };
         self.bodies[member.body].pressed.add(&support);
         self.objects.push((member, support));
     }
@@ -319,17 +319,18 @@ impl PlanarWorld {
     }
 
     fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
+        let form = |kind: &JointKind| match kind {
+            // Its objects are one body.
+            JointKind::Fixed => None,
+            JointKind::Revolute { .. } => {
+                Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX))
+            }
+            JointKind::Prismatic { .. } => {
+                Some((JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX))
+            }
+        };
         for joint in &physics.joints {
-            let (axes, free) = match joint.kind {
-                // Its objects are one body.
-                JointKind::Fixed => continue,
-                JointKind::Revolute { .. } => {
-                    (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX)
-                }
-                JointKind::Prismatic { .. } => {
-                    (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX)
-                }
-            };
+            let Some((axes, free)) = form(&joint.kind) else { continue };
             let [first, second] = joint.between.map(|index| &self.objects[index].0);
             let [at_first, at_second] = joint.frames(&scene.objects);
             let mut built = GenericJointBuilder::new(axes)
@@ -341,6 +342,19 @@ impl PlanarWorld {
             }
             let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
             self.world.insert_impulse_joint(first, second, built);
+        }
+        for mount in &scene.mounts {
+            let Some((axes, free)) = form(&mount.kind) else { continue };
+            let member = &self.objects[mount.object].0;
+            let [world, own] = mount.frames(&scene.objects);
+            let mut built = GenericJointBuilder::new(axes)
+                .local_frame1(to_rapier(&world, self.origin))
+                .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
+            if let Some(Span { low, high }) = mount.limits() {
+                built = built.limits(free, [low as Real, high as Real]);
+            }
+            let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
+            self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);
         }
     }
 
@@ -360,11 +374,11 @@ impl PlanarWorld {
     }
 }
 
-fn empty_world(physics: &Physics) -> PhysicsWorld {
+fn empty_world(scene: &Scene, physics: &Physics) -> PhysicsWorld {
     let mut world = PhysicsWorld { gravity: RapierVector::ZERO, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR as Real;
-    let articulated = is_articulated(physics);
+    let articulated = is_articulated(scene, physics);
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }

@@ -77,7 +77,7 @@ impl<const TIPS: bool> World for SpatialWorld<TIPS> {
         tool: &Pose,
     ) -> Self {
         let mut this = Self {
-            world: empty_world(physics),
+            world: empty_world(scene, physics),
             frame: frame_of(state, motion, tool),
             lift: motion.lift,
             tool: RigidBodyHandle::invalid(),
@@ -321,19 +321,20 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     }
 
     fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
+        let form = |kind: &JointKind| match kind {
+            // Its objects are one body.
+            JointKind::Fixed => None,
+            JointKind::Prismatic { .. } => {
+                Some((JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY))
+            }
+            JointKind::Revolute { .. } => {
+                // rapier turns about the frame's x axis; this makes it the vertical.
+                let upright = Rotation::from_rotation_y(-FRAC_PI_2);
+                Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright))
+            }
+        };
         for joint in &physics.joints {
-            let (axes, free, axis) = match joint.kind {
-                // Its objects are one body.
-                JointKind::Fixed => continue,
-                JointKind::Prismatic { .. } => {
-                    (JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX, Rotation::IDENTITY)
-                }
-                JointKind::Revolute { .. } => {
-                    // rapier turns about the frame's x axis; this makes it the vertical.
-                    let upright = Rotation::from_rotation_y(-FRAC_PI_2);
-                    (JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX, upright)
-                }
-            };
+            let Some((axes, free, axis)) = form(&joint.kind) else { continue };
             let frame = |object: usize, at: Pose| {
                 let (member, _) = &self.objects[object];
                 let below = -self.bodies[member.body].first_position.z;
@@ -352,6 +353,29 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
             let [first, second] =
                 [first, second].map(|object| self.bodies[self.objects[object].0.body].handle);
             self.world.insert_impulse_joint(first, second, built);
+        }
+        for mount in &scene.mounts {
+            let Some((axes, free, axis)) = form(&mount.kind) else { continue };
+            let (member, _) = &self.objects[mount.object];
+            let body = &self.bodies[member.body];
+            let turned = |frame: Pose3| Pose3::from_parts(frame.translation, frame.rotation * axis);
+            // It stands on the table all the same, and rubs.
+            let upwards = match mount.kind {
+                JointKind::Prismatic { .. } => JointAxesMask::LIN_Z,
+                _ => JointAxesMask::LIN_X,
+            };
+            let axes = axes.difference(upwards);
+            let [world, own] = mount.frames(&scene.objects);
+            let own = to_rapier(&(member.local * own), &LOCAL, -body.first_position.z);
+            let mut built = GenericJointBuilder::new(axes)
+                .local_frame1(turned(to_rapier(&world, &self.frame, 0.0)))
+                .local_frame2(turned(own));
+            if let Some(Span { low, high }) = mount.limits() {
+                built = built.limits(free, [low, high]);
+            }
+            let handle = body.handle;
+            let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
+            self.world.insert_impulse_joint(fixed, handle, built);
         }
     }
 
@@ -376,14 +400,14 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
     }
 }
 
-fn empty_world(physics: &Physics) -> PhysicsWorld {
+fn empty_world(scene: &Scene, physics: &Physics) -> PhysicsWorld {
     let gravity = RapierVector::Z * -GRAVITY;
     let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
     let settings = &mut world.integration_parameters;
     // One friction constraint per contact point; the simplified model is 2 cm off on cuboids.
     settings.friction_model = FrictionModel::Coulomb;
     settings.normalized_allowed_linear_error = ALLOWED_ERROR;
-    let articulated = is_articulated(physics);
+    let articulated = is_articulated(scene, physics);
     if articulated {
         settings.num_solver_iterations = ARTICULATED_ITERATIONS;
     }

@@ -39,7 +39,10 @@ impl Disturbed {
             let mut within = |range: f64| random.random_range(-range..=range);
             let (shift, turn) = (Vector::new(within(SHIFT), within(SHIFT)), within(TURN));
             let group: Vec<usize> = (0..groups.len()).filter(|&k| groups[k] == first).collect();
-            disturb(&mut situation.start.poses, &group, first, shift, turn);
+            // What is joined to the world stands where its joint lets it.
+            if group.iter().all(|&k| situation.scene.mount(k).is_none()) {
+                disturb(&mut situation.start.poses, &group, first, shift, turn);
+            }
         }
         let physics = Arc::make_mut(&mut situation.physics);
         let own = physics.frictions.iter_mut();

@@ -1,17 +1,14 @@
 //! A task with its objects somewhere else, for planning on from the middle.
 
 use pushplan::scene::{Joint, JointKind, Object, Span};
-use pushplan::{Pose, Task};
+use pushplan::{Pose, State, Task};
 
 /// The task that states these poses. Joints go along: anchors and axes lie where the first object
 /// of each has taken them, and limits count from the poses.
 pub fn moved(task: &Task, poses: &[Pose]) -> Task {
     let mut task = task.clone();
-    let mut objects = task.scene.objects.clone();
-    for (object, pose) in objects.iter_mut().zip(poses) {
-        object.pose = *pose;
-    }
-    let before = std::mem::replace(&mut task.scene.objects, objects);
+    let scene = task.scene.moved_to(&State::at_rest(poses.to_vec()));
+    let before = std::mem::replace(&mut task.scene, scene).objects;
     for joint in &mut task.scene.joints {
         joint.kind = followed(joint, &before, &task.scene.objects);
     }

@@ -3,10 +3,10 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
-use crate::asset::task::name_of_surface;
+use crate::asset::task::{WORLD, name_of_surface};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
-    Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Object, Obstacle, Offsets,
+    Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object, Obstacle, Offsets,
     PairFriction, Pivot, Plate, PushForm, PushRules, Robot, Scene, Slab, Span, Support, TableTop,
     Task, Tool, ToolChoice,
 };
@@ -157,30 +157,15 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         posed(fields, &obstacle.pose)
     };
     let joint = |joint: &Joint| {
-        let between = joint.between.map(|k| &scene.objects[k].name);
-        let mut fields = match joint.kind {
-            JointKind::Fixed => json!({"between": between, "kind": "fixed"}),
-            JointKind::Revolute { at, .. } => {
-                json!({"between": between, "kind": "revolute", "at": vector(at)})
-            }
-            JointKind::Prismatic { axis, .. } => {
-                json!({"between": between, "kind": "prismatic", "axis": vector(axis)})
-            }
-        };
-        match joint.kind {
-            JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
-                fields["limits_deg"] = json!([degrees(low), degrees(high)]);
-            }
-            JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
-                fields["limits"] = json!([low, high]);
-            }
-            _ => {}
-        }
+        let mut fields = joined(joint.between.map(|k| scene.objects[k].name.as_str()), &joint.kind);
         if joint.guessed {
             fields["guessed"] = json!(true);
         }
         fields
     };
+    let mount =
+        |mount: &Mount| joined([&scene.objects[mount.object].name, WORLD], &mount.kind);
+    let joints = scene.joints.iter().filter(|joint| !scene.is_seam(joint)).map(joint);
     let mut table = json!({"friction": scene.table_friction});
     if let Some(TableTop { size, middle }) = scene.table_top {
         table["size"] = json!(size);
@@ -189,7 +174,7 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     let mut fields = json!({
         "table": table,
         "objects": scene.things().map(object).collect::<Vec<_>>(),
-        "joints": scene.joints.iter().filter(|joint| !scene.is_seam(joint)).map(joint).collect::<Vec<_>>(),
+        "joints": joints.chain(scene.mounts.iter().map(mount)).collect::<Vec<_>>(),
         "obstacles": scene.obstacles.iter().filter(is_stated).map(obstacle).collect::<Vec<_>>(),
     });
     if !scene.frictions.is_empty() {
@@ -204,6 +189,29 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
     }
     if let Some(share) = scene.push_height {
         fields["push_height"] = json!(share);
+    }
+    fields
+}
+
+/// A joint between these as in a task file.
+fn joined(between: [&str; 2], kind: &JointKind) -> Json {
+    let mut fields = match *kind {
+        JointKind::Fixed => json!({"between": between, "kind": "fixed"}),
+        JointKind::Revolute { at, .. } => {
+            json!({"between": between, "kind": "revolute", "at": vector(at)})
+        }
+        JointKind::Prismatic { axis, .. } => {
+            json!({"between": between, "kind": "prismatic", "axis": vector(axis)})
+        }
+    };
+    match *kind {
+        JointKind::Revolute { limits: Some(Span { low, high }), .. } => {
+            fields["limits_deg"] = json!([degrees(low), degrees(high)]);
+        }
+        JointKind::Prismatic { limits: Some(Span { low, high }), .. } => {
+            fields["limits"] = json!([low, high]);
+        }
+        _ => {}
     }
     fields
 }

@@ -13,7 +13,7 @@ use crate::scene::{
 };
 
 use super::spec::default;
-use super::{frictions, joints, keep, parts};
+use super::{frictions, joints, keep, mounts, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -62,6 +62,8 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     let nodes = node.get("objects").map(Node::items).unwrap_or_default();
     let objects = parts::objects(nodes, object)?;
     let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle).collect::<Option<_>>()?;
+    let fixed = node.get("obstacles").map(Node::items).unwrap_or_default();
+    let moving = |joint| mounts::moving(joint, nodes, fixed);
     let mut scene = Scene {
         table_friction: match node.get("table") {
             Some(table) => number_or(table, "friction", Scene::FRICTION)?,
@@ -75,7 +77,14 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
             Some(share) => Some(share.number()?),
             None => None,
         },
-        joints: items("joints").map(|node| joints::joint(node, &objects)).collect::<Option<_>>()?,
+        joints: items("joints")
+            .filter(|joint| moving(joint).is_none())
+            .map(|node| joints::joint(node, &objects))
+            .collect::<Option<_>>()?,
+        mounts: items("joints")
+            .filter_map(|joint| Some((joint, moving(joint)?)))
+            .map(|(joint, object)| mounts::mount(joint, object, &objects))
+            .collect::<Option<_>>()?,
         frictions: items("frictions")
             .map(|node| frictions::friction(node, &objects, &obstacles))
             .collect::<Option<_>>()?,

@@ -11,6 +11,7 @@ use crate::asset::take::{angle_of, name_of, vector};
 use crate::geometry::{Footprint, Pose, Vector, clearance};
 use crate::scene::{DisjointSets, Joint, JointKind, Object, Span};
 
+use super::mounts;
 use super::rules::{body, known_object};
 
 /// The most objects that one group of joints may hold.
@@ -35,7 +36,8 @@ const KEYS: &[Key] = &[
     Key::required(
         "between",
         Value::List { of: &Value::Name, items: "object names", min: 2, max: 2 },
-        "The names of the two objects.",
+        "The names of the two objects. `world`, or an obstacle, in the place of one joins the other to \
+         the table, as a door or a drawer is.",
     ),
     Key::required(
         "kind",
@@ -88,7 +90,13 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
         [first, second] => [index(first)?, index(second)?],
         _ => return None,
     };
-    let kind = match node.get("kind")?.text()? {
+    let guessed = node.get("guessed").is_some_and(|node| node.switch() == Some(true));
+    Some(Joint { between, kind: kind_of(node)?, guessed })
+}
+
+/// What a joint allows, or `None` if anything needed is missing or was faulty.
+pub(super) fn kind_of(node: &Node) -> Option<JointKind> {
+    Some(match node.get("kind")?.text()? {
         "fixed" => JointKind::Fixed,
         "revolute" => JointKind::Revolute {
             at: vector(node.get("at")?)?,
@@ -98,9 +106,7 @@ pub(in crate::asset) fn joint(node: &Node, objects: &[Object]) -> Option<Joint> 
             axis: unit(vector(node.get("axis")?)?)?,
             limits: limits(node, "limits", Node::number)?,
         },
-    };
-    let guessed = node.get("guessed").is_some_and(|node| node.switch() == Some(true));
-    Some(Joint { between, kind, guessed })
+    })
 }
 
 /// `Some(None)` where there are no limits, `None` where they are faulty.
@@ -127,6 +133,13 @@ pub(super) fn check(joints: &[Node], objects: &[Node], obstacles: &[Node], ledge
     for node in joints {
         check_keys(node, ledger);
         check_limits(node, ledger);
+        if let Some(name) = mounts::moving(node, objects, obstacles) {
+            mounts::check(node, ledger);
+            let Some(object) = known_object(name, objects, obstacles, ledger) else { continue };
+            let index = objects.iter().position(|other| other.id == object.id);
+            groups.hold(index.unwrap_or_default(), node, name_of(object).unwrap_or("?"), ledger);
+            continue;
+        }
         let Some(pair) = pair(node, objects, obstacles, ledger) else { continue };
         let [first, second] = pair.map(|index| &objects[index]);
         check_distances(node, first, second, ledger);
@@ -264,15 +277,26 @@ struct Groups {
     sets: DisjointSets,
     /// Whether the group that begins with an object has a joint that is not fixed.
     moves: Vec<bool>,
+    /// Whether it is joined to the world.
+    held: Vec<bool>,
 }
 
 impl Groups {
     fn of(objects: usize) -> Self {
-        Self { sets: DisjointSets::new(objects), moves: vec![false; objects] }
+        Self { sets: DisjointSets::new(objects), moves: vec![false; objects], held: vec![false; objects] }
     }
 
     fn size(&self, group: usize) -> usize {
         (0..self.moves.len()).filter(|&object| self.sets.lowest(object) == group).count()
+    }
+
+    /// Joins the group of an object to the world; notes a fault if it is already.
+    fn hold(&mut self, object: usize, node: &Node, name: &str, ledger: &mut Ledger) {
+        let group = self.sets.lowest(object);
+        if std::mem::replace(&mut self.held[group], true) {
+            let message = format!("`{name}` is joined to the world twice, if by way of another object");
+            ledger.fault(node, message, "remove one of the joints; joined objects form trees");
+        }
     }
 
     /// Joins the groups of a pair; notes a fault if it closes a loop or makes too large a group.
@@ -300,9 +324,17 @@ impl Groups {
                 "remove a joint, or write objects with fixed joints as one cuboid",
             );
         }
+        if self.held[a] && self.held[b] {
+            let message = format!(
+                "this joint closes a loop through the world: `{}` and `{}` are both joined to it",
+                names[0], names[1]
+            );
+            ledger.fault(node, message, "remove one joint of the loop; joined objects form trees");
+        }
         self.sets.join(pair);
         let fixed = node.get("kind").and_then(Node::text) == Some("fixed");
         let joined = a.min(b);
+        self.held[joined] = self.held[a] || self.held[b];
         self.moves[joined] = self.moves[a] || self.moves[b] || !fixed;
     }
 

@@ -6,6 +6,7 @@ mod frictions;
 mod joints;
 mod keep;
 mod load;
+mod mounts;
 mod parts;
 mod rules;
 mod spec;
@@ -19,6 +20,7 @@ pub(super) use joints::joint as joint_of;
 pub(super) use keep::emitted as region;
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
+pub(super) use mounts::WORLD;
 pub(super) use parts::shares as shares_of_mass;
 pub(super) use rules::{
     push_rules as check_pushes, robot as check_robot, tools as check_tools,

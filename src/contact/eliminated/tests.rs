@@ -40,7 +40,7 @@ fn forest(seed: &mut u64) -> (Vec<Unknown>, Vec<Tie>) {
         let (to, from) = (rows(), rows());
         let target = [1e-3 * noise(seed), 1e-3 * noise(seed)];
         let [a, b] = [a, b].map(GroupIndex);
-        Tie { a, b, to, from, target, force: Vector2::zeros() }
+        Tie { a: Some(a), b, to, from, target, force: Vector2::zeros() }
     });
     (unknowns, ties.to_vec())
 }
@@ -63,7 +63,7 @@ fn the_tree_answers_as_all_equations_at_once_do() {
         for (n, tie) in ties.iter().enumerate() {
             for (row, (to, from)) in tie.to.iter().zip(&tie.from).enumerate() {
                 let line = wide + 2 * n + row;
-                for (group, side) in [(tie.b, *to), (tie.a, -from)] {
+                for (group, side) in [(Some(tie.b), *to), (tie.a, -from)] {
                     for axis in 0..3 {
                         whole[(line, 3 * group.0 + axis)] = side[axis];
                         whole[(3 * group.0 + axis, line)] = -side[axis];

@@ -32,7 +32,8 @@ pub struct Waiting {
 
 /// Whether a frame is one that is solved here.
 pub fn is_lone(scenery: &Scenery, contacts: &[Contact]) -> bool {
-    scenery.bodies.objects.len() == 1 && contacts.len() <= MOST
+    let bodies = scenery.bodies;
+    bodies.objects.len() == 1 && bodies.mounts.is_empty() && contacts.len() <= MOST
 }
 
 /// Solves the frames that are `waiting`: leaves the solution with each, if its forces were found.
