@@ -357,9 +357,7 @@ fn rests(
 
 /// Whether the goal is reached despite the doubt about where the object is: metres and radians.
 fn is_sure(goal: &Goal, state: &State, [place, turn]: [f64; 2]) -> bool {
-    let less = |tolerance: f64, doubt: f64| (tolerance - SURE * doubt).max(0.5 * tolerance);
-    let heading = goal.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
-    Goal { tolerance: less(goal.tolerance, place), heading, ..*goal }.reached(state)
+    goal.stricter(SURE * place, SURE * turn).reached(state)
 }
 
 /// The scene with its objects where they are seen; known joints go with them.

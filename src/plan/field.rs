@@ -33,10 +33,15 @@ const HEADING_WEIGHT: f64 = 0.5;
 /// clearing it away.
 const ASIDE_WEIGHT: f64 = 4.0;
 
+/// What stands in the way is measured by this where no place is asked for, metres.
+const FREE: f64 = 0.02;
+
 /// Distances to the goals for the centres of their objects.
 #[derive(Clone)]
 pub struct Field<'a> {
     task: &'a Task,
+    /// The goals in the world, as things stand at the start.
+    goals: Arc<[Goal]>,
     /// One for every goal, if there are obstacles.
     grids: Arc<[Option<Grid>]>,
     /// What has to be free before the goal's object is pushed.
@@ -46,8 +51,10 @@ pub struct Field<'a> {
 impl<'a> Field<'a> {
     /// Lays the field for a task; costs nothing where there are no obstacles.
     pub fn new(task: &'a Task) -> Self {
+        let start = task.scene.start();
+        let goals: Vec<Goal> = task.goals().map(|goal| goal.in_world(&start)).collect();
         let grid = |goal| (!task.scene.obstacles.is_empty()).then(|| Grid::new(task, goal));
-        Self { task, grids: task.goals().map(grid).collect(), corridor: None }
+        Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
     }
 
     /// The same where this has to be free first.
@@ -88,7 +95,7 @@ impl<'a> Field<'a> {
 
     /// The ways of all goals' objects, metres, each from where `position` has it.
     fn ways(&self, position: impl Fn(usize) -> Vector) -> f64 {
-        let goals = self.task.goals().zip(self.grids.iter());
+        let goals = self.goals.iter().zip(self.grids.iter());
         goals.map(|(goal, grid)| distance(goal, grid, position(goal.object))).sum()
     }
 
@@ -102,8 +109,9 @@ impl<'a> Field<'a> {
                 _ => way,
             }
         };
-        let cost: f64 = self.task.goals().zip(self.grids.iter()).map(cost).sum();
+        let cost: f64 = self.goals.iter().zip(self.grids.iter()).map(cost).sum();
         let tolerance = self.task.goal.tolerance;
+        let tolerance = if tolerance.is_finite() { tolerance } else { FREE };
         let depths = self.corridor.iter().flat_map(|corridor| corridor.depths(state));
         let aside: f64 = depths.map(|(_, depth)| depth / tolerance).sum();
         let cost = cost + ASIDE_WEIGHT * aside;
@@ -113,7 +121,11 @@ impl<'a> Field<'a> {
 
 /// Length of the way from `position` to a goal, metres.
 fn distance(goal: &Goal, grid: &Option<Grid>, position: Vector) -> f64 {
-    let straight = (goal.position - position).norm();
+    if !goal.has_place() {
+        return 0.0;
+    }
+    let to = goal.area.map_or(goal.position, |area| area.nearest(position));
+    let straight = (to - position).norm();
     match grid {
         Some(grid) => grid.distance(position, straight),
         None => straight,

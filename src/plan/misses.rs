@@ -8,7 +8,7 @@ use crate::scene::{Goal, State, Task};
 /// for.
 pub(super) fn misses(task: &Task, outcome: &State) -> Vec<Vector3<f64>> {
     let of = |goal: &Goal| {
-        let apart = (outcome.poses[goal.object].position - goal.position) / goal.tolerance;
+        let apart = goal.off(outcome) / goal.tolerance;
         let turned = match (goal.heading, goal.turned(outcome)) {
             (Some((_, tolerance)), Some(turned)) => turned / tolerance,
             _ => 0.0,

@@ -116,7 +116,7 @@ fn still<'a>(
             format!("verdict: {}", verdict_line(task, plan.verdict.as_ref())),
         ],
         scene: &task.scene,
-        goals: task.goals().collect(),
+        goals: task.shown_goals(),
         robot: Some(&task.robot),
         motion: Some(motion),
         tracks,

@@ -1,6 +1,6 @@
 //! A plan and where it ends, in words and tables for the terminal.
 
-use crate::geometry::{Vector, wrap_angle};
+use crate::geometry::{Footprint, Vector, wrap_angle};
 use crate::scene::{Engine, Goal, LeverUp, Lying, Outcome, Plan, Step, Task, Warning};
 
 use super::{
@@ -219,9 +219,28 @@ fn one_goal(task: &Task, goal: &Goal) -> String {
         Some(false) => demands.push("on its underside".to_owned()),
         None => {}
     }
-    if goal.has_place() {
-        let (at, within) = (point(goal.position), millimetres(goal.tolerance));
-        demands.push(format!("at {at} within {within}{heading}"));
+    let of = goal.relative.and_then(|other| task.scene.objects.get(other));
+    let of = of.map_or(String::new(), |other| format!(" as {} sees it", other.name));
+    let at = point(goal.position);
+    match (&goal.area, goal.has_place()) {
+        (Some(area), _) => {
+            let outline = match area.shape.footprint() {
+                Footprint::Disc { radius } => format!("a circle of {}", millimetres(radius)),
+                Footprint::Rectangle { half } => {
+                    let [x, y] = [half.x, half.y].map(|half| millimetres(2.0 * half));
+                    format!("a rectangle of {x} by {y}")
+                }
+                Footprint::Polygon(_) => "a polygon".to_owned(),
+            };
+            demands.push(format!("in {outline} about {at}{of}{heading}"));
+        }
+        (None, true) => {
+            demands.push(format!("at {at} within {}{of}{heading}", millimetres(goal.tolerance)));
+        }
+        (None, false) if goal.heading.is_some() => {
+            demands.push(format!("{}{of}", heading.trim_start_matches(", ")));
+        }
+        _ => {}
     }
     let colon = if goal.in_space() { ":" } else { "" };
     format!("{name}{colon} {}", demands.join(", "))

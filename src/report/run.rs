@@ -271,7 +271,7 @@ fn picture(trace: &Trace) -> Figure {
         title: format!("{}: {}", task.name, headline(trace)),
         notes: vec![format!("unknown: {}", task.unknown)],
         scene: &scene,
-        goals: task.goals().collect(),
+        goals: task.shown_goals(),
         robot: Some(&task.robot),
         motion: motion.as_ref(),
         tracks: vec![Track { source, trajectory: &trajectory }],

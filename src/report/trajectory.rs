@@ -22,7 +22,7 @@ pub fn trajectory_figures(file: &TrajectoryFile, name: &str, animate: bool) -> V
         title: format!("{}: {}", task.name, plan_line(plan)),
         notes: vec![format!("{} from the goal at rest", millimetres(error))],
         scene: &task.scene,
-        goals: task.goals().collect(),
+        goals: task.shown_goals(),
         robot: Some(&task.robot),
         motion: Some(&motion),
         tracks: vec![Track { source, trajectory }],

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Shape, Vector, wrap_angle};
+use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 
-use super::{Joint, Scene, State};
+use super::{Area, Joint, Scene, State};
 
 /// Where an object must come to rest, and how; every stated demand counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +18,13 @@ pub struct Goal {
     pub tolerance: f64,
     /// Wanted heading and its tolerance, radians, where one is asked for.
     pub heading: Option<(f64, f64)>,
+    /// Where its centre may be instead of near the position, which is then the middle of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<Area>,
+    /// Index of the object in whose frame position, heading and area are, wherever that has come to; in
+    /// the world where none is named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative: Option<usize>,
     /// The number of equal turns in a full turn after each of which the object looks the same, where
     /// all those headings count as the wanted one; else 1.
     #[serde(default = "one")]
@@ -73,11 +80,63 @@ impl Goal {
             position: Vector::zeros(),
             tolerance: f64::INFINITY,
             heading: None,
+            area: None,
+            relative: None,
             alike: 1,
             outside: None,
             raised: None,
             flipped: None,
         }
+    }
+
+    /// The centre of object `object` anywhere in an area.
+    ///
+    /// ```
+    /// use pushplan::{Goal, Pose, Shape, State};
+    ///
+    /// let tray = Shape::Cuboid { size: [0.3, 0.2, 0.01] };
+    /// let goal = Goal::within(0, tray, Pose::new(0.5, 0.1, 0.0));
+    /// let at = |x: f64, y: f64| State::at_rest(vec![Pose::new(x, y, 0.0)]);
+    /// assert!(goal.reached(&at(0.36, 0.19)) && !goal.reached(&at(0.34, 0.1)));
+    /// ```
+    pub fn within(object: usize, shape: Shape, pose: Pose) -> Self {
+        let area = Area { shape, pose };
+        let tolerance = area.depth();
+        Self { position: pose.position, tolerance, area: Some(area), ..Self::of(object) }
+    }
+
+    /// The same in the frame of another object, wherever that has come to.
+    pub fn relative_to(self, other: usize) -> Self {
+        Self { relative: Some(other), ..self }
+    }
+
+    /// The same goal in the world, with everything where it is in `state`.
+    pub fn in_world(&self, state: &State) -> Self {
+        let Some(frame) = self.relative.and_then(|other| state.poses.get(other)) else {
+            return *self;
+        };
+        Self {
+            position: frame.point(self.position),
+            heading: self.heading.map(|(heading, within)| (frame.heading + heading, within)),
+            area: self.area.map(|area| area.seen_from(frame)),
+            relative: None,
+            ..*self
+        }
+    }
+
+    /// The same goal moved by `shift`, metres, of its own frame.
+    pub fn shifted(&self, shift: Vector) -> Self {
+        let area = self.area.map(|area| area.shifted(shift));
+        Self { position: self.position + shift, area, ..*self }
+    }
+
+    /// A goal that is harder to reach: by these shares of tolerances (metres and radians) or, of an area,
+    /// by as much around it; at least half of each is left.
+    pub fn stricter(&self, place: f64, turn: f64) -> Self {
+        let less = |tolerance: f64, by: f64| (tolerance - by).max(0.5 * tolerance);
+        let area = self.area.map(|area| area.shrunk(place));
+        let heading = self.heading.map(|(heading, tolerance)| (heading, less(tolerance, turn)));
+        Self { tolerance: less(self.tolerance, place), heading, area, ..*self }
     }
 
     /// Whether the object must come to a place.
@@ -120,7 +179,11 @@ impl Goal {
     pub fn looking_alike(self, scene: &Scene) -> Self {
         let joined = |joint: &Joint| joint.between.contains(&self.object);
         match scene.objects.get(self.object) {
-            Some(object) if object.parts.is_empty() && !scene.joints.iter().any(joined) => {
+            Some(object)
+                if object.parts.is_empty()
+                    && scene.mount(self.object).is_none()
+                    && !scene.joints.iter().any(joined) =>
+            {
                 self.looking_like(&object.shape)
             }
             _ => Self { alike: 1, ..self },
@@ -133,18 +196,27 @@ impl Goal {
         wrap_angle(turn * alike) / alike
     }
 
-    /// Distance of the object's centre from the goal, metres; 0 where it may lie anywhere.
+    /// Distance of the object's centre from the goal, metres; of an area, from what lies deep enough
+    /// inside; 0 where it may lie anywhere.
     pub fn error(&self, state: &State) -> f64 {
+        self.off(state).norm()
+    }
+
+    /// From the nearest place that is asked for to the object's centre, metres; nothing where it may lie
+    /// anywhere.
+    pub fn off(&self, state: &State) -> Vector {
         if !self.has_place() {
-            return 0.0;
+            return Vector::zeros();
         }
-        (state.poses[self.object].position - self.position).norm()
+        let goal = self.in_world(state);
+        let at = state.poses[self.object].position;
+        at - goal.area.map_or(goal.position, |area| area.nearest(at))
     }
 
     /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object,
     /// radians to the left, where a heading is asked for.
     pub fn turned(&self, state: &State) -> Option<f64> {
-        let (wanted, _) = self.heading?;
+        let (wanted, _) = self.in_world(state).heading?;
         Some(self.least_turn(state.poses[self.object].heading - wanted))
     }
 
@@ -159,13 +231,20 @@ impl Goal {
             (Some((_, tolerance)), Some(error)) => error <= tolerance,
             _ => true,
         };
-        self.error(state) <= self.tolerance && turned
+        let there = match self.in_world(state).area {
+            Some(area) => area.holds(state.poses[self.object].position),
+            None => self.error(state) <= self.tolerance,
+        };
+        there && turned
     }
 
     /// Error in units of the tolerance, the larger of position and heading: at most 1 is
     /// success. This is what the search minimises, so that both demands count alike.
     pub fn score(&self, state: &State) -> f64 {
-        let position = self.error(state) / self.tolerance;
+        let position = match self.has_place() {
+            true => self.error(state) / self.tolerance,
+            false => 0.0,
+        };
         match (self.heading, self.heading_error(state)) {
             (Some((_, tolerance)), Some(error)) => position.max(error / tolerance),
             _ => position,

@@ -8,6 +8,7 @@
 //! No files are read here, nothing is simulated and nothing is decided; every other module takes
 //! and returns these types. SI units and radians throughout.
 
+mod area;
 mod balance;
 mod drag;
 mod feet;
@@ -51,6 +52,7 @@ mod warning;
 mod whole;
 mod world;
 
+pub use area::Area;
 pub use balance::carries;
 pub use drag::Drag;
 pub use feet::{Feet, MAX_FEET};

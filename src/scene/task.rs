@@ -245,6 +245,21 @@ impl Task {
         std::iter::once(&self.goal).chain(&self.further)
     }
 
+    /// All goals in the world as things stand at the start, for pictures: what asks for no place is shown
+    /// where its object is.
+    pub fn shown_goals(&self) -> Vec<Goal> {
+        let start = self.scene.start();
+        let shown = |goal: &Goal| {
+            let goal = goal.in_world(&start);
+            let position = match start.poses.get(goal.object) {
+                Some(pose) if !goal.has_place() => pose.position,
+                _ => goal.position,
+            };
+            Goal { position, ..goal }
+        };
+        self.goals().map(shown).collect()
+    }
+
     /// The same task with other goals in their places; those that are missing stay.
     pub fn aiming(&self, goals: &[Goal]) -> Self {
         let mut task = self.clone();

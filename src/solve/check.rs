@@ -67,7 +67,7 @@ pub(super) fn check(
             return fault(format!("object {} has two goals", goal.object));
         }
         let positive = |value: f64| value.is_finite() && value > 0.0;
-        if !positive(goal.tolerance) {
+        if goal.has_place() && !positive(goal.tolerance) {
             let tolerance = goal.tolerance;
             return fault(format!(
                 "the tolerance of the goal is {tolerance}, but must be a positive number"
@@ -75,6 +75,12 @@ pub(super) fn check(
         }
         let heading =
             goal.alike > 0 && goal.heading.is_none_or(|(h, t)| h.is_finite() && positive(t));
+        if !goal.has_place() && goal.heading.is_none() {
+            return fault("the goal asks for nothing".into());
+        }
+        if goal.relative.is_some_and(|other| other >= scene.objects.len() || other == goal.object) {
+            return fault("a goal is relative to another object of the scene".into());
+        }
         if !(goal.position.iter().all(|v| v.is_finite()) && heading) {
             return fault("the goal must be finite, its heading tolerance positive".into());
         }

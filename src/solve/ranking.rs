@@ -24,7 +24,7 @@ impl Solving<'_> {
         // By the goal that asks for least, as scores are in units of tolerances.
         let least = self.task.goals().map(|goal| {
             let turned = goal.heading.map_or(f64::INFINITY, |(_, tolerance)| TURNED / tolerance);
-            (NEARER / goal.tolerance).min(turned)
+            if goal.has_place() { (NEARER / goal.tolerance).min(turned) } else { turned }
         });
         let least = least.fold(f64::INFINITY, f64::min);
         bare(tried.score) <= self.task.score(start) - least

@@ -1,9 +1,9 @@
 //! What is learnt from failed replays: ways that do not work are left for others, and plans that
 //! end near the goal are aimed again, by as much as they missed it.
 
-use crate::geometry::{Pose, Vector, wrap_angle};
+use crate::geometry::{Vector, wrap_angle};
 use crate::plan::{Candidate, CandidatePush, Found, is_behind};
-use crate::scene::{Engine, Goal, Task, Verdict, Warning};
+use crate::scene::{Engine, Goal, State, Task, Verdict, Warning};
 
 use super::rank::distinct;
 use super::solving::{Solving, Tried};
@@ -234,18 +234,20 @@ fn missed(task: &Task, tried: &Tried) -> f64 {
 /// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
 /// not. `None` if that is on the goal already.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
-    let wanted = goal.heading.map_or(0.0, |(heading, _)| heading);
+    if goal.relative.is_some() {
+        return None;
+    }
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
     for engine in Engine::ALL {
         let all = verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine));
-        let ends: Vec<Pose> = all
+        let ends: Vec<&State> = all
             .filter(|evidence| evidence.fault().is_none())
-            .map(|evidence| evidence.outcome.state.poses[goal.object])
+            .map(|evidence| &evidence.outcome.state)
             .collect();
         if !ends.is_empty() {
             let count = ends.len() as f64;
-            shift += ends.iter().map(|end| end.position - goal.position).sum::<Vector>() / count;
-            let turned = ends.iter().map(|end| goal.least_turn(end.heading - wanted));
+            shift += ends.iter().map(|end| goal.off(end)).sum::<Vector>() / count;
+            let turned = ends.iter().filter_map(|end| goal.turned(end));
             turn += turned.sum::<f64>() / count;
             engines += 1.0;
         }
@@ -260,7 +262,9 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
     };
     let off = goal.heading.map_or(0.0, |(_, tolerance)| turn.abs() / tolerance);
     let off = off.max(shift.norm() / goal.tolerance);
-    (off > ON_THE_GOAL).then(|| Goal { position: aim.position - shift, heading, ..*goal })
+    // From where it was aimed at last.
+    let aimed = goal.shifted(aim.position - goal.position - shift);
+    (off > ON_THE_GOAL).then_some(Goal { heading, ..aimed })
 }
 
 #[cfg(test)]

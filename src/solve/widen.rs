@@ -203,7 +203,8 @@ fn wider<'a>(task: &'a Task, tools: &[Arc<Tool>], library: &ToolLibrary) -> Vec<
 
 /// The obstacles that stand nearest to the goal and to its object.
 fn nearest(task: &Task) -> Vec<&Obstacle> {
-    let (goal, from) = (&task.goal, task.scene.objects[task.goal.object].pose.position);
+    let from = task.scene.objects[task.goal.object].pose.position;
+    let goal = task.goal.in_world(&task.scene.start());
     let far = |obstacle: &Obstacle| {
         let at = obstacle.pose.position;
         (at - goal.position).norm().min((at - from).norm())

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
-use crate::asset::task::{WORLD, name_of_surface};
+use crate::asset::task::{WORLD, area_of, name_of_surface};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object, Obstacle, Offsets,
@@ -299,9 +299,14 @@ pub(in crate::asset) fn pushes(rules: &PushRules) -> Json {
 
 fn goal(goal: &Goal, scene: &Scene) -> Json {
     let mut json = json!({"object": scene.objects[goal.object].name});
-    if goal.has_place() {
+    if let Some(area) = &goal.area {
+        json["region"] = posed(json!({"area": area_of(&area.shape)}), &area.pose);
+    } else if goal.has_place() {
         json["position"] = json!(vector(goal.position));
         json["tolerance"] = json!(goal.tolerance);
+    }
+    if let Some(other) = goal.relative {
+        json["relative_to"] = json!(scene.objects[other].name);
     }
     if let Some(obstacle) = goal.outside {
         json["outside"] = json!(scene.obstacles[obstacle].name);

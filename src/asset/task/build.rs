@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
-use crate::asset::take::{angle, name_of, number_or, pose, position, shape, triple, vector};
+use crate::asset::take::{name_of, number_or, pose, shape, triple, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::scene::{
@@ -13,13 +13,13 @@ use crate::scene::{
 };
 
 use super::spec::default;
-use super::{frictions, joints, keep, mounts, parts};
+use super::{frictions, goals, joints, keep, mounts, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
     let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut scene = scene(root.get("scene")?)?;
-    let goals = goals(root.get("goal")?).iter().map(|node| goal(node, &scene));
+    let goals = goals::each(root.get("goal")?).iter().map(|node| goals::goal(node, &scene));
     let goals: Vec<Goal> = goals.collect::<Option<_>>()?;
     let (goal, further) = goals.split_first()?;
     let robot = robot(root.get("robot")?)?;
@@ -236,36 +236,4 @@ fn directions(node: &Node) -> Option<Directions> {
 
 fn numbers(list: &Node) -> Option<Vec<f64>> {
     list.items().iter().map(Node::number).collect()
-}
-
-/// The goals of a task's key: it holds one, or a list.
-pub(super) fn goals(node: &Node) -> &[Node] {
-    match &node.content {
-        Content::List(_) => node.items(),
-        _ => std::slice::from_ref(node),
-    }
-}
-
-fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
-    let heading = match node.get("heading_deg") {
-        Some(_) => Some((
-            angle(node, "heading_deg", 0.0)?,
-            angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?,
-        )),
-        None => None,
-    };
-    let object = scene.object(node.get("object")?.text()?)?;
-    let goal = Goal {
-        object,
-        position: position(node)?,
-        tolerance: node.get("tolerance")?.number()?,
-        heading,
-        ..Goal::of(object)
-    };
-    let symmetric = match node.get("symmetric") {
-        Some(symmetric) => symmetric.switch()?,
-        None => true,
-    };
-    let looks = symmetric && heading.is_some();
-    Some(if looks { goal.looking_alike(scene) } else { goal })
 }

@@ -40,47 +40,56 @@ pub(in crate::asset) const KEEP_OUT: Key = Key::optional(
 
 const REGION: Value = Value::Map(&[
     Key::required("name", Value::Name, "The region's name, unlike that of any body."),
-    Key::required(
-        "area",
-        Value::Variant(&[
-            Key::optional(
-                "circle",
-                Value::Map(&[Key::required("radius", SIZE, "Its radius in metres.")]),
-                "A circle; no default.",
-            ),
-            Key::optional(
-                "rectangle",
-                Value::Map(&[Key::required(
-                    "size",
-                    numbers(&SIZE, 2),
-                    "Full extents [x, y] in metres.",
-                )]),
-                "A rectangle; no default.",
-            ),
-            Key::optional(
-                "polygon",
-                Value::Map(&[Key::required(
-                    "corners",
-                    Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
-                    "Its corners in order, [x, y] in metres from the region's position.",
-                )]),
-                "A convex polygon; no default.",
-            ),
-        ]),
-        "Its outline.",
-    ),
-    Key::optional(
-        "position",
-        POSITION,
-        "Where it is, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
-    ),
-    Key::optional("yaw_deg", ANGLE, "Its turn, degrees; default 0."),
+    AREA,
+    AREA_POSITION,
+    AREA_YAW,
     Key::optional(
         "for",
         Value::List { of: &Value::Word(WORDS), items: "words", min: 1, max: 3 },
         "What keeps out of it: `objects`, `tool`, `hand`; by default all of them.",
     ),
 ]);
+
+/// The outline of a part of the table.
+pub(super) const AREA: Key = Key::required(
+    "area",
+    Value::Variant(&[
+        Key::optional(
+            "circle",
+            Value::Map(&[Key::required("radius", SIZE, "Its radius in metres.")]),
+            "A circle; no default.",
+        ),
+        Key::optional(
+            "rectangle",
+            Value::Map(&[Key::required(
+                "size",
+                numbers(&SIZE, 2),
+                "Full extents [x, y] in metres.",
+            )]),
+            "A rectangle; no default.",
+        ),
+        Key::optional(
+            "polygon",
+            Value::Map(&[Key::required(
+                "corners",
+                Value::List { of: &POSITION, items: "corners", min: 3, max: MAX_CORNERS },
+                "Its corners in order, [x, y] in metres from the region's position.",
+            )]),
+            "A convex polygon; no default.",
+        ),
+    ]),
+    "Its outline.",
+);
+
+/// Where a part of the table is.
+pub(super) const AREA_POSITION: Key = Key::optional(
+    "position",
+    POSITION,
+    "Where it is, [x, y] in metres: the middle of a circle or rectangle; default [0, 0].",
+);
+
+/// How a part of the table is turned.
+pub(super) const AREA_YAW: Key = Key::optional("yaw_deg", ANGLE, "Its turn, degrees; default 0.");
 
 const WORDS: &[&str] = &["objects", "tool", "hand"];
 
@@ -89,7 +98,8 @@ pub(super) fn regions(root: &Node) -> Option<Vec<Region>> {
     root.get("keep_out").map(Node::items).unwrap_or_default().iter().map(region).collect()
 }
 
-fn region(node: &Node) -> Option<Region> {
+/// Outline and place of a part of the table.
+pub(super) fn area(node: &Node) -> Option<(Shape, Pose)> {
     let area = node.get("area")?;
     let at = match node.get("position") {
         Some(_) => pose(node)?,
@@ -97,19 +107,26 @@ fn region(node: &Node) -> Option<Region> {
             Pose { heading: crate::asset::take::angle(node, "yaw_deg", 0.0)?, ..Pose::default() }
         }
     };
-    let (shape, pose) = if let Some(circle) = area.get("circle") {
-        (Shape::Cylinder { radius: circle.get("radius")?.number()?, height: HEIGHT }, at)
-    } else if let Some(rectangle) = area.get("rectangle") {
+    if let Some(circle) = area.get("circle") {
+        return Some((
+            Shape::Cylinder { radius: circle.get("radius")?.number()?, height: HEIGHT },
+            at,
+        ));
+    }
+    if let Some(rectangle) = area.get("rectangle") {
         let size = vector(rectangle.get("size")?)?;
-        (Shape::Cuboid { size: [size.x, size.y, HEIGHT] }, at)
-    } else {
-        let corners = area.get("polygon")?.get("corners")?.items();
-        let corners: Vec<_> = corners.iter().map(vector).collect::<Option<_>>()?;
-        let centre = crate::geometry::centroid(&corners);
-        let base = ConvexPolygon::new(&corners).ok()?;
-        let middle = Pose { position: centre, heading: 0.0 };
-        (Shape::Prism { base, height: HEIGHT }, at * middle)
-    };
+        return Some((Shape::Cuboid { size: [size.x, size.y, HEIGHT] }, at));
+    }
+    let corners = area.get("polygon")?.get("corners")?.items();
+    let corners: Vec<_> = corners.iter().map(vector).collect::<Option<_>>()?;
+    let centre = crate::geometry::centroid(&corners);
+    let base = ConvexPolygon::new(&corners).ok()?;
+    let middle = Pose { position: centre, heading: 0.0 };
+    Some((Shape::Prism { base, height: HEIGHT }, at * middle))
+}
+
+fn region(node: &Node) -> Option<Region> {
+    let (shape, pose) = area(node)?;
     let words = node.get("for").map(Node::items);
     let is_for =
         |word: &str| words.is_none_or(|words| words.iter().any(|one| one.text() == Some(word)));
@@ -121,6 +138,13 @@ fn region(node: &Node) -> Option<Region> {
         tool: is_for("tool"),
         hand: is_for("hand"),
     })
+}
+
+/// Notes what makes an outline none.
+pub(super) fn check_area(node: &Node, ledger: &mut Ledger) {
+    if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
+        prism::check_base(polygon, ledger);
+    }
 }
 
 /// Notes regions that are none, that have another's name, or that an object stands in.
@@ -136,9 +160,7 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
                 "rename one; messages refer to names",
             );
         }
-        if let Some(polygon) = node.get("area").and_then(|area| area.get("polygon")) {
-            prism::check_base(polygon, ledger);
-        }
+        check_area(node, ledger);
         let Some(region) = region(node).filter(|region| region.objects) else { continue };
         for object in objects {
             let inside = body(object).is_some_and(|(shape, pose)| region.holds(&shape, &pose, 0.0));
@@ -152,16 +174,21 @@ pub(super) fn check(root: &Node, bodies: &[&Node], objects: &[Node], ledger: &mu
     }
 }
 
-/// A region as in a task file.
-pub(in crate::asset) fn emitted(region: &Region) -> Json {
-    let area = match region.shape {
+/// The outline of a part of the table as in a task file.
+pub(in crate::asset) fn emitted_area(shape: &Shape) -> Json {
+    match *shape {
         Shape::Cylinder { radius, .. } => json!({"circle": {"radius": radius}}),
         Shape::Cuboid { size: [x, y, _] } => json!({"rectangle": {"size": [x, y]}}),
         Shape::Prism { base, .. } => {
             let corners: Vec<[f64; 2]> = base.corners().iter().map(|at| (*at).into()).collect();
             json!({"polygon": {"corners": corners}})
         }
-    };
+    }
+}
+
+/// A region as in a task file.
+pub(in crate::asset) fn emitted(region: &Region) -> Json {
+    let area = emitted_area(&region.shape);
     let words = [(region.objects, "objects"), (region.tool, "tool"), (region.hand, "hand")];
     let words = words.iter().filter(|(is_for, _)| *is_for).map(|(_, word)| *word);
     json!({"name": region.name, "area": area, "for": words.collect::<Vec<_>>()})

@@ -3,6 +3,7 @@
 mod build;
 mod emit;
 mod frictions;
+mod goals;
 mod joints;
 mod keep;
 mod load;
@@ -17,7 +18,7 @@ pub(super) use build::{
 };
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use joints::joint as joint_of;
-pub(super) use keep::emitted as region;
+pub(super) use keep::{emitted as region, emitted_area as area_of};
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use mounts::WORLD;

@@ -8,11 +8,11 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, frictions, joints, keep as regions, parts};
+use super::{build, frictions, goals, joints, keep as regions, parts};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
-const SLACK: f64 = 1e-4;
+pub(super) const SLACK: f64 = 1e-4;
 
 /// The largest ratio of two objects' masses. At 1000 a simulated body sinks 41 mm into its
 /// neighbour unless contacts are stiffened, which beyond that no longer helps.
@@ -34,8 +34,8 @@ pub(super) fn check(root: &Node, ledger: &mut Ledger) {
     robot(section("robot"), pushes, ledger);
     tools(section("tools"), ledger);
     push_rules(pushes, objects, ledger);
-    let goals = build::goals(section("goal"));
-    goals.iter().for_each(|one| goal(one, objects, obstacles, ledger));
+    let goals = goals::each(section("goal"));
+    goals.iter().for_each(|one| goals::check(one, scene, ledger));
     one_each(goals, ledger);
     keep(section("keep"), goals, objects, ledger);
     on_table(scene, goals, ledger);
@@ -117,7 +117,8 @@ fn on_table(scene: &Node, goals: &[Node], ledger: &mut Ledger) {
     };
     let objects = scene.get("objects").map(Node::items).unwrap_or_default();
     let named = objects.iter().map(|object| (object, name_of(object).unwrap_or("?").to_owned()));
-    let goals = goals.iter().map(|goal| (goal, "the goal".to_owned()));
+    let goals = goals.iter().filter(|goal| goal.get("relative_to").is_none());
+    let goals = goals.map(|goal| (goal, "the goal".to_owned()));
     for (node, what) in named.chain(goals) {
         let Some(position) = node.get("position") else { continue };
         if vector(position).is_some_and(|position| !top.holds(position)) {
@@ -305,65 +306,6 @@ pub(in crate::asset) fn push_rules(pushes: &Node, objects: &[Node], ledger: &mut
             format!("at a lift of {lift} m the tool passes over every object ({highest} m high)"),
             "lower `lift` below the objects' height",
         );
-    }
-}
-
-fn goal(goal: &Node, objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
-    if let (Some(node), None) = (goal.get("heading_tolerance_deg"), goal.get("heading_deg")) {
-        ledger.fault(
-            node,
-            "a heading tolerance without a heading",
-            "add `heading_deg`, or remove the tolerance",
-        );
-    }
-    if let (Some(node), None) = (goal.get("symmetric"), goal.get("heading_deg")) {
-        let message = "`symmetric` is about a heading, and none is asked for";
-        ledger.fault(node, message, "add `heading_deg`, or remove it");
-    }
-    let Some(name) = goal.get("object") else { return };
-    let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
-    let solid = object.get("shape").and_then(shape);
-    if let Some(solid) = solid {
-        room_at_the_goal(goal, &solid.footprint(), name, obstacles, ledger);
-    }
-    if let (Some(heading), Some(true)) = (goal.get("heading_deg"), solid.map(|s| s.is_cylinder())) {
-        ledger.fault(
-            heading,
-            "a cylinder looks the same at every heading, so it cannot have a heading goal",
-            "remove `heading_deg`, or make the object a cuboid",
-        );
-    }
-}
-
-/// A goal at which the object would be inside an obstacle, however it is turned and wherever
-/// within the tolerance it lies.
-fn room_at_the_goal(
-    goal: &Node,
-    object: &Footprint,
-    name: &Node,
-    obstacles: &[Node],
-    ledger: &mut Ledger,
-) {
-    let (Some(node), Some(tolerance)) =
-        (goal.get("position"), goal.get("tolerance").and_then(Node::number))
-    else {
-        return;
-    };
-    let Some(at) = vector(node).map(|position| Pose { position, heading: 0.0 }) else { return };
-    let core = Footprint::Disc { radius: object.inner_radius() - tolerance - SLACK };
-    if core.inner_radius() <= 0.0 {
-        return;
-    }
-    for obstacle in obstacles {
-        let Some((solid, pose)) = body(obstacle) else { continue };
-        if clearance((&core, &at), (&solid, &pose), SLACK) <= 0.0 {
-            let [object, obstacle] = [name.text(), name_of(obstacle)].map(|n| n.unwrap_or("?"));
-            ledger.fault(
-                node,
-                format!("at the goal `{object}` would be inside `{obstacle}`"),
-                "move the goal or the obstacle, or allow a larger tolerance",
-            );
-        }
     }
 }
 

@@ -7,6 +7,7 @@ use crate::asset::spec::{
 };
 
 use super::frictions::FRICTIONS;
+use super::goals::GOAL;
 use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
 use super::parts::PARTS;
@@ -41,7 +42,7 @@ pub(in crate::asset) const TASK_KEYS: &[Key] = &[
     Key::required(
         "goal",
         Value::Either(&[GOAL, Value::List { of: &GOAL, items: "goals", min: 1, max: 8 }]),
-        "Where an object must come to rest; or a list, for several objects, in any order.",
+        "Where an object must come to rest, or how; or a list, for several objects, in any order.",
     ),
     KEEP,
     KEEP_OUT,
@@ -361,36 +362,3 @@ pub(in crate::asset) const LIFT: Value = Value::Number(Range {
     high: 1.0,
     advice: "2 mm is 0.002",
 });
-
-const GOAL: Value = Value::Map(&[
-    Key::required("object", Value::Name, "Name of the object to bring to the goal."),
-    Key::required("position", POSITION, "Wanted position of its centre, [x, y] in metres."),
-    Key::required(
-        "tolerance",
-        Value::Number(Range {
-            what: "a tolerance in metres",
-            low: 0.001,
-            high: 1.0,
-            advice: "2 cm is 0.02; simulators themselves differ by millimetres",
-        }),
-        "Largest distance from the goal that still counts as success, metres.",
-    ),
-    Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
-    Key::optional(
-        "heading_tolerance_deg",
-        Value::Number(Range {
-            what: "a tolerance in degrees",
-            low: 0.1,
-            high: 180.0,
-            advice: "5 to 15 degrees are usual",
-        }),
-        "Largest heading error that still counts as success, degrees; default 10.",
-    ),
-    Key::optional(
-        "symmetric",
-        Value::Switch,
-        "Whether headings at which the object looks the same count alike: quarter turns of a \
-         square, half turns of a rectangle, n-th turns of a regular prism; default true. Write \
-         false where one side is marked.",
-    ),
-]);

@@ -28,14 +28,31 @@ pub fn reach(svg: &mut Svg, view: &View, robot: &Robot) {
 
 /// The area where the goal object may come to rest.
 pub fn goal_area(svg: &mut Svg, view: &View, goal: &Goal) {
-    svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
+    match &goal.area {
+        Some(area) => {
+            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_AREA);
+        }
+        None if goal.has_place() => {
+            svg.circle(view.map(goal.position), view.length(goal.tolerance), palette::GOAL_AREA);
+        }
+        None => {}
+    }
 }
 
 /// Rim of the tolerance, centre cross and, where a heading is asked for, its wedges.
 pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
     let centre = view.map(goal.position);
-    let radius = view.length(goal.tolerance);
-    svg.circle(centre, radius, palette::GOAL_RIM);
+    let radius = match (&goal.area, goal.has_place()) {
+        (Some(area), _) => {
+            view.footprint(svg, &area.shape.footprint(), &area.pose, palette::GOAL_RIM);
+            0.0
+        }
+        (None, true) => view.length(goal.tolerance),
+        (None, false) => 0.0,
+    };
+    if goal.area.is_none() && goal.has_place() {
+        svg.circle(centre, radius, palette::GOAL_RIM);
+    }
     let arm = 7.0;
     for side in [Vector::new(arm, 0.0), Vector::new(0.0, arm)] {
         svg.line(centre - side, centre + side, palette::GOAL_RIM);
@@ -57,7 +74,10 @@ pub fn goal(svg: &mut Svg, view: &View, goal: &Goal) {
 
 /// Where a missed goal lies from where the object ended.
 pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
-    svg.line(view.map(end), view.map(goal.position), palette::GOAL_MISS);
+    if goal.has_place() {
+        let to = goal.area.map_or(goal.position, |area| area.nearest(end));
+        svg.line(view.map(end), view.map(to), palette::GOAL_MISS);
+    }
 }
 
 pub fn obstacle(svg: &mut Svg, view: &View, obstacle: &Obstacle) {

@@ -12,7 +12,7 @@ const FOLLOW: f64 = 1.0;
 /// Everything that must be seen.
 pub struct Extent<'a> {
     pub scene: &'a Scene,
-    pub goals: Vec<&'a Goal>,
+    pub goals: Vec<Goal>,
     pub robot: Option<&'a Robot>,
     pub motion: Option<&'a ToolMotion>,
     pub trajectories: Vec<&'a Trajectory>,
@@ -28,7 +28,11 @@ impl Extent<'_> {
             bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
         }
         for goal in &self.goals {
-            bounds.add(goal.position, goal.tolerance);
+            match &goal.area {
+                Some(area) => bounds.add_body(&area.shape.footprint(), &area.pose),
+                None if goal.has_place() => bounds.add(goal.position, goal.tolerance),
+                None => bounds.add(goal.position, 0.0),
+            }
         }
         if let Some(robot) = self.robot {
             bounds.add(Vector::zeros(), robot.reach_min);

@@ -79,7 +79,7 @@ impl MovingPicture<'_> {
         let view = stage.view;
         bodies::reach(&mut stage.svg, &view, &self.task.robot);
         view.grid_lines(&mut stage.svg);
-        for goal in self.task.goals() {
+        for goal in &self.task.shown_goals() {
             bodies::goal_area(&mut stage.svg, &view, goal);
         }
         for obstacle in &self.task.scene.obstacles {
@@ -106,7 +106,7 @@ impl MovingPicture<'_> {
         }
         self.joints(stage, &ends);
         stage.close(1);
-        for goal in self.task.goals() {
+        for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
         }
         self.story().reached(stage);
@@ -221,7 +221,7 @@ impl MovingPicture<'_> {
     fn extent(&self) -> Extent<'_> {
         Extent {
             scene: &self.task.scene,
-            goals: self.task.goals().collect(),
+            goals: self.task.shown_goals(),
             robot: Some(&self.task.robot),
             motion: Some(self.motion),
             trajectories: vec![self.trajectory],
@@ -229,7 +229,11 @@ impl MovingPicture<'_> {
     }
 
     fn entries(&self) -> Vec<(Sample, String)> {
-        let tolerance = format!("goal, tolerance {}", millimetres(self.task.goal.tolerance));
+        let goal = &self.task.goal;
+        let tolerance = match (&goal.area, goal.has_place()) {
+            (None, true) => format!("goal, tolerance {}", millimetres(goal.tolerance)),
+            _ => "goal".to_owned(),
+        };
         let tool = Style::fill(palette::TOOL_FILL).outlined(palette::TOOL, 1.4);
         let mut entries = vec![(Sample::Area(palette::GOAL_OBJECT), "object to move".to_owned())];
         if self.task.scene.objects.len() > 1 {

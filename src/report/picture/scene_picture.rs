@@ -61,7 +61,7 @@ pub struct ScenePicture<'a> {
     /// Objects at their start, obstacles.
     pub scene: &'a Scene,
     /// Goal circles, and which objects are drawn as those that matter.
-    pub goals: Vec<&'a Goal>,
+    pub goals: Vec<Goal>,
     /// Reach of the end effector.
     pub robot: Option<&'a Robot>,
     /// Tool outlines and push arrows.
@@ -161,7 +161,7 @@ impl ScenePicture<'_> {
             drawn[k] = true;
             strokes::path(svg, view, track.trajectory, k, style);
             bodies::final_object(svg, view, object, end, style);
-            let missed = |goal: &&&Goal| goal.object == k && !goal.reached(&last.state);
+            let missed = |goal: &&Goal| goal.object == k && !goal.reached(&last.state);
             if let Some(goal) = self.goals.iter().find(missed) {
                 bodies::miss(svg, view, goal, end.position);
             }
@@ -208,7 +208,10 @@ impl ScenePicture<'_> {
             let heading = goal.heading.map_or(String::new(), |(_, tolerance)| {
                 format!(", \u{00b1}{:.0}\u{00b0}", tolerance.to_degrees())
             });
-            let words = format!("goal, tolerance {:.0} mm{heading}", goal.tolerance * 1e3);
+            let words = match (&goal.area, goal.has_place()) {
+                (None, true) => format!("goal, tolerance {:.0} mm{heading}", goal.tolerance * 1e3),
+                _ => format!("goal{heading}"),
+            };
             add(Sample::Ring(palette::GOAL_RIM), words);
         }
         if let Some(motion) = self.motion {

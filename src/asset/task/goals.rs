@@ -1,0 +1,283 @@
+//! Goals of a task file: a place, a region, a heading, how far a joint has come.
+
+use crate::asset::node::{Content, Node};
+use crate::asset::spec::{ANGLE, Key, POSITION, Range, SHIFT_LIMIT, Value};
+use crate::asset::strict::Ledger;
+use crate::asset::take::{angle, angle_of, name_of, position, shape, vector};
+use crate::geometry::{Footprint, Pose, clearance};
+use crate::scene::{Goal, JointKind, Scene};
+
+use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
+use super::parts::parts;
+use super::rules::{SLACK, body, known_object};
+use super::spec::default;
+
+/// One goal.
+pub(super) const GOAL: Value = Value::Map(&[
+    Key::required("object", Value::Name, "Name of the object to bring to the goal."),
+    Key::optional(
+        "position",
+        POSITION,
+        "Wanted position of its centre, [x, y] in metres; by default anywhere.",
+    ),
+    Key::optional(
+        "tolerance",
+        Value::Number(Range {
+            what: "a tolerance in metres",
+            low: 0.001,
+            high: 1.0,
+            advice: "2 cm is 0.02; simulators themselves differ by millimetres",
+        }),
+        "Largest distance from the position that still counts as success, metres; no default.",
+    ),
+    Key::optional(
+        "region",
+        Value::Map(&[AREA, AREA_POSITION, AREA_YAW]),
+        "Where its centre may lie instead, a circle, rectangle or polygon; by default nowhere in \
+         particular.",
+    ),
+    Key::optional("heading_deg", ANGLE, "Wanted heading, degrees; by default any."),
+    Key::optional(
+        "heading_tolerance_deg",
+        Value::Number(Range {
+            what: "a tolerance in degrees",
+            low: 0.1,
+            high: 180.0,
+            advice: "5 to 15 degrees are usual",
+        }),
+        "Largest heading error that still counts as success, degrees; default 10.",
+    ),
+    Key::optional(
+        "symmetric",
+        Value::Switch,
+        "Whether headings at which the object looks the same count alike: quarter turns of a \
+         square, half turns of a rectangle, n-th turns of a regular prism; default true. Write \
+         false where one side is marked.",
+    ),
+    Key::optional(
+        "relative_to",
+        Value::Name,
+        "Another object in whose frame position, region and heading are, wherever that has come to; by \
+         default the world.",
+    ),
+    Key::optional(
+        "joint_deg",
+        ANGLE,
+        "How far its revolute joint has turned it, degrees counter-clockwise from the start, against what \
+         it is joined to; by default any.",
+    ),
+    Key::optional(
+        "joint",
+        SHIFT_LIMIT,
+        "How far its prismatic joint has let it slide along the axis, metres from the start, against what \
+         it is joined to; by default any.",
+    ),
+]);
+
+/// The goals of a task's key: it holds one, or a list.
+pub(super) fn each(node: &Node) -> &[Node] {
+    match &node.content {
+        Content::List(_) => node.items(),
+        _ => std::slice::from_ref(node),
+    }
+}
+
+/// The goal, or `None` if anything needed is missing or was faulty.
+pub(super) fn goal(node: &Node, scene: &Scene) -> Option<Goal> {
+    let object = scene.object(node.get("object")?.text()?)?;
+    let within = angle(node, "heading_tolerance_deg", default::HEADING_TOLERANCE)?;
+    let mut goal = match node.get("region") {
+        Some(region) => {
+            let (shape, pose) = area(region)?;
+            Goal::within(object, shape, pose)
+        }
+        None => Goal::of(object),
+    };
+    if node.get("position").is_some() {
+        goal.position = position(node)?;
+        goal.tolerance = node.get("tolerance")?.number()?;
+    }
+    if node.get("heading_deg").is_some() {
+        goal.heading = Some((angle(node, "heading_deg", 0.0)?, within));
+    }
+    if let Some(other) = node.get("relative_to") {
+        goal.relative = Some(scene.object(other.text()?)?);
+    }
+    if let Some(turn) = node.get("joint_deg") {
+        let (there, other) = come(scene, object, angle_of(turn)?)?;
+        (goal.heading, goal.relative) = (Some((there.heading, within)), other);
+    }
+    if let Some(shift) = node.get("joint") {
+        let (there, other) = come(scene, object, shift.number()?)?;
+        (goal.position, goal.relative) = (there.position, other);
+        goal.tolerance = node.get("tolerance")?.number()?;
+    }
+    let symmetric = match node.get("symmetric") {
+        Some(symmetric) => symmetric.switch()?,
+        None => true,
+    };
+    let looks = symmetric && goal.heading.is_some();
+    Some(if looks { goal.looking_alike(scene) } else { goal })
+}
+
+/// Where an object is once its joint has come this far, radians or metres: in the world, or in the frame
+/// of the object that it is joined to.
+fn come(scene: &Scene, object: usize, by: f64) -> Option<(Pose, Option<usize>)> {
+    let start = scene.objects[object].pose;
+    if let Some(mount) = scene.mounts.iter().find(|mount| mount.object == object) {
+        return Some((mount.pose(&start, by), None));
+    }
+    let moves = |kind: &JointKind| *kind != JointKind::Fixed;
+    let mut joints = scene.joints.iter().filter(|joint| moves(&joint.kind));
+    let joint = joints.find(|joint| joint.between.contains(&object))?;
+    let [first, second] = joint.between;
+    // Joints count how far the second object has come against the first.
+    let (other, by) = if second == object { (first, by) } else { (second, -by) };
+    let frame = scene.objects[other].pose.inverse() * start;
+    let there = match joint.kind {
+        JointKind::Prismatic { axis, .. } => {
+            let axis = scene.objects[other].pose.local_vector(axis);
+            Pose { position: frame.position + by * axis, ..frame }
+        }
+        _ => Pose { heading: frame.heading + by, ..frame },
+    };
+    Some((there, Some(other)))
+}
+
+/// Notes what is wrong with a goal.
+pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
+    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
+    let (objects, obstacles) = (section("objects"), section("obstacles"));
+    demands(goal, ledger);
+    if let Some(region) = goal.get("region") {
+        check_area(region, ledger);
+    }
+    let Some(name) = goal.get("object") else { return };
+    let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
+    if let Some(other) = goal.get("relative_to")
+        && let Some(found) = known_object(other, objects, obstacles, ledger)
+        && found.id == object.id
+    {
+        let advice = "name another object, or leave it out for the world";
+        ledger.fault(other, "an object is always where it is to itself", advice);
+    }
+    by_joint(goal, (name, section("joints")), ledger);
+    let solid = object.get("shape").and_then(shape);
+    if let (Some(solid), None) = (solid, goal.get("relative_to")) {
+        room_at_the_goal(goal, &solid.footprint(), name, obstacles, ledger);
+    }
+    let round = solid.is_some_and(|solid| solid.is_cylinder()) && parts(object).is_empty();
+    if let (Some(heading), true) = (goal.get("heading_deg"), round) {
+        ledger.fault(
+            heading,
+            "a cylinder looks the same at every heading, so it cannot have a heading goal",
+            "remove `heading_deg`, or make the object a cuboid",
+        );
+    }
+}
+
+/// A goal asks for something, and for nothing twice.
+fn demands(goal: &Node, ledger: &mut Ledger) {
+    let has = |key: &str| goal.get(key).is_some();
+    for (key, of, what) in [
+        ("heading_tolerance_deg", ["heading_deg", "joint_deg"], "a heading tolerance"),
+        ("symmetric", ["heading_deg", "heading_deg"], "`symmetric`"),
+        ("tolerance", ["position", "joint"], "a tolerance"),
+    ] {
+        if let Some(node) = goal.get(key).filter(|_| !of.iter().any(|of| has(of))) {
+            let needed = if key == "tolerance" { "position" } else { "heading" };
+            let message = format!("{what} without a {needed}");
+            ledger.fault(node, message, format!("add `{}`, or remove it", of[0]));
+        }
+    }
+    for key in ["position", "joint"] {
+        if let (Some(node), false) = (goal.get(key), has("tolerance")) {
+            let message = format!("`{key}` needs a `tolerance`");
+            ledger.fault(node, message, "add `tolerance: 0.02`, in metres");
+        }
+    }
+    let places = ["position", "region", "joint"].into_iter().filter(|key| has(key));
+    let turns = ["heading_deg", "joint_deg"].into_iter().filter(|key| has(key));
+    let (places, turns): (Vec<_>, Vec<_>) = (places.collect(), turns.collect());
+    for twice in [&places, &turns].into_iter().filter(|keys| keys.len() > 1) {
+        let message = format!("`{}` and `{}` ask for the same", twice[0], twice[1]);
+        ledger.fault(goal.get(twice[1]).unwrap_or(goal), message, "keep one of them");
+    }
+    if places.is_empty() && turns.is_empty() {
+        // A misspelt key is one fault, not two.
+        let strange = goal.pairs().iter().any(|(key, _)| {
+            !matches!(&GOAL, Value::Map(keys) if keys.iter().any(|known| key.text() == Some(known.name)))
+        });
+        if !strange {
+            let advice = "add `position: [x, y]` and `tolerance`, `region`, `heading_deg`, `joint_deg` or \
+                          `joint`";
+            ledger.fault(goal, "this goal asks for nothing", advice);
+        }
+    }
+}
+
+/// An object whose joint is to come somewhere has one of the right kind.
+fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger) {
+    for (key, kind) in [("joint_deg", "revolute"), ("joint", "prismatic")] {
+        let Some(node) = goal.get(key) else { continue };
+        let own = joints.iter().filter(|joint| {
+            let between = joint.get("between").map(Node::items).unwrap_or_default();
+            between.iter().any(|name| name.text() == object.text())
+                && joint.get("kind").and_then(Node::text) != Some("fixed")
+        });
+        let own: Vec<&Node> = own.collect();
+        let name = object.text().unwrap_or("?");
+        match own[..] {
+            [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {}
+            [_] => {
+                let message = format!("the joint of `{name}` is not {kind}");
+                let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
+                ledger.fault(node, message, advice);
+            }
+            [] => {
+                let message = format!("`{name}` has no joint that moves");
+                ledger.fault(node, message, "name an object that a joint of the scene lets move");
+            }
+            _ => {
+                let message = format!("`{name}` has several joints, so it is not clear which is meant");
+                ledger.fault(node, message, "ask for a position or a heading instead");
+            }
+        }
+        if let Some(other) = goal.get("relative_to") {
+            let advice = "leave it out: a joint counts against what it joins";
+            ledger.fault(other, format!("`{key}` is relative to something already"), advice);
+        }
+    }
+}
+
+/// A goal at which the object would be inside an obstacle, however it is turned and wherever
+/// within the tolerance it lies.
+fn room_at_the_goal(
+    goal: &Node,
+    object: &Footprint,
+    name: &Node,
+    obstacles: &[Node],
+    ledger: &mut Ledger,
+) {
+    let (Some(node), Some(tolerance)) =
+        (goal.get("position"), goal.get("tolerance").and_then(Node::number))
+    else {
+        return;
+    };
+    let Some(at) = vector(node).map(|position| Pose { position, heading: 0.0 }) else { return };
+    let core = Footprint::Disc { radius: object.inner_radius() - tolerance - SLACK };
+    if core.inner_radius() <= 0.0 {
+        return;
+    }
+    for obstacle in obstacles {
+        let Some((solid, pose)) = body(obstacle) else { continue };
+        if clearance((&core, &at), (&solid, &pose), SLACK) <= 0.0 {
+            let [object, obstacle] = [name.text(), name_of(obstacle)].map(|n| n.unwrap_or("?"));
+            ledger.fault(
+                node,
+                format!("at the goal `{object}` would be inside `{obstacle}`"),
+                "move the goal or the obstacle, or allow a larger tolerance",
+            );
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! A part of the table in which an object may come to rest anywhere.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Footprint, Pose, Shape, Vector, clearance, contact_points};
+
+/// Search and refinement aim at points at least this far inside, metres, or half-way to the middle of
+/// what is narrower: simulations differ by millimetres.
+const INSIDE: f64 = 0.02;
+
+/// Where the centre of an object may lie.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Area {
+    /// Its outline is that of this solid; the height does not matter.
+    pub shape: Shape,
+    /// Where it is, in the world or in the frame of what the goal is relative to.
+    pub pose: Pose,
+}
+
+impl Area {
+    /// How far inside of its rim everything is that is aimed at, metres.
+    pub fn depth(&self) -> f64 {
+        INSIDE.min(0.5 * self.shape.footprint().inner_radius())
+    }
+
+    /// Whether a point lies in it.
+    pub fn holds(&self, point: Vector) -> bool {
+        let at = Pose { position: point, heading: 0.0 };
+        let dot = Footprint::Disc { radius: 0.0 };
+        clearance((&dot, &at), (&self.shape.footprint(), &self.pose), 1e-3) <= 0.0
+    }
+
+    /// The point nearest to `point` of what lies [deep enough](Self::depth) inside.
+    pub fn nearest(&self, point: Vector) -> Vector {
+        let at = Pose { position: point, heading: 0.0 };
+        let dot = Footprint::Disc { radius: 0.0 };
+        let core = self.shape.footprint().shrunk(self.depth());
+        let (points, _) = contact_points((&dot, &at), (&core, &self.pose), f64::INFINITY);
+        match points[0] {
+            Some(found) if found.gap > 0.0 => found.on_second,
+            _ => point,
+        }
+    }
+
+    /// The same smaller by `margin` metres on every side, or by half of what there is.
+    pub fn shrunk(self, margin: f64) -> Self {
+        let height = self.shape.height();
+        let shape = match self.shape.footprint().shrunk(margin) {
+            Footprint::Disc { radius } => Shape::Cylinder { radius, height },
+            Footprint::Rectangle { half } => {
+                Shape::Cuboid { size: [2.0 * half.x, 2.0 * half.y, height] }
+            }
+            Footprint::Polygon(base) => Shape::Prism { base, height },
+        };
+        Self { shape, ..self }
+    }
+
+    /// The same moved by `shift`, metres.
+    pub fn shifted(self, shift: Vector) -> Self {
+        let pose = Pose { position: self.pose.position + shift, ..self.pose };
+        Self { pose, ..self }
+    }
+
+    /// The same seen from where `frame` stands.
+    pub fn seen_from(self, frame: &Pose) -> Self {
+        Self { pose: *frame * self.pose, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_aimed_at_lies_deep_enough_inside() {
+        let shape = Shape::Cuboid { size: [0.2, 0.1, 1.0] };
+        let area = Area { shape, pose: Pose::new(0.5, 0.0, std::f64::consts::FRAC_PI_2) };
+        let close = |point: Vector, x: f64, y: f64| (point - Vector::new(x, y)).norm() < 1e-9;
+        assert!(close(area.nearest(Vector::new(0.7, 0.0)), 0.53, 0.0));
+        assert!(close(area.nearest(Vector::new(0.52, 0.05)), 0.52, 0.05), "inside");
+        assert!(close(area.nearest(Vector::new(0.7, 0.3)), 0.53, 0.08), "a corner");
+        assert!(area.holds(Vector::new(0.549, 0.099)) && !area.holds(Vector::new(0.551, 0.0)));
+    }
+}
