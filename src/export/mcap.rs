@@ -128,9 +128,11 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
         }));
         found.push(entity(&frame_of(k), &frame_of(k), &parts, TOOL));
     }
-    for (k, goal) in plan.task.goals().enumerate().filter(|(_, goal)| goal.has_place()) {
+    let goals = plan.task.shown_goals();
+    for (k, goal) in goals.iter().enumerate().filter(|(_, goal)| goal.has_place()) {
         let disc = Shape::Cylinder { radius: goal.tolerance, height: DISC };
         let there = Pose { position: goal.position, heading: 0.0 };
+        let (disc, there) = goal.area.map_or((disc, there), |area| (area.flat(DISC), area.pose));
         let name = match k {
             0 => "goal".to_owned(),
             _ => format!("goal/{}", scene.objects[goal.object].name),

@@ -182,6 +182,9 @@ fn settings(xml: &mut Xml, meshes: bool) {
     xml.close();
 }
 
+/// What stands for a goal that asks for no place, metres.
+const ANYWHERE: f64 = 1e6;
+
 /// The goal, and what our own replay says.
 fn wanted(xml: &mut Xml, file: &PlanFile) {
     let scene = &file.task.scene;
@@ -190,11 +193,24 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
          a turn that look alike.",
     );
     for goal in file.task.goals() {
-        let mut wanted = vec![goal.position.x, goal.position.y, goal.tolerance];
+        let name = &scene.objects[goal.object].name;
+        // MJCF has no infinity; no table is as large.
+        let tolerance = if goal.has_place() { goal.tolerance } else { ANYWHERE };
+        let mut wanted = vec![goal.position.x, goal.position.y, tolerance];
         let alike = goal.alike as f64;
         let heading = goal.heading.into_iter();
         wanted.extend(heading.flat_map(|(heading, within)| [heading, within, alike]));
-        numeric(xml, &format!("goal of object/{}", scene.objects[goal.object].name), &wanted);
+        numeric(xml, &format!("goal of object/{name}"), &wanted);
+        if let Some(area) = &goal.area {
+            xml.comment("Where it may lie instead: the corners of a region, x, y, x, y and so on.");
+            let corners = area.corners().into_iter().flat_map(|corner| [corner.x, corner.y]);
+            numeric(xml, &format!("region of object/{name}"), &corners.collect::<Vec<_>>());
+        }
+        if let Some(other) = goal.relative {
+            xml.comment("The body in whose frame all of this is.");
+            let data = object_name(&scene.objects[other]);
+            xml.leaf("text", &[("name", format!("frame of object/{name}")), ("data", data)]);
+        }
     }
     if let Some(evidence) = file.verdict.as_ref().and_then(|v| v.nominal(Engine::Spatial)) {
         xml.comment("Where our own 3-D replay ends: x, y, heading.");

@@ -30,6 +30,25 @@ impl Area {
         clearance((&dot, &at), (&self.shape.footprint(), &self.pose), 1e-3) <= 0.0
     }
 
+    /// Its corners, counter-clockwise; of a circle as many points of its rim, as tell it from a polygon
+    /// by less than a thousandth.
+    pub fn corners(&self) -> Vec<Vector> {
+        const ROUND: usize = 64;
+        let own = match self.shape.footprint() {
+            Footprint::Disc { radius } => (0..ROUND)
+                .map(|k| {
+                    let angle = std::f64::consts::TAU * k as f64 / ROUND as f64;
+                    radius * Vector::new(angle.cos(), angle.sin())
+                })
+                .collect(),
+            Footprint::Rectangle { half } => [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                .map(|(x, y)| Vector::new(x * half.x, y * half.y))
+                .to_vec(),
+            Footprint::Polygon(polygon) => polygon.corners().to_vec(),
+        };
+        own.into_iter().map(|corner| self.pose.point(corner)).collect()
+    }
+
     /// The point nearest to `point` of what lies [deep enough](Self::depth) inside.
     pub fn nearest(&self, point: Vector) -> Vector {
         let at = Pose { position: point, heading: 0.0 };
@@ -53,6 +72,15 @@ impl Area {
             Footprint::Polygon(base) => Shape::Prism { base, height },
         };
         Self { shape, ..self }
+    }
+
+    /// Its outline as a solid of this height, metres.
+    pub fn flat(&self, height: f64) -> Shape {
+        match self.shape {
+            Shape::Cylinder { radius, .. } => Shape::Cylinder { radius, height },
+            Shape::Cuboid { size: [x, y, _] } => Shape::Cuboid { size: [x, y, height] },
+            Shape::Prism { base, .. } => Shape::Prism { base, height },
+        }
     }
 
     /// The same moved by `shift`, metres.

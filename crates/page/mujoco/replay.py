@@ -28,6 +28,7 @@ import numpy as np
 JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
+ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
 KINDS = ["object", "obstacle", "tool", "table"]
 SOLIDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
@@ -60,6 +61,11 @@ class Replay:
         numerics = [self.model.numeric(k) for k in range(self.model.nnumeric)]
         self.numbers = {numeric.name: numeric.data for numeric in numerics}
         self.pushes = [data for name, data in self.numbers.items() if name.startswith("push ")]
+        self.frames = {}
+        for k in range(self.model.ntext):
+            name = mujoco.mj_id2name(self.model, mujoco.mjtObj.mjOBJ_TEXT, k)
+            begin, size = self.model.text_adr[k], self.model.text_size[k]
+            self.frames[name] = bytes(self.model.text_data[begin : begin + size]).rstrip(b"\0").decode()
 
     def run(self):
         """Makes all pushes, in order."""
@@ -127,18 +133,44 @@ class Replay:
                 return False
         return True
 
+    def seen(self, name, poses):
+        """The pose of an object as its goal speaks of it: in the world, or in another's frame."""
+        other = self.frames.get(f"frame of {name}")
+        return poses[name] if other is None else seen(poses[name], poses[other])
+
     def pose(self, body):
         """x, y and heading."""
         turn = self.data.xmat[body]
         return [*self.data.xpos[body][:2].tolist(), math.atan2(turn[3], turn[0])]
 
 
-def miss(pose, goal):
+def seen(pose, frame):
+    """A pose in the frame of another one."""
+    x, y, turn = (own - other for own, other in zip(pose, frame))
+    cos, sin = math.cos(frame[2]), math.sin(frame[2])
+    return [cos * x + sin * y, cos * y - sin * x, turn]
+
+
+def beyond(point, corners):
+    """How far a point is outside of a convex region, metres; negative inside."""
+    ends = np.reshape(corners, (-1, 2))
+    sides = np.roll(ends, -1, axis=0) - ends
+    outwards = np.stack([sides[:, 1], -sides[:, 0]], axis=1)
+    outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
+    return float(np.max(np.sum((np.asarray(point) - ends) * outwards, axis=1)))
+
+
+def miss(pose, goal, region):
     """How far from its goal an object ends, the heading error where one counts, and whether both are
     within tolerance."""
     x, y, tolerance, *heading = goal
     error, turned = math.dist(pose[:2], (x, y)), None
     within = error <= tolerance
+    if region is not None:
+        error = max(0.0, beyond(pose[:2], region))
+        within = error == 0.0
+    elif tolerance >= ANYWHERE:
+        error = 0.0
     if heading:
         turned = abs(math.remainder(pose[2] - heading[0], math.tau / heading[2]))
         within = within and turned <= heading[1]
@@ -155,7 +187,11 @@ def replay(path):
         failure = str(failed)
     poses = {name: scene.pose(body) for name, body in scene.objects.items()}
     wanted = {name: scene.numbers.get(f"goal of {name}") for name in scene.objects}
-    misses = {name: miss(poses[name], goal) for name, goal in wanted.items() if goal is not None}
+    misses = {
+        name: miss(scene.seen(name, poses), goal, scene.numbers.get(f"region of {name}"))
+        for name, goal in wanted.items()
+        if goal is not None
+    }
     if failure is None and not all(within for *_, within in misses.values()):
         failure = "misses the goal"
     # Of several objects with goals the first is told of.

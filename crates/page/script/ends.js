@@ -3,8 +3,9 @@
 (() => {
   const SIZE = 280;
   const figure = byId('ends');
-  // Of a run nothing was disturbed, lever-ups end in other ways, and recordings have no goal.
-  const none = Boolean(page.run ?? page.measure);
+  // Of a run nothing was disturbed, lever-ups end in other ways, and recordings have no goal; around
+  // regions and headings ends say nothing.
+  const none = Boolean(page.run ?? page.measure) || page.stage.goal?.tolerance === 0;
   byId('ends-card').hidden = none;
   if (none) return;
 

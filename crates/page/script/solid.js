@@ -96,7 +96,9 @@ const solid = (() => {
     };
     const { objects, obstacles } = page.stage;
     for (const body of [...objects, ...obstacles]) add(posed(body.at), reachOf(body.shape));
-    for (const goal of page.measure ? [] : goals) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    for (const goal of page.measure ? [] : goals) {
+      add(posed([...goal.at, 0]), goal.area ? reachOf(goal.area) : goal.tolerance * LENGTH);
+    }
     for (const stroke of page.measure ? [] : plan().strokes) {
       const room = Math.max(...page.tools[stroke.tool].parts.map(
         (part) => Math.hypot(...posed(part.at).slice(0, 2)) + reachOf(part.shape)));
@@ -128,9 +130,13 @@ const solid = (() => {
 
   function drawGoal(goal, objects) {
     const at = posed([...goal.at, 0]);
-    const disc = new THREE.Mesh(new THREE.CircleGeometry(goal.tolerance * LENGTH, 64),
+    const corners = goal.area?.polygon?.map(([x, y]) => new THREE.Vector2(x * LENGTH, y * LENGTH));
+    const rim = (goal.area?.disc ?? goal.tolerance) * LENGTH;
+    const form = corners ? new THREE.ShapeGeometry(new THREE.Shape(corners)) : new THREE.CircleGeometry(rim, 64);
+    const area = new THREE.Mesh(form,
       new THREE.MeshBasicMaterial({ color: colour('goal'), transparent: true, opacity: 0.25, depthWrite: false }));
-    scene.add(placed(disc, at, THIN), ring(at, goal.tolerance * LENGTH, colour('goal'), 2 * THIN));
+    scene.add(placed(area, at, THIN));
+    if (!corners) scene.add(ring(at, rim, colour('goal'), 2 * THIN));
     if (goal.heading) {
       at[2] = goal.heading[0] * FINE;
       scene.add(placed(piece(objects[goal.object], colour('goal'), colour('goal'), true), at));

@@ -71,7 +71,7 @@
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
     const { objects, obstacles } = page.stage;
-    for (const goal of goals) add(posed([...goal.at, 0]), goal.tolerance * LENGTH);
+    for (const goal of goals) add(posed([...goal.at, 0]), goal.area ? radius(goal.area) : goal.tolerance * LENGTH);
     for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
@@ -150,8 +150,11 @@
     if (goal.heading || 'disc' in own.shape) {
       still.append(outline(own.shape, { transform: at(wanted), class: 'wanted' }));
     }
+    const area = goal.area
+      ? outline(goal.area, { transform: at([wanted[0], wanted[1], 0]), class: 'goal' })
+      : svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' });
     still.append(
-      svg('circle', { cx: x, cy: y, r: px(goal.tolerance * LENGTH), class: 'goal' }),
+      area,
       svg('path', { d: `M${x - 7} ${y}h14M${x} ${y - 7}v14`, class: 'goal-cross' }),
     );
     for (const replay of shown()) {

@@ -118,7 +118,10 @@ pub struct Goal {
     /// Index of the object.
     pub object: usize,
     pub at: [i64; 2],
+    /// Nothing where no place is asked for, or a region.
     pub tolerance: i64,
+    /// The region about `at`, where one is asked for.
+    pub area: Option<Outline>,
     /// Wanted heading and its tolerance, where one is asked for.
     pub heading: Option<[i64; 2]>,
     /// Into how many equal turns a full turn falls after each of which the object looks the same.

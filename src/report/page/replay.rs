@@ -11,10 +11,14 @@ pub fn replay(layer: Layer, trajectory: &Trajectory, reached: bool) -> Option<Re
     replay_of(layer, trajectory.by.to_string(), &trajectory.frames, reached)
 }
 
+/// The frames that can be shown.
+pub fn sound(frames: &[Frame]) -> impl Iterator<Item = &Frame> {
+    frames.iter().filter(|frame| frame.state.is_finite() && frame.tool.is_finite())
+}
+
 /// The same of frames that `by` stands for.
 pub fn replay_of(layer: Layer, by: String, frames: &[Frame], reached: bool) -> Option<Replay> {
-    let sound = |frame: &&Frame| frame.state.is_finite() && frame.tool.is_finite();
-    let frames: Vec<&Frame> = frames.iter().filter(sound).collect();
+    let frames: Vec<&Frame> = sound(frames).collect();
     let objects = frames.first()?.state.poses.len();
     let mut strokes = Vec::new();
     for (k, frame) in frames.iter().enumerate() {

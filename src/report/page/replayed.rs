@@ -14,7 +14,7 @@ use crate::scene::{Engine, Job, Outcome, Plan, Task, Tool, ToolMotion, Trajector
 use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
-use super::replay::{ends, graph, layer_of, replay, replays};
+use super::replay::{sound, ends, graph, layer_of, replay, replays};
 use super::{space, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was
@@ -55,6 +55,11 @@ pub(super) fn shown_replay(
         return space::replay(layer, task, (plan, tools), trajectory, reached);
     }
     let mut replay = replay(layer, trajectory, reached)?;
+    let goal = &task.goal;
+    // The page measures distances from a place; from anything else they are told.
+    if goal.area.is_some() || goal.relative.is_some() || !goal.has_place() {
+        replay.measure = sound(&trajectory.frames).map(|f| length(goal.error(&f.state))).collect();
+    }
     if let (Layer::Predicted, Some(tool)) = (layer, tools.first()) {
         let job = Job::stated(&task.scene, plan.motion(tool));
         replay.graph = graph(&task.scene, &job, trajectory);

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use crate::geometry::{Footprint, Shape, Vector};
+use crate::geometry::{Footprint, Pose, Shape, Vector};
 use crate::report::plan_text::goal_line;
 use crate::scene::{self, Blade, Carried, Plan, SHOWN_HAND, Scene, Slab, Task};
 
@@ -14,15 +14,20 @@ pub fn stage(task: &Task) -> Stage {
         object: goal.object,
         at: point(goal.position),
         // In space something else is measured than the distance.
-        tolerance: if task.in_space() { 0 } else { length(goal.tolerance) },
+        tolerance: match goal.has_place() && goal.area.is_none() && !task.in_space() {
+            true => length(goal.tolerance),
+            false => 0,
+        },
+        area: goal.area.map(|area| turned(outline(&area.shape), area.pose.heading)),
         heading: goal.heading.map(|(heading, tolerance)| [fine(heading), fine(tolerance)]),
         alike: goal.alike,
         words: goal_line(task),
     };
+    let shown = task.shown_goals();
     Stage {
         reach: [task.robot.reach_min, task.robot.reach_max].map(length).to_vec(),
-        goal: Some(goal(&task.goal)),
-        further: task.further.iter().map(goal).collect(),
+        goal: shown.first().map(goal),
+        further: shown.iter().skip(1).map(goal).collect(),
         ..table(&task.scene)
     }
 }
@@ -107,6 +112,21 @@ fn slab(slab: &Slab) -> Body {
         under: length(slab.bottom),
         more: Vec::new(),
         at: [0; 3],
+    }
+}
+
+/// An outline turned about its origin by this angle, radians.
+fn turned(outline: Outline, by: f64) -> Outline {
+    let turn = Pose { heading: by, ..Pose::default() };
+    match outline {
+        Outline::Polygon(corners) => {
+            let corner = |[x, y]: [i64; 2]| {
+                let at = turn.vector(Vector::new(x as f64, y as f64));
+                [at.x.round() as i64, at.y.round() as i64]
+            };
+            Outline::Polygon(corners.into_iter().map(corner).collect())
+        }
+        disc => disc,
     }
 }
 
