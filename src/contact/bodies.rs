@@ -65,7 +65,7 @@ pub struct Given {
     pub turn: Turn,
     /// Friction value.
     pub friction: f64,
-    /// Heights above the table between which it stands, metres.
+    /// Heights above the table between which it is, metres.
     pub span: (f64, f64),
 }
 
@@ -277,7 +277,7 @@ impl Bodies {
                 pose: obstacle.pose,
                 turn: obstacle.pose.turn(),
                 friction: obstacle.friction,
-                span: (0.0, obstacle.size[2]),
+                span: (obstacle.z, obstacle.top()),
             })
             .collect();
         let joints = physics

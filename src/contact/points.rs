@@ -89,8 +89,10 @@ pub(super) fn find_contacts(scenery: Scenery, contacts: &mut Vec<Contact>) {
                 meet(Partner::Part(index));
             }
         }
-        for index in 0..bodies.obstacles.len() {
-            meet(Partner::Obstacle(index));
+        for (index, obstacle) in bodies.obstacles.iter().enumerate() {
+            if obstacle.span.0 < body.height {
+                meet(Partner::Obstacle(index));
+            }
         }
         for other in object + 1..bodies.objects.len() {
             if bodies.groups.of[object] != bodies.groups.of[other] {

@@ -19,6 +19,7 @@ use super::foxglove::{
 const OBJECT: Colour = [0.45, 0.60, 0.80, 1.0];
 const WANTED: Colour = [0.90, 0.55, 0.20, 1.0];
 const OBSTACLE: Colour = [0.45, 0.45, 0.45, 1.0];
+const REGION: Colour = [0.80, 0.20, 0.20, 0.25];
 const TOOL: Colour = [0.30, 0.65, 0.40, 1.0];
 const GOAL: Colour = [0.90, 0.55, 0.20, 0.25];
 
@@ -119,6 +120,11 @@ fn entities(plan: &PlanFile) -> Vec<Json> {
         let name = format!("obstacle/{}", obstacle.name);
         let solid = (obstacle.shape(), obstacle.pose, obstacle.z + obstacle.size[2] / 2.0);
         found.push(entity(TABLE, &name, &[solid], OBSTACLE));
+    }
+    for region in &scene.keep_out {
+        let name = format!("region/{}", region.name);
+        let sheet = (region.sheet(DISC), region.pose, DISC / 2.0);
+        found.push(entity(TABLE, &name, &[sheet], REGION));
     }
     let part = |part: &crate::scene::Part| (part.shape, part.pose, part.shape.height() / 2.0);
     for (k, tool) in plan.tools.iter().enumerate() {

@@ -26,6 +26,7 @@ use super::ExportError;
 use super::forest::{Node, forest};
 use super::mesh;
 use super::pairs;
+use super::regions;
 use super::seamless::seamless;
 use super::space::plan_mjcf;
 use super::xml::{Xml, numbers};
@@ -66,7 +67,7 @@ const CLEAR: f64 = 5e-4;
 
 /// The scene of `file`'s task with its tool and the plan's pushes, as MJCF.
 ///
-/// Names are `object/NAME`, `obstacle/NAME` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
+/// Names are `object/NAME`, `obstacle/NAME`, `region/NAME` and `tool/PARTS`, flush parts being one solid. The pushes, the goal, our rules and
 /// the end of our own 3-D replay (where the file has one) stand under `custom`.
 ///
 /// # Errors
@@ -121,10 +122,11 @@ fn written(
     xml.leaf("geom", &table);
     for obstacle in &scene.obstacles {
         let name = format!("obstacle/{}", obstacle.name);
-        let height = obstacle.size[2] / 2.0;
+        let height = obstacle.z + obstacle.size[2] / 2.0;
         let material = (0.0, obstacle.friction);
         solid(&mut xml, name, &obstacle.shape(), &obstacle.pose, height, material);
     }
+    regions::geoms(&mut xml, scene);
     for tree in &trees {
         body(&mut xml, scene, tree);
     }
@@ -309,7 +311,7 @@ fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
     let objects = objects.map(|object| (object_name(object), raised(&object.shape).0));
     let tool = seamless(motion.tool.outline()).into_iter();
     let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
-    objects.chain(tool).collect()
+    objects.chain(tool).chain(regions::solids(scene)).collect()
 }
 
 /// The joint that attaches object `child`; in MJCF no joint means fixed.
@@ -384,7 +386,7 @@ fn tool(xml: &mut Xml, motion: &ToolMotion, hand: Option<Carried>) {
         solid(xml, format!("tool/{name}"), &shape, &(turned * pose), height, material);
     }
     // It touches nothing: where it would, no plan goes.
-    if let Some(Carried { footprint: Footprint::Disc { radius }, pose, from }) = hand {
+    if let Some(Carried { footprint: Footprint::Disc { radius }, pose, span: [from, _] }) = hand {
         let shape = Shape::Cylinder { radius, height: SHOWN_HAND };
         let middle = from + 0.5 * SHOWN_HAND;
         solid(xml, "tool/hand".into(), &shape, &(turned * pose), middle, (0.0, 0.0));

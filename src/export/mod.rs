@@ -16,6 +16,7 @@ mod mcap;
 mod mesh;
 mod mjcf;
 mod pairs;
+mod regions;
 mod seamless;
 mod space;
 mod xml;

@@ -9,7 +9,7 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance};
-use crate::scene::{Goal, State, Task};
+use crate::scene::{Goal, Obstacle, State, Task};
 
 use super::Corridor;
 
@@ -53,7 +53,10 @@ impl<'a> Field<'a> {
     pub fn new(task: &'a Task) -> Self {
         let start = task.scene.start();
         let goals: Vec<Goal> = task.goals().map(|goal| goal.in_world(&start)).collect();
-        let grid = |goal| (!task.scene.obstacles.is_empty()).then(|| Grid::new(task, goal));
+        let grid = |goal: &Goal| {
+            let met = in_the_way(task, goal);
+            (!met.is_empty()).then(|| Grid::new(task, goal, &met))
+        };
         Self { task, grids: goals.iter().map(grid).collect(), goals: goals.into(), corridor: None }
     }
 
@@ -132,6 +135,12 @@ fn distance(goal: &Goal, grid: &Option<Grid>, position: Vector) -> f64 {
     }
 }
 
+/// The obstacles that a goal's object does not pass below.
+fn in_the_way<'a>(task: &'a Task, goal: &Goal) -> Vec<&'a Obstacle> {
+    let height = task.scene.objects[goal.object].shape.height();
+    task.scene.obstacles.iter().filter(|obstacle| obstacle.meets([0.0, height])).collect()
+}
+
 struct Grid {
     origin: Vector,
     spacing: f64,
@@ -142,7 +151,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(task: &Task, wanted: &Goal) -> Self {
+    fn new(task: &Task, wanted: &Goal, obstacles: &[&Obstacle]) -> Self {
         let object = &task.scene.objects[wanted.object];
         let radius = object.shape.footprint().inner_radius();
         let disc = Footprint::Disc { radius };
@@ -153,7 +162,7 @@ impl Grid {
         };
         include(object.pose.position, BORDER);
         include(wanted.position, BORDER);
-        for obstacle in &task.scene.obstacles {
+        for obstacle in obstacles {
             include(
                 obstacle.pose.position,
                 obstacle.shape().footprint().bounding_radius() + radius + BORDER,
@@ -167,7 +176,7 @@ impl Grid {
         let free: Vec<bool> = (0..columns * rows)
             .map(|cell| {
                 let at = Pose { position: grid.centre(cell), heading: 0.0 };
-                task.scene.obstacles.iter().all(|o| {
+                obstacles.iter().all(|o| {
                     clearance((&disc, &at), (&o.shape().footprint(), &o.pose), spacing) > 0.0
                 })
             })
@@ -175,7 +184,7 @@ impl Grid {
         let goal = Pose { position: wanted.position, heading: 0.0 };
         let seen = |position: Vector| {
             let from = Pose { position, heading: 0.0 };
-            task.scene.obstacles.iter().all(|o| {
+            obstacles.iter().all(|o| {
                 let still = (&o.shape().footprint(), &o.pose);
                 swept_clearance(&disc, &from, &goal, still, spacing) > 0.0
             })

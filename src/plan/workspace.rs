@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::geometry::{
     Footprint, Pose, Vector, clearance, perpendicular, swept_clearance, travel_to_contact,
 };
-use crate::scene::{Push, PushForm, State, Task, Tool};
+use crate::scene::{Fixed, Mover, Part, Push, PushForm, State, Task, Tool};
 
 use super::{CandidatePush, Infeasible, Start};
 
@@ -175,29 +175,28 @@ impl Workspace<'_> {
         if free < MIN_LENGTH {
             return Err(Infeasible::Reach);
         }
-        let tool = &*self.tools[tool];
+        let (tool, scene) = (&*self.tools[tool], &self.task.scene);
         let frame = tool.pose(Pose { position: start, heading: grip_yaw });
+        let room = |moving: (&Footprint, &Pose), fixed: &Fixed, apart: f64| {
+            let grown = fixed.footprint.grown(apart);
+            travel_to_contact(moving, ahead, (&grown, &fixed.pose))
+        };
         for (k, part) in tool.parts().iter().enumerate() {
-            let from = tool.part_pose(k, &frame);
-            for obstacle in self.task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
-                let grown = obstacle.shape().footprint().grown(OBSTACLE_CLEARANCE);
-                let moving = (&part.footprint(), &from);
-                match travel_to_contact(moving, ahead, (&grown, &obstacle.pose)) {
+            let (shape, from) = (part.footprint(), tool.part_pose(k, &frame));
+            let span = self.span_of(part);
+            for fixed in scene.fixed(Mover::Tool, span) {
+                match room((&shape, &from), &fixed, OBSTACLE_CLEARANCE) {
                     Some(t) if t <= 0.0 => return Err(Infeasible::Obstacle),
                     Some(t) => free = free.min(t),
                     None => {}
                 }
             }
-        }
-        for (k, part) in tool.parts().iter().enumerate() {
-            for region in self.task.scene.keep_out.iter().filter(|region| region.tool) {
-                let grown = region.footprint().grown(OBSTACLE_CLEARANCE);
-                let moving = (&part.footprint(), &tool.part_pose(k, &frame));
-                match travel_to_contact(moving, ahead, (&grown, &region.pose)) {
-                    Some(t) if t <= 0.0 => return Err(Infeasible::Obstacle),
-                    Some(t) => free = free.min(t),
-                    None => {}
-                }
+            let below = |fixed: Fixed| {
+                let still = (&fixed.footprint, &fixed.pose);
+                clearance((&shape, &from), still, FAR) < OBSTACLE_CLEARANCE
+            };
+            if self.is_placed() && scene.above(span[1]).any(below) {
+                return Err(Infeasible::Obstacle);
             }
         }
         if free < MIN_LENGTH {
@@ -205,15 +204,8 @@ impl Workspace<'_> {
         }
         for carried in robot.carried(tool, self.task.pushes.lift).into_iter().flatten() {
             let moving = (&carried.footprint, &(frame * carried.pose));
-            for obstacle in self.task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
-                let grown = obstacle.shape().footprint().grown(HAND_CLEARANCE);
-                let room = travel_to_contact(moving, ahead, (&grown, &obstacle.pose));
-                free = free.min(room.unwrap_or(f64::INFINITY));
-            }
-            for region in self.task.scene.keep_out.iter().filter(|region| region.hand) {
-                let grown = region.footprint().grown(HAND_CLEARANCE);
-                let room = travel_to_contact(moving, ahead, (&grown, &region.pose));
-                free = free.min(room.unwrap_or(f64::INFINITY));
+            for fixed in scene.fixed(Mover::Hand, carried.span) {
+                free = free.min(room(moving, &fixed, HAND_CLEARANCE).unwrap_or(f64::INFINITY));
             }
         }
         if free < MIN_LENGTH { Err(Infeasible::Hand) } else { Ok(free) }
@@ -232,17 +224,17 @@ impl Workspace<'_> {
         let most = FAR + HAND_CLEARANCE;
         for carried in task.robot.carried(tool, task.pushes.lift).into_iter().flatten() {
             let [from, to] = [from, to].map(|frame| *frame * carried.pose);
-            for other in task.scene.obstacles.iter().filter(|o| carried.from < o.size[2]) {
-                let still = (&other.shape().footprint(), &other.pose);
+            for other in task.scene.fixed(Mover::Hand, carried.span) {
+                let still = (&other.footprint, &other.pose);
                 least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
             }
-            for region in task.scene.keep_out.iter().filter(|region| region.hand) {
-                let still = (&region.footprint(), &region.pose);
-                least = least.min(swept_clearance(&carried.footprint, &from, &to, still, most));
+            for other in task.scene.above(carried.span[1]).filter(|_| set_down) {
+                let still = (&other.footprint, &other.pose);
+                least = least.min(clearance((&carried.footprint, &from), still, most));
             }
             let objects = task.scene.objects.iter().zip(&state.poses).enumerate();
             for (k, (object, pose)) in objects {
-                if carried.from >= object.shape.height() {
+                if carried.span[0] >= object.shape.height() {
                     continue;
                 }
                 let still = (&object.shape.footprint(), pose);
@@ -274,14 +266,14 @@ impl Workspace<'_> {
         for (k, part) in tool.parts().iter().enumerate() {
             let (shape, from, to) =
                 (part.footprint(), tool.part_pose(k, &from), tool.part_pose(k, &to));
-            for other in task.scene.obstacles.iter().filter(|o| self.meets(o.size[2])) {
-                let still = (&other.shape().footprint(), &other.pose);
-                let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
+            let (span, most) = (self.span_of(part), FAR + OBSTACLE_CLEARANCE);
+            for other in task.scene.fixed(Mover::Tool, span) {
+                let still = (&other.footprint, &other.pose);
+                let gap = swept_clearance(&shape, &from, &to, still, most);
                 obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
             }
-            for region in task.scene.keep_out.iter().filter(|region| region.tool) {
-                let still = (&region.footprint(), &region.pose);
-                let gap = swept_clearance(&shape, &from, &to, still, FAR + OBSTACLE_CLEARANCE);
+            for other in task.scene.above(span[1]).filter(|_| set_down.is_some()) {
+                let gap = clearance((&shape, &from), (&other.footprint, &other.pose), most);
                 obstacle = obstacle.min(gap - OBSTACLE_CLEARANCE);
             }
             if let Some(room) = set_down {
@@ -354,6 +346,12 @@ impl Workspace<'_> {
     fn object(&self, index: usize, state: &State) -> (Footprint, f64, Pose) {
         let shape = self.task.scene.objects[index].shape;
         (shape.footprint(), shape.height(), state.poses[index])
+    }
+
+    /// Heights above the table between which a part of a tool is, metres.
+    fn span_of(&self, part: &Part) -> [f64; 2] {
+        let lift = self.task.pushes.lift;
+        [lift, lift + part.shape.height()]
     }
 
     /// Whether the tool's parts and a body of this height standing on the table can touch.

@@ -62,7 +62,9 @@ impl Depths {
                 }
             }
             for (k, obstacle) in bodies.obstacles.iter().enumerate() {
-                meet(object, Body::Obstacle(k), &obstacle.footprint, &obstacle.pose);
+                if obstacle.span.0 < body.height {
+                    meet(object, Body::Obstacle(k), &obstacle.footprint, &obstacle.pose);
+                }
             }
             for (k, part) in bodies.parts.iter().enumerate() {
                 if part.span.0 < body.height {

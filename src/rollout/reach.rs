@@ -151,7 +151,7 @@ impl Reach {
             let obstacle = &whole.obstacles[index];
             objects.iter().any(|&SceneIndex(k)| {
                 let gap = gap(&obstacle.footprint, &obstacle.pose, state.poses[k].position);
-                gap <= whole.objects[k].radius + near
+                obstacle.span.0 < whole.objects[k].height && gap <= whole.objects[k].radius + near
             })
         }));
         subset.gather(whole);

@@ -44,8 +44,8 @@ pub struct Carried {
     pub footprint: Footprint,
     /// Where it is in the tool frame.
     pub pose: Pose,
-    /// Height of its underside above the table, metres.
-    pub from: f64,
+    /// Heights above the table between which it is, metres; above a hand there is the arm.
+    pub span: [f64; 2],
 }
 
 /// Height of a hand as it is shown, metres.
@@ -88,13 +88,13 @@ impl Robot {
         let palm = Carried {
             footprint: Footprint::Disc { radius: hand.radius },
             pose: tool.grip,
-            from: hand.from.unwrap_or(top.max(LOWEST)),
+            span: [hand.from.unwrap_or(top.max(LOWEST)), f64::INFINITY],
         };
         let way: Vector = held.pose.position - tool.grip.position;
         let handle = (gap > HANDLE).then(|| Carried {
             footprint: Footprint::Rectangle { half: Vector::new(0.5 * way.norm(), HANDLE) },
             pose: Pose { position: tool.grip.position + 0.5 * way, heading: way.y.atan2(way.x) },
-            from: lift,
+            span: [lift, top],
         });
         [Some(palm), handle]
     }
@@ -125,12 +125,12 @@ mod tests {
     fn a_hand_begins_above_the_tool_and_its_fingers_and_holds_what_is_away_by_a_handle() {
         let robot = Robot::reaching(0.3, 0.9);
         let [palm, handle] = held(0.0, &robot);
-        assert_eq!((palm.map(|palm| palm.from), handle), (Some(LOWEST), None));
+        assert_eq!((palm.map(|palm| palm.span[0]), handle), (Some(LOWEST), None));
         let [_, handle] = held(0.15, &robot);
         let handle = handle.expect("the grip is 10 cm from the bar");
-        assert!(handle.from < 0.01 && (handle.pose.position.x - 0.075).abs() < 1e-12);
+        assert!(handle.span[0] < 0.01 && (handle.pose.position.x - 0.075).abs() < 1e-12);
         let low = Robot { hand: Some(Hand { from: Some(0.03), ..Hand::default() }), ..robot };
-        assert_eq!(held(0.0, &low)[0].map(|palm| palm.from), Some(0.03));
+        assert_eq!(held(0.0, &low)[0].map(|palm| palm.span[0]), Some(0.03));
         assert_eq!(held(0.15, &Robot { hand: None, ..robot }), [None, None]);
         assert!(robot.column().is_some() && Robot::reaching(0.0, 0.9).column().is_none());
     }

@@ -36,6 +36,22 @@ impl Region {
         self.shape.footprint()
     }
 
+    /// Its outline as a sheet on the table that is so thick, metres: to be shown.
+    pub fn sheet(&self, thick: f64) -> Shape {
+        match self.shape {
+            Shape::Cylinder { radius, .. } => Shape::Cylinder { radius, height: thick },
+            Shape::Cuboid { size: [x, y, _] } => Shape::Cuboid { size: [x, y, thick] },
+            Shape::Prism { base, .. } => Shape::Prism { base, height: thick },
+        }
+    }
+
+    /// Who keeps out of it, in words.
+    pub fn words(&self) -> String {
+        let all = [(self.objects, "objects"), (self.tool, "tool"), (self.hand, "hand")];
+        let all: Vec<&str> = all.iter().filter(|(out, _)| *out).map(|(_, word)| *word).collect();
+        format!("no place for {}", all.join(", "))
+    }
+
     /// Whether this footprint is in it, there, or nearer to it than `margin` metres.
     pub fn holds(&self, footprint: &Footprint, pose: &Pose, margin: f64) -> bool {
         let own = match margin {

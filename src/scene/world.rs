@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{ConvexPolygon, Pose, Pose3, Shape, Solid, Vector};
+use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, Mount, PairFriction, REST_SPEED, Region, Slab, State, Support, Surface, Whole,
-    pair_friction,
+    Feet, Joint, JointKind, Mount, Obstacle, PairFriction, REST_SPEED, Region, Slab, State, Support,
+    Surface, Whole, pair_friction,
 };
 
 /// A movable body.
@@ -48,24 +48,8 @@ pub struct Object {
     pub whole: Option<Whole>,
 }
 
-fn is_zero(value: &f64) -> bool {
+pub(super) fn is_zero(value: &f64) -> bool {
     *value == 0.0
-}
-
-/// A cuboid fixed to the table: a wall, a standoff, the floor of a tray.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Obstacle {
-    /// Unique among objects and obstacles.
-    pub name: String,
-    /// Full extents, metres.
-    pub size: [f64; 3],
-    /// Where it stands: its middle seen from above.
-    pub pose: Pose,
-    /// Height of its underside above the table, metres.
-    #[serde(with = "planar_only", default, skip_serializing_if = "is_zero")]
-    pub z: f64,
-    /// Friction value.
-    pub friction: f64,
 }
 
 impl Object {
@@ -161,40 +145,6 @@ impl Object {
     }
 }
 
-impl Obstacle {
-    /// A fixed cuboid of these full extents (metres), of the table's usual friction value.
-    pub fn new(name: impl Into<String>, size: [f64; 3], pose: Pose) -> Self {
-        Self { name: name.into(), size, pose, z: 0.0, friction: Scene::FRICTION }
-    }
-
-    /// The obstacle with its underside this high above the table, metres.
-    pub fn raised(self, z: f64) -> Self {
-        Self { z, ..self }
-    }
-
-    /// Where it is, as a solid in space.
-    pub fn solid(&self) -> Solid {
-        let middle = Pose3::upright(self.pose, self.z + 0.5 * self.size[2]);
-        Solid::cuboid(self.size, &middle)
-    }
-
-    /// What pushes must keep away from: the obstacle down to the table.
-    pub fn grounded(&self) -> Self {
-        let [x, y, z] = self.size;
-        Self { size: [x, y, self.z + z], z: 0.0, ..self.clone() }
-    }
-
-    /// The obstacle with another friction value.
-    pub fn friction(self, friction: f64) -> Self {
-        Self { friction, ..self }
-    }
-
-    /// Its solid.
-    pub fn shape(&self) -> Shape {
-        Shape::Cuboid { size: self.size }
-    }
-}
-
 /// A table that ends somewhere: a rectangle along the world's axes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TableTop {
@@ -230,7 +180,7 @@ pub struct Scene {
     /// Joints between objects and the world.
     #[serde(with = "planar_only", default, skip_serializing_if = "Vec::is_empty")]
     pub mounts: Vec<Mount>,
-    /// Fixed cuboids.
+    /// Fixed cuboids, on the table or above it.
     pub obstacles: Vec<Obstacle>,
     /// Frictions of pairs that are not the mean of the two values.
     #[serde(default)]
@@ -289,10 +239,9 @@ impl Scene {
         self
     }
 
-    /// Whether something in it is more than an upright solid on the table.
+    /// Whether some object in it is more than an upright solid on the table.
     pub fn in_space(&self) -> bool {
         self.objects.iter().any(Object::in_space)
-            || self.obstacles.iter().any(|obstacle| obstacle.z != 0.0)
     }
 
     /// Every object at its start, at rest.

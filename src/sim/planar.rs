@@ -108,6 +108,7 @@ impl World for PlanarWorld {
             this.add_object(scene, physics, motion, index, member);
         }
         this.add_obstacles(scene);
+        this.seams.pass(&this.labels, scene);
         for label in this.seams.rub(&this.labels, physics) {
             this.ask_for_contacts(label);
         }
@@ -313,6 +314,7 @@ impl PlanarWorld {
             let pose = to_rapier(&obstacle.pose, self.origin);
             let body = self.world.insert_body(RigidBodyBuilder::fixed().pose(pose));
             let collider = collider(&obstacle.shape().footprint(), obstacle.friction)
+                .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS)
                 .collision_groups(groups(OBSTACLE, TALL | LOW));
             self.insert(collider, Body::Obstacle(index), body);
         }

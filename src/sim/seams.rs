@@ -1,14 +1,17 @@
-//! No contacts at the seams of a tool, and the friction of pairs that have one of their own.
+//! No contacts at the seams of a tool and, seen from above, with what is passed below; and the friction
+//! of pairs that have one of their own.
 //!
 //! The engines look at each piece of a tool alone, so a body that slides along the tool would be
 //! caught by the corner of the next piece. Contacts where a piece cannot be touched, because
 //! another one continues its face or covers it, are taken away before they are solved.
 
+use std::collections::HashSet;
+
 use rapier2d::prelude as planar;
 use rapier3d_f64::prelude as spatial;
 
 use crate::geometry::{Rim, Vector};
-use crate::scene::{Body, Physics, Surface};
+use crate::scene::{Body, Physics, Scene, Surface};
 
 /// Normals that rise more steeply than this (sine) are those of top or underside.
 const STEEP: f64 = 0.5;
@@ -20,6 +23,8 @@ pub(super) struct Seams {
     rims: Vec<Option<Rim>>,
     /// Coefficients of friction of pairs.
     frictions: Vec<([u128; 2], f64)>,
+    /// Obstacles and what passes below them, seen from above.
+    passing: HashSet<[u128; 2]>,
 }
 
 impl Seams {
@@ -51,6 +56,21 @@ impl Seams {
         asking
     }
 
+    /// Lets objects pass below what is above them, where all is seen from above.
+    pub fn pass(&mut self, labels: &[Body], scene: &Scene) {
+        for (first, above) in labels.iter().enumerate() {
+            let Body::Obstacle(above) = *above else { continue };
+            for (second, below) in labels.iter().enumerate() {
+                let Body::Object(below) = *below else { continue };
+                let height = scene.objects[below].shape.height();
+                if !scene.obstacles[above].meets([0.0, height]) {
+                    self.passing
+                        .extend([[first, second], [second, first]].map(|k| k.map(|k| k as u128)));
+                }
+            }
+        }
+    }
+
     fn friction(&self, first: u128, second: u128) -> Option<f64> {
         let is_it = |pair: &[u128; 2]| *pair == [first, second] || *pair == [second, first];
         self.frictions.iter().find(|(pair, _)| is_it(pair)).map(|(_, friction)| *friction)
@@ -62,6 +82,15 @@ impl Seams {
 }
 
 impl planar::PhysicsHooks for Seams {
+    fn filter_contact_pair(
+        &self,
+        context: &planar::PairFilterContext<'_>,
+    ) -> Option<planar::SolverFlags> {
+        let label = |collider: planar::ColliderHandle| context.colliders[collider].user_data;
+        let pair = [context.collider1, context.collider2].map(label);
+        (!self.passing.contains(&pair)).then(planar::SolverFlags::default)
+    }
+
     fn modify_solver_contacts(&self, context: &mut planar::ContactModificationContext<'_>) {
         let label = |collider: planar::ColliderHandle| context.colliders[collider].user_data;
         let [first, second] = [context.collider1, context.collider2].map(label);

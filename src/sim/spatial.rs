@@ -313,7 +313,8 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
 
     fn add_obstacles(&mut self, scene: &Scene) {
         for (index, obstacle) in scene.obstacles.iter().enumerate() {
-            let pose = to_rapier(&obstacle.pose, &self.frame, obstacle.size[2] / 2.0);
+            let middle = obstacle.z + obstacle.size[2] / 2.0;
+            let pose = to_rapier(&obstacle.pose, &self.frame, middle);
             let body = self.world.insert_body(RigidBodyBuilder::fixed().pose(pose));
             let collider = solid(&obstacle.shape(), Pose3::IDENTITY, obstacle.friction);
             self.insert(collider, Body::Obstacle(index), body);

@@ -3,10 +3,10 @@
 //! Written apart from the planner's own rules, which are stricter: it keeps distances; this only
 //! says what no robot can do or the task forbids.
 
-use crate::geometry::{Footprint, Pose, Vector, swept_clearance, wrap_angle};
+use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance, wrap_angle};
 use crate::scene::{
-    Obstacle, Plan, Push, PushFault, PushForm, PushStep, Region, Robot, Scene, Task, Tool,
-    ToolChoice, Warning,
+    Fixed, Mover, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
+    Warning,
 };
 
 /// Slack for rounding, metres and radians.
@@ -46,15 +46,11 @@ pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec
         if !is_within_reach(&task.robot, &step.push) {
             found.push(Warning::OutOfReach { push: index });
         }
-        if let Some(obstacle) = in_the_way(&scene.obstacles, tool, step)
-            .map(|obstacle| &obstacle.name)
-            .or_else(|| tool_in(scene, tool, step))
-        {
-            let obstacle = obstacle.clone();
+        let set_down = step.form == PushForm::Placed || index == 0;
+        if let Some(obstacle) = in_the_way(scene, tool, step, set_down) {
             found.push(Warning::ThroughObstacle { push: index, obstacle });
         }
-        if let Some(obstacle) = at_the_hand(task, scene, tool, step) {
-            let obstacle = obstacle.clone();
+        if let Some(obstacle) = at_the_hand(task, scene, tool, step, set_down) {
             found.push(Warning::HandThrough { push: index, obstacle });
         }
     }
@@ -96,62 +92,59 @@ fn forms(task: &Task, plan: &Plan) -> Vec<Warning> {
         .collect()
 }
 
-/// The first obstacle that the tool goes through during a push.
-pub(super) fn in_the_way<'a>(
-    obstacles: &'a [Obstacle],
+/// What fixed thing the tool runs into during a push, or when it comes down from above before it.
+pub(super) fn in_the_way(
+    scene: &Scene,
     tool: &Tool,
     step: &PushStep,
-) -> Option<&'a Obstacle> {
-    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
-    let (from, to) = (frame(step.push.start), frame(step.push.end()));
-    obstacles.iter().find(|obstacle| {
-        let still = (&obstacle.shape().footprint(), &obstacle.pose);
-        let meets = |k: usize| {
-            let (part, ends) = (tool.parts()[k].footprint(), [from, to]);
-            let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
-            swept_clearance(&part, &from, &to, still, SLACK) <= 0.0
-        };
-        step.lift < obstacle.size[2] && (0..tool.parts().len()).any(meets)
+    set_down: bool,
+) -> Option<String> {
+    let ends = ends(tool, step);
+    (0..tool.parts().len()).find_map(|k| {
+        let (shape, ends) = (tool.parts()[k].footprint(), ends.map(|at| tool.part_pose(k, &at)));
+        let span = [step.lift, step.lift + tool.parts()[k].shape.height()];
+        met(scene, Mover::Tool, (&shape, ends, span), set_down)
     })
 }
 
-/// The first obstacle that the hand, or the handle that it holds the tool by, goes through.
-fn at_the_hand<'a>(
+/// What fixed thing the hand, or the handle that it holds the tool by, runs into.
+fn at_the_hand(
     task: &Task,
-    scene: &'a Scene,
+    scene: &Scene,
     tool: &Tool,
     step: &PushStep,
-) -> Option<&'a String> {
-    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
-    let (from, to) = (frame(step.push.start), frame(step.push.end()));
-    let carried = task.robot.carried(tool, step.lift).into_iter().flatten();
-    let mut carried = carried.map(|one| (one, from * one.pose, to * one.pose));
-    carried.find_map(|(one, from, to)| {
-        let met = |footprint: &Footprint, pose: &Pose| {
-            swept_clearance(&one.footprint, &from, &to, (footprint, pose), SLACK) <= 0.0
-        };
-        let obstacle = scene.obstacles.iter().find(|obstacle| {
-            one.from < obstacle.size[2] && met(&obstacle.shape().footprint(), &obstacle.pose)
-        });
-        let mut regions = scene.keep_out.iter().filter(|region| region.hand);
-        let mut region = || regions.find(|region| met(&region.footprint(), &region.pose));
-        obstacle.map(|one| &one.name).or_else(|| Some(&region()?.name))
+    set_down: bool,
+) -> Option<String> {
+    let ends = ends(tool, step);
+    task.robot.carried(tool, step.lift).into_iter().flatten().find_map(|carried| {
+        let ends = ends.map(|at| at * carried.pose);
+        met(scene, Mover::Hand, (&carried.footprint, ends, carried.span), set_down)
     })
 }
 
-/// The first region that the tool goes through and keeps out of.
-fn tool_in<'a>(scene: &'a Scene, tool: &Tool, step: &PushStep) -> Option<&'a String> {
-    let frame = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
-    let ends = [frame(step.push.start), frame(step.push.end())];
-    let mut regions = scene.keep_out.iter().filter(|region| region.tool);
-    let through = |region: &&Region| {
-        let still = (&region.footprint(), &region.pose);
-        (0..tool.parts().len()).any(|k| {
-            let [from, to] = ends.map(|frame| tool.part_pose(k, &frame));
-            swept_clearance(&tool.parts()[k].footprint(), &from, &to, still, SLACK) <= 0.0
-        })
+/// The poses of a tool before and after a push.
+fn ends(tool: &Tool, step: &PushStep) -> [Pose; 2] {
+    let at = |at: Vector| tool.pose(Pose { position: at, heading: step.grip_yaw });
+    [at(step.push.start), at(step.push.end())]
+}
+
+/// The name of what something runs into on its way, or on its way down to where that begins.
+fn met(
+    scene: &Scene,
+    mover: Mover,
+    (shape, [from, to], span): (&Footprint, [Pose; 2], [f64; 2]),
+    set_down: bool,
+) -> Option<String> {
+    let on_the_way = |fixed: &Fixed| {
+        let still = (&fixed.footprint, &fixed.pose);
+        swept_clearance(shape, &from, &to, still, SLACK) <= 0.0
     };
-    regions.find(through).map(|region| &region.name)
+    let on_the_way_down = |fixed: &Fixed| {
+        set_down && clearance((shape, &from), (&fixed.footprint, &fixed.pose), SLACK) <= 0.0
+    };
+    let mut fixed = scene.fixed(mover, span);
+    let found = fixed.find(on_the_way).or_else(|| scene.above(span[1]).find(on_the_way_down));
+    found.map(|fixed| fixed.name.to_owned())
 }
 
 /// Whether the end effector is within reach all along a push.

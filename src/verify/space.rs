@@ -121,7 +121,8 @@ pub(super) fn broken_rules(
         rows.filter(|row| *row > allowed).map(|pushes| Warning::TooManyPushes { pushes, allowed }),
     );
     // A tool that is driven goes through what is fixed without a trace.
-    let fixed: Vec<Obstacle> = scene.obstacles.iter().map(Obstacle::grounded).collect();
+    let obstacles = scene.obstacles.iter().map(Obstacle::grounded).collect();
+    let fixed = Scene { obstacles, ..scene.clone() };
     for (index, step) in plan.steps.iter().enumerate() {
         let Some(tool) = tools.iter().find(|tool| tool.name == step.tool()) else { continue };
         match step {
@@ -138,7 +139,7 @@ pub(super) fn broken_rules(
 /// What a push does that the task does not allow or no robot can do.
 fn broken_by_push(
     task: &Task,
-    fixed: &[Obstacle],
+    fixed: &Scene,
     tool: &Tool,
     (push, step): (usize, &PushStep),
 ) -> Vec<Warning> {
@@ -150,8 +151,8 @@ fn broken_by_push(
     if !is_within_reach(&task.robot, &step.push) {
         found.push(Warning::OutOfReach { push });
     }
-    let met = in_the_way(fixed, tool, step);
-    found.extend(met.map(|met| Warning::ThroughObstacle { push, obstacle: met.name.clone() }));
+    let met = in_the_way(fixed, tool, step, true);
+    found.extend(met.map(|obstacle| Warning::ThroughObstacle { push, obstacle }));
     found
 }
 

@@ -30,6 +30,7 @@ mod models;
 mod mujoco_python;
 mod network;
 mod outside;
+mod overhead;
 mod owner;
 mod pages;
 mod pairs;

@@ -29,7 +29,7 @@ JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it canno
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
 ANYWHERE = 1e6  # the tolerance of a goal that asks for no place
-KINDS = ["object", "obstacle", "tool", "table"]
+KINDS = ["object", "obstacle", "tool", "table", "region"]
 SOLIDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "cuboid",
     mujoco.mjtGeom.mjGEOM_CYLINDER: "cylinder",

@@ -144,10 +144,14 @@ const solid = (() => {
   }
 
   function drawStill() {
-    const { objects, obstacles, reach } = page.stage;
+    const { objects, obstacles, reach, regions = [] } = page.stage;
     for (const radius of reach) scene.add(ring([0, 0], radius * LENGTH, colour('accent')));
     for (const body of obstacles) {
-      scene.add(placed(piece(body, colour('hatch'), colour('other-rim')), posed(body.at)));
+      scene.add(placed(piece(body, colour('hatch'), colour('other-rim'), body.under > 0), posed(body.at)));
+    }
+    for (const body of regions) {
+      const flat = { ...body, height: (2 * THIN) / LENGTH };
+      scene.add(placed(piece(flat, colour('bad'), colour('bad'), true), posed(body.at)));
     }
     for (const { object } of goals) {
       for (const replay of shown()) {

@@ -7,10 +7,11 @@
   const root = svg('svg', { role: 'img', class: 'plot' });
   const still = svg('g');
   const moving = svg('g');
+  const over = svg('g'); // what is above the table
   const pushes = svg('g');
   const graph = svg('g');
   const RELATIONS = ['contact', 'fixed', 'revolute', 'prismatic'];
-  root.append(svg('title', {}, 'The table from above'), still, moving, pushes, graph);
+  root.append(svg('title', {}, 'The table from above'), still, moving, over, pushes, graph);
   byId('stage').append(root);
 
   let width = 800; // pixels
@@ -70,9 +71,9 @@
       low = [Math.min(low[0], x - room), Math.min(low[1], y - room)];
       high = [Math.max(high[0], x + room), Math.max(high[1], y + room)];
     };
-    const { objects, obstacles } = page.stage;
+    const { objects, obstacles, regions = [] } = page.stage;
     for (const goal of goals) add(posed([...goal.at, 0]), goal.area ? radius(goal.area) : goal.tolerance * LENGTH);
-    for (const body of [...objects, ...obstacles]) add(posed(body.at), radius(body.shape));
+    for (const body of [...objects, ...obstacles, ...regions]) add(posed(body.at), radius(body.shape));
     // Where nothing moves there is room to show the robot.
     if (!plan().strokes.length) add([0, 0]);
     for (const stroke of plan().strokes) {
@@ -117,7 +118,7 @@
 
   function drawStill() {
     still.replaceChildren();
-    const { objects, obstacles, reach, table } = page.stage;
+    const { objects, obstacles, reach, table, regions = [] } = page.stage;
     if (table) {
       const [[x, y], [w, h]] = table.map((pair) => pair.map((value) => value * LENGTH));
       const [left, top] = map([x - w / 2, y + h / 2]);
@@ -129,10 +130,14 @@
       still.append(svg('circle', { cx: baseX, cy: baseY, r: px(ring * LENGTH), class: 'reach' }));
     }
     still.append(svg('circle', { cx: baseX, cy: baseY, r: 4, class: 'robot' }, svg('title', {}, 'robot')));
-    for (const body of obstacles) {
-      const shape = outline(body.shape, { transform: at(posed(body.at)), class: 'obstacle' });
-      shape.append(svg('title', {}, body.name));
-      still.append(shape);
+    over.replaceChildren();
+    const fixed = [[regions, 'keep-out'], [obstacles, 'obstacle']];
+    for (const [bodies, className] of fixed) for (const body of bodies) {
+      const name = body.under ? 'overhead' : className;
+      const shape = outline(body.shape, { transform: at(posed(body.at)), class: name });
+      const height = (body.under * LENGTH).toFixed(3);
+      shape.append(svg('title', {}, body.under ? `${body.name}, ${height} m above the table` : body.name));
+      (body.under ? over : still).append(shape);
     }
     objects.forEach((body, k) => {
       const className = wants(k) ? 'start own' : 'start';

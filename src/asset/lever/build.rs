@@ -4,7 +4,9 @@ use std::path::Path;
 
 use crate::asset::node::Node;
 use crate::asset::take::{angle, name_of, number_or, pose, triple, vector};
-use crate::asset::task::{named_tools, pushes_of, reach_of, unknown_of};
+use crate::asset::task::{
+    height_of as height, named_tools, obstacle_of, pushes_of, reach_of, unknown_of,
+};
 use crate::asset::text::apart_by_name;
 use crate::geometry::{Pose, Vector, centroid, cross};
 use crate::scene::{
@@ -22,7 +24,7 @@ pub(super) fn lever_task(root: &Node, file: &str) -> Option<Task> {
     let items = |key| scene.get(key).map(Node::items).unwrap_or_default().iter();
     let object = |node| plate(node)?.object();
     let objects: Vec<Object> = items("objects").map(object).collect::<Option<_>>()?;
-    let obstacles: Vec<Obstacle> = items("obstacles").map(block).collect::<Option<_>>()?;
+    let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle_of).collect::<Option<_>>()?;
     let friction = match scene.get("table") {
         Some(table) => number_or(table, "friction", Scene::FRICTION)?,
         None => Scene::FRICTION,
@@ -111,21 +113,6 @@ fn solid(shape: &Node) -> Option<(Slab, Vector)> {
     let (x, y) = (0.5 * x, 0.5 * y);
     let corners = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[x, y]| Vector::new(x, y));
     Some((Slab { corners: corners.to_vec(), bottom: 0.0, height }, Vector::zeros()))
-}
-
-/// The third number of a place, or else the `usual` height.
-fn height(place: &Node, usual: f64) -> Option<f64> {
-    place.items().get(2).map_or(Some(usual), Node::number)
-}
-
-pub(super) fn block(node: &Node) -> Option<Obstacle> {
-    Some(Obstacle {
-        name: name_of(node)?.into(),
-        size: triple(node, "size")?,
-        pose: pose(node)?,
-        z: height(node.get("position")?, 0.0)?,
-        friction: number_or(node, "friction", Scene::FRICTION)?,
-    })
 }
 
 fn levers(node: &Node) -> Option<LeverRules> {

@@ -5,6 +5,7 @@ use crate::asset::library::ToolLibrary;
 use crate::asset::node::Node;
 use crate::asset::strict::Ledger;
 use crate::asset::take::{name_of, unique_names};
+use crate::asset::task::obstacle_of;
 use crate::asset::{prism, task};
 use crate::geometry::{Pose, Solid, Vector, common_area};
 use crate::scene::{Blade, Obstacle, Plate, carries};
@@ -135,7 +136,7 @@ fn known(
 /// What shares space, and what nothing holds.
 fn bodies(objects: &[Node], obstacles: &[Node], ledger: &mut Ledger) {
     let plates: Vec<Option<Plate>> = objects.iter().map(build::plate).collect();
-    let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(build::block).collect();
+    let blocks: Vec<Option<Obstacle>> = obstacles.iter().map(obstacle_of).collect();
     for (k, (node, plate)) in objects.iter().zip(&plates).enumerate() {
         let Some(plate) = plate else { continue };
         let place = node.get("position").unwrap_or(node);

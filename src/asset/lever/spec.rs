@@ -1,10 +1,8 @@
 //! What a task of levering may hold.
 
-use crate::asset::spec::{
-    ANGLE, COORDINATE, CUBOID, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SIZE, Value,
-};
+use crate::asset::spec::{ANGLE, CUBOID, FRICTION, Key, MASS, POSITION, Range, SIZE, Value};
 use crate::asset::task::{
-    MAX_FORCE, OBJECT_NAME, PUSHES, REACH_KEY, ROBUSTNESS, TOOLS, UNKNOWN_KEY,
+    MAX_FORCE, OBJECT_NAME, OBSTACLES, PLACE, PUSHES, REACH_KEY, ROBUSTNESS, TOOLS, UNKNOWN_KEY,
 };
 use crate::geometry::MAX_CORNERS;
 
@@ -50,11 +48,7 @@ const SCENE: Value = Value::Map(&[
         Value::List { of: &OBJECT, items: "objects", min: 1, max: 8 },
         "The plates: what can move.",
     ),
-    Key::optional(
-        "obstacles",
-        Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
-        "Cuboids fixed to the table, such as floor, walls and standoffs of a tray; by default none.",
-    ),
+    OBSTACLES,
 ]);
 
 const OBJECT: Value = Value::Map(&[
@@ -120,22 +114,6 @@ const PART: Value = Value::Map(&[
     ),
     Key::optional("yaw_deg", ANGLE, "Turn of the part on the plate, degrees; default 0."),
 ]);
-
-const OBSTACLE: Value = Value::Map(&[
-    Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
-    Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
-    Key::required(
-        "position",
-        PLACE,
-        "Centre, [x, y] in metres; a third number is the height of its underside above the table; \
-         without one it stands there.",
-    ),
-    Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
-    Key::optional("friction", FRICTION, "Friction value; default 0.5."),
-]);
-
-/// A place seen from above, and a height where there is one.
-const PLACE: Value = Value::List { of: &COORDINATE, items: "numbers", min: 2, max: 3 };
 
 const HEIGHT: Value = Value::Number(Range {
     what: "a height in metres",

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::things;
-use crate::asset::task::{WORLD, area_of, name_of_surface};
+use crate::asset::task::{WORLD, area_of, emitted_obstacle, name_of_surface};
 use crate::geometry::{Pose, Shape, Vector};
 use crate::scene::{
     Blade, Directions, Goal, Hand, Joint, JointKind, LeverRules, Mount, Object, Obstacle, Offsets,
@@ -150,12 +150,6 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         }
         posed(fields, &object.pose)
     };
-    let obstacle = |obstacle: &Obstacle| {
-        let fields = json!({
-            "name": obstacle.name, "size": obstacle.size, "friction": obstacle.friction,
-        });
-        posed(fields, &obstacle.pose)
-    };
     let joint = |joint: &Joint| {
         let mut fields = joined(joint.between.map(|k| scene.objects[k].name.as_str()), &joint.kind);
         if joint.guessed {
@@ -175,7 +169,7 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         "table": table,
         "objects": scene.things().map(object).collect::<Vec<_>>(),
         "joints": joints.chain(scene.mounts.iter().map(mount)).collect::<Vec<_>>(),
-        "obstacles": scene.obstacles.iter().filter(is_stated).map(obstacle).collect::<Vec<_>>(),
+        "obstacles": scene.obstacles.iter().filter(is_stated).map(emitted_obstacle).collect::<Vec<_>>(),
     });
     if !scene.frictions.is_empty() {
         let friction = |pair: &PairFriction| {
@@ -241,18 +235,10 @@ fn scene_in_space(scene: &Scene) -> Json {
         });
         posed(fields, &object.pose)
     };
-    let obstacle = |obstacle: &Obstacle| {
-        let Obstacle { name, size, friction, .. } = obstacle;
-        let fields = json!({"name": name, "size": size, "friction": friction});
-        let mut fields = posed(fields, &obstacle.pose);
-        let [x, y] = vector(obstacle.pose.position);
-        fields["position"] = json!([x, y, obstacle.z]);
-        fields
-    };
     json!({
         "table": {"friction": scene.table_friction},
         "objects": scene.objects.iter().map(object).collect::<Vec<_>>(),
-        "obstacles": scene.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
+        "obstacles": scene.obstacles.iter().map(emitted_obstacle).collect::<Vec<_>>(),
     })
 }
 

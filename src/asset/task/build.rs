@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::asset::node::{Content, Node};
 use crate::asset::prism::origin;
-use crate::asset::take::{name_of, number_or, pose, shape, triple, vector};
+use crate::asset::take::{name_of, number_or, pose, shape, vector};
 use crate::asset::text::apart_by_name;
 use crate::geometry::Vector;
 use crate::scene::{
@@ -13,7 +13,7 @@ use crate::scene::{
 };
 
 use super::spec::default;
-use super::{frictions, goals, joints, keep, mounts, parts};
+use super::{frictions, goals, joints, keep, mounts, obstacles, parts};
 
 /// The task, or `None` if anything needed is missing or was faulty.
 pub(super) fn task(root: &Node, file: &str) -> Option<Task> {
@@ -61,7 +61,8 @@ pub(super) fn scene(node: &Node) -> Option<Scene> {
     let items = |key| node.get(key).map(Node::items).unwrap_or_default().iter();
     let nodes = node.get("objects").map(Node::items).unwrap_or_default();
     let objects = parts::objects(nodes, object)?;
-    let obstacles: Vec<Obstacle> = items("obstacles").map(obstacle).collect::<Option<_>>()?;
+    let obstacles: Vec<Obstacle> =
+        items("obstacles").map(obstacles::obstacle).collect::<Option<_>>()?;
     let fixed = node.get("obstacles").map(Node::items).unwrap_or_default();
     let moving = |joint| mounts::moving(joint, nodes, fixed);
     let mut scene = Scene {
@@ -133,16 +134,6 @@ pub(in crate::asset) fn support(object: &Node) -> Option<Support> {
     let origin = origin(object.get("shape")?)?;
     let points = node.get("points")?.items().iter().map(|point| Some(vector(point)? - origin));
     points.collect::<Option<_>>().map(Support::Points)
-}
-
-fn obstacle(node: &Node) -> Option<Obstacle> {
-    Some(Obstacle {
-        name: name_of(node)?.into(),
-        size: triple(node, "size")?,
-        pose: pose(node)?,
-        z: 0.0,
-        friction: number_or(node, "friction", Scene::FRICTION)?,
-    })
 }
 
 /// The robot: its reach, and what else is said of it.

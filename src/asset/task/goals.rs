@@ -9,7 +9,7 @@ use crate::scene::{Goal, JointKind, Scene};
 
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
 use super::parts::parts;
-use super::rules::{SLACK, body, known_object};
+use super::rules::{SLACK, body, is_below, known_object};
 use super::spec::default;
 
 /// One goal.
@@ -164,7 +164,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     by_joint(goal, (name, section("joints")), ledger);
     let solid = object.get("shape").and_then(shape);
     if let (Some(solid), None) = (solid, goal.get("relative_to")) {
-        room_at_the_goal(goal, &solid.footprint(), name, obstacles, ledger);
+        room_at_the_goal(goal, (object, &solid.footprint()), name, obstacles, ledger);
     }
     let round = solid.is_some_and(|solid| solid.is_cylinder()) && parts(object).is_empty();
     if let (Some(heading), true) = (goal.get("heading_deg"), round) {
@@ -254,7 +254,7 @@ fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger
 /// within the tolerance it lies.
 fn room_at_the_goal(
     goal: &Node,
-    object: &Footprint,
+    (whole, object): (&Node, &Footprint),
     name: &Node,
     obstacles: &[Node],
     ledger: &mut Ledger,
@@ -271,6 +271,9 @@ fn room_at_the_goal(
     }
     for obstacle in obstacles {
         let Some((solid, pose)) = body(obstacle) else { continue };
+        if is_below(whole, obstacle, SLACK) {
+            continue;
+        }
         if clearance((&core, &at), (&solid, &pose), SLACK) <= 0.0 {
             let [object, obstacle] = [name.text(), name_of(obstacle)].map(|n| n.unwrap_or("?"));
             ledger.fault(

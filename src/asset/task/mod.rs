@@ -8,6 +8,7 @@ mod joints;
 mod keep;
 mod load;
 mod mounts;
+mod obstacles;
 mod parts;
 mod rules;
 mod spec;
@@ -22,12 +23,15 @@ pub(super) use keep::{emitted as region, emitted_area as area_of};
 pub use load::load_task;
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use mounts::WORLD;
+pub(super) use obstacles::{
+    OBSTACLES, PLACE, emitted as emitted_obstacle, height as height_of, obstacle as obstacle_of,
+};
 pub(super) use parts::shares as shares_of_mass;
 pub(super) use rules::{
     push_rules as check_pushes, robot as check_robot, tools as check_tools,
     unknown as check_unknown,
 };
 pub(super) use spec::{
-    JOINTS, LIFT, MAX_FORCE, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, OBSTACLES, PUSH_HEIGHT,
-    PUSHES, REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS, UNKNOWN_KEY,
+    JOINTS, LIFT, MAX_FORCE, OBJECT_NAME, OBJECT_SHAPE, OBJECT_SUPPORT, PUSH_HEIGHT, PUSHES,
+    REACH_KEY, ROBUSTNESS, TABLE, TASK_FILE, TASK_KEYS, TOOLS, UNKNOWN_KEY,
 };

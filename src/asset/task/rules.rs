@@ -8,7 +8,7 @@ use crate::asset::take::{name_of, number_or, pose, shape, triple, unique_names, 
 use crate::geometry::{Footprint, Pose, Shape, clearance};
 use crate::scene::{PushForm, PushRules, Support, carries};
 
-use super::{build, frictions, goals, joints, keep as regions, parts};
+use super::{build, frictions, goals, joints, keep as regions, obstacles as fixed, parts};
 
 /// Bodies may sink into each other by this much before it is a fault, metres: the rounding of
 /// sizes written in whole millimetres and turned by degrees.
@@ -139,6 +139,7 @@ pub(super) fn check_scene(scene: &Node, slack: f64, ledger: &mut Ledger) {
     let solids = parts::apart(objects);
     unique_names(solids.iter().map(|(solid, _)| solid).chain(obstacles), "bodies", ledger);
     overlaps(&solids, obstacles, slack, ledger);
+    fixed::check(obstacles, ledger);
     masses(objects, ledger);
     objects.iter().for_each(|object| prism::check(object.get("shape"), ledger));
     objects.iter().for_each(|object| parts::check(object, ledger));
@@ -157,7 +158,7 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
     for (k, (node, thing, solid)) in solids.iter().enumerate() {
         for (other, other_thing, other_solid) in &solids[..k.min(objects.len())] {
             let (Some((a, at)), Some((b, bt))) = (solid, other_solid) else { continue };
-            if thing == other_thing {
+            if thing == other_thing || is_below(other, node, slack) {
                 continue;
             }
             if clearance((a, at), (b, bt), slack) <= 0.0 {
@@ -170,6 +171,13 @@ fn overlaps(objects: &[(Node, usize)], obstacles: &[Node], slack: f64, ledger: &
             }
         }
     }
+}
+
+/// Whether an object ends below an obstacle.
+pub(super) fn is_below(object: &Node, obstacle: &Node, slack: f64) -> bool {
+    let height = object.get("shape").and_then(shape).map(|shape| shape.height());
+    let above = fixed::obstacle(obstacle).zip(height);
+    above.is_some_and(|(above, height)| !above.meets([0.0, height - slack]))
 }
 
 /// What a body covers, and where.

@@ -3,13 +3,14 @@
 use crate::asset::lever::{LEVER_TASK, is_lever_task};
 use crate::asset::node::Node;
 use crate::asset::spec::{
-    ANGLE, EXTENTS, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
+    ANGLE, FRICTION, Key, MASS, POSITION, Range, SHAPE, SIZE, Value, numbers,
 };
 
 use super::frictions::FRICTIONS;
 use super::goals::GOAL;
 use super::joints::JOINT;
 use super::keep::{KEEP, KEEP_OUT};
+use super::obstacles::OBSTACLES;
 use super::parts::PARTS;
 
 /// Defaults of optional keys; the words of the keys below repeat them.
@@ -139,13 +140,6 @@ pub(in crate::asset) const TABLE: Key = Key::optional(
 pub(in crate::asset) const JOINTS: Value =
     Value::List { of: &JOINT, items: "joints", min: 0, max: 64 };
 
-/// Obstacles of one scene.
-pub(in crate::asset) const OBSTACLES: Key = Key::optional(
-    "obstacles",
-    Value::List { of: &OBSTACLE, items: "obstacles", min: 0, max: 64 },
-    "Cuboids fixed to the table; by default none.",
-);
-
 const OBJECT: Value = Value::Map(&[
     OBJECT_NAME,
     OBJECT_SHAPE,
@@ -200,14 +194,6 @@ pub(in crate::asset) const OBJECT_SUPPORT: Key =
 /// What an object looks like.
 pub(in crate::asset) const OBJECT_SHAPE: Key =
     Key::required("shape", SHAPE, "The object's solid, standing upright.");
-
-const OBSTACLE: Value = Value::Map(&[
-    Key::required("name", Value::Name, "The obstacle's name, unique in the scene."),
-    Key::required("size", EXTENTS, "Full extents [x, y, z] in metres."),
-    Key::required("position", POSITION, "Centre, [x, y] in metres."),
-    Key::optional("yaw_deg", ANGLE, "Heading, degrees; default 0."),
-    Key::optional("friction", FRICTION, "Friction value; default 0.5."),
-]);
 
 const ROBOT: Value = Value::Map(&[
     Key::optional(

@@ -59,7 +59,13 @@ impl Table<'_> {
         let object = &self.scene.objects[index];
         let footprint = match other.0 {
             Body::Object(other) => self.scene.objects[other].shape.footprint(),
-            Body::Obstacle(other) => self.scene.obstacles[other].shape().footprint(),
+            Body::Obstacle(other) => {
+                let obstacle = &self.scene.obstacles[other];
+                if !obstacle.meets([0.0, object.shape.height()]) {
+                    return [None, None];
+                }
+                obstacle.shape().footprint()
+            }
             Body::Part(other) if self.motion.lift < object.shape.height() => {
                 self.tool().parts()[other].footprint()
             }

@@ -160,22 +160,17 @@ fn obstacle<'a>(
     names: &mut Names,
     ledger: &mut Ledger,
 ) -> Option<(Obstacle, &'a Solid)> {
-    if upright.low > floor + STAND {
-        let above = 1e3 * (upright.low - floor);
-        let message = format!("`{what}` hangs {above:.1} mm above the table");
-        ledger.fault(solid.place, message, "obstacles stand on the table: let it reach down");
-        return None;
-    }
     let Base::Rectangle([x, y]) = upright.base else {
         let advice = "put a box around it, or several into it";
         ledger.fault(solid.place, format!("the obstacle `{what}` is not a box"), advice);
         return None;
     };
     let pose = Pose { position: upright.pose.position, ..upright.pose };
-    // No object meets the part of it that is below the table, or a little above.
-    let size = [x, y, upright.top() - floor];
+    // No object meets the part of it that is below the table, or passes a little above.
+    let z = if upright.low > floor + STAND { upright.low - floor } else { 0.0 };
+    let size = [x, y, upright.top() - floor - z];
     let friction = solid.material.friction.unwrap_or(wanted.friction);
-    Some((Obstacle { name: names.take(what), size, pose, z: 0.0, friction }, solid))
+    Some((Obstacle { name: names.take(what), size, pose, z, friction }, solid))
 }
 
 /// The scene without objects.

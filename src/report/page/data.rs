@@ -66,6 +66,9 @@ pub struct Data {
 pub struct Stage {
     pub objects: Vec<Body>,
     pub obstacles: Vec<Body>,
+    /// What is to be kept out of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<Body>,
     /// Middle and full extents of a table that ends.
     pub table: Option<[[i64; 2]; 2]>,
     /// Smallest and largest.

@@ -50,9 +50,18 @@ pub fn table(scene: &Scene) -> Stage {
         more: Vec::new(),
         at: pose(&obstacle.pose),
     });
+    let regions = scene.keep_out.iter().map(|region| Body {
+        name: format!("{}: {}", region.name, region.words()),
+        shape: outline(&region.shape),
+        height: 0,
+        under: 0,
+        more: Vec::new(),
+        at: pose(&region.pose),
+    });
     Stage {
         objects: objects.collect(),
         obstacles: obstacles.collect(),
+        regions: regions.collect(),
         table: scene.table_top.map(|top| [point(top.middle), top.size.map(length)]),
         reach: Vec::new(),
         goal: None,
@@ -88,7 +97,7 @@ pub fn hand(task: &Task, tool: &scene::Tool, plan: &Plan) -> Option<Body> {
     if task.in_space() || plan.levers() {
         return None;
     }
-    let Carried { footprint: Footprint::Disc { radius }, pose: at, from } =
+    let Carried { footprint: Footprint::Disc { radius }, pose: at, span: [from, _] } =
         task.robot.carried(tool, plan.lift())[0]?
     else {
         return None;

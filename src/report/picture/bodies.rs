@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::geometry::{Pose, Shape, Vector, wrap_angle};
 use crate::report::svg::{Anchor, Font, Style, Svg};
-use crate::scene::{Goal, Object, Obstacle, Robot};
+use crate::scene::{Goal, Object, Robot, Scene};
 
-use super::{palette, view::View};
+use super::{legend::Sample, palette, view::View};
 
 /// Objects that end nearer than this to their start, metres, and turned by less than
 /// [`STILL_TURN`] have not moved: a second outline would only blur the first.
@@ -80,10 +80,50 @@ pub fn miss(svg: &mut Svg, view: &View, goal: &Goal, end: Vector) {
     }
 }
 
-pub fn obstacle(svg: &mut Svg, view: &View, obstacle: &Obstacle) {
-    svg.open_titled(&obstacle.name);
-    view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OBSTACLE);
-    svg.close();
+/// What stands on the table and does not move, and the regions to keep out of.
+pub fn fixed(svg: &mut Svg, view: &View, scene: &Scene) {
+    for region in &scene.keep_out {
+        svg.open_titled(&format!("{}: {}", region.name, region.words()));
+        view.footprint(svg, &region.footprint(), &region.pose, palette::KEEP_OUT);
+        svg.close();
+    }
+    scene.obstacles.iter().filter(|obstacle| obstacle.z == 0.0).for_each(|obstacle| {
+        svg.open_titled(&obstacle.name);
+        view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OBSTACLE);
+        svg.close();
+    });
+}
+
+/// What is fixed above the table, to be drawn over what passes below it.
+pub fn overhead(svg: &mut Svg, view: &View, scene: &Scene) {
+    scene.obstacles.iter().filter(|obstacle| obstacle.z > 0.0).for_each(|obstacle| {
+        svg.open_titled(&format!("{}, {:.3} m above the table", obstacle.name, obstacle.z));
+        view.footprint(svg, &obstacle.shape().footprint(), &obstacle.pose, palette::OVERHEAD);
+        svg.close();
+    });
+}
+
+/// The names of what [`fixed`] and [`overhead`] draw.
+pub fn names_of_fixed(svg: &mut Svg, view: &View, scene: &Scene) {
+    for obstacle in &scene.obstacles {
+        name(svg, view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
+    }
+    for region in &scene.keep_out {
+        name(svg, view, &region.name, &region.shape, &region.pose);
+    }
+}
+
+/// What a legend says of them.
+pub fn legend_of_fixed(scene: &Scene) -> impl Iterator<Item = (Sample, String)> {
+    let standing = scene.obstacles.iter().any(|obstacle| obstacle.z == 0.0);
+    let above = scene.obstacles.iter().any(|obstacle| obstacle.z > 0.0);
+    let entries = [
+        (standing, palette::OBSTACLE, "obstacle"),
+        (above, palette::OVERHEAD, "obstacle above the table"),
+        (!scene.keep_out.is_empty(), palette::KEEP_OUT, "to be kept out of"),
+    ];
+    let there = entries.into_iter().filter(|(there, ..)| *there);
+    there.map(|(_, style, words)| (Sample::Area(style), words.to_owned()))
 }
 
 /// An object where it stood at the start.

@@ -27,6 +27,9 @@ impl Extent<'_> {
         for obstacle in &self.scene.obstacles {
             bounds.add_body(&obstacle.shape().footprint(), &obstacle.pose);
         }
+        for region in &self.scene.keep_out {
+            bounds.add_body(&region.footprint(), &region.pose);
+        }
         for goal in &self.goals {
             match &goal.area {
                 Some(area) => bounds.add_body(&area.shape.footprint(), &area.pose),

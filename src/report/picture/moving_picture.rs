@@ -82,11 +82,8 @@ impl MovingPicture<'_> {
         for goal in &self.task.shown_goals() {
             bodies::goal_area(&mut stage.svg, &view, goal);
         }
-        for obstacle in &self.task.scene.obstacles {
-            let svg = &mut stage.svg;
-            bodies::obstacle(svg, &view, obstacle);
-            bodies::name(svg, &view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
-        }
+        bodies::fixed(&mut stage.svg, &view, &self.task.scene);
+        bodies::names_of_fixed(&mut stage.svg, &view, &self.task.scene);
         let ends = self.ends();
         for (k, object) in self.task.scene.objects.iter().enumerate() {
             if bodies::moved(object, &ends[k]) {
@@ -106,6 +103,7 @@ impl MovingPicture<'_> {
         }
         self.joints(stage, &ends);
         stage.close(1);
+        bodies::overhead(&mut stage.svg, &view, &self.task.scene);
         for goal in &self.task.shown_goals() {
             bodies::goal(&mut stage.svg, &view, goal);
         }
@@ -248,6 +246,8 @@ impl MovingPicture<'_> {
         }
         let reach = "reach of the end effector".to_owned();
         entries.push((Sample::Ring(palette::REACH_RIM), reach));
+        let scene = &self.task.scene;
+        entries.extend(bodies::legend_of_fixed(scene).filter(|(_, words)| words != "obstacle"));
         entries
     }
 }

@@ -22,6 +22,10 @@ pub const GRID_STRONG: Style = Style::stroke("#d3d9df", 1.0);
 pub const REACH_AREA: Style = Style::fill("#4dabf7").opacity(0.06);
 pub const REACH_RIM: Style = Style::stroke("#4dabf7", 1.2).dashed("2 4");
 pub const OBSTACLE: Style = Style::fill("url(#hatch)").outlined("#495057", 1.4);
+/// What is above the table hides nothing below it.
+pub const OVERHEAD: Style = Style::stroke("#495057", 1.6).dashed("9 4");
+pub const KEEP_OUT: Style =
+    Style::fill("#fa5252").outlined("#c92a2a", 1.2).dashed("3 3").opacity(0.25);
 pub const GOAL_OBJECT: Style = Style::fill("#74b3f0").outlined("#1c6fbf", 1.6);
 pub const OTHER_OBJECT: Style = Style::fill("#dee2e6").outlined("#868e96", 1.4);
 pub const GOAL_WAY: Style = Style::stroke("#1c6fbf", 2.4);

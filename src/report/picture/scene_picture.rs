@@ -117,9 +117,7 @@ impl ScenePicture<'_> {
         for goal in &self.goals {
             bodies::goal_area(svg, view, goal);
         }
-        for obstacle in &self.scene.obstacles {
-            bodies::obstacle(svg, view, obstacle);
-        }
+        bodies::fixed(svg, view, self.scene);
         if let Some(motion) = self.motion {
             strokes::tool(svg, view, motion);
         }
@@ -143,9 +141,8 @@ impl ScenePicture<'_> {
         for (_, object) in self.scene.things() {
             bodies::name(svg, view, &object.name, &object.shape, &object.pose);
         }
-        for obstacle in &self.scene.obstacles {
-            bodies::name(svg, view, &obstacle.name, &obstacle.shape(), &obstacle.pose);
-        }
+        bodies::overhead(svg, view, self.scene);
+        bodies::names_of_fixed(svg, view, self.scene);
         view.scale_bar(svg);
         svg.close();
     }
@@ -222,9 +219,7 @@ impl ScenePicture<'_> {
             add(Sample::Area(look.opacity(palette::TOOL_AFTER)), format!("{name} after it"));
             add(Sample::Push, "push of the end effector".to_owned());
         }
-        if !self.scene.obstacles.is_empty() {
-            add(Sample::Area(palette::OBSTACLE), "obstacle".to_owned());
-        }
+        bodies::legend_of_fixed(self.scene).for_each(|(sample, words)| add(sample, words));
         if let Some(robot) = self.robot {
             let words = format!("reach, {:.2} to {:.2} m", robot.reach_min, robot.reach_max);
             add(Sample::Ring(palette::REACH_RIM), words);

@@ -1,0 +1,164 @@
+//! What is fixed above the table: what passes below it, what does not, and how a tool gets there.
+
+use std::fs;
+use std::process::Command;
+use std::sync::Arc;
+
+use pushplan::asset::{PlanFile, ToolLibrary};
+use pushplan::export::{REPLAY_SCRIPT, mjcf};
+use pushplan::geometry::Vector;
+use pushplan::scene::{
+    Job, Plan, Push, PushForm, Record, Situation, Task, Tool, ToolMotion, Warning,
+};
+use pushplan::sim::Simulator;
+use pushplan::solve::{Effort, PlanStatus, Planner, Solution};
+use pushplan::verify::{Verifier, VerifySettings};
+use serde_json::Value as Json;
+use tempfile::TempDir;
+
+use crate::mujoco_python::python;
+
+/// A tin before a shelf whose underside is 9 cm above the table, and whose top is higher than where a
+/// hand begins.
+const SHELF: &str = "
+scene:
+  objects:
+    - {name: tin, shape: {cylinder: {radius: 0.04, height: 0.07}}, mass: 0.4, friction: 0.4, position: [0.5, 0]}
+  obstacles:
+    - {name: shelf, size: [0.3, 0.6, 0.1], position: [0.72, 0, 0.09]}
+robot: {reach: {min: 0.25, max: 0.95}}
+tools: [stick]
+pushes: {directions: 8, max_count: 2}
+goal: {object: tin, position: [0.66, 0.02], tolerance: 0.02}
+";
+
+fn task(text: &str) -> Task {
+    Task::parse(text, "shelf.yaml").unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+fn library() -> ToolLibrary {
+    ToolLibrary::embedded().expect("the shipped tools")
+}
+
+fn solved(task: &Task) -> Solution {
+    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
+    planner.solve(task, &library()).expect("a sound task")
+}
+
+fn file(task: &Task, solution: &Solution) -> PlanFile {
+    let best = solution.best().expect("a plan");
+    let file = PlanFile::new(task.clone(), best.tools.clone(), best.plan.clone());
+    PlanFile { verdict: best.verdict.clone(), ..file }
+}
+
+/// What MuJoCo says of a plan, where there is one.
+fn in_mujoco(file: &PlanFile) -> Option<Json> {
+    let python = python()?;
+    let folder = TempDir::new().expect("a folder");
+    let [script, scene] = ["replay.py", "plan.xml"].map(|name| folder.path().join(name));
+    fs::write(&script, REPLAY_SCRIPT).expect("written");
+    fs::write(&scene, mjcf(file).expect("no loops")).expect("written");
+    let output = Command::new(python).arg(&script).arg(&scene).output().expect("Python runs");
+    let lines = String::from_utf8_lossy(&output.stdout).into_owned();
+    Some(serde_json::from_str(&lines).unwrap_or_else(|_| {
+        panic!("{}", String::from_utf8_lossy(&output.stderr));
+    }))
+}
+
+#[test]
+fn what_is_low_is_pushed_below_a_shelf_by_a_tool_whose_hand_stays_outside() {
+    let task = task(SHELF);
+    let solution = solved(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let best = solution.best().expect("a plan");
+    let half = Vector::new(0.15 + 0.05, 0.3 + 0.05);
+    for push in best.plan.pushes() {
+        for at in [push.start, push.end()] {
+            let off = at - Vector::new(0.72, 0.0);
+            assert!(off.x.abs() > half.x || off.y.abs() > half.y, "the hand is below the shelf");
+        }
+    }
+    if let Some(found) = in_mujoco(&file(&task, &solution)) {
+        assert_eq!(found["reached"], true, "{found:#}");
+        assert!(found["difference"].as_f64().expect("both") < 3e-3, "{found:#}");
+    }
+    // With a hand that begins below the shelf's underside none but a long tool does it.
+    let short = SHELF.replace("[stick]", "[paddle]").replace("[0.66, 0.02]", "[0.75, 0.02]");
+    assert_ne!(solved(&self::task(&short)).status, PlanStatus::Solved);
+    let bodiless = short.replace("max: 0.95}", "max: 0.95}, hand: none");
+    assert_eq!(solved(&self::task(&bodiless)).status, PlanStatus::Solved);
+}
+
+/// A push of the tin by 25 cm, on to below the shelf, with a stick from behind.
+fn pushed(text: &str) -> (Task, Arc<Tool>, Push) {
+    let tool = library().get("stick").expect("a shipped tool").clone();
+    let start = Vector::new(0.5 - 0.04 - 0.005 - 0.61, 0.0);
+    (task(text), tool, Push { start, direction: 0.0, length: 0.25, speed: 0.1 })
+}
+
+#[test]
+fn what_is_tall_is_stopped_by_the_shelf_in_every_engine_and_what_is_low_is_not() {
+    let tall = SHELF.replace("height: 0.07", "height: 0.12").replace("[0.66, 0.02]", "[0.4, 0.02]");
+    for (text, passes) in [(SHELF, true), (tall.as_str(), false)] {
+        let (task, tool, push) = pushed(text);
+        let motion = ToolMotion::pushes(tool, 0.002, 0.0, &[push], true);
+        let job = Job::stated(&task.scene, motion);
+        for simulator in [Simulator::planar(), Simulator::spatial(), Simulator::upright()] {
+            let found = simulator.run(&task.scene, &job, Record::Outcome);
+            let x = found.outcome().poses[0].position.x;
+            let jams = found
+                .warnings
+                .iter()
+                .any(|w| matches!(w, Warning::Jammed { .. } | Warning::Toppled { .. }));
+            assert_eq!((x > 0.7, jams), (passes, !passes), "{x} {:?}", found.warnings);
+        }
+    }
+    // A place that only what is low has room at is a goal for that alone.
+    let there = SHELF.replace("height: 0.07", "height: 0.12");
+    let faults = Task::parse(&there, "there.yaml").expect_err("no room").to_string();
+    assert!(faults.contains("at the goal `tin` would be inside `shelf`"), "{faults}");
+    let sunk = SHELF.replace("0.72, 0, 0.09", "0.72, 0, -0.02");
+    let faults = Task::parse(&sunk, "sunk.yaml").expect_err("below the table").to_string();
+    assert!(faults.contains("below it"), "{faults}");
+}
+
+#[test]
+fn nothing_is_set_down_through_a_shelf() {
+    let beyond = SHELF
+        .replace("min: 0.25", "min: 0")
+        .replace("max: 0.95}", "max: 0.95}, hand: none, base: none");
+    let (task, tool, push) = pushed(&beyond);
+    let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+    let forbidden = |start: Vector| {
+        let push = Push { start, length: 0.1, ..push };
+        let plan = Plan::pushing(&tool.name, 0.0, PushForm::Placed, 0.002, [push]);
+        verifier
+            .nominal(&task, &Situation::stated(&task.scene), std::slice::from_ref(&tool), &plan)
+            .forbidden
+    };
+    assert!(forbidden(push.start).is_empty(), "{:?}", forbidden(push.start));
+    // The stick's end would come down on the shelf, which is above where it is to push.
+    let through = forbidden(push.start + Vector::new(0.2, 0.0));
+    assert!(matches!(through[..], [Warning::ThroughObstacle { push: 0, .. }]), "{through:?}");
+}
+
+#[test]
+fn a_shelf_and_a_region_are_written_read_and_drawn() {
+    let text = format!(
+        "{SHELF}keep_out: [{{name: cable, area: {{circle: {{radius: 0.05}}}}, position: [0.5, 0.3]}}]\n"
+    );
+    let task = task(&text);
+    let again =
+        Task::parse(&task.to_yaml().expect("a file"), "again.yaml").expect("what is written");
+    assert_eq!(again, task);
+    let solution = solved(&task);
+    assert_eq!(solution.status, PlanStatus::Solved);
+    let document = pushplan::report::solution_document(&task, &solution);
+    let text = document.to_text();
+    assert!(!text.contains("obstacle above"), "{text}");
+    let scene = mjcf(&file(&task, &solution)).expect("no loops");
+    assert!(
+        scene.contains("name=\"region/cable\"") && scene.contains("pos=\"0.72 0 0.14\""),
+        "{scene}"
+    );
+}
