@@ -28,7 +28,7 @@ pub struct SimulatedWorld {
 impl SimulatedWorld {
     /// The world as it begins.
     pub fn new(truth: Truth) -> Self {
-        let simulator = Simulator::new(truth.engine, Rate::DEFAULT);
+        let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
         let (state, arm) = (truth.scene.start(), Arm::default());
         Self { state, simulator, looks: 0, truth, arm, stop: None }
     }
@@ -138,7 +138,7 @@ fn stop(motion: &ToolMotion, run: &Trajectory) -> (Option<Stop>, usize) {
 pub fn really(trace: &Trace) -> Vec<Trajectory> {
     let (Some(truth), Some(before)) = (&trace.truth, &trace.before) else { return Vec::new() };
     let physics = Arc::new(Physics::stated(&truth.scene));
-    let simulator = Simulator::new(truth.engine, Rate::DEFAULT);
+    let simulator = Simulator::new(truth.engine, Rate::DEFAULT).retreating();
     let begins = trace.steps.iter().filter_map(|step| step.world.as_ref());
     let begins = std::iter::once(before).chain(begins);
     let replay = |(begin, step): (&WorldState, &Step)| {

@@ -14,8 +14,8 @@ pub trait World {
     fn look(&mut self) -> Result<Look, WorldError>;
 
     /// Carries out a motion, of whose strokes only the last one settles: sets the tool down where
-    /// the first stroke begins, moves it along all of them, waits until everything rests and lifts
-    /// it. Gives what was seen meanwhile and at rest, as much as there is; the more instants the more
+    /// the first stroke begins, moves it along all of them, waits until everything rests, goes
+    /// [back](ToolMotion::retreat) and lifts it. Gives what was seen meanwhile and at rest, as much as there is; the more instants the more
     /// can be learnt, one for each 10 mm of travel being enough.
     ///
     /// # Errors

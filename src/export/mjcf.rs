@@ -18,8 +18,7 @@
 use crate::asset::PlanFile;
 use crate::geometry::{Footprint, Pose, Shape, Vector};
 use crate::scene::{
-    COAST_FRAME, Carried, Engine, GRAVITY, Joint, JointKind, MAX_COAST_FRAMES, Mount, Object, REST_SPEED,
-    SHOWN_HAND, Scene, ToolMotion,
+    Carried, Engine, GRAVITY, Joint, JointKind, Mount, Object, SHOWN_HAND, Scene, ToolMotion,
 };
 
 use super::ExportError;
@@ -29,6 +28,7 @@ use super::pairs;
 use super::regions;
 use super::seamless::seamless;
 use super::space::plan_mjcf;
+use super::strokes::{numeric, retreats, strokes, turns};
 use super::xml::{Xml, numbers};
 
 /// Carries out any number of scenes that [`mjcf()`] wrote and says how they end: Python 3.11 with
@@ -79,7 +79,8 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
     let own = file.tools.first().ok_or(ExportError::Tools)?;
     let motion = file.plan.motion(own);
     let hand = file.task.robot.carried(own, motion.lift)[0];
-    written(&file.task.name, &file.task.scene, (&motion, hand), |xml| wanted(xml, file))
+    let lifts = Lifts { hand, retreats: true };
+    written(&file.task.name, &file.task.scene, (&motion, lifts), |xml| wanted(xml, file))
 }
 
 /// The scene with the tool and its strokes, as MJCF, without a goal: for learning from what happens.
@@ -88,14 +89,21 @@ pub fn mjcf(file: &PlanFile) -> Result<String, ExportError> {
 /// # Errors
 /// [`ExportError::JointLoop`].
 pub fn motion_mjcf(name: &str, scene: &Scene, motion: &ToolMotion) -> Result<String, ExportError> {
-    written(name, scene, (motion, None), |_| ())
+    written(name, scene, (motion, Lifts { hand: None, retreats: false }), |_| ())
+}
+
+/// What a tool is held by, and whether it is lifted off as it would be.
+#[derive(Clone, Copy)]
+struct Lifts {
+    hand: Option<Carried>,
+    retreats: bool,
 }
 
 /// The scene, with what `wanted` says of it.
 fn written(
     name: &str,
     scene: &Scene,
-    (motion, hand): (&ToolMotion, Option<Carried>),
+    (motion, lifts): (&ToolMotion, Lifts),
     wanted: impl FnOnce(&mut Xml),
 ) -> Result<String, ExportError> {
     let trees = forest(scene)?;
@@ -109,6 +117,9 @@ fn written(
     xml.open("custom", &[]);
     wanted(&mut xml);
     strokes(&mut xml, motion);
+    if lifts.retreats {
+        retreats(&mut xml, scene, motion);
+    }
     xml.close();
     mesh::meshes(&mut xml, &solids);
     xml.open("worldbody", &[]);
@@ -130,7 +141,7 @@ fn written(
     for tree in &trees {
         body(&mut xml, scene, tree);
     }
-    tool(&mut xml, motion, hand);
+    tool(&mut xml, motion, lifts);
     xml.close();
     xml.comment("Friction is the mean of the two values; nothing else touches.");
     xml.open("contact", &[]);
@@ -221,32 +232,6 @@ fn wanted(xml: &mut Xml, file: &PlanFile) {
             numeric(xml, &format!("3-D replay of object/{}", object.name), &values);
         }
     }
-}
-
-/// What the tool does.
-fn strokes(xml: &mut Xml, motion: &ToolMotion) {
-    xml.comment(
-        "Where the tool begins and ends (x, y, x, y), how long it takes, whether it then waits; \
-         where it turns, its headings there.",
-    );
-    let turns = turns(motion);
-    for (index, stroke) in motion.strokes.iter().enumerate() {
-        let (from, to) = (stroke.from.position, stroke.to.position);
-        let settle = if stroke.settle { 1.0 } else { 0.0 };
-        let mut values = vec![from.x, from.y, to.x, to.y, stroke.duration, settle];
-        if turns {
-            values.extend([stroke.from.heading, stroke.to.heading]);
-        }
-        numeric(xml, &format!("push {}", index + 1), &values);
-    }
-    xml.comment("Rest is slower than this; it is looked for this often, and this many times.");
-    numeric(xml, "rest", &[REST_SPEED, COAST_FRAME, MAX_COAST_FRAMES as f64]);
-}
-
-/// Whether the tool has more than one heading. All strokes of a plan have one.
-fn turns(motion: &ToolMotion) -> bool {
-    let heading = motion.strokes.first().map_or(0.0, |stroke| stroke.from.heading);
-    motion.strokes.iter().any(|s| s.from.heading != heading || s.to.heading != heading)
 }
 
 /// An object and everything attached to it.
@@ -360,16 +345,20 @@ fn hinge(xml: &mut Xml, kind: &JointKind, frame: Pose, sign: f64, friction: f64)
     xml.leaf("joint", &attributes);
 }
 
-fn tool(xml: &mut Xml, motion: &ToolMotion, hand: Option<Carried>) {
+fn tool(xml: &mut Xml, motion: &ToolMotion, Lifts { hand, retreats }: Lifts) {
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let at = start.position;
-    xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
+    let mut attributes = vec![("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))];
+    attributes.extend(retreats.then(|| ("gravcomp", "1".into())));
+    xml.open("body", &attributes);
     let mass = numbers(&[TOOL_MASS]);
     let inertia = numbers(&[TOOL_MASS; 3]);
     xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);
     let slides = [("tool x", "slide", "1 0 0", at.x), ("tool y", "slide", "0 1 0", at.y)];
     let hinge = ("tool heading", "hinge", "0 0 1", start.heading);
-    for (name, kind, axis, here) in slides.into_iter().chain(turns(motion).then_some(hinge)) {
+    let lift = ("tool z", "slide", "0 0 1", 0.0);
+    let more = [turns(motion).then_some(hinge), retreats.then_some(lift)].into_iter().flatten();
+    for (name, kind, axis, here) in slides.into_iter().chain(more) {
         // `ref` makes the joint's position the tool's on the table.
         let attributes = [
             ("name", name.into()),
@@ -420,8 +409,4 @@ fn solid(
 fn placed(pose: &Pose, height: f64) -> [(&'static str, String); 2] {
     let position = numbers(&[pose.position.x, pose.position.y, height]);
     [("pos", position), ("euler", numbers(&[0.0, 0.0, pose.heading]))]
-}
-
-fn numeric(xml: &mut Xml, name: &str, values: &[f64]) {
-    xml.leaf("numeric", &[("name", name.into()), ("data", numbers(values))]);
 }

@@ -19,6 +19,7 @@ mod pairs;
 mod regions;
 mod seamless;
 mod space;
+mod strokes;
 mod xml;
 
 #[cfg(feature = "formats")]

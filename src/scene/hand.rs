@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Footprint, Pose, Vector};
 
-use super::{Obstacle, Robot, Scene, Tool};
+use super::{Obstacle, Part, Robot, Scene, Tool};
 
 /// Nothing of a hand is lower than this unless a task says so, metres: fingers reach down to a tool.
 const LOWEST: f64 = 0.12;
@@ -76,27 +76,40 @@ impl Robot {
     /// metres above the table.
     pub fn carried(&self, tool: &Tool, lift: f64) -> [Option<Carried>; 2] {
         let Some(hand) = self.hand else { return [None, None] };
-        let nearest = |part: &super::Part| {
-            let local = part.pose.local_point(tool.grip.position);
-            distance(&part.footprint(), local)
-        };
-        let parts = tool.parts().iter().map(|part| (nearest(part), part));
-        let Some((gap, held)) = parts.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return [None, None];
-        };
+        let Some((_, held)) = tool.held() else { return [None, None] };
         let top = lift + held.shape.height();
         let palm = Carried {
             footprint: Footprint::Disc { radius: hand.radius },
             pose: tool.grip,
             span: [hand.from.unwrap_or(top.max(LOWEST)), f64::INFINITY],
         };
-        let way: Vector = held.pose.position - tool.grip.position;
-        let handle = (gap > HANDLE).then(|| Carried {
-            footprint: Footprint::Rectangle { half: Vector::new(0.5 * way.norm(), HANDLE) },
-            pose: Pose { position: tool.grip.position + 0.5 * way, heading: way.y.atan2(way.x) },
-            span: [lift, top],
+        let handle = tool.handle().map(|(footprint, pose, height)| Carried {
+            footprint,
+            pose,
+            span: [lift, lift + height],
         });
         [Some(palm), handle]
+    }
+}
+
+impl Tool {
+    /// The part nearest to the grip, and how far that is from it, metres.
+    fn held(&self) -> Option<(f64, &Part)> {
+        let parts = self.parts().iter().map(|part| {
+            let local = part.pose.local_point(self.grip.position);
+            (distance(&part.footprint(), local), part)
+        });
+        parts.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// What it is held by where the grip is outside of all parts: a handle to the nearest one, in the
+    /// tool frame, and as high as that, metres.
+    pub fn handle(&self) -> Option<(Footprint, Pose, f64)> {
+        let (_, held) = self.held().filter(|(gap, _)| *gap > HANDLE)?;
+        let way: Vector = held.pose.position - self.grip.position;
+        let footprint = Footprint::Rectangle { half: Vector::new(0.5 * way.norm(), HANDLE) };
+        let pose = Pose { position: self.grip.position + 0.5 * way, heading: way.y.atan2(way.x) };
+        Some((footprint, pose, held.shape.height()))
     }
 }
 
@@ -114,7 +127,6 @@ fn distance(footprint: &Footprint, point: Vector) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Part;
 
     fn held(at: f64, robot: &Robot) -> [Option<Carried>; 2] {
         let bar = Part::cuboid("bar", [0.1, 0.04, 0.05], Pose::new(at, 0.0, 0.0));

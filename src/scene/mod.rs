@@ -78,7 +78,7 @@ pub use model::{
 pub use mount::Mount;
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,
-    Stroke, ToolMotion,
+    RETREAT, Stroke, ToolMotion,
 };
 pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use observation::{Noise, Observation, Sight};

@@ -4,13 +4,17 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Vector, contact_points};
+use crate::geometry::{Footprint, Pose, Vector, clearance, contact_points};
 
 use super::{LeverUp, Part, Plate, Scene, State, TOUCHING, Tool};
 
 /// Tool travel per frame while it moves, metres. A stroke is cut into equal frames of at most
 /// this travel, so a slow and a fast push cost the same number of frames.
 pub const FRAME_TRAVEL: f64 = 0.010;
+
+/// How far a tool goes back before it is lifted, metres: off what it pressed against, which would be
+/// taken along where it sticks. As far as it comes before it touches.
+pub const RETREAT: f64 = 0.005;
 
 /// How far the tips of a usual tool are from its frame, metres: what travels when it turns.
 const TIPS: f64 = 0.1;
@@ -239,6 +243,37 @@ impl ToolMotion {
             begun += stroke.duration;
         }
         None
+    }
+
+    /// How the tool goes back after stroke `index` before it is lifted: the way it came, by [`RETREAT`],
+    /// or all of it where something is above it, as it was set down at the start; `None` where it is
+    /// not lifted.
+    pub fn retreat(&self, scene: &Scene, index: usize) -> Option<Stroke> {
+        let stroke = self.strokes.get(index).filter(|stroke| stroke.settle)?;
+        let travel = stroke.travel();
+        let below = |shape: &Footprint, pose: &Pose, top: f64| {
+            scene.above(top).any(|above| {
+                clearance((shape, pose), (&above.footprint, &above.pose), RETREAT) < RETREAT
+            })
+        };
+        let is_below = |part: &Part| {
+            let top = self.lift + part.shape.height();
+            below(&part.footprint(), &(stroke.to * part.pose), top)
+        };
+        let handle = self.tool.handle().is_some_and(|(shape, pose, height)| {
+            below(&shape, &(stroke.to * pose), self.lift + height)
+        });
+        let back = match handle || self.tool.parts().iter().any(is_below) {
+            true => travel,
+            false => travel.min(RETREAT),
+        };
+        let share = back / travel;
+        (share > 0.0).then(|| Stroke {
+            from: stroke.to,
+            to: stroke.to.towards(&stroke.from, share),
+            duration: stroke.duration * share,
+            settle: true,
+        })
     }
 
     /// The objects that the tool is set down on at the start of stroke `index`: some part is then

@@ -140,25 +140,25 @@ pub(super) fn drive<W: World>(
             recorder.trajectory.warnings.extend(ends);
             goes_on
         };
-        for k in 0..stroke.frames() {
-            if !go(&stroke.frame(k), &mut world, &mut recorder) {
-                return recorder.finish(scene);
+        let back = motion.retreat(scene, index).filter(|_| simulator.retreats());
+        for part in std::iter::once(*stroke).chain(back) {
+            for k in 0..part.frames() {
+                if !go(&part.frame(k), &mut world, &mut recorder) {
+                    return recorder.finish(scene);
+                }
             }
-        }
-        if !stroke.settle {
-            continue;
-        }
-        let still = FrameStep { from: stroke.to, to: stroke.to, duration: COAST_FRAME };
-        let mut waited = 0;
-        while !scene.is_resting(&recorder.last().state) {
-            if waited == MAX_COAST_FRAMES {
-                let waited = waited as f64 * COAST_FRAME;
-                recorder.trajectory.warnings.push(Warning::NotAtRest { waited });
-                break;
-            }
-            waited += 1;
-            if !go(&still, &mut world, &mut recorder) {
-                return recorder.finish(scene);
+            let still = FrameStep { from: part.to, to: part.to, duration: COAST_FRAME };
+            let mut waited = 0;
+            while part.settle && !scene.is_resting(&recorder.last().state) {
+                if waited == MAX_COAST_FRAMES {
+                    let waited = waited as f64 * COAST_FRAME;
+                    recorder.trajectory.warnings.push(Warning::NotAtRest { waited });
+                    break;
+                }
+                waited += 1;
+                if !go(&still, &mut world, &mut recorder) {
+                    return recorder.finish(scene);
+                }
             }
         }
     }

@@ -33,12 +33,23 @@ use super::spatial::SpatialWorld;
 pub struct Simulator {
     engine: Engine,
     rate: Rate,
+    retreats: bool,
 }
 
 impl Simulator {
     /// An engine with at least `rate` steps a second.
     pub const fn new(engine: Engine, rate: Rate) -> Self {
-        Self { engine, rate }
+        Self { engine, rate, retreats: false }
+    }
+
+    /// The same, in which a tool goes [back](crate::scene::ToolMotion::retreat) before it is lifted.
+    pub const fn retreating(self) -> Self {
+        Self { retreats: true, ..self }
+    }
+
+    /// Whether a tool goes back before it is lifted.
+    pub fn retreats(&self) -> bool {
+        self.retreats
     }
 
     /// The planar engine at its default step.

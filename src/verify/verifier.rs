@@ -56,7 +56,8 @@ pub struct Verifier<'a> {
 impl<'a> Verifier<'a> {
     /// A verifier on the engines at their default steps.
     pub fn new(settings: VerifySettings) -> Self {
-        let (planar, spatial) = (Simulator::planar(), Simulator::spatial());
+        let [planar, spatial] =
+            [Simulator::planar(), Simulator::spatial()].map(Simulator::retreating);
         Self { settings, planar, spatial, watch: &Unwatched, until_clear: false }
     }
 

@@ -26,6 +26,7 @@ mod jointed;
 mod lever_engine;
 mod lever_follow_up;
 mod levers;
+mod lift_off;
 mod models;
 mod mujoco_python;
 mod network;

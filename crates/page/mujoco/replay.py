@@ -25,6 +25,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+RISES = 0.1  # how fast a tool is lifted, m/s
 JAMMED = 2e-3  # an object so deep inside an obstacle is squeezed where it cannot go
 SET_DOWN = 1e-4  # overlap that is still touching when the tool comes down
 TOPPLED = math.cos(math.radians(10))  # an object's axis leans further than this
@@ -55,6 +56,8 @@ class Replay:
         self.kind = np.array([KINDS.index(name.split("/")[0]) for name in geoms])
         joints = [self.model.joint(k) for k in range(self.model.njnt)]
         joints = [joint for joint in joints if joint.name.startswith("tool ")]
+        self.tool_height = [joint for joint in joints if joint.name == "tool z"]
+        joints = [joint for joint in joints if joint.name != "tool z"]
         self.tool_position = [joint.qposadr[0] for joint in joints]
         self.tool_velocity = [joint.dofadr[0] for joint in joints]
         self.deepest = np.zeros(len(KINDS))
@@ -70,7 +73,7 @@ class Replay:
     def run(self):
         """Makes all pushes, in order."""
         lifted = True
-        for push in self.pushes:
+        for index, push in enumerate(self.pushes):
             start, end, duration, settle = push[0:2], push[2:4], push[4], push[5]
             if lifted:
                 self.set_down(start)
@@ -80,6 +83,8 @@ class Replay:
                 self.move(start + (end - start) * k / steps, (end - start) / duration)
             if settle:
                 self.coast(end)
+                back = self.numbers.get(f"retreat {index + 1}")
+                self.lift_off(start, end, duration, 0.0 if back is None else back[0])
             lifted = settle
 
     def set_down(self, place):
@@ -91,7 +96,24 @@ class Replay:
         if np.any(contact.dist[touching] < -SET_DOWN):
             raise Failed("set down on an object")
 
-    def coast(self, place):
+    def lift_off(self, start, end, duration, back):
+        """The tool goes back by so much, the way it came, and rises: what sticks to it comes along."""
+        way = np.linalg.norm(end - start)
+        if back == 0.0 or way == 0.0:
+            return
+        share = back / way
+        there = end + (start - end) * share
+        steps = math.ceil(duration * share / self.step)
+        for k in range(steps):
+            self.move(end + (there - end) * k / steps, (start - end) / duration)
+        self.coast(there)
+        height = self.numbers["rise"][0]
+        steps = math.ceil(height / RISES / self.step)
+        for k in range(steps):
+            self.move(there, 0.0, height * k / steps, RISES)
+        self.coast(there, height)
+
+    def coast(self, place, height=0.0):
         """The tool stands still until everything rests."""
         speed, every, most = self.numbers["rest"]
         self.model.opt.timestep = self.step
@@ -100,17 +122,20 @@ class Replay:
             if waited == most:
                 raise Failed("never rests")
             for _ in range(round(every / self.step)):
-                self.move(place, 0.0)
+                self.move(place, 0.0, height)
             waited += 1
 
-    def place(self, place, velocity):
+    def place(self, place, velocity, height=0.0, rises=0.0):
         # A velocity too, or what the tool pushes would rub against it as if it stood still.
         self.data.qpos[self.tool_position] = place
         self.data.qvel[self.tool_velocity] = velocity
+        for joint in self.tool_height:
+            self.data.qpos[joint.qposadr[0]] = height
+            self.data.qvel[joint.dofadr[0]] = rises
 
-    def move(self, place, velocity):
-        """One step with the tool at `place`."""
-        self.place(place, velocity)
+    def move(self, place, velocity, height=0.0, rises=0.0):
+        """One step with the tool at `place`, lifted by `height`."""
+        self.place(place, velocity, height, rises)
         mujoco.mj_step(self.model, self.data)
         contact = self.data.contact
         np.maximum.at(self.deepest, self.kind[contact.geom].max(axis=1), -contact.dist)
