@@ -16,13 +16,12 @@
 //! eight shipped plans by at most 0.3 mm.
 
 use crate::asset::PlanFile;
-use crate::geometry::{Footprint, Pose, Shape, Vector};
-use crate::scene::{
-    Carried, Engine, GRAVITY, Joint, JointKind, Mount, Object, SHOWN_HAND, Scene, ToolMotion,
-};
+use crate::geometry::{Footprint, Pose, Shape};
+use crate::scene::{Carried, Engine, GRAVITY, Object, SHOWN_HAND, Scene, ToolMotion};
 
 use super::ExportError;
 use super::forest::{Node, forest};
+use super::hinges;
 use super::mesh;
 use super::pairs;
 use super::regions;
@@ -251,13 +250,10 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
     xml.open("body", &attributes);
     match node.parent {
         None => match scene.mounts.iter().find(|mount| mount.object == node.object) {
-            Some(mount) => {
-                let frame = mount.frames(&scene.objects)[1];
-                hinge(xml, &mount.kind, frame, 1.0, rubbing(scene, mount));
-            }
+            Some(mount) => hinges::mount(xml, scene, mount),
             None => xml.leaf("freejoint", &[]),
         },
-        Some((_, link)) => joint(xml, scene, node.object, link),
+        Some((_, link)) => hinges::joint(xml, scene, node.object, link),
     }
     let (shape, rise) = raised(&object.shape);
     if let Shape::Prism { base, height } = &shape {
@@ -297,52 +293,6 @@ fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
     let tool = seamless(motion.tool.outline()).into_iter();
     let tool = tool.map(|(name, shape, _)| (format!("tool/{name}"), shape));
     objects.chain(tool).chain(regions::solids(scene)).collect()
-}
-
-/// The joint that attaches object `child`; in MJCF no joint means fixed.
-fn joint(xml: &mut Xml, scene: &Scene, child: usize, joint: &Joint) {
-    // Limits are of the second object against the first, MuJoCo's of the child.
-    let (side, sign) = if joint.between[1] == child { (1, 1.0) } else { (0, -1.0) };
-    hinge(xml, &joint.kind, joint.frames(&scene.objects)[side], sign, 0.0);
-}
-
-/// What the table's friction takes from the joint between a thing and the world, N or N m: it stands on
-/// the table all the same, but only along one way it can move. As contacts of feet it would be more
-/// than one way up has room for: a drawer of 32 feet bounces.
-fn rubbing(scene: &Scene, mount: &Mount) -> f64 {
-    let [hinge, _] = mount.frames(&scene.objects);
-    let of = |k: usize| {
-        let object = &scene.objects[k];
-        let drag = |(at, share): (Vector, f64)| match mount.kind {
-            JointKind::Revolute { .. } => share * (object.pose.point(at) - hinge.position).norm(),
-            _ => share,
-        };
-        let arms: f64 = object.feet().each().map(drag).sum();
-        object.mass * GRAVITY * scene.support_friction(k) * arms
-    };
-    scene.parts_of(mount.object).chain([mount.object]).map(of).sum()
-}
-
-/// A hinge or a slide whose frame is this one of the body's, its positions counted with `sign`, and this
-/// much friction of its own, N or N m.
-fn hinge(xml: &mut Xml, kind: &JointKind, frame: Pose, sign: f64, friction: f64) {
-    let (name, axis, at) = match *kind {
-        JointKind::Fixed => return,
-        JointKind::Revolute { .. } => ("hinge", [0.0, 0.0, sign], frame.position),
-        JointKind::Prismatic { .. } => {
-            let (y, x) = frame.heading.sin_cos();
-            ("slide", [sign * x, sign * y, 0.0], frame.position)
-        }
-    };
-    let mut attributes =
-        vec![("type", name.into()), ("pos", numbers(&[at.x, at.y, 0.0])), ("axis", numbers(&axis))];
-    if friction > 0.0 {
-        attributes.push(("frictionloss", numbers(&[friction])));
-    }
-    if let Some(limits) = kind.limits() {
-        attributes.push(("range", numbers(&[limits.low, limits.high])));
-    }
-    xml.leaf("joint", &attributes);
 }
 
 fn tool(xml: &mut Xml, motion: &ToolMotion, Lifts { hand, retreats }: Lifts) {

@@ -11,6 +11,7 @@ mod error;
 mod forest;
 #[cfg(feature = "formats")]
 mod foxglove;
+mod hinges;
 #[cfg(feature = "formats")]
 mod mcap;
 mod mesh;

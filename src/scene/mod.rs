@@ -75,11 +75,11 @@ pub use model::{
     Assumptions, CORRECTED, JointBelief, ModelKind, ModelPart, ModelSpec, Models, Rate, SpecError,
     Stride,
 };
-pub use mount::Mount;
 pub use motion::{
     COAST_FRAME, FRAME_TRAVEL, FrameStep, LeverMotion, MAX_COAST_FRAMES, Motion, Push, REST_SPEED,
     RETREAT, Stroke, ToolMotion,
 };
+pub use mount::Mount;
 pub use near::{JOINABLE, NearPair, near_pairs, pairs_within};
 pub use observation::{Noise, Observation, Sight};
 pub use obstacle::Obstacle;

@@ -6,8 +6,8 @@ use crate::geometry::{ConvexPolygon, Pose, Shape, Vector};
 
 use super::planar::planar_only;
 use super::{
-    Feet, Joint, JointKind, Mount, Obstacle, PairFriction, REST_SPEED, Region, Slab, State, Support,
-    Surface, Whole, pair_friction,
+    Feet, Joint, JointKind, Mount, Obstacle, PairFriction, REST_SPEED, Region, Slab, State,
+    Support, Surface, Whole, pair_friction,
 };
 
 /// A movable body.
@@ -264,9 +264,10 @@ impl Scene {
             let [a, b] = joint.between;
             Some(Joint { between: [place(a)?, place(b)?], ..joint.clone() })
         });
-        let mounts = self.mounts.iter().filter_map(|mount| {
-            Some(Mount { object: place(mount.object)?, ..mount.clone() })
-        });
+        let mounts = self
+            .mounts
+            .iter()
+            .filter_map(|mount| Some(Mount { object: place(mount.object)?, ..mount.clone() }));
         let frictions = self.frictions.iter().filter_map(|pair| {
             let with = match pair.with {
                 Surface::Object(other) => Surface::Object(place(other)?),

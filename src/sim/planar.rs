@@ -5,15 +5,17 @@
 //! reports is taken as a change against its own start, so a body at rest stays where it is to
 //! the last bit of `f64`.
 
+mod joints;
+
 use rapier2d::prelude::{
     ActiveHooks, Collider, ColliderBuilder, ColliderHandle, ContactData, ContactManifold,
-    GenericJointBuilder, Group as Layer, InteractionGroups, InteractionTestMode, JointAxesMask,
-    JointAxis, MassProperties, PhysicsWorld, Pose2 as RapierPose, Real, RigidBody,
-    RigidBodyBuilder, RigidBodyHandle, SpringCoefficients, TrackedContact, Vector as RapierVector,
+    Group as Layer, InteractionGroups, InteractionTestMode, MassProperties, PhysicsWorld,
+    Pose2 as RapierPose, Real, RigidBody, RigidBodyBuilder, RigidBodyHandle, SpringCoefficients,
+    TrackedContact, Vector as RapierVector,
 };
 
 use crate::geometry::{Pose, Vector, perpendicular, wrap_angle};
-use crate::scene::{Body, FrameStep, JointKind, Physics, Scene, Span, State, ToolMotion, Velocity};
+use crate::scene::{Body, FrameStep, Physics, Scene, State, ToolMotion, Velocity};
 
 use super::asleep::Asleep;
 use super::drive::World;
@@ -317,46 +319,6 @@ impl PlanarWorld {
                 .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS)
                 .collision_groups(groups(OBSTACLE, TALL | LOW));
             self.insert(collider, Body::Obstacle(index), body);
-        }
-    }
-
-    fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
-        let form = |kind: &JointKind| match kind {
-            // Its objects are one body.
-            JointKind::Fixed => None,
-            JointKind::Revolute { .. } => {
-                Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX))
-            }
-            JointKind::Prismatic { .. } => {
-                Some((JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX))
-            }
-        };
-        for joint in &physics.joints {
-            let Some((axes, free)) = form(&joint.kind) else { continue };
-            let [first, second] = joint.between.map(|index| &self.objects[index].0);
-            let [at_first, at_second] = joint.frames(&scene.objects);
-            let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(to_rapier(&(first.local * at_first), Vector::zeros()))
-                .local_frame2(to_rapier(&(second.local * at_second), Vector::zeros()));
-            // The frames coincide where the scene states its objects, so zero is there.
-            if let Some(Span { low, high }) = joint.limits() {
-                built = built.limits(free, [low as Real, high as Real]);
-            }
-            let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
-            self.world.insert_impulse_joint(first, second, built);
-        }
-        for mount in &scene.mounts {
-            let Some((axes, free)) = form(&mount.kind) else { continue };
-            let member = &self.objects[mount.object].0;
-            let [world, own] = mount.frames(&scene.objects);
-            let mut built = GenericJointBuilder::new(axes)
-                .local_frame1(to_rapier(&world, self.origin))
-                .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
-            if let Some(Span { low, high }) = mount.limits() {
-                built = built.limits(free, [low as Real, high as Real]);
-            }
-            let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
-            self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);
         }
     }
 

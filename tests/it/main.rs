@@ -13,6 +13,7 @@ mod book;
 mod cli;
 mod closed_loop;
 mod constraints;
+mod doors;
 mod export;
 mod facade;
 mod fitting;

@@ -157,8 +157,7 @@ pub(in crate::asset) fn scene(scene: &Scene) -> Json {
         }
         fields
     };
-    let mount =
-        |mount: &Mount| joined([&scene.objects[mount.object].name, WORLD], &mount.kind);
+    let mount = |mount: &Mount| joined([&scene.objects[mount.object].name, WORLD], &mount.kind);
     let joints = scene.joints.iter().filter(|joint| !scene.is_seam(joint)).map(joint);
     let mut table = json!({"friction": scene.table_friction});
     if let Some(TableTop { size, middle }) = scene.table_top {

@@ -239,7 +239,8 @@ fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger
                 ledger.fault(node, message, "name an object that a joint of the scene lets move");
             }
             _ => {
-                let message = format!("`{name}` has several joints, so it is not clear which is meant");
+                let message =
+                    format!("`{name}` has several joints, so it is not clear which is meant");
                 ledger.fault(node, message, "ask for a position or a heading instead");
             }
         }

@@ -22,6 +22,10 @@ const GROUP: usize = 12;
 /// to 0.8 mm at a ratio of 10 and by 4 mm at 30.
 const GROUP_MASS_RATIO: f64 = 10.0;
 
+/// The same in a group of at most [`FEW`] objects: furniture with a door or a drawer.
+const FEW_MASS_RATIO: f64 = 100.0;
+const FEW: usize = 3;
+
 /// No joint of things on a table reaches over a larger gap, metres.
 const FAR: f64 = 0.5;
 
@@ -283,7 +287,11 @@ struct Groups {
 
 impl Groups {
     fn of(objects: usize) -> Self {
-        Self { sets: DisjointSets::new(objects), moves: vec![false; objects], held: vec![false; objects] }
+        Self {
+            sets: DisjointSets::new(objects),
+            moves: vec![false; objects],
+            held: vec![false; objects],
+        }
     }
 
     fn size(&self, group: usize) -> usize {
@@ -294,7 +302,8 @@ impl Groups {
     fn hold(&mut self, object: usize, node: &Node, name: &str, ledger: &mut Ledger) {
         let group = self.sets.lowest(object);
         if std::mem::replace(&mut self.held[group], true) {
-            let message = format!("`{name}` is joined to the world twice, if by way of another object");
+            let message =
+                format!("`{name}` is joined to the world twice, if by way of another object");
             ledger.fault(node, message, "remove one of the joints; joined objects form trees");
         }
     }
@@ -352,12 +361,13 @@ impl Groups {
                 continue;
             };
             let ratio = heaviest.0 / lightest.0;
-            if ratio > GROUP_MASS_RATIO {
+            let most = if masses.len() <= FEW { FEW_MASS_RATIO } else { GROUP_MASS_RATIO };
+            if ratio > most {
                 ledger.fault(
                     heaviest.1,
                     format!(
                         "this object has {ratio:.1} times the mass of the lightest that it is \
-                         joined with ({} kg); at most {GROUP_MASS_RATIO} times can be simulated",
+                         joined with ({} kg); at most {most} times can be simulated",
                         lightest.0
                     ),
                     "bring the masses of joined objects closer together",

@@ -39,11 +39,7 @@ pub(super) fn mount(joint: &Node, object: &Node, objects: &[Object]) -> Option<M
 /// Notes what is wrong with a joint to the world besides what is with any joint.
 pub(super) fn check(joint: &Node, ledger: &mut Ledger) {
     if joint.get("kind").and_then(Node::text) == Some("fixed") {
-        ledger.fault(
-            joint,
-            "what is fixed to the world does not move",
-            "make it an obstacle",
-        );
+        ledger.fault(joint, "what is fixed to the world does not move", "make it an obstacle");
     }
     if let Some(guessed) = joint.get("guessed").filter(|guessed| guessed.switch() == Some(true)) {
         let advice = "remove it; what joins an object to the world is always known";

@@ -41,8 +41,14 @@ fn frame(seed: u64, jointed: bool) -> (Vec<Unknown>, Vec<Constraint>, Vec<Tie>) 
         }
     }
     let (a, b) = (GroupIndex(1), GroupIndex(3));
-    let tie =
-        Tie { a: Some(a), b, to: rows(0.0), from: rows(0.0), target: [0.0; 2], force: Vector2::zeros() };
+    let tie = Tie {
+        a: Some(a),
+        b,
+        to: rows(0.0),
+        from: rows(0.0),
+        target: [0.0; 2],
+        force: Vector2::zeros(),
+    };
     constraints.iter_mut().for_each(|constraint| constraint.weigh(&unknowns));
     (unknowns, constraints, if jointed { vec![tie] } else { Vec::new() })
 }

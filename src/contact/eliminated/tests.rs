@@ -14,8 +14,9 @@ fn noise(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// Seven groups: a tree of five, in no order, one by itself, and one more.
-fn forest(seed: &mut u64) -> (Vec<Unknown>, Vec<Tie>) {
+/// Seven groups: a tree of five, in no order, one by itself, and one more; if they are `held`, a leaf of
+/// the tree and the one by itself are tied to the world.
+fn forest(seed: &mut u64, held: bool) -> (Vec<Unknown>, Vec<Tie>) {
     let unknowns = (0..7).map(|_| {
         let root = Matrix3::from_fn(|_, _| noise(seed));
         let size = Vector3::new(100.0, 100.0, 3.0);
@@ -29,28 +30,30 @@ fn forest(seed: &mut u64) -> (Vec<Unknown>, Vec<Tie>) {
         unknown
     });
     let unknowns = unknowns.collect();
-    let pairs = [[4, 2], [6, 4], [2, 0], [2, 5]];
-    let ties = pairs.map(|[a, b]| {
+    let pairs = [(Some(4), 2), (Some(6), 4), (Some(2), 0), (Some(2), 5), (None, 5), (None, 3)];
+    let pairs = &pairs[..if held { 6 } else { 4 }];
+    let ties = pairs.iter().map(|&(a, b): &(Option<usize>, usize)| {
         let mut rows = || {
             let (sin, cos) = (2.0 * noise(seed)).sin_cos();
             let (normal, arm) =
                 (Vector::new(cos, sin), 0.03 * Vector::new(noise(seed), noise(seed)));
             [normal, perpendicular(normal)].map(|direction| along(direction, arm))
         };
-        let (to, from) = (rows(), rows());
+        let (to, from) = (rows(), if a.is_some() { rows() } else { Default::default() });
         let target = [1e-3 * noise(seed), 1e-3 * noise(seed)];
-        let [a, b] = [a, b].map(GroupIndex);
-        Tie { a: Some(a), b, to, from, target, force: Vector2::zeros() }
+        let (a, b) = (a.map(GroupIndex), GroupIndex(b));
+        Tie { a, b, to, from, target, force: Vector2::zeros() }
     });
-    (unknowns, ties.to_vec())
+    let ties = ties.collect();
+    (unknowns, ties)
 }
 
 /// Against all equations at once: [A J^T; J 0].
 #[test]
 fn the_tree_answers_as_all_equations_at_once_do() {
-    for seed in 1..20 {
+    for (seed, held) in (1..40).map(|k| (k / 2, k % 2 == 1)) {
         let seed = &mut (seed * 7919);
-        let (mut unknowns, mut ties) = forest(seed);
+        let (mut unknowns, mut ties) = forest(seed, held);
         let groups = unknowns.len();
         let (wide, all) = (3 * groups, 3 * groups + 2 * ties.len());
         let mut whole = DMatrix::zeros(all, all);
@@ -64,6 +67,7 @@ fn the_tree_answers_as_all_equations_at_once_do() {
             for (row, (to, from)) in tie.to.iter().zip(&tie.from).enumerate() {
                 let line = wide + 2 * n + row;
                 for (group, side) in [(Some(tie.b), *to), (tie.a, -from)] {
+                    let Some(group) = group else { continue };
                     for axis in 0..3 {
                         whole[(line, 3 * group.0 + axis)] = side[axis];
                         whole[(3 * group.0 + axis, line)] = -side[axis];
@@ -101,9 +105,9 @@ fn the_tree_answers_as_all_equations_at_once_do() {
 
 #[test]
 fn what_closes_a_loop_is_left_out() {
-    let (unknowns, mut ties) = forest(&mut 5);
+    let (unknowns, mut ties) = forest(&mut 5, false);
     let mut last = ties[0];
-    (last.a, last.b) = (GroupIndex(0), GroupIndex(6));
+    (last.a, last.b) = (Some(GroupIndex(0)), GroupIndex(6));
     ties.push(last);
     let mut joints = Eliminated::default();
     joints.hang(unknowns.len(), &ties);

@@ -14,7 +14,7 @@ use crate::scene::{Engine, Job, Outcome, Plan, Task, Tool, ToolMotion, Trajector
 use super::data::{self, Data, File, Layer, Replay, Standing, Stroke, length, pose};
 use super::html::{self, PageView};
 use super::recipe::Recipe;
-use super::replay::{sound, ends, graph, layer_of, replay, replays};
+use super::replay::{ends, graph, layer_of, replay, replays, sound};
 use super::{space, stage};
 
 /// The page of a plan that was replayed. `predicted` is what its effect model says, if that was

@@ -1,8 +1,9 @@
 //! Tests of `reconsider`.
 
 use super::*;
+use crate::geometry::Pose;
 use crate::plan::Start;
-use crate::scene::{Disturbance, Evidence, Outcome, State};
+use crate::scene::{Disturbance, Evidence, Outcome};
 
 fn candidate(pushes: &[(f64, f64)]) -> Candidate {
     let push = |&(direction, length): &(f64, f64)| CandidatePush {

@@ -1,0 +1,50 @@
+//! Joints in the planar engine, between objects and to the world.
+
+use rapier2d::prelude::{GenericJointBuilder, JointAxesMask, JointAxis, Real, RigidBodyBuilder};
+
+use crate::geometry::Vector;
+use crate::scene::{JointKind, Physics, Scene, Span};
+
+use super::{PlanarWorld, to_rapier};
+
+impl PlanarWorld {
+    pub(super) fn add_joints(&mut self, scene: &Scene, physics: &Physics) {
+        let form = |kind: &JointKind| match kind {
+            // Its objects are one body.
+            JointKind::Fixed => None,
+            JointKind::Revolute { .. } => {
+                Some((JointAxesMask::LOCKED_REVOLUTE_AXES, JointAxis::AngX))
+            }
+            JointKind::Prismatic { .. } => {
+                Some((JointAxesMask::LOCKED_PRISMATIC_AXES, JointAxis::LinX))
+            }
+        };
+        for joint in &physics.joints {
+            let Some((axes, free)) = form(&joint.kind) else { continue };
+            let [first, second] = joint.between.map(|index| &self.objects[index].0);
+            let [at_first, at_second] = joint.frames(&scene.objects);
+            let mut built = GenericJointBuilder::new(axes)
+                .local_frame1(to_rapier(&(first.local * at_first), Vector::zeros()))
+                .local_frame2(to_rapier(&(second.local * at_second), Vector::zeros()));
+            // The frames coincide where the scene states its objects, so zero is there.
+            if let Some(Span { low, high }) = joint.limits() {
+                built = built.limits(free, [low as Real, high as Real]);
+            }
+            let [first, second] = [first, second].map(|member| self.bodies[member.body].handle);
+            self.world.insert_impulse_joint(first, second, built);
+        }
+        for mount in &scene.mounts {
+            let Some((axes, free)) = form(&mount.kind) else { continue };
+            let member = &self.objects[mount.object].0;
+            let [world, own] = mount.frames(&scene.objects);
+            let mut built = GenericJointBuilder::new(axes)
+                .local_frame1(to_rapier(&world, self.origin))
+                .local_frame2(to_rapier(&(member.local * own), Vector::zeros()));
+            if let Some(Span { low, high }) = mount.limits() {
+                built = built.limits(free, [low as Real, high as Real]);
+            }
+            let fixed = self.world.insert_body(RigidBodyBuilder::fixed());
+            self.world.insert_impulse_joint(fixed, self.bodies[member.body].handle, built);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Joints to the world, and the goals that speak of them.
+
+use pushplan::effect::EffectModels;
+use pushplan::scene::{Engine, ModelKind, Rate, Record, Situation};
+use pushplan::{
+    EffectModel, Job, JointKind, Pose, Push, Simulated, Simulator, State, Task, ToolLibrary,
+    ToolMotion, Vector,
+};
+
+/// A door that is ajar before a cabinet, and a drawer beside it.
+const FURNITURE: &str = "
+scene:
+  objects:
+    - {name: door, shape: {cuboid: {size: [0.30, 0.02, 0.15]}}, mass: 1.6, friction: 0.3,
+       position: [0.6140, 0.0366], yaw_deg: 25}
+    - name: drawer
+      shape: {cuboid: {size: [0.20, 0.16, 0.10]}}
+      parts: [{name: handle, shape: {cuboid: {size: [0.02, 0.10, 0.10]}}, position: [-0.13, 0]}]
+      mass: 2
+      friction: 0.2
+      position: [0.70, -0.30]
+  joints:
+    - {between: [door, cabinet], kind: revolute, at: [0.75, 0.10], limits_deg: [-25, 80]}
+    - {between: [world, drawer], kind: prismatic, axis: [-2, 0], limits: [-0.1, 0.05]}
+  obstacles:
+    - {name: cabinet, size: [0.34, 0.2, 0.15], position: [0.60, 0.215]}
+robot: {reach: {min: 0.3, max: 0.9}}
+tools: all
+goal: {object: door, joint_deg: 40, heading_tolerance_deg: 5}
+";
+
+fn task(text: &str) -> Task {
+    Task::parse(text, "furniture.yaml").expect("a task")
+}
+
+/// Where everything is after this push with the stick: x and y of the end effector at its start, and
+/// its length.
+fn pushed(task: &Task, model: &dyn EffectModel, [x, y]: [f64; 2], length: f64) -> State {
+    let library = ToolLibrary::embedded().expect("tools");
+    let stick = library.get("stick").expect("a stick");
+    let push = Push { start: Vector::new(x, y), direction: 0.0, length, speed: 0.1 };
+    let motion = ToolMotion::pushes(stick.clone(), 0.002, 0.0, &[push], true);
+    let job = Job::new(&Situation::stated(&task.scene), motion);
+    model.rollout(&task.scene, &[job], Record::Outcome).remove(0).outcome().clone()
+}
+
+#[test]
+fn joints_to_the_world_are_written_as_they_were_read() {
+    let task = task(FURNITURE);
+    let scene = &task.scene;
+    assert_eq!(scene.mounts.iter().map(|mount| mount.object).collect::<Vec<_>>(), [0, 1]);
+    let JointKind::Prismatic { axis, .. } = scene.mounts[1].kind else { panic!("it slides") };
+    assert_eq!(axis, Vector::new(-1.0, 0.0));
+    let again = Task::parse(&task.to_yaml().expect("YAML"), "furniture.yaml").expect("a task");
+    assert_eq!(again.scene, task.scene);
+    let (goal, kept) = (task.goal.heading.expect("a heading"), again.goal.heading);
+    assert!((goal.0 - 65f64.to_radians()).abs() < 1e-12 && kept == Some(goal));
+}
+
+#[test]
+fn doors_turn_about_their_hinges_and_drawers_slide_alike_in_every_model() {
+    let task = task(FURNITURE);
+    let hinge = |state: &State| state.poses[0].point(Vector::new(0.15, 0.0));
+    let start = hinge(&task.scene.start());
+    let engine = |engine| Simulated::new(Simulator::new(engine, Rate::DEFAULT));
+    let prior = EffectModels::build(&ModelKind::PRIOR.into()).expect("a model");
+    let (planar, spatial) = (engine(Engine::Planar), engine(Engine::Spatial));
+    let models: [&dyn EffectModel; 3] = [&prior, &planar, &spatial];
+    let ends = models.map(|model| pushed(&task, model, [-0.16, -0.02], 0.10));
+    for end in &ends {
+        assert!((hinge(end) - start).norm() < 1e-4, "the hinge stays: {}", hinge(end));
+        let turned = (end.poses[0].heading - 25f64.to_radians()).to_degrees();
+        assert!(turned > 5.0 && turned < 80.0, "it opens: {turned}");
+        assert!((end.poses[0].heading - ends[1].poses[0].heading).abs() < 2e-3);
+        assert_eq!(end.poses[1], task.scene.objects[1].pose, "nothing touches the drawer");
+    }
+    let ends = models.map(|model| pushed(&task, model, [-0.10, -0.30], 0.12));
+    for end in &ends {
+        let Pose { position, heading } = end.poses[1];
+        assert!((position.y + 0.30).abs() < 1e-4 && heading.abs() < 1e-4, "{position}");
+        let slid = position.x - 0.70;
+        assert!(slid > 0.04 && slid < 0.1005, "{slid}");
+        assert!((position.x - ends[1].poses[1].position.x).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn faults_of_joints_to_the_world_are_told() {
+    let faults = |from: &str, to: &str| {
+        let text = FURNITURE.replace(from, to);
+        Task::parse(&text, "furniture.yaml").expect_err("faults").to_string()
+    };
+    let text = faults("between: [world, drawer]", "between: [world, door]");
+    assert!(text.contains("`door` is joined to the world twice"), "{text}");
+    let text = faults("kind: prismatic, axis: [-2, 0], limits: [-0.1, 0.05]", "kind: fixed");
+    assert!(text.contains("make it an obstacle"), "{text}");
+    let text = faults("joint_deg: 40", "joint: 0.1, tolerance: 0.01");
+    assert!(text.contains("the joint of `door` is not prismatic"), "{text}");
+    let text = faults(", joint_deg: 40, heading_tolerance_deg: 5", "");
+    assert!(text.contains("this goal asks for nothing"), "{text}");
+    let text = faults("joint_deg: 40", "joint_deg: 40, heading_deg: 10");
+    assert!(text.contains("`heading_deg` and `joint_deg` ask for the same"), "{text}");
+    let text = faults("joint_deg: 40, heading_tolerance_deg: 5", "position: [0.6, 0]");
+    assert!(text.contains("`position` needs a `tolerance`"), "{text}");
+}
