@@ -61,9 +61,11 @@ pub(super) fn extensions(
         .par_iter()
         .map(|&(node, pair)| {
             let movers = field.movers(&nodes[node].state);
+            // A thing can be pushed at any of its solids.
+            let scene = &workspace.task.scene;
+            let movers = movers.into_iter().flat_map(|k| [k].into_iter().chain(scene.parts_of(k)));
             let tried = |object| pushes(workspace, &nodes[node], (pair, object), offsets);
             movers
-                .into_iter()
                 .flat_map(tried)
                 .map(|push| (push, extend(workspace, field, &nodes[node], node, pair, push)))
                 .collect()

@@ -88,6 +88,7 @@ impl<'a> Field<'a> {
     /// What would be left, metres, if an object were carried along by `shift`: the goals' objects have
     /// their ways to go, another one is to get out of them.
     pub fn carried(&self, (state, object): (&State, usize), shift: Vector) -> f64 {
+        let object = self.task.scene.thing(object);
         let Pose { position, heading } = state.poses[object];
         let there = Pose { position: position + shift, heading };
         match &self.corridor {

@@ -237,7 +237,7 @@ impl<'a> Search<'a> {
         let (task, length) = (self.workspace.task, extension.push.length);
         let Some(last) = trajectory.frames.last() else { return (None, Vec::new()) };
         let object = extension.planned.object;
-        let counts = task.wants(object);
+        let counts = task.wants(task.scene.thing(object));
         let mut best = match counts {
             true => (final_score(task, trajectory), length),
             // What is moved aside is no plan yet.
