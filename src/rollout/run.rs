@@ -347,12 +347,12 @@ impl<'a> Run<'a> {
     /// What became of the job.
     pub fn finish(mut self) -> Trajectory {
         self.doubt();
+        let motion = self.job.motion.slide();
         if self.trajectory.frames.is_empty() || self.blocked {
-            self.stroke = self.job.motion.slide().strokes.len().saturating_sub(1);
-            let tool =
-                self.job.motion.slide().strokes.last().map(|stroke| stroke.to).unwrap_or_default();
-            self.keep_frame(tool);
+            self.stroke = motion.strokes.len().saturating_sub(1);
+            self.keep_frame(motion.strokes.last().map(|stroke| stroke.to).unwrap_or_default());
         }
+        self.trajectory.tell_parts(self.scene, &motion.tool);
         self.trajectory
     }
 }

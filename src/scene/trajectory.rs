@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::{Pose, Pose3};
+use crate::geometry::{Pose, Pose3, clearance};
 
 use super::planar::planar_only;
-use super::{ModelSpec, State, Warning};
+use super::{ModelSpec, Part, Scene, State, Tool, Warning};
 
 /// One recorded instant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -77,7 +77,7 @@ pub struct Contact {
     pub frame: usize,
     /// The object that is touched.
     pub object: usize,
-    /// What it touches.
+    /// What it touches; of a tool the part, by its number among [`Tool::parts`].
     pub with: Body,
 }
 
@@ -162,6 +162,32 @@ impl Trajectory {
     pub fn standing(by: ModelSpec, tool: Pose, state: State) -> Self {
         let frame = Frame { time: 0.0, stroke: 0, tool, state, blade: None };
         Self { frames: vec![frame], ..Self::new(by) }
+    }
+
+    /// Says which parts of `tool` its contacts are with, where they were noted with pieces of its outline,
+    /// in which flush parts are one: the part that is nearest then.
+    pub fn tell_parts(&mut self, scene: &Scene, tool: &Tool) {
+        let mut told: Vec<Contact> = Vec::with_capacity(self.contacts.len());
+        for mut contact in std::mem::take(&mut self.contacts) {
+            let at = contact.frame.min(self.frames.len().saturating_sub(1));
+            if let (Body::Part(_), Some(frame)) = (contact.with, self.frames.get(at)) {
+                let own = scene.objects[contact.object].shape.footprint();
+                let own = (&own, &frame.state.poses[contact.object]);
+                let apart = |part: &Part| {
+                    let pose = frame.tool * part.pose;
+                    clearance(own, (&part.footprint(), &pose), f64::MAX)
+                };
+                let gaps = tool.parts().iter().map(apart).enumerate();
+                let nearest = gaps.min_by(|a, b| a.1.total_cmp(&b.1));
+                contact.with = Body::Part(nearest.map_or(0, |(part, _)| part));
+            }
+            let same =
+                |known: &Contact| known.object == contact.object && known.with == contact.with;
+            if !told.iter().any(same) {
+                told.push(contact);
+            }
+        }
+        self.contacts = told;
     }
 
     /// The last recorded state.

@@ -101,7 +101,7 @@ pub(super) fn drive<W: World>(
     }
     if !start.is_finite() {
         recorder.trajectory.warnings.push(Warning::NotFinite);
-        return recorder.finish(scene);
+        return recorder.finish(scene, motion);
     }
     let mut world = W::build(scene, start, physics, motion, &tool);
     let mut time = 0.0;
@@ -123,7 +123,7 @@ pub(super) fn drive<W: World>(
             let stands = arm.is_some() && !warnings.is_empty();
             recorder.trajectory.warnings.extend(warnings);
             if stands {
-                return recorder.finish(scene);
+                return recorder.finish(scene, motion);
             }
         }
         let mut go = |frame: &FrameStep, world: &mut W, recorder: &mut Recorder| {
@@ -144,7 +144,7 @@ pub(super) fn drive<W: World>(
         for part in std::iter::once(*stroke).chain(back) {
             for k in 0..part.frames() {
                 if !go(&part.frame(k), &mut world, &mut recorder) {
-                    return recorder.finish(scene);
+                    return recorder.finish(scene, motion);
                 }
             }
             let still = FrameStep { from: part.to, to: part.to, duration: COAST_FRAME };
@@ -157,12 +157,12 @@ pub(super) fn drive<W: World>(
                 }
                 waited += 1;
                 if !go(&still, &mut world, &mut recorder) {
-                    return recorder.finish(scene);
+                    return recorder.finish(scene, motion);
                 }
             }
         }
     }
-    recorder.finish(scene)
+    recorder.finish(scene, motion)
 }
 
 /// What became of a frame.
@@ -248,7 +248,7 @@ impl Recorder {
         Self { record, trajectory, seen: 1, toppled: Vec::new(), strain: Strain::default() }
     }
 
-    fn finish(mut self, scene: &Scene) -> Trajectory {
+    fn finish(mut self, scene: &Scene, motion: &ToolMotion) -> Trajectory {
         let toppled = self
             .toppled
             .iter()
@@ -259,6 +259,7 @@ impl Recorder {
         let fallen = scene.fallen(self.trajectory.outcome(), &self.toppled);
         self.trajectory.warnings.extend(fallen);
         self.trajectory.force = Some(self.strain.force);
+        self.trajectory.tell_parts(scene, &motion.tool);
         self.trajectory
     }
 

@@ -8,7 +8,7 @@ use pushplan::asset::{PlanFile, ToolLibrary};
 use pushplan::export::{REPLAY_SCRIPT, mjcf};
 use pushplan::geometry::{Pose, Vector};
 use pushplan::scene::{
-    Job, Object, Obstacle, Part, Push, RETREAT, Record, Scene, Stroke, Task, Tool, ToolMotion,
+    Body, Job, Object, Obstacle, Part, Push, RETREAT, Record, Scene, Stroke, Task, Tool, ToolMotion,
 };
 use pushplan::sim::Simulator;
 use pushplan::solve::{Effort, PlanStatus, Planner};
@@ -63,6 +63,23 @@ fn what_a_fork_holds_comes_back_with_it_in_every_engine() {
         let (lifted, back) = (end(simulator), end(simulator.retreating()));
         let least = RETREAT - 0.002 - 1e-4;
         assert!((least..RETREAT + 5e-4).contains(&(lifted - back)), "{lifted} {back}");
+    }
+}
+
+#[test]
+fn contacts_name_parts_as_the_file_of_the_tool_lists_them() {
+    // Of four flush parts in a row the last meets the can; to the engines they are one.
+    let part = |k: usize| {
+        let x = 0.1 * k as f64;
+        Part::cuboid(format!("part-{k}"), [0.1, 0.04, 0.05], Pose::new(x, 0.0, 0.0))
+    };
+    let motion = motion((0..4).map(part), true);
+    assert_eq!(motion.tool.outline().len(), 1);
+    let scene = Scene::new([Object::cylinder("can", 0.04, 0.08).at(0.7, 0.0, 0.0)]);
+    for simulator in [Simulator::planar(), Simulator::spatial(), Simulator::upright()] {
+        let run = simulator.run(&scene, &Job::stated(&scene, motion.clone()), Record::Frames);
+        let with: Vec<Body> = run.contacts.iter().map(|contact| contact.with).collect();
+        assert_eq!(with, [Body::Part(3)], "{:?}", simulator.engine());
     }
 }
 

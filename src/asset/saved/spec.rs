@@ -284,7 +284,7 @@ const CONTACT: Value = Value::Map(&[
             Key::optional(
                 "part",
                 INDEX,
-                "Index of a piece of the tool's outline, in which flush parts are one; no default.",
+                "Index of a part of the tool that moves then, as its file lists them; no default.",
             ),
         ]),
         "What it touches.",

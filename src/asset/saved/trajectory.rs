@@ -83,14 +83,14 @@ fn check_frames(opened: &mut Opened, nodes: &[Node], own: &Own) {
 
 fn check_contacts(opened: &mut Opened, nodes: &[Node], own: &Own) {
     let Some(task) = &opened.task else { return };
-    let pieces = opened.tools.iter().map(|tool| tool.outline().len()).max().unwrap_or(0);
+    let parts = opened.tools.iter().map(|tool| tool.parts().len()).max().unwrap_or(0);
     let scene = &task.scene;
     for (node, contact) in nodes.iter().zip(&own.trajectory.contacts) {
         let Contact { frame, object, with } = *contact;
         let known = match with {
             Body::Object(index) => index < scene.objects.len(),
             Body::Obstacle(index) => index < scene.obstacles.len(),
-            Body::Part(index) => index < pieces,
+            Body::Part(index) => index < parts,
         };
         if !known || object >= scene.objects.len() || frame >= own.trajectory.frames.len() {
             let message = "a contact with a body or in a frame that does not exist";
