@@ -27,6 +27,7 @@ mod table;
 mod tools;
 mod trajectory;
 mod verdict;
+mod ways;
 
 pub use bars::{BarChart, Bars};
 pub use belief::belief_document;

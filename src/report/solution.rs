@@ -11,6 +11,7 @@ use super::number::seconds;
 use super::plan_text::{goal_line, plan_line, plan_sections, point};
 use super::table::{Align, Table};
 use super::verdict::{outcome_section, verdict_line};
+use super::ways::ways;
 
 /// A solved task, or the nearest plan.
 pub fn solution_document(task: &Task, solution: &Solution) -> Document {
@@ -24,6 +25,7 @@ pub fn solution_document(task: &Task, solution: &Solution) -> Document {
             let aim = point(aim);
             format!("aimed at {aim}, as the same plan aimed at the goal ended next to it in 3-D")
         }));
+        outcomes.lines.extend(ways(task, &best.plan, &best.tools));
         sections.push(outcomes);
     }
     if solution.statistics.levers.is_some() {

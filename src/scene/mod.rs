@@ -51,6 +51,7 @@ mod underside;
 mod unknowns;
 mod verdict;
 mod warning;
+mod way;
 mod whole;
 mod world;
 
@@ -104,5 +105,6 @@ pub use truth::Truth;
 pub use unknowns::Unknowns;
 pub use verdict::{Disturbance, Evidence, Reason, Verdict};
 pub use warning::Warning;
+pub use way::Way;
 pub use whole::Whole;
 pub use world::{GRAVITY, Object, Scene, TableTop};

@@ -27,9 +27,25 @@ pub struct Robot {
     /// without a body.
     #[serde(default)]
     pub base: f64,
+    /// Height above the table at which a lifted tool travels between pushes, that of its underside,
+    /// metres.
+    #[serde(default = "usual_travel", skip_serializing_if = "is_usual_travel")]
+    pub travel: f64,
+}
+
+fn usual_travel() -> f64 {
+    Robot::TRAVEL
+}
+
+fn is_usual_travel(travel: &f64) -> bool {
+    *travel == Robot::TRAVEL
 }
 
 impl Robot {
+    /// Usual height at which tools travel, metres: above what is pushed, and what arms over a table
+    /// reach.
+    pub const TRAVEL: f64 = 0.3;
+
     /// A robot whose end effector reaches from `min` to `max` metres from the world's origin, with
     /// its home `min` metres in front of it, a usual hand and a [usual column](Robot::usual_base).
     pub fn reaching(min: f64, max: f64) -> Self {
@@ -40,6 +56,7 @@ impl Robot {
             max_force: None,
             hand: Some(Hand::default()),
             base: Self::usual_base(min),
+            travel: Self::TRAVEL,
         }
     }
 

@@ -116,6 +116,13 @@ pub enum Warning {
         /// Name of the obstacle.
         obstacle: String,
     },
+    /// The lifted tool does not get to a push from the one before.
+    NoWay {
+        /// Index of the push.
+        push: usize,
+        /// What is in the way and taller than it is lifted.
+        obstacle: String,
+    },
     /// The task does not allow the tool.
     ForbiddenTool {
         /// Its name.
@@ -237,6 +244,7 @@ impl Warning {
             | Warning::OutOfReach { .. }
             | Warning::ThroughObstacle { .. }
             | Warning::HandThrough { .. }
+            | Warning::NoWay { .. }
             | Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::SetDownOn { .. }
@@ -301,6 +309,7 @@ impl Warning {
             Warning::OutOfReach { .. } => "out of reach",
             Warning::ThroughObstacle { .. } => "through an obstacle",
             Warning::HandThrough { .. } => "hand through an obstacle",
+            Warning::NoWay { .. } => "no way to a push",
             Warning::ForbiddenTool { .. }
             | Warning::ForbiddenYaw { .. }
             | Warning::TooManyPushes { .. }

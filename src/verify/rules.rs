@@ -6,7 +6,7 @@
 use crate::geometry::{Footprint, Pose, Vector, clearance, swept_clearance, wrap_angle};
 use crate::scene::{
     Fixed, Mover, Plan, Push, PushFault, PushForm, PushStep, Robot, Scene, Task, Tool, ToolChoice,
-    Warning,
+    Warning, Way,
 };
 
 /// Slack for rounding, metres and radians.
@@ -54,7 +54,24 @@ pub fn broken_rules(task: &Task, scene: &Scene, tool: &Tool, plan: &Plan) -> Vec
             found.push(Warning::HandThrough { push: index, obstacle });
         }
     }
+    found.extend(no_ways(task, scene, tool, plan));
     found
+}
+
+/// The pushes that the lifted tool does not get to from the one before.
+fn no_ways<'a>(
+    task: &'a Task,
+    scene: &'a Scene,
+    tool: &'a Tool,
+    plan: &Plan,
+) -> impl Iterator<Item = Warning> + use<'a> {
+    let pushes: Vec<PushStep> = plan.push_steps().cloned().collect();
+    (1..pushes.len()).filter_map(move |push| {
+        match task.way_between(scene, tool, [&pushes[push - 1], &pushes[push]])? {
+            Way::Blocked(obstacle) => Some(Warning::NoWay { push, obstacle }),
+            _ => None,
+        }
+    })
 }
 
 /// The pushes that are not of the form that the task allows, each with the first fault.

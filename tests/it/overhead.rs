@@ -162,3 +162,38 @@ fn a_shelf_and_a_region_are_written_read_and_drawn() {
         "{scene}"
     );
 }
+
+#[test]
+fn a_second_push_is_made_where_the_lifted_tool_gets_to() {
+    let wall = |height: f64, width: f64| {
+        let wall = format!("[0.02, {width}, {height}], position: [0.62, 0]");
+        SHELF
+            .replace("[0.3, 0.6, 0.1], position: [0.72, 0, 0.09]", &wall)
+            .replace("[stick]", "[finger]")
+            .replace("[0.66, 0.02]", "[0.45, 0.02]")
+    };
+    // One on either side of the wall.
+    let pushes = [0.42, 0.72].map(|x| Push {
+        start: Vector::new(x, 0.2),
+        direction: -0.5 * std::f64::consts::PI,
+        length: 0.1,
+        speed: 0.1,
+    });
+    let tool = library().get("finger").expect("a shipped tool").clone();
+    let plan = Plan::pushing(&tool.name, 0.0, PushForm::Placed, 0.002, pushes);
+    let forbidden = |text: &str| {
+        let task = task(text);
+        let verifier = Verifier::new(VerifySettings { disturbed: 0, seed: 0 });
+        let situation = Situation::stated(&task.scene);
+        verifier.nominal(&task, &situation, std::slice::from_ref(&tool), &plan).forbidden
+    };
+    assert!(forbidden(&wall(0.25, 3.0)).is_empty(), "the wall is lower than tools are lifted");
+    assert!(forbidden(&wall(0.5, 0.3)).is_empty(), "there is a way around the wall");
+    let blocked = forbidden(&wall(0.5, 3.0));
+    assert!(
+        matches!(&blocked[..], [Warning::NoWay { push: 1, obstacle }] if obstacle == "shelf"),
+        "{blocked:?}"
+    );
+    let higher = wall(0.5, 3.0).replace("max: 0.95}", "max: 0.95}, travel: 0.6");
+    assert!(forbidden(&higher).is_empty(), "a task says how high they are");
+}

@@ -33,6 +33,9 @@ pub(in crate::asset) fn task(task: &Task) -> Json {
             half if half > 0.0 => json!(half),
             _ => json!("none"),
         };
+        if task.robot.travel != Robot::TRAVEL {
+            robot["travel"] = json!(task.robot.travel);
+        }
     }
     let mut fields = json!({
         "name": task.name,

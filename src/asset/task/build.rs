@@ -167,6 +167,7 @@ pub(in crate::asset) fn robot(node: &Node) -> Option<Robot> {
             Some((_, Some(_))) => 0.0,
             Some((base, None)) => base.number()?,
         },
+        travel: number_or(node, "travel", Robot::TRAVEL)?,
     })
 }
 

@@ -228,6 +228,12 @@ const ROBOT: Value = Value::Map(&[
          `none`; by default 0.08, or as much less as the hand comes nearer: 0.06 less than the \
          smallest reach.",
     ),
+    Key::optional(
+        "travel",
+        SIZE,
+        "Height above the table at which the tool's underside travels between pushes, metres: what ends \
+         higher is gone around; default 0.3.",
+    ),
 ]);
 
 /// How hard the arm can press.
@@ -265,8 +271,9 @@ pub(in crate::asset) const PUSHES: Value = Value::Map(&[
     Key::optional(
         "form",
         Value::Word(&["placed", "chained"]),
-        "`placed`: each push starts where it is best, the tool comes from above and lifts after \
-         it; `chained`: all start from `home`, each continues where the last ended; default placed.",
+        "`placed`: each push starts where it is best, the tool comes from above, and goes back by \
+         5 mm and lifts after it; `chained`: all start from `home`, each continues where the last \
+         ended; default placed.",
     ),
     Key::optional(
         "directions",

@@ -123,6 +123,14 @@ impl fmt::Display for Warning {
             Warning::HandThrough { push, obstacle } => {
                 write!(f, "the hand passes through {obstacle} in push {}", push + 1)
             }
+            Warning::NoWay { push, obstacle } => {
+                let (before, push) = (push, push + 1);
+                write!(
+                    f,
+                    "the tool does not get from push {before} to push {push}: {obstacle} is in the way, \
+                     and higher than `robot.travel`"
+                )
+            }
             Warning::ForbiddenTool { tool } => {
                 write!(f, "the task does not allow the tool {tool}")
             }
