@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+/// A clock that browsers have, too.
+pub use web_time::Instant;
 
 /// Follows a long job and stops it. The one trait for everything that takes a while: solving,
 /// benchmarks, data, training. Called from many threads; a method that is not needed can be left

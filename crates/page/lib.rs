@@ -11,6 +11,8 @@ pub const BODY: &str = include_str!("page.html");
 /// What the page does. One script, so that one hash allows it and nothing else.
 pub const SCRIPT: &str = concat!(
     include_str!("script/elements.js"),
+    include_str!("script/shapes.js"),
+    include_str!("script/data.js"),
     include_str!("script/replay.js"),
     include_str!("script/clock.js"),
     include_str!("script/stage.js"),

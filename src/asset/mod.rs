@@ -6,6 +6,7 @@
 //! `strict`), and the rules that span several keys are applied while the domain's type is
 //! built (`tool`, `task`, `lever`, `saved`). Nothing is simulated here and nothing is drawn.
 
+mod edit;
 mod example;
 mod fault;
 mod folder;
@@ -29,6 +30,7 @@ mod tool;
 mod world;
 mod write;
 
+pub use edit::{Edit, Step, edit, values};
 pub use example::{example_text, load_example};
 pub use fault::{Fault, Faults, Place};
 pub use folder::recordings_in;
@@ -40,7 +42,7 @@ pub use saved::{PLAN_VERSION, PlanFile, SCHEMA_VERSION, TrajectoryFile};
 pub use schema::{
     plan_schema, recording_schema, task_schema, tool_schema, trajectory_schema, world_schema,
 };
-pub use task::load_task;
+pub use task::{load_task, parse_task};
 pub use text::{named_after, read_text};
 pub use tool::MAX_PARTS;
 pub use world::load_world;

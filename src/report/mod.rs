@@ -37,7 +37,7 @@ pub use fit::{fit_document, table_fit_section};
 pub use number::{degrees, fine_millimetres, millimetres, seconds};
 pub use page::{
     Origin, PageView, Recipe, Setting, TaskSource, prediction_page, recording_page, run_page,
-    solution_page, verdict_page,
+    solution_page, task_stage, verdict_page,
 };
 pub use picture::{MovingPicture, ScenePicture, Source, Track};
 pub use plan_picture::{plan_figures, space_figures};

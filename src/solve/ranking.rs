@@ -1,7 +1,7 @@
 //! The result: the plans that were tried, ranked.
 
+use crate::watch::Instant;
 use std::sync::Arc;
-use std::time::Instant;
 
 use crate::plan::bare;
 use crate::scene::{Plan, Tool};

@@ -1,6 +1,6 @@
 //! How often the best plan works is asked until it is clear.
 
-use std::time::Instant;
+use crate::watch::Instant;
 
 use super::grade::{Class, Grade};
 use super::solving::Solving;

@@ -1,7 +1,7 @@
 //! One task being solved: the loop over lengths of plans.
 
+use crate::watch::Instant;
 use std::sync::Arc;
-use std::time::Instant;
 
 use rayon::prelude::*;
 

@@ -19,6 +19,8 @@
     byId('file-details').hidden = !plan().file;
     byId('file').textContent = plan().file ? file() : '';
   });
+  // A page within another has no address of its own.
+  byId('link-details').hidden = location.protocol === 'about:';
   whenTimeChanges.push(() => {
     byId('link').textContent = `${location.href.split('#')[0]}#${linkPart()}`;
   });

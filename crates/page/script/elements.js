@@ -1,15 +1,5 @@
 'use strict';
-// Data of this page, and how elements are made. Text is only ever set as text.
-
-const page = JSON.parse(document.getElementById('data').textContent);
-const LENGTH = 1e-5; // metres in a unit of the data
-const FINE = 1e-4; // radians or seconds in a unit of the data
-/** Names of layers; the digit keys show and hide those of a plan in order. */
-const LAYERS = { predicted: 'predicted', planar: 'planar', spatial: '3-D', seen: 'seen', real: 'real' };
-
-/** All goals; of a recording there are none. */
-const goals = [page.stage.goal, ...(page.stage.further ?? [])].filter(Boolean);
-const wants = (object) => goals.some((goal) => goal.object === object);
+// How elements are made, and numbers as people read them. Text is only ever set as text.
 
 const byId = (id) => document.getElementById(id);
 

@@ -11,8 +11,6 @@ function unpacked(column, count, unit) {
   return values;
 }
 
-const posed = ([x, y, heading]) => [x * LENGTH, y * LENGTH, heading * FINE];
-
 const between = (a, b, share) => a.map((value, k) => value + (b[k] - value) * share);
 
 class Replay {

@@ -27,15 +27,7 @@
     return `translate(${x} ${y}) rotate(${((-pose[2] * 180) / Math.PI).toFixed(2)})`;
   };
 
-  /** The shape of a body about its own origin. */
-  function outline(shape, attributes) {
-    if ('disc' in shape) return svg('circle', { r: px(shape.disc * LENGTH), ...attributes });
-    const corners = shape.polygon.map(([x, y]) => `${px(x * LENGTH)},${px(-y * LENGTH)}`);
-    return svg('polygon', { points: corners.join(' '), ...attributes });
-  }
-
-  const radius = (shape) => LENGTH * ('disc' in shape ? shape.disc
-    : Math.max(...shape.polygon.map(([x, y]) => Math.hypot(x, y))));
+  const outline = (shape, attributes) => outlined(shape, px, attributes);
 
   function line(points, attributes) {
     return svg('polyline', { points: points.map((p) => map(p).join(',')).join(' '), ...attributes });
@@ -56,12 +48,6 @@
     if (hand) group.append(svg('circle', { cx: px(x), cy: px(-y), r: px(radius(hand.shape)), class: 'hand' }, svg('title', {}, 'hand')));
     group.append(svg('circle', { cx: px(x), cy: px(-y), r: 4.5, class: 'grip' }));
     return group;
-  }
-
-  /** The world position of a point in the frame of a pose. */
-  function placed([x, y, heading], [u, v]) {
-    const [c, s] = [Math.cos(heading), Math.sin(heading)];
-    return [x + c * u - s * v, y + s * u + c * v];
   }
 
   function fit() {

@@ -109,7 +109,15 @@ impl Task {
 /// All faults of the file, each with its place.
 pub fn load_task(path: impl AsRef<Path>, library: &ToolLibrary) -> Result<Task, Faults> {
     let (file, text) = crate::asset::read_text(path.as_ref())?;
-    parse_with(&text, &file, Some(library))
+    parse_task(&text, &file, library)
+}
+
+/// [`load_task`] of a text; `file` names it in faults.
+///
+/// # Errors
+/// All faults of the text, each with its place.
+pub fn parse_task(text: &str, file: &str, library: &ToolLibrary) -> Result<Task, Faults> {
+    parse_with(text, file, Some(library))
 }
 
 /// Reads a task from `text`, with the tools it names checked against `library`, if one is given.

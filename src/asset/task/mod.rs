@@ -20,7 +20,7 @@ pub(super) use build::{
 pub(super) use frictions::{FRICTIONS, name_of_surface};
 pub(super) use joints::joint as joint_of;
 pub(super) use keep::{emitted as region, emitted_area as area_of};
-pub use load::load_task;
+pub use load::{load_task, parse_task};
 pub(super) use load::{parse_with, scene_of, task_of};
 pub(super) use mounts::WORLD;
 pub(super) use obstacles::{

@@ -24,3 +24,4 @@ pub use recipe::{Origin, Recipe, Setting, TaskSource};
 pub use replayed::{prediction_page, verdict_page};
 pub use run::run_page;
 pub use solution::solution_page;
+pub use stage::task_stage;

@@ -32,6 +32,12 @@ pub fn stage(task: &Task) -> Stage {
     }
 }
 
+/// The same as JSON, for whoever draws it elsewhere as the page does: see [`Stage`].
+pub fn task_stage(task: &Task) -> Json {
+    // It holds no maps with odd keys.
+    serde_json::to_value(stage(task)).unwrap_or_default()
+}
+
 /// What stands on a table, with nothing to be done.
 pub fn table(scene: &Scene) -> Stage {
     let objects = scene.objects.iter().map(|object| Body {

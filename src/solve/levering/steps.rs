@@ -1,9 +1,9 @@
 //! The loop over steps: a lever-up alone; where that does not do, pushes after one; where there is
 //! none, pushes to where one can be made.
 
+use crate::watch::Instant;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-use std::time::Instant;
 
 use crate::asset::ToolLibrary;
 use crate::geometry::{Pose3, Solid, Vector};

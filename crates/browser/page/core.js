@@ -1,0 +1,23 @@
+// The library: fetched and compiled once, and handed to the workers as it is.
+
+import init, * as library from './pushplan.js';
+
+export { library };
+
+// Called by the library, here and in workers.
+globalThis.pushplanTold = () => {};
+globalThis.pushplanFailed = (message) => console.error(message);
+
+/**
+ * The compiled library, which is ready for calls then. It is packed by us, as not every server does
+ * that; the name keeps servers from unpacking it.
+ */
+export async function load() {
+  const response = await fetch('pushplan.wasm-gz');
+  if (!response.ok) throw new Error(`the planner cannot be fetched: ${response.status} ${response.statusText}`);
+  const unpacked = response.body.pipeThrough(new DecompressionStream('gzip'));
+  const headers = { 'Content-Type': 'application/wasm' };
+  const module = await WebAssembly.compileStreaming(new Response(unpacked, { headers }));
+  await init({ module_or_path: module });
+  return module;
+}

@@ -1,0 +1,36 @@
+// A task in an address: `#example=NAME`, or `#task=` and the packed text.
+
+async function through(stream, bytes) {
+  const body = new Response(bytes).body.pipeThrough(stream);
+  return new Uint8Array(await new Response(body).arrayBuffer());
+}
+
+/** The part of an address behind `#` that holds a text. */
+export async function packed(text) {
+  const bytes = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(text));
+  const letters = btoa(String.fromCharCode(...bytes));
+  return `task=${letters.replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '')}`;
+}
+
+/** No task is longer; what unpacks to more is no task. */
+const LONGEST = 1 << 18;
+
+/**
+ * The text in the part of an address behind `#`, or the name of a shipped task, or nothing.
+ *
+ * A link that was cut on its way is an error.
+ */
+export async function unpacked(part) {
+  const parts = new URLSearchParams(part);
+  if (parts.has('example')) return { example: parts.get('example') };
+  if (!parts.has('task')) return {};
+  try {
+    const letters = atob(parts.get('task').replaceAll('-', '+').replaceAll('_', '/'));
+    const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
+    const text = await through(new DecompressionStream('deflate-raw'), bytes);
+    if (text.length > LONGEST) throw new Error('too long');
+    return { text: new TextDecoder('utf-8', { fatal: true }).decode(text) };
+  } catch {
+    throw new Error('the link is damaged: perhaps it was cut; ask for it once more');
+  }
+}

@@ -1,0 +1,224 @@
+// The page: one task, seen as a table, as fields and as a file, and what is planned for it.
+
+import { library, load } from './core.js';
+import { Planner } from './planner.js';
+import { task, change, fileName, onChange, undo, redo, canUndo, canRedo, write } from './task.js';
+import { packed, unpacked } from './link.js';
+
+const FIRST = 'pull-back-behind-wall';
+/** A pause in writing after which the link follows, milliseconds. */
+const PAUSE = 300;
+
+/** The shipped tasks by name. */
+const shipped = new Map();
+let whole = null; // the wish for a plan with its page
+let last = null; // the answer that is shown
+let paged = null; // the one whose page is shown
+let version = 0;
+
+async function main() {
+  const module = await load();
+  // They ask the library as soon as they are read.
+  const [table, form, text, things] = await Promise.all(['table', 'form', 'text', 'things'].map((name) => import(`./${name}.js`)));
+  const planner = new Planner(module, 2);
+  for (const name of library.examples()) shipped.set(name, library.example(name));
+  shipped.set('bare table', library.bare());
+  byId('example').append(...[...shipped.keys()].map((name) => html('option', { value: name }, name)),
+    html('option', { value: '', hidden: '' }, 'your own'));
+
+  table.begin(() => form.drawForm());
+  text.begin();
+  onChange((from) => {
+    version += 1;
+    text.drawText(from);
+    table.draw();
+    form.drawForm();
+    form.drawTools();
+    byId('undo').disabled = !canUndo();
+    byId('redo').disabled = !canRedo();
+    byId('plan').disabled = !task.sound;
+    byId('example').value = exampleOf(task.text) ?? '';
+    keepLink();
+    age();
+    if (from !== 'load' && byId('live').checked && task.sound) draft();
+  });
+
+  /** A wish for what the task is now. */
+  const wish = (more) => ({
+    text: task.text, file: fileName(), example: exampleOf(task.text, true) ?? '', version, since: performance.now(), ...more,
+  });
+
+  function draft() {
+    const own = wish({ effort: 'draft', whole: false });
+    own.done = ({ answer, broken }) => {
+      // Answers may overtake each other; that of the newest task stays.
+      if (broken || answer.fault || (last && last.version >= own.version)) return;
+      take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since });
+    };
+    planner.planLive(own);
+  }
+
+  function plan() {
+    if (whole) planner.cancel(whole);
+    const own = wish({ effort: byId('effort').value, whole: true });
+    whole = own;
+    own.told = ({ stage, done, total }) => {
+      byId('stage-of-work').textContent = total > 0 ? `${stage}, ${done} of ${total}` : stage;
+      const bar = byId('progress');
+      if (total > 0) bar.value = done / total;
+      else bar.removeAttribute('value');
+    };
+    own.done = ({ answer, broken }) => {
+      ended();
+      if (broken) trouble(`The planner stopped: ${broken}. That is a defect; the link in the address bar helps to find it.`);
+      else if (answer.fault) trouble(answer.fault);
+      else take({ ...answer, version: own.version, effort: own.effort, took: performance.now() - own.since, whole: true });
+    };
+    trouble('');
+    for (const id of ['cancel', 'progress']) byId(id).hidden = false;
+    byId('progress').removeAttribute('value');
+    byId('stage-of-work').textContent = 'planning';
+    planner.plan(own);
+  }
+
+  function ended() {
+    whole = null;
+    for (const id of ['cancel', 'progress']) byId(id).hidden = true;
+    byId('stage-of-work').textContent = '';
+  }
+
+  /** Shows an answer. */
+  function take(answer) {
+    last = answer;
+    const { summary } = answer;
+    table.show(summary);
+    byId('answer').textContent = `${summary.headline} (${answer.effort}, ${(answer.took / 1000).toFixed(2)} s)`;
+    byId('answer').className = summary.status === 'solved' ? '' : 'bad';
+    if (answer.whole) {
+      paged = answer;
+      byId('words').hidden = false;
+      byId('words-text').textContent = answer.words;
+      byId('save-plan').hidden = !answer.plan;
+      const frame = byId('page');
+      frame.hidden = !answer.page;
+      frame.srcdoc = answer.page;
+    }
+    age();
+  }
+
+  /** Says of what is shown whether it is of the task as it is now. */
+  function age() {
+    const old = Boolean(last) && last.version !== version;
+    byId('answer').classList.toggle('old', old);
+    byId('table').classList.toggle('stale', old);
+    byId('page').classList.toggle('stale', Boolean(paged) && paged.version !== version);
+  }
+
+  byId('page').addEventListener('load', () => {
+    const { body } = byId('page').contentDocument;
+    new ResizeObserver(() => { byId('page').style.height = `${body.scrollHeight + 30}px`; }).observe(body);
+  });
+  byId('plan').addEventListener('click', plan);
+  byId('cancel').addEventListener('click', () => {
+    planner.cancel(whole);
+    ended();
+    byId('answer').textContent = 'cancelled';
+  });
+  byId('example').addEventListener('change', ({ target }) => {
+    write(shipped.get(target.value), 'load');
+    table.chosen.id = 'goal-0';
+    table.show(null);
+    table.fit();
+    form.drawForm();
+  });
+  const add = (kind) => () => {
+    change(things.added(kind), 'form');
+    const own = things.things().filter((thing) => thing.kind === kind).at(-1);
+    if (own) table.chosen.id = own.id;
+    table.draw();
+    form.drawForm();
+  };
+  byId('add-object').addEventListener('click', add('object'));
+  byId('add-obstacle').addEventListener('click', add('obstacle'));
+  byId('fit').addEventListener('click', table.fit);
+  byId('undo').addEventListener('click', undo);
+  byId('redo').addEventListener('click', redo);
+  byId('save-task').addEventListener('click', () => save(fileName(), task.text, 'text/yaml'));
+  byId('save-plan').addEventListener('click', () => save(fileName().replace('.yaml', '.plan.json'), paged.plan, 'application/json'));
+  byId('form').addEventListener('submit', (event) => event.preventDefault());
+  byId('copy-link').addEventListener('click', copyLink);
+  document.addEventListener('keydown', (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== 'z') return;
+    if (['INPUT', 'TEXTAREA'].includes(event.target.tagName)) return;
+    event.preventDefault();
+    if (event.shiftKey) redo();
+    else undo();
+  });
+  addEventListener('hashchange', () => open(table, form));
+
+  await open(table, form);
+  byId('foot').textContent = 'The planner is here: what you see runs in your browser.';
+  document.documentElement.dataset.ready = Math.round(performance.now());
+}
+
+/** Shows the task of the address. */
+async function open(table, form) {
+  let found = {};
+  try {
+    found = await unpacked(location.hash.slice(1));
+    if (found.example && !shipped.has(found.example)) throw new Error(`there is no shipped task ${found.example}`);
+  } catch (error) {
+    trouble(error.message);
+  }
+  const text = found.text ?? shipped.get(found.example ?? FIRST) ?? shipped.get(FIRST);
+  if (text === task.text) return;
+  write(text, 'load');
+  table.show(null);
+  table.fit();
+  form.drawForm();
+}
+
+/** The shipped task that a text is; with `known`, one that the command knows. */
+function exampleOf(text, known = false) {
+  for (const [name, own] of shipped) if (own === text) return known && name.includes(' ') ? undefined : name;
+  return undefined;
+}
+
+const linkPart = async () => {
+  const example = exampleOf(task.text);
+  return example ? `example=${encodeURIComponent(example)}` : packed(task.text);
+};
+
+let linking = 0;
+function keepLink() {
+  clearTimeout(linking);
+  linking = setTimeout(async () => history.replaceState(null, '', `#${await linkPart()}`), PAUSE);
+}
+
+async function copyLink() {
+  const link = `${location.href.split('#')[0]}#${await linkPart()}`;
+  history.replaceState(null, '', link);
+  try {
+    await navigator.clipboard.writeText(link);
+    byId('copy-link').textContent = 'Copied';
+  } catch {
+    byId('copy-link').textContent = 'It is in the address bar';
+  }
+  setTimeout(() => { byId('copy-link').textContent = 'Copy link'; }, 2000);
+}
+
+function save(name, text, type) {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  html('a', { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+function trouble(message) {
+  byId('trouble').textContent = message;
+  byId('trouble').hidden = !message;
+}
+
+main().catch((error) => {
+  trouble(`This browser cannot run the planner (${error.message}). It needs WebAssembly with vectors: Chrome or Edge from 114 on, Firefox from 145 on.`);
+  byId('foot').textContent = '';
+});

@@ -1,0 +1,120 @@
+// What can be taken by hand: objects, walls, goals, and where the robot reaches. Each knows its place in the
+// file.
+
+import { task, at } from './task.js';
+
+const degree = Math.PI / 180;
+const isPoint = (value) => Array.isArray(value) && value.length >= 2 && value.slice(0, 2).every(Number.isFinite);
+
+/**
+ * All of them: `id`, `kind`, `name`, `path` in the file, and `pose` as its values say, in metres and
+ * radians; what is drawn of it is in `body`.
+ */
+export function things() {
+  const { stage, values } = task;
+  if (!stage || !values) return [];
+  const goals = [stage.goal, ...(stage.further ?? [])].filter(Boolean);
+  const listed = Array.isArray(values.goal);
+  const own = new Set(goals.map((goal) => goal.object));
+  return [
+    ...stage.obstacles.map((body, k) => thing('obstacle', k, ['scene', 'obstacles', k], body)),
+    ...goals.map((goal, k) => thing('goal', k, listed ? ['goal', k] : ['goal'], goal)),
+    ...stage.objects.map((body, k) => ({ ...thing('object', k, ['scene', 'objects', k], body), own: own.has(k) })),
+    ...reaches(stage),
+  ].filter(Boolean);
+}
+
+function thing(kind, index, path, body) {
+  const values = at(path);
+  const position = values?.position;
+  if (!isPoint(position)) return null;
+  const turn = kind === 'goal' ? 'heading_deg' : 'yaw_deg';
+  const yaw = values[turn];
+  const turns = kind !== 'goal' || yaw !== undefined;
+  const pose = [position[0], position[1], Number.isFinite(yaw) ? yaw * degree : 0];
+  // A goal is named after what must come there.
+  const name = (kind === 'goal' ? values.object : values.name) ?? `${kind} ${index + 1}`;
+  return { id: `${kind}-${index}`, kind, index, name: String(name), path, body, pose, turn: turns ? turn : null, own: false };
+}
+
+/** The ends of the reach, and where chained pushes start. */
+function reaches(stage) {
+  const robot = at(['robot']);
+  const list = ['min', 'max'].map((end, k) => ({
+    id: `reach-${end}`, kind: 'reach', index: k, name: end === 'min' ? 'smallest reach' : 'largest reach',
+    path: ['robot', 'reach', end], pose: [(stage.reach[k] ?? 0) * 1e-5, 0, 0], turn: null,
+  })).filter(({ path }) => Number.isFinite(at(path)));
+  for (const one of list) one.pose[0] = at(one.path);
+  if (isPoint(robot?.home)) {
+    list.push({ id: 'home', kind: 'home', index: 0, name: 'home of the hand', path: ['robot', 'home'], pose: [...robot.home.slice(0, 2), 0], turn: null });
+  }
+  return list;
+}
+
+const rounded = (value, digits) => +value.toFixed(digits);
+
+/** The edits that bring a thing to a position in metres. */
+export function movedTo(thing, [x, y], digits = 3) {
+  if (thing.kind === 'reach') return [{ path: thing.path, value: Math.max(0, rounded(Math.hypot(x, y), digits)) }];
+  const path = thing.kind === 'home' ? thing.path : [...thing.path, 'position'];
+  // One by one: a third number may follow.
+  return [x, y].map((value, k) => ({ path: [...path, k], value: rounded(value, digits) }));
+}
+
+/** The edits that turn it to a heading in radians. */
+export function turnedTo(thing, heading) {
+  if (!thing.turn) return [];
+  const whole = Math.round(heading / degree);
+  const value = ((((whole + 180) % 360) + 360) % 360) - 180;
+  return [{ path: [...thing.path, thing.turn], value }];
+}
+
+/** In words, for those who hear it. */
+export function words(thing) {
+  const [x, y, heading] = thing.pose;
+  const kinds = { object: 'object', obstacle: 'wall', goal: 'goal', reach: '', home: '' };
+  if (thing.kind === 'reach') return `${thing.name}, ${x.toFixed(3)} metres`;
+  const turned = thing.turn && heading ? `, turned by ${Math.round(heading / degree)} degrees` : '';
+  const name = thing.kind === 'goal' ? `goal of ${thing.name}` : `${thing.name}${kinds[thing.kind] && `, ${kinds[thing.kind]}`}`;
+  return `${name}, at x ${x.toFixed(3)}, y ${y.toFixed(3)} metres${turned}`;
+}
+
+/** A name that nothing on the table has. */
+function free(word) {
+  const taken = new Set([...(at(['scene', 'objects']) ?? []), ...(at(['scene', 'obstacles']) ?? [])].map((one) => one?.name));
+  let k = 1;
+  while (taken.has(`${word}-${k}`)) k++;
+  return `${word}-${k}`;
+}
+
+/** Somewhere on the table with room around it. */
+function room() {
+  const taken = things().filter(({ kind }) => kind === 'object' || kind === 'obstacle');
+  const clear = (x, y) => taken.every(({ pose, body }) => Math.hypot(pose[0] - x, pose[1] - y) > radius(body.shape) + 0.09);
+  for (const x of [0.5, 0.35, 0.65]) {
+    for (const y of [-0.2, 0.2, -0.35, 0.35, 0, -0.5, 0.5]) if (clear(x, y)) return [x, y];
+  }
+  return [0.5, 0];
+}
+
+/** The edits that add an object or a wall. */
+export function added(kind) {
+  const position = room();
+  if (kind === 'obstacle') {
+    const index = at(['scene', 'obstacles'])?.length ?? 0;
+    return [{ path: ['scene', 'obstacles', index], value: { name: free('wall'), size: [0.04, 0.2, 0.1], position } }];
+  }
+  const shape = task.levers ? { cuboid: { size: [0.12, 0.1, 0.01] } } : { cylinder: { radius: 0.04, height: 0.1 } };
+  const more = task.levers ? { clearance: 0.008 } : {};
+  const index = at(['scene', 'objects'])?.length ?? 0;
+  return [{ path: ['scene', 'objects', index], value: { name: free('object'), shape, mass: 0.4, friction: 0.4, ...more, position } }];
+}
+
+/** The edits that take a thing away; none where the task would be none without it. */
+export function removed(thing) {
+  const listed = (path) => at(path.slice(0, -1))?.length ?? 0;
+  const last = thing.path.at(-1);
+  if (!Number.isInteger(last)) return [];
+  if (listed(thing.path) > 1) return [{ path: thing.path }];
+  return thing.kind === 'obstacle' ? [{ path: thing.path.slice(0, -1) }] : [];
+}

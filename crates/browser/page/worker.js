@@ -1,0 +1,35 @@
+// Plans, one task after the other, apart from the page. It is stopped by ending it.
+
+import init, { solve } from './pushplan.js';
+
+let told = 0;
+let stage = '';
+globalThis.pushplanTold = (what, done, total) => {
+  stage = what || stage;
+  // A page shows no more than that.
+  const now = performance.now();
+  if (!what && now - told < 50) return;
+  told = now;
+  postMessage({ stage, done, total });
+};
+let defect = '';
+globalThis.pushplanFailed = (message) => { defect = message; };
+
+addEventListener('message', async ({ data }) => {
+  if (data.module) {
+    await init({ module_or_path: data.module });
+    postMessage({ ready: true });
+    return;
+  }
+  try {
+    const solved = solve(data.text, data.file, data.example, data.effort);
+    const answer = { summary: JSON.parse(solved.summary()) };
+    if (data.whole) Object.assign(answer, { words: solved.text(), page: solved.page(), plan: solved.plan() });
+    solved.free();
+    postMessage({ answer });
+  } catch (error) {
+    // What is wrong with a task is text; anything else is a defect, after which nothing is sure.
+    if (typeof error === 'string') postMessage({ answer: { fault: error } });
+    else postMessage({ broken: defect || String(error) });
+  }
+});

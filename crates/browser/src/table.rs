@@ -1,0 +1,85 @@
+//! The text of a task, what it says, and changes of it.
+
+use pushplan::asset::{self, Edit, Fault, Faults, parse_task};
+use pushplan::report::task_stage;
+use pushplan::{Task, ToolLibrary};
+use serde_json::{Value as Json, json};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::library;
+
+/// Names of the shipped tasks.
+#[wasm_bindgen]
+pub fn examples() -> Vec<String> {
+    Task::examples().map(str::to_owned).collect()
+}
+
+/// The text of a shipped task.
+///
+/// # Errors
+/// If there is none of this name.
+#[wasm_bindgen]
+pub fn example(name: &str) -> Result<String, String> {
+    asset::example_text(name).map(str::to_owned).map_err(|faults| faults.to_string())
+}
+
+/// A task to begin with.
+#[wasm_bindgen]
+pub fn bare() -> String {
+    include_str!("bare.yaml").to_owned()
+}
+
+/// Names of the shipped tools as JSON: those that push, and those that lever.
+///
+/// # Errors
+/// If the library was built around damaged tools.
+#[wasm_bindgen]
+pub fn tools() -> Result<String, String> {
+    let library = library()?;
+    let names = |wanted: fn(&pushplan::Tool) -> bool| -> Vec<&str> {
+        let tools = library.iter().chain(library.blades());
+        let mut names: Vec<&str> =
+            tools.filter(|tool| wanted(tool)).map(|tool| tool.name.as_str()).collect();
+        names.dedup();
+        names
+    };
+    let lever = |tool: &pushplan::Tool| tool.blade().is_some();
+    Ok(json!({"push": names(pushplan::Tool::pushes), "lever": names(lever)}).to_string())
+}
+
+/// What a text says, as JSON: `values` as they stand in it, `stage` as a page draws it, and `faults`;
+/// what cannot be said is null.
+#[wasm_bindgen]
+pub fn look(text: &str, file: &str) -> String {
+    let values = asset::values(text, file).unwrap_or_default();
+    let task = library().map_err(|error| Fault::of_file(file, error, "").into());
+    let task = task.and_then(|library: &ToolLibrary| parse_task(text, file, library));
+    let (stage, faults) = match &task {
+        Ok(task) => (task_stage(task), Vec::new()),
+        Err(faults) => (Json::Null, listed(faults)),
+    };
+    let levers = task.is_ok_and(|task| task.in_space());
+    json!({"values": values, "stage": stage, "levers": levers, "faults": faults}).to_string()
+}
+
+/// The text after changes, which are JSON: a list of `{path, value}`; without a value something is
+/// taken away.
+///
+/// # Errors
+/// A text that is not YAML; a path that leads nowhere.
+#[wasm_bindgen]
+pub fn edit(text: &str, file: &str, edits: &str) -> Result<String, String> {
+    let edits: Vec<Edit> = serde_json::from_str(edits).map_err(|error| error.to_string())?;
+    asset::edit(text, file, &edits).map_err(|faults| faults.to_string())
+}
+
+fn listed(faults: &Faults) -> Vec<Json> {
+    let one = |fault: &Fault| {
+        let place = fault.place.map(|place| (place.line, place.column));
+        json!({
+            "line": place.map(|(line, _)| line), "column": place.map(|(_, column)| column),
+            "message": fault.message, "advice": fault.advice,
+        })
+    };
+    faults.0.iter().map(one).collect()
+}

@@ -1,0 +1,90 @@
+// Every shipped task, in the browser and by the command with one thread.
+
+const { execFileSync } = require('node:child_process');
+const fs = require('node:fs');
+const os = require('node:os');
+const path = require('node:path');
+
+/** `draft` is closed-form: the same plan, to this. */
+const SAME = 1e-9;
+/** `standard` asks a network, whose products are rounded differently: where it ends, metres. */
+const NEAR = 1e-4;
+
+/** What the command says of a shipped task: its answer, and the plan that it writes. */
+function commanded(name, effort, folder) {
+  const words = ['solve', '--example', name, '--effort', effort, '--threads', '1', '--json', '--quiet', '--out', folder];
+  let text;
+  try {
+    text = execFileSync(process.env.PUSHPLAN, words, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'ignore'] });
+  } catch (error) {
+    // No plan is an answer as well.
+    text = error.stdout;
+  }
+  const { status, plans, statistics } = JSON.parse(text);
+  return { status, steps: plans[0]?.plan.steps ?? [], ends: plans[0]?.predicted, seconds: statistics.timing.total };
+}
+
+/** Largest difference of two numbers at the same place; of anything else that differs, infinite. */
+function apart(a, b) {
+  if (typeof a === 'number' && typeof b === 'number') return Math.abs(a - b);
+  if (a === null || b === null || typeof a !== 'object' || typeof b !== 'object') return a === b ? 0 : Infinity;
+  const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
+  return Math.max(0, ...[...keys].map((key) => (key in a && key in b ? apart(a[key], b[key]) : Infinity)));
+}
+
+const tools = (steps) => steps.map((step) => Object.values(step)[0].tool ?? step.tool).join(' ');
+
+const median = (values) => {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted.length ? sorted[Math.floor(sorted.length / 2)] : NaN;
+};
+
+/** What differs by more than it may, a line each; prints every task. */
+async function tasks(browser, address, [only, ...efforts]) {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'playground-'));
+  const page = await browser.newPage();
+  await page.goto(address);
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
+  await page.evaluate(async () => {
+    const [{ load, library }, { Planner }] = await Promise.all([import('./core.js'), import('./planner.js')]);
+    const planner = new Planner(await load(), 1);
+    globalThis.names = library.examples();
+    globalThis.solved = (name, effort) => new Promise((done) => {
+      planner.plan({ text: library.example(name), file: `${name}.yaml`, example: name, effort, whole: true, done });
+    });
+  });
+  const names = (await page.evaluate(() => globalThis.names)).filter((name) => !only || only === 'all' || name === only);
+  const wrong = [];
+  for (const effort of efforts.length ? efforts : ['draft', 'standard']) {
+    const times = [];
+    console.log(`\n${effort}: task, answer, difference of the plan, of its end in mm, seconds here and by the command`);
+    for (const name of names) {
+      const command = commanded(name, effort, folder);
+      const heard = await page.evaluate(([name, effort]) => globalThis.solved(name, effort), [name, effort]);
+      if (heard.broken || heard.answer.fault) {
+        wrong.push(`${effort} ${name}: ${heard.broken ?? heard.answer.fault}`);
+        continue;
+      }
+      const { summary, plan } = heard.answer;
+      const own = plan ? JSON.parse(plan) : { plan: { steps: [] }, predicted: null };
+      const { steps } = own.plan;
+      const plans = apart(steps, command.steps);
+      const ends = apart(own.predicted?.state.poses, command.ends?.state.poses);
+      times.push([summary.seconds, command.seconds]);
+      const same = effort === 'draft' ? plans <= SAME
+        : tools(steps) === tools(command.steps) && steps.length === command.steps.length && ends <= NEAR;
+      const fits = summary.status === command.status && same;
+      console.log(`${fits ? ' ' : '!'} ${name.padEnd(24)} ${summary.status.padEnd(20)} ${plans.toExponential(1).padStart(9)} `
+        + `${(1e3 * ends).toFixed(4).padStart(9)} ${summary.seconds.toFixed(3).padStart(8)} ${command.seconds.toFixed(3).padStart(8)}`);
+      if (!fits) wrong.push(`${effort} ${name}: ${summary.status} with ${tools(steps)}, by the command ${command.status} with ${tools(command.steps)}; plans differ by ${plans}, ends by ${ends} m`);
+    }
+    const [here, there] = [0, 1].map((k) => median(times.map((pair) => pair[k])));
+    console.log(`${effort}: median ${here.toFixed(3)} s here, ${there.toFixed(3)} s by the command; `
+      + `median of the ratios ${median(times.map(([a, b]) => a / b)).toFixed(2)}`);
+  }
+  await page.close();
+  fs.rmSync(folder, { recursive: true });
+  return wrong;
+}
+
+module.exports = { tasks };

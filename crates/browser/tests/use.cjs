@@ -1,0 +1,150 @@
+// The page is used as people do: by hand, by key, by link, on a phone.
+
+const READY = 1000; // milliseconds from opening to ready
+const AGAIN = 300; // milliseconds from a move of the goal to its plan, median of the shipped tasks
+
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+
+async function opened(browser, address, size = { width: 1280, height: 900 }) {
+  const page = await browser.newPage({ viewport: size });
+  const complaints = [];
+  page.on('console', (message) => { if (message.type() === 'error') complaints.push(message.text()); });
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('request', (request) => { if (!/^(http:\/\/127\.0\.0\.1|blob:|data:|about:)/.test(request.url())) complaints.push(`asks ${request.url()}`); });
+  await page.goto(address);
+  await page.waitForFunction(() => document.documentElement.dataset.ready || !document.getElementById('trouble').hidden);
+  return { page, complaints, ready: Number(await page.evaluate(() => document.documentElement.dataset.ready)) };
+}
+
+const text = (page) => page.locator('#text').inputValue();
+const shown = (page, id) => page.locator(id).textContent();
+
+/** Drags a thing by pixels, and lets go. */
+async function drag(page, id, by, steps = 4) {
+  const box = await page.locator(`[data-id="${id}"] .body`).boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + by[0], y + by[1], { steps });
+  await page.mouse.up();
+}
+
+async function usedAsPeopleDo(browser, address) {
+  const wrong = [];
+  const check = (holds, what) => {
+    console.log(`${holds ? ' ' : '!'} ${what}`);
+    if (!holds) wrong.push(what);
+  };
+
+  const { page, complaints, ready } = await opened(browser, address);
+  const times = [ready];
+  for (let k = 0; k < 4; k++) {
+    const again = await opened(browser, address);
+    times.push(again.ready);
+    await again.page.close();
+  }
+  check(median(times) <= READY, `ready in ${median(times)} ms, median of ${times.length}`);
+
+  // By hand: the file follows, its comments stay, and a draft is planned.
+  const before = await text(page);
+  await drag(page, 'goal-0', [40, 20]);
+  const after = await text(page);
+  check(after !== before && after.split('\n').length === before.split('\n').length, 'a drag changes numbers alone');
+  check(before.split('\n').filter((line, k) => line !== after.split('\n')[k]).length === 1, 'a drag changes one line');
+  await page.waitForFunction(() => /draft, /.test(document.getElementById('answer').textContent));
+  check((await page.locator('#table .push').count()) > 0, 'a draft is drawn on the table');
+  await page.locator('#undo').click();
+  check((await text(page)) === before, 'undo brings the text back');
+
+  // By key, and what is said of it.
+  await page.locator('[data-id="goal-0"]').focus();
+  await page.keyboard.press('ArrowUp');
+  check((await text(page)) !== before, 'an arrow key moves what has the focus');
+  check(/goal of .* at x/.test(await shown(page, '#where')), `it is said: ${await shown(page, '#where')}`);
+  await page.locator('#undo').click();
+
+  // A fault at its line.
+  await page.locator('#text').fill(before.replace('friction', 'fricton'));
+  check((await page.locator('#faults li').count()) > 0 && (await page.locator('#lines .faulty').count()) > 0, 'a fault is marked at its line');
+  check(await page.locator('#plan').isDisabled(), 'a faulty task cannot be planned');
+  await page.locator('#text').fill(before);
+
+  // A plan with its page.
+  await page.locator('#plan').click();
+  await page.waitForFunction(() => /standard, /.test(document.getElementById('answer').textContent), null, { timeout: 60000 });
+  check(/solved/.test(await shown(page, '#answer')), `planned: ${await shown(page, '#answer')}`);
+  const frame = page.frameLocator('#page');
+  await frame.locator('#play').waitFor();
+  check(/pushplan predict/.test(await frame.locator('#command').textContent()), 'the page offers a command');
+  check((await frame.locator('#tools tr').count()) > 2, 'the page says why other tools lost');
+
+  // Fields, and what is added and taken away.
+  await page.locator('#add-obstacle').click();
+  check(/wall-1/.test(await text(page)), 'a wall is added');
+  await page.locator('#form label', { hasText: 'width y' }).locator('input').fill('0.31');
+  await page.keyboard.press('Enter');
+  check(/size: \[0.04, 0.31, 0.1\]/.test(await text(page)), 'a field changes the file');
+  await page.locator('[data-id^="obstacle"].chosen').focus();
+  await page.keyboard.press('Delete');
+  check(!/wall-1/.test(await text(page)), 'Delete takes it away');
+
+  // A link is the task.
+  await drag(page, 'goal-0', [15, 15]);
+  await page.waitForTimeout(600);
+  const [link, own] = [page.url(), await text(page)];
+  const second = await opened(browser, link);
+  check((await text(second.page)) === own && /#task=/.test(link), `a link of ${link.length} letters holds the task`);
+  await second.page.close();
+  const cut = await opened(browser, link.slice(0, -9));
+  check(/damaged/.test(await shown(cut.page, '#trouble')), 'a cut link says so');
+  await cut.page.close();
+
+  // Cancelled.
+  await page.locator('#example').selectOption('crowd');
+  await page.locator('#plan').click();
+  await page.locator('#cancel').click();
+  check((await shown(page, '#answer')) === 'cancelled', 'it can be cancelled');
+  await page.waitForTimeout(500);
+  check((await shown(page, '#answer')) === 'cancelled', 'and stays so');
+
+  // All shipped tasks: the goal is moved by 1 cm, as by key, and a plan comes back.
+  await page.locator('#tools-of-task').evaluate((details) => { details.open = true; });
+  const latencies = [];
+  for (const name of await page.locator('#example option').evaluateAll((all) => all.map((one) => one.value).filter(Boolean))) {
+    await page.locator('#example').selectOption(name);
+    await page.waitForTimeout(50);
+    const goal = page.locator('[data-id="goal-0"]');
+    if (!(await goal.count())) continue;
+    await goal.focus();
+    const took = await page.evaluate(() => new Promise((resolve) => {
+      const since = performance.now();
+      const answer = document.getElementById('answer');
+      const told = new MutationObserver(() => {
+        if (!/draft, /.test(answer.textContent) || answer.classList.contains('old')) return;
+        told.disconnect();
+        resolve(performance.now() - since);
+      });
+      answer.textContent = '';
+      told.observe(answer, { childList: true, attributes: true });
+      document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowDown', bubbles: true }));
+      setTimeout(() => { told.disconnect(); resolve(Infinity); }, 20000);
+    }));
+    latencies.push([name, took]);
+  }
+  console.log(latencies.map(([name, took]) => `    ${name.padEnd(24)} ${took.toFixed(0).padStart(6)} ms`).join('\n'));
+  check(median(latencies.map(([, took]) => took)) <= AGAIN, `a plan after each move: median ${median(latencies.map(([, took]) => took)).toFixed(0)} ms of ${latencies.length} tasks`);
+  check(complaints.length === 0, `no complaints ${[...new Set(complaints)].slice(0, 5).join('; ')}`);
+  await page.close();
+
+  // On a phone nothing sticks out, and everything that can be used has a name.
+  const phone = await opened(browser, address, { width: 360, height: 700 });
+  const wide = await phone.page.evaluate(() => document.documentElement.scrollWidth);
+  check(wide <= 360, `on a phone the page is ${wide} px wide`);
+  const nameless = await phone.page.evaluate(() => [...document.querySelectorAll('button, input, select, textarea, iframe, [role=button]')]
+    .filter((one) => !(one.ariaLabel || one.title || one.textContent.trim() || one.labels?.length)).map((one) => one.outerHTML));
+  check(nameless.length === 0, `everything has a name ${nameless.join(' ')}`);
+  await phone.page.close();
+  return wrong;
+}
+
+module.exports = { usedAsPeopleDo };
