@@ -1,6 +1,6 @@
 // The library: fetched and compiled once, and handed to the workers as it is.
 
-import init, * as library from './pushplan.js';
+import init, * as library from './library.js';
 
 export { library };
 
@@ -13,7 +13,7 @@ globalThis.pushplanFailed = (message) => console.error(message);
  * that; the name keeps servers from unpacking it.
  */
 export async function load() {
-  const response = await fetch('pushplan.wasm-gz');
+  const response = await fetch('library.wasm-gz');
   if (!response.ok) throw new Error(`the planner cannot be fetched: ${response.status} ${response.statusText}`);
   const unpacked = response.body.pipeThrough(new DecompressionStream('gzip'));
   const headers = { 'Content-Type': 'application/wasm' };

@@ -44,9 +44,11 @@ async function main() {
   });
 
   /** A wish for what the task is now. */
-  const wish = (more) => ({
-    text: task.text, file: fileName(), example: exampleOf(task.text, true) ?? '', version, since: performance.now(), ...more,
-  });
+  const wish = (more) => {
+    const example = exampleOf(task.text, true) ?? '';
+    const file = example ? `${example}.yaml` : fileName();
+    return { text: task.text, file, example, version, since: performance.now(), ...more };
+  };
 
   function draft() {
     const own = wish({ effort: 'draft', whole: false });

@@ -124,9 +124,19 @@ function grid() {
   }
   const [x, y] = map([0, 0]);
   root.append(svg('circle', { cx: x, cy: y, r: 5, class: 'robot' }, svg('title', {}, 'robot')));
+  for (const region of task.stage.regions ?? []) still(region.shape, region.at, 'keep-out', region.name);
+  for (const goal of [task.stage.goal, ...(task.stage.further ?? [])]) {
+    if (goal?.area) still(goal.area, [...goal.at, 0], 'goal', goal.words);
+  }
   for (const { kind, pose } of things()) {
     if (kind === 'reach') root.append(svg('circle', { cx: x, cy: y, r: px(pose[0]), class: 'reach' }));
   }
+}
+
+/** What is drawn and changes in the file alone. */
+function still(form, at, className, name) {
+  root.append(outlined(form, px, { transform: placedAt(posed(at)), class: className }));
+  root.lastChild.append(svg('title', {}, name));
 }
 
 /** What stands for a thing: it is reached by hand and by key, and says what it is. */
@@ -147,7 +157,7 @@ function shape(thing) {
     return group(thing, svg('circle', { cx, cy, r: 15, class: 'target' }), mark);
   }
   const { body, kind, name, pose } = thing;
-  const look = kind === 'obstacle' ? 'obstacle body' : 'body';
+  const look = { obstacle: body.under ? 'overhead body' : 'obstacle body' }[kind] ?? 'body';
   const [cx, cy] = map(pose);
   const parts = [
     svg('circle', { cx, cy, r: 16, class: 'target' }),
@@ -162,7 +172,7 @@ function goalShape(thing, all) {
   const [x, y] = map(thing.pose);
   const own = all.find(({ kind, index }) => kind === 'object' && index === thing.body.object);
   const parts = [];
-  if (own && (thing.turn || 'disc' in own.body.shape)) {
+  if (own) {
     parts.push(outlined(own.body.shape, px, { transform: placedAt(thing.pose), class: 'wanted' }));
   }
   parts.push(

@@ -13,13 +13,14 @@ const isPoint = (value) => Array.isArray(value) && value.length >= 2 && value.sl
 export function things() {
   const { stage, values } = task;
   if (!stage || !values) return [];
-  const goals = [stage.goal, ...(stage.further ?? [])].filter(Boolean);
-  const listed = Array.isArray(values.goal);
-  const own = new Set(goals.map((goal) => goal.object));
+  const objects = stage.objects.map((body, k) => thing('object', k, ['scene', 'objects', k], body));
+  const goals = Array.isArray(values.goal) ? values.goal.map((one, k) => [one, ['goal', k]]) : [[values.goal, ['goal']]];
+  const wanted = new Set(goals.map(([goal]) => goal?.object));
+  for (const object of objects) if (object) object.own = wanted.has(object.name);
   return [
     ...stage.obstacles.map((body, k) => thing('obstacle', k, ['scene', 'obstacles', k], body)),
-    ...goals.map((goal, k) => thing('goal', k, listed ? ['goal', k] : ['goal'], goal)),
-    ...stage.objects.map((body, k) => ({ ...thing('object', k, ['scene', 'objects', k], body), own: own.has(k) })),
+    ...goals.map(([goal, path], k) => goalThing(goal, path, k, objects)),
+    ...objects,
     ...reaches(stage),
   ].filter(Boolean);
 }
@@ -32,9 +33,26 @@ function thing(kind, index, path, body) {
   const yaw = values[turn];
   const turns = kind !== 'goal' || yaw !== undefined;
   const pose = [position[0], position[1], Number.isFinite(yaw) ? yaw * degree : 0];
-  // A goal is named after what must come there.
-  const name = (kind === 'goal' ? values.object : values.name) ?? `${kind} ${index + 1}`;
+  const name = values.name ?? `${kind} ${index + 1}`;
   return { id: `${kind}-${index}`, kind, index, name: String(name), path, body, pose, turn: turns ? turn : null, own: false };
+}
+
+/** A goal with a place; it is named after what must come there, and may be in the frame of something else. */
+function goalThing(goal, path, index, objects) {
+  const own = thing('goal', index, path, { tolerance: (goal?.tolerance || 0) / LENGTH });
+  if (!own) return null;
+  const other = goal.relative_to && objects.find((one) => one?.name === goal.relative_to);
+  const object = objects.findIndex((one) => one?.name === goal.object);
+  own.body.object = object;
+  own.name = String(goal.object ?? own.name);
+  if (other) {
+    own.frame = other.pose;
+    own.pose = [...placed(other.pose, own.pose), own.pose[2] + other.pose[2]];
+  } else if (goal.heading_deg === undefined && object >= 0) {
+    // Any heading will do, so it is drawn as it stands.
+    own.pose[2] = objects[object].pose[2];
+  }
+  return own;
 }
 
 /** The ends of the reach, and where chained pushes start. */
@@ -57,14 +75,16 @@ const rounded = (value, digits) => +value.toFixed(digits);
 export function movedTo(thing, [x, y], digits = 3) {
   if (thing.kind === 'reach') return [{ path: thing.path, value: Math.max(0, rounded(Math.hypot(x, y), digits)) }];
   const path = thing.kind === 'home' ? thing.path : [...thing.path, 'position'];
+  const { frame } = thing;
+  const at = frame ? placed([0, 0, -frame[2]], [x - frame[0], y - frame[1]]) : [x, y];
   // One by one: a third number may follow.
-  return [x, y].map((value, k) => ({ path: [...path, k], value: rounded(value, digits) }));
+  return at.map((value, k) => ({ path: [...path, k], value: rounded(value, digits) }));
 }
 
 /** The edits that turn it to a heading in radians. */
 export function turnedTo(thing, heading) {
   if (!thing.turn) return [];
-  const whole = Math.round(heading / degree);
+  const whole = Math.round((heading - (thing.frame?.[2] ?? 0)) / degree);
   const value = ((((whole + 180) % 360) + 360) % 360) - 180;
   return [{ path: [...thing.path, thing.turn], value }];
 }

@@ -1,6 +1,6 @@
 // Plans, one task after the other, apart from the page. It is stopped by ending it.
 
-import init, { solve } from './pushplan.js';
+import init, { solve } from './library.js';
 
 let told = 0;
 let stage = '';

@@ -24,12 +24,18 @@ function commanded(name, effort, folder) {
   return { status, steps: plans[0]?.plan.steps ?? [], ends: plans[0]?.predicted, seconds: statistics.timing.total };
 }
 
+/** Angles of a step: whole turns make no difference. */
+const ANGLES = ['direction', 'grip_yaw'];
+
 /** Largest difference of two numbers at the same place; of anything else that differs, infinite. */
-function apart(a, b) {
-  if (typeof a === 'number' && typeof b === 'number') return Math.abs(a - b);
+function apart(a, b, key = '') {
+  if (typeof a === 'number' && typeof b === 'number') {
+    const off = Math.abs(a - b);
+    return ANGLES.includes(key) ? Math.min(off, Math.abs(2 * Math.PI - off)) : off;
+  }
   if (a === null || b === null || typeof a !== 'object' || typeof b !== 'object') return a === b ? 0 : Infinity;
   const keys = new Set([...Object.keys(a), ...Object.keys(b)]);
-  return Math.max(0, ...[...keys].map((key) => (key in a && key in b ? apart(a[key], b[key]) : Infinity)));
+  return Math.max(0, ...[...keys].map((key) => (key in a && key in b ? apart(a[key], b[key], key) : Infinity)));
 }
 
 const tools = (steps) => steps.map((step) => Object.values(step)[0].tool ?? step.tool).join(' ');
