@@ -1,0 +1,244 @@
+"""PushWorld's puzzles as tasks: a grid of cells becomes a table of boxes.
+
+PushWorld (Kansky et al. 2023, https://github.com/google-deepmind/pushworld) is a benchmark of puzzles
+in text: a cell is empty (``.``), a wall (``W``), a wall for the agent alone (``AW``), the agent
+(``A``), a movable (``M0``), the goal of one (``G0``), or several of them joined by ``+``. A task file
+says the same in metres:
+
+- a cell is 80 mm; rows go along x, away from the robot, and columns along -y;
+- an object of n cells is n times 80 mm less 16 mm long, so 8 mm of play are left on either side;
+- a plate that fits into one cell comes from above, instead of an agent that has to go around, so
+  what the agent looks like and where it stands do not matter; walls for the agent alone are regions
+  that the plate keeps out of;
+- an object is at its goal within 30 mm and 20 degrees.
+
+    python examples/pushworld.py "At Crossroads.pwp" --out puzzles
+    pushplan solve puzzles/at-crossroads.yaml --more-tools puzzles/tools
+"""
+
+import argparse
+import json
+import re
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+import pushplan
+
+Cells = set[tuple[int, int]]
+
+#: Side of a cell, play on either side of an object, height of objects and walls, metres.
+CELL, PLAY, HEIGHT, WALL = 0.08, 0.008, 0.05, 0.10
+#: Distance of the nearest cells from the robot's base, metres.
+NEAREST = 0.36
+#: Mass of a cell of an object, kg.
+MASS = 0.1
+
+#: The tool: a plate that fits into a cell beside an object.
+PLATE = pushplan.Tool.of(
+    {
+        "name": "plate",
+        "description": "An upright plate under the grip, as wide as the object of one cell.",
+        "friction": 0.5,
+        "parts": [{"name": "plate", "size": [0.03, 0.06, 0.06], "position": [0, 0]}],
+    }
+)
+
+#: What the example shows without a file: a row that has to be freed first.
+SHOWN = """
+ .  .  .  .  .  .  .
+ A  .  M0 .  M1 .  G0
+ .  .  .  .  .  .  .
+"""
+
+
+def read(text: str) -> tuple[dict[str, Cells], tuple[int, int]]:
+    """The cells of everything that a puzzle names, by row and column, and how many of these."""
+    rows = [line.split() for line in text.splitlines() if line.strip()]
+    if not rows or len({len(row) for row in rows}) != 1:
+        raise ValueError("the rows of a puzzle are of one length")
+    cells: dict[str, Cells] = defaultdict(set)
+    for row, line in enumerate(rows):
+        for column, cell in enumerate(line):
+            for name in cell.upper().split("+"):
+                if not re.fullmatch(r"\.|W|AW|A|[MG]\d+", name):
+                    raise ValueError(f"row {row + 1}, column {column + 1}: `{name}` is no cell")
+                cells[name].add((row, column))
+    del cells["."]
+    for goal in (name for name in cells if name.startswith("G")):
+        if "M" + goal[1:] not in cells:
+            raise ValueError(f"`{goal}` is the goal of no movable")
+    return cells, (len(rows), len(rows[0]))
+
+
+Rectangle = tuple[int, int, int, int]
+
+
+def apart(cells: Cells) -> list[Rectangle]:
+    """Rectangles, first and last row and column, that make up these cells, none over another."""
+    left, found = set(cells), []
+    while left:
+        found.append(max(spanned(left), key=area))
+        left -= inside(found[-1])
+    return found
+
+
+def solids(cells: Cells) -> list[Rectangle]:
+    """The same, but two cells side by side are in one of them: shrunk, they are still one piece."""
+    full = [one for one in spanned(cells) if not any(grown(one, cells))]
+    open_pairs, found = pairs(cells), [max(full, key=area)]
+    while open_pairs := open_pairs - pairs(inside(found[-1])):
+        found.append(max(full, key=lambda one: len(open_pairs & pairs(inside(one)))))
+    return found
+
+
+def pairs(cells: Cells) -> set[tuple[tuple[int, int], tuple[int, int]]]:
+    """Cells side by side."""
+    near = [
+        ((row, column), other)
+        for row, column in cells
+        for other in ((row + 1, column), (row, column + 1))
+    ]
+    return {pair for pair in near if pair[1] in cells}
+
+
+def spanned(cells: Cells) -> list[Rectangle]:
+    """All rectangles of these cells."""
+    found = []
+    for top, left in sorted(cells):
+        right = max(column for _, column in cells)
+        for bottom in range(top, 1 + max(row for row, _ in cells)):
+            width = next((k for k in range(left, right + 1) if (bottom, k) not in cells), right + 1)
+            right = width - 1
+            found += [(top, bottom, left, column) for column in range(left, right + 1)]
+            if right < left:
+                break
+    return found
+
+
+def inside(one: Rectangle) -> Cells:
+    top, bottom, left, right = one
+    return {(row, column) for row in range(top, bottom + 1) for column in range(left, right + 1)}
+
+
+def area(one: Rectangle) -> int:
+    return len(inside(one))
+
+
+def grown(one: Rectangle, cells: Cells) -> list[bool]:
+    """Whether it could be larger by a row or a column on each of its sides."""
+    top, bottom, left, right = one
+    sides = [(top - 1, bottom, left, right), (top, bottom + 1, left, right)]
+    sides += [(top, bottom, left - 1, right), (top, bottom, left, right + 1)]
+    return [inside(side) <= cells for side in sides]
+
+
+class Table:
+    """Where the cells of a puzzle are on the table."""
+
+    def __init__(self, rows: int, columns: int) -> None:
+        self.rows, self.columns = rows, columns
+
+    def place(self, one: Rectangle) -> tuple[list[float], list[float]]:
+        """Middle and extents of a rectangle of cells, metres."""
+        top, bottom, left, right = one
+        x = NEAREST + 0.5 * CELL * (top + bottom + 1)
+        y = 0.5 * CELL * (self.columns - left - right - 1)
+        extents = [CELL * (bottom - top + 1), CELL * (right - left + 1)]
+        return [round(x, 4), round(y, 4)], [round(extent, 4) for extent in extents]
+
+    def movable(self, name: str, cells: Cells) -> dict[str, Any]:
+        """An object of these cells; the position is that of its largest rectangle."""
+        found: list[dict[str, Any]] = []
+        for one in solids(cells):
+            middle, size = self.place(one)
+            shape = {
+                "cuboid": {"size": [round(extent - 2 * PLAY, 4) for extent in size] + [HEIGHT]}
+            }
+            found.append({"shape": shape, "position": middle})
+        whole = {"name": name, **found[0], "mass": round(MASS * len(cells), 3), "friction": 0.3}
+        x, y = whole["position"]
+        parts = [
+            {
+                **part,
+                "position": [round(part["position"][0] - x, 4), round(part["position"][1] - y, 4)],
+            }
+            for part in found[1:]
+        ]
+        return {**whole, "parts": parts} if parts else whole
+
+    def walls(self, cells: Cells) -> list[dict[str, Any]]:
+        """Walls of cells, and those around the table."""
+        around = [(-1, -1, -1, self.columns), (self.rows, self.rows, -1, self.columns)]
+        around += [(0, self.rows - 1, -1, -1), (0, self.rows - 1, self.columns, self.columns)]
+        found = []
+        for k, one in enumerate(apart(cells) + around):
+            middle, size = self.place(one)
+            found.append({"name": f"wall-{k + 1}", "size": [*size, WALL], "position": middle})
+        return found
+
+    def closed(self, cells: Cells) -> list[dict[str, Any]]:
+        """What the tool keeps out of."""
+        found = []
+        for k, one in enumerate(apart(cells)):
+            middle, size = self.place(one)
+            area = {"rectangle": {"size": size}}
+            found.append(
+                {"name": f"closed-{k + 1}", "area": area, "position": middle, "for": ["tool"]}
+            )
+        return found
+
+
+def task_of(text: str, name: str, pushes: int = 6) -> pushplan.Task:
+    """A puzzle as a task."""
+    cells, (rows, columns) = read(text)
+    table = Table(rows, columns)
+    movables = sorted((one for one in cells if one.startswith("M")), key=lambda one: int(one[1:]))
+    goals = []
+    for goal in sorted(one for one in cells if one.startswith("G")):
+        largest = solids(cells[goal])[0]
+        at = {"object": "m" + goal[1:], "position": table.place(largest)[0], "tolerance": 0.03}
+        goals.append({**at, "heading_deg": 0, "heading_tolerance_deg": 20})
+    task: dict[str, Any] = {
+        "name": name,
+        "description": "A puzzle of PushWorld.",
+        "scene": {
+            "table": {"friction": 0.3},
+            "objects": [table.movable(one.lower(), cells[one]) for one in movables],
+            "obstacles": table.walls(cells.get("W", set())),
+        },
+        "robot": {"reach": {"min": 0, "max": 9}, "base": "none"},
+        "tools": ["plate"],
+        "pushes": {"length": 0.5, "max_count": pushes, "grip_yaws_deg": [0, 90]},
+        "goal": goals[0] if len(goals) == 1 else goals,
+    }
+    if "AW" in cells:
+        task["keep_out"] = table.closed(cells["AW"])
+    return pushplan.Task.of(task)  # type: ignore[arg-type]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("puzzles", nargs="*", type=Path, help="puzzle files; by default one inside")
+    parser.add_argument("--out", type=Path, default=Path("pushworld"), help="folder for the files")
+    parser.add_argument("--pushes", type=int, default=6, help="most pushes of a plan")
+    chosen = parser.parse_args()
+    for path in chosen.puzzles:
+        name = re.sub(r"[^a-z0-9]+", "-", path.stem.lower())
+        task = task_of(path.read_text(), name, chosen.pushes)
+        file = chosen.out / f"{name}.yaml"
+        (chosen.out / "tools").mkdir(parents=True, exist_ok=True)
+        # What is JSON is YAML.
+        (chosen.out / "tools/plate.yaml").write_text(json.dumps(PLATE.to_dict(), indent=1))
+        file.write_text(task.to_yaml())
+        print(file)
+    if not chosen.puzzles:
+        solution = pushplan.solve(
+            task_of(SHOWN, "shown"), pushplan.ToolLibrary.of([PLATE]), effort="draft"
+        )
+        print(solution)
+        assert solution.solved
+
+
+if __name__ == "__main__":
+    main()
