@@ -17,7 +17,7 @@
 
 use crate::asset::PlanFile;
 use crate::geometry::{Footprint, Pose, Shape};
-use crate::scene::{Carried, Engine, GRAVITY, Object, SHOWN_HAND, Scene, ToolMotion};
+use crate::scene::{Carried, Engine, Feet, GRAVITY, Object, SHOWN_HAND, Scene, ToolMotion};
 
 use super::ExportError;
 use super::forest::{Node, forest};
@@ -260,7 +260,7 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         mesh::inertial(xml, base, *height, rise, object.mass);
     }
     solid(xml, name, &shape, &Pose::default(), rise, (object.mass, object.friction));
-    let feet = object.feet();
+    let feet = feet(scene, node.object);
     let stands = scene.mount(node.object).is_none();
     for (index, (at, _)) in feet.each().enumerate().filter(|_| stands) {
         let at = numbers(&[at.x, at.y, FOOT - half]);
@@ -271,6 +271,17 @@ fn body(xml: &mut Xml, scene: &Scene, node: &Node<'_>) {
         body(xml, scene, child);
     }
     xml.close();
+}
+
+/// The points that an object stands on: all contacts of a body are loaded alike, so of a thing of several
+/// solids as many as are right for each.
+pub(super) fn feet(scene: &Scene, index: usize) -> Feet {
+    let feet = scene.objects[index].feet();
+    if !scene.is_compound(index) {
+        return feet;
+    }
+    let masses: Vec<f64> = scene.objects.iter().map(|object| object.mass).collect();
+    scene.contacts(index, &feet, &masses)
 }
 
 /// The part of an object that is clear of the table, and how far that moves its middle up, metres.

@@ -2,7 +2,7 @@
 
 use crate::scene::{Physics, Scene, Surface, Tool};
 
-use super::mjcf::foot_name;
+use super::mjcf::{feet, foot_name};
 
 /// Two geoms that may touch.
 pub(super) struct Pair {
@@ -27,7 +27,7 @@ pub(super) fn pairs(scene: &Scene, tool: &Tool) -> Vec<Pair> {
             add(own(), "table".into(), Surface::Table, scene.table_friction);
         }
         let stands = scene.mount(index).is_none();
-        for foot in (0..object.feet().count).filter(|_| stands) {
+        for foot in (0..feet(scene, index).count).filter(|_| stands) {
             add(foot_name(object, foot), "table".into(), Surface::Table, scene.table_friction);
         }
         for (k, obstacle) in scene.obstacles.iter().enumerate() {

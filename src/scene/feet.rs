@@ -107,6 +107,33 @@ impl Feet {
         feet
     }
 
+    /// [`Self::few`] of a solid that carries this `share` of what an equal one beside it would: engines
+    /// in which the points of one body are contacts load them all alike, so light solids stand on fewer,
+    /// one in their middle or two on their long axis.
+    pub fn fewer(&self, footprint: &Footprint, share: f64) -> Self {
+        let few = self.few(footprint);
+        let count = share * few.count as f64;
+        if !self.even || count >= 3.0 {
+            return few;
+        }
+        let mut feet = match count < 1.5 {
+            true => Self::equal([Vector::zeros()]),
+            false => {
+                // Neighbours are the ends of a side; the middles of the shorter sides are as far apart
+                // as the points of the whole are spread.
+                let middle = |k: usize| {
+                    let next = (k + 1) % few.count;
+                    0.5 * Vector::new(few.x[k] + few.x[next], few.y[k] + few.y[next])
+                };
+                let farther = |a: Vector, b: Vector| if a.norm() >= b.norm() { a } else { b };
+                let end = (0..few.count).map(middle).fold(Vector::zeros(), farther);
+                Self::equal([end, -end])
+            }
+        };
+        (feet.round, feet.even) = (false, true);
+        feet
+    }
+
     /// These points with loads that leave the centre of mass where it is, as equal as can be; see
     /// [`carries`].
     fn on(points: &[Vector]) -> Self {

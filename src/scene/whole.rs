@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pose, Vector};
 
-use super::{Joint, JointKind, Object, Physics, Scene, Sight, State};
+use super::{Feet, Joint, JointKind, Object, Physics, Scene, Sight, State};
 
 /// What an object is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -135,6 +135,21 @@ impl Scene {
                 self.objects[k].pose = self.objects[object].pose * place;
             }
         }
+    }
+
+    /// The points that object `index` stands on in engines that load all points of a body alike, where
+    /// it stands on `feet`: as few as there should be of a part, see [`Feet::fewer`].
+    pub fn contacts(&self, index: usize, feet: &Feet, masses: &[f64]) -> Feet {
+        let footprint = self.objects[index].shape.footprint();
+        let thing = self.thing(index);
+        let solids = self.parts_of(thing).chain([thing]);
+        let heaviest = solids.map(|k| masses[k]).fold(0.0, f64::max);
+        feet.fewer(&footprint, masses[index] / heaviest)
+    }
+
+    /// Whether an object is of several solids, or one of these.
+    pub fn is_compound(&self, index: usize) -> bool {
+        self.objects[index].is_part() || self.parts_of(index).next().is_some()
     }
 
     /// The joints that make one thing of its solids.

@@ -281,7 +281,10 @@ impl<const TIPS: bool> SpatialWorld<TIPS> {
         let Tracked { handle, first_position, .. } = self.bodies[member.body];
         let friction = physics.support_friction(index);
         let points = &physics.feet[index];
-        let feet = if TIPS { points.few(&footprint) } else { Feet::clone(points) };
+        let feet = match TIPS {
+            true => scene.contacts(index, points, &physics.masses),
+            false => Feet::clone(points),
+        };
         let place = |at: Vector| {
             let pose = member.local * Pose { position: at, heading: 0.0 };
             to_rapier(&pose, &LOCAL, FOOT - first_position.z)
