@@ -4,102 +4,13 @@
 //! compared with what was wanted; where it is something else (anchors, words over several lines), the
 //! whole text is written anew, which loses comments and never a value.
 
+mod apply;
 mod change;
 mod flow;
 mod place;
 mod tree;
 
-use serde::Deserialize;
-use serde_json::Value as Json;
-use serde_yaml::Value as Yaml;
-
-use super::fault::{Fault, Faults};
-use super::node::Node;
-use super::text::Source;
-
-/// One change of a text in YAML.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Edit {
-    /// Keys and indices that lead to the value. What is missing on the way is made.
-    pub path: Vec<Step>,
-    /// The value that is to stand there; nothing takes key or item away.
-    #[serde(default)]
-    pub value: Option<Json>,
-}
-
-/// One step into a map or a list.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
-pub enum Step {
-    /// The value of this key.
-    Key(String),
-    /// The item at this index; as many as there are, and it is added.
-    Item(usize),
-}
-
-/// The text after all `edits`, one after the other; `file` names it in faults.
-///
-/// # Errors
-/// A text that is not YAML; an edit that leads nowhere.
-pub fn edit(text: &str, file: &str, edits: &[Edit]) -> Result<String, Faults> {
-    let mut text = text.to_owned();
-    for one in edits {
-        text = edited(&text, file, one)?;
-    }
-    Ok(text)
-}
-
-/// The values of a text in YAML.
-///
-/// # Errors
-/// A text that is not YAML.
-pub fn values(text: &str, file: &str) -> Result<Json, Faults> {
-    let root = Node::parse(Source::yaml(file, text))?;
-    serde_json::to_value(tree::of(&root)).map_err(|error| unwritable(file, &error))
-}
-
-fn edited(text: &str, file: &str, edit: &Edit) -> Result<String, Faults> {
-    let source = Source::yaml(file, text);
-    let root = Node::parse(source)?;
-    let value = edit.value.as_ref().map(serde_yaml::to_value).transpose();
-    let value = value.map_err(|error| unwritable(file, &error))?;
-    let mut wanted = tree::of(&root);
-    if !tree::set(&mut wanted, &edit.path, value.as_ref()) {
-        let message = format!("there is nothing at {}", named(&edit.path));
-        return Err(Fault::of_file(file, message, "write it into the file").into());
-    }
-    let reads_as_wanted = |text: &String| {
-        Node::parse(Source::yaml(file, text))
-            .is_ok_and(|root| tree::same(&tree::of(&root), &wanted))
-    };
-    let changed = change::at_its_place(source, &root, &edit.path, value.as_ref());
-    match changed.filter(reads_as_wanted) {
-        Some(text) => Ok(text),
-        None => serde_yaml::to_string(&wanted).map_err(|error| unwritable(file, &error)),
-    }
-}
-
-/// A path as people read it.
-fn named(path: &[Step]) -> String {
-    let words = path.iter().map(|step| match step {
-        Step::Key(key) => key.clone(),
-        Step::Item(index) => (index + 1).to_string(),
-    });
-    format!("`{}`", words.collect::<Vec<_>>().join("."))
-}
-
-fn unwritable(file: &str, error: &dyn std::error::Error) -> Faults {
-    let message = format!("its values cannot be written: {error}");
-    Fault::of_file(file, message, "keys of maps must be words").into()
-}
-
-/// The step into a value.
-fn entry<'a>(value: &'a mut Yaml, step: &Step) -> Option<&'a mut Yaml> {
-    match step {
-        Step::Key(key) => value.as_mapping_mut()?.get_mut(key.as_str()),
-        Step::Item(index) => value.as_sequence_mut()?.get_mut(*index),
-    }
-}
+pub use apply::{Edit, Step, edit, values};
 
 #[cfg(test)]
 mod tests;

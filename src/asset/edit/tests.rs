@@ -1,3 +1,5 @@
+//! What edits leave of a text.
+
 use super::*;
 
 const TEXT: &str = "\

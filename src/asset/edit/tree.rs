@@ -4,7 +4,8 @@ use serde_yaml::{Mapping, Value as Yaml};
 
 use crate::asset::node::{Content, Node};
 
-use super::{Step, entry};
+use super::Step;
+use super::apply::entry;
 
 /// The values of a node.
 pub fn of(node: &Node) -> Yaml {

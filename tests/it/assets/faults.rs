@@ -78,8 +78,8 @@ fn missing_and_doubled_keys() {
       help: Friction value; the coefficient of a pair is the mean of the two values.
     t.yaml:8:7: error: key `mass` is given twice
       help: keep one of the two
-    t.yaml:15:7: error: missing key `tolerance`
-      help: Largest distance from the goal that still counts as success, metres.
+    t.yaml:15:31: error: `position` needs a `tolerance`
+      help: add `tolerance: 0.02`, in metres
     "#);
 }
 
@@ -182,7 +182,7 @@ fn goals_that_cannot_be_meant() {
     t.yaml:15:16: error: `wall` is an obstacle, fixed to the table
       help: name an object; objects can be pushed
     t.yaml:15:85: error: a heading tolerance without a heading
-      help: add `heading_deg`, or remove the tolerance
+      help: add `heading_deg`, or remove it
     "#);
 }
 
@@ -336,9 +336,9 @@ fn an_unknown_tool_has_its_place() {
 fn control_characters_are_shown_and_not_sent_to_the_terminal() {
     assert_snapshot!(task(&[("mass: 0.4", "\"ma\\e[31mss\": 0.4"), ("object: can", "object: \"can\\u202e\\nt.yaml:1:1: error: forged\"")]), @r#"
     t.yaml:4:7: error: missing key `mass`
-      help: Mass in kg.
+      help: Mass in kg, parts included.
     t.yaml:4:68: error: unknown key `ma\u001b[31mss`
-      help: use `name`, `shape`, `mass`, `friction`, `support`, `may_fall`, `position` or `yaw_deg`
+      help: use `name`, `shape`, `parts`, `mass`, `friction`, `support`, `may_fall`, `position` or `yaw_deg`
     t.yaml:15:16: error: expected a name, found the text "can\u202e\u000at.yaml:1:1: error: forged"
       help: use letters, digits, `-` and `_`, at most 64
     "#);

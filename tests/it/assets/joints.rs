@@ -100,10 +100,10 @@ fn joints_and_round_parts_survive_plan_and_trajectory_files() {
 #[test]
 fn joints_of_what_is_not_there() {
     assert_snapshot!(faults(&[("[a, b]", "[aa, wall]"), ("[b, c]", "[b, b]"), ("[c, d]", "[c]"), ("kind: prismatic", "kind: sliding")]), @r#"
+    t.yaml:8:7: error: what is fixed to the world does not move
+      help: make it an obstacle
     t.yaml:8:18: error: no object is called `aa`
       help: did you mean `a`?
-    t.yaml:8:22: error: `wall` is an obstacle, fixed to the table
-      help: name an object; objects can be pushed
     t.yaml:9:17: error: a joint of an object with itself
       help: name two different objects
     t.yaml:10:17: error: expected a list of 2 object names, found a list of 1 item

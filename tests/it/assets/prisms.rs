@@ -141,5 +141,5 @@ fn headings_that_look_the_same_count_alike_unless_the_goal_says_otherwise() {
     assert_eq!(alike(&hexagon.replace("0.05,", "0.06,"), ""), 2);
     assert_eq!(alike("{prism: {corners: [[0, 0], [0.09, 0], [0, 0.06]], height: 0.05}}", ""), 1);
     let text = task(square, "", ", symmetric: false");
-    refused(&text, "false", "`symmetric` is about a heading, and none is asked for");
+    refused(&text, "false", "`symmetric` without a heading");
 }
