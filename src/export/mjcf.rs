@@ -309,9 +309,7 @@ fn solids(scene: &Scene, motion: &ToolMotion) -> Vec<(String, Shape)> {
 fn tool(xml: &mut Xml, motion: &ToolMotion, Lifts { hand, retreats }: Lifts) {
     let start = motion.strokes.first().map(|stroke| stroke.from).unwrap_or_default();
     let at = start.position;
-    let mut attributes = vec![("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))];
-    attributes.extend(retreats.then(|| ("gravcomp", "1".into())));
-    xml.open("body", &attributes);
+    xml.open("body", &[("name", "tool".into()), ("pos", numbers(&[at.x, at.y, 0.0]))]);
     let mass = numbers(&[TOOL_MASS]);
     let inertia = numbers(&[TOOL_MASS; 3]);
     xml.leaf("inertial", &[("pos", "0 0 0".into()), ("mass", mass), ("diaginertia", inertia)]);

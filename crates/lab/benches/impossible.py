@@ -187,6 +187,9 @@ def penned_partner(d):
 
 def joint_limits(d):
     penned_partner(d)
+    # One that cannot turn in its pen as far as the goal asks.
+    d.objects.pop()
+    d.box(0.61, 0.0, 0.06, 0.06, name="partner")
     d.joints[:] = [f"{{between: [partner, can], kind: revolute, at: [0.61, 0], limits_deg: [-{num(d.u(3, 8))}, {num(d.u(3, 8))}]}}"]
     d.goals.clear()
     angle = d.rng.choice([-1, 1]) * d.u(0.6, 1.0)

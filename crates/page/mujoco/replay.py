@@ -58,6 +58,9 @@ class Replay:
         joints = [joint for joint in joints if joint.name.startswith("tool ")]
         self.tool_height = [joint for joint in joints if joint.name == "tool z"]
         joints = [joint for joint in joints if joint.name != "tool z"]
+        for joint in self.tool_height:  # it is held, so it does not begin to fall in any step
+            weight = -self.model.body("tool").mass[0] * self.model.opt.gravity[2]
+            self.data.qfrc_applied[joint.dofadr[0]] = weight
         self.tool_position = [joint.qposadr[0] for joint in joints]
         self.tool_velocity = [joint.dofadr[0] for joint in joints]
         self.deepest = np.zeros(len(KINDS))
