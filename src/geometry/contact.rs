@@ -6,6 +6,7 @@
 //! argument order, and a batch of them for every step of every rollout.
 
 use super::flat::{Faced, Flat, Rectangle};
+use super::sunk::{Outline, Sunk, sunk};
 use super::{Footprint, MAX_CORNERS, Pose, Turn, Vector};
 
 /// Points of one pair that lie closer together than this are one contact, metres.
@@ -13,6 +14,10 @@ const SAME_POINT: f64 = 1e-3;
 
 /// Two ways to compute the same point end no farther apart than this, metres.
 const ROUNDING: f64 = 1e-9;
+
+/// Shapes that are sunk by more than this beyond what their corners say have come through a face that
+/// no corner is nearest to, metres; also how near they are before that can be.
+const THROUGH: f64 = 1e-4;
 
 /// What the normal of a contact follows when its bodies move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -262,9 +267,17 @@ fn flats<A: Flat, B: Flat>(
     }
     let found = &room[..count];
     let nearer = |p: &&Candidate, q: &&Candidate| p.gap.total_cmp(&q.gap);
-    let Some(best) = found.iter().min_by(nearer).filter(|best| best.gap <= reach) else {
+    let Some(best) = found.iter().min_by(nearer) else { return ([None, None], 0) };
+    if best.gap < THROUGH {
+        let outlines = (Outline::of(first.corners()), Outline::of(second.corners().map(to_a)));
+        let through = |sunk: &Sunk| sunk.ends[0].2 < best.gap.min(0.0) - THROUGH;
+        if let Some(sunk) = sunk(&outlines.0, &outlines.1).filter(through) {
+            return through_a_face(&sunk, (a, turn), reach);
+        }
+    }
+    if best.gap > reach {
         return ([None, None], 0);
-    };
+    }
     let next = found
         .iter()
         .filter(|p| {
@@ -292,6 +305,32 @@ fn flats<A: Flat, B: Flat>(
         follows: led(p),
     };
     ([Some(world(best)), next.map(world)], 1 + usize::from(next.is_some()))
+}
+
+/// The contact of shapes that have come through a face of one of them; the first is at `pose`.
+fn through_a_face(
+    sunk: &Sunk,
+    (pose, turn): (&Pose, &Turn),
+    reach: f64,
+) -> ([Option<ContactPoint>; 2], usize) {
+    let world = |(on_first, on_second, gap): (Vector, Vector, f64)| ContactPoint {
+        on_first: pose.position + turn.of(on_first),
+        on_second: pose.position + turn.of(on_second),
+        normal: turn.of(sunk.normal),
+        gap,
+        follows: match (sunk.parallel, sunk.by_first) {
+            (true, _) => Follows::Both,
+            (false, true) => Follows::First,
+            (false, false) => Follows::Second,
+        },
+    };
+    let [best, next] = sunk.ends.map(world);
+    let apart = (best.on_first - next.on_first).norm() > SAME_POINT;
+    let next = Some(next).filter(|point| apart && point.gap <= reach);
+    match best.gap <= reach {
+        true => ([Some(best), next], 1 + usize::from(next.is_some())),
+        false => ([None, None], 0),
+    }
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ mod rim;
 mod shape;
 mod solid;
 mod spatial;
+mod sunk;
 mod support_edge;
 mod turn;
 

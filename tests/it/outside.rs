@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use pushplan::{
     asset::{ToolLibrary, load_task},
-    effect::{EffectModel, EffectModels, Network, Outside, Routed, Simulated},
+    effect::{EffectModel, EffectModels, Network, Outside, Prior, Routed, Simulated},
     scene::{
-        Job, Joint, JointKind, ModelKind, Obstacle, Quantity, Record, Scene, Task, Trajectory,
-        Warning,
+        Job, Joint, JointKind, ModelKind, Object, Obstacle, Push, Quantity, Record, Scene, Task,
+        Trajectory, Warning,
     },
     sim::Simulator,
     solve::{Effort, Planner, SolveError},
@@ -107,6 +107,39 @@ fn jobs_keep_their_order_when_some_are_simulated() {
         assert!((duration - fast(k)).abs() < 1e-9, "{k}: {duration}");
         let planar = Simulator::planar().run(&scene, job, Record::Frames);
         assert_eq!(trajectory.frames == planar.frames, k % 2 == 1, "{k}");
+    }
+}
+
+/// Three boxes of one width in a row before a wall, exactly behind each other or a little aside: the corners
+/// of one are nearer to the flanks of the next than to its face.
+#[test]
+fn boxes_of_one_width_do_not_pass_through_each_other() {
+    for aside in [0.0, 8e-4] {
+        let cube = |k: usize| {
+            let cube = Object::cuboid(format!("cube-{k}"), [0.064, 0.064, 0.05]);
+            cube.mass(0.1).friction(0.3).at(0.5 + 0.08 * k as f64, aside * (k % 2) as f64, 0.0)
+        };
+        let mut scene = Scene::new((0..3).map(cube));
+        scene.obstacles.push(Obstacle {
+            name: "wall".into(),
+            size: [0.08, 0.4, 0.1],
+            pose: Pose::new(0.78, 0.0, 0.0),
+            z: 0.0,
+            friction: 0.5,
+        });
+        let push = Push { start: [0.4, 0.0].into(), direction: 0.0, length: 0.25, speed: 0.1 };
+        let library = ToolLibrary::embedded().expect("the shipped tools");
+        let finger = library.get("finger").expect("a finger").clone();
+        let motion = ToolMotion::pushes(finger, 0.002, 0.0, &[push], true);
+        let trajectory = Prior::default()
+            .rollout(&scene, &[Job::stated(&scene, motion)], Record::Frames)
+            .remove(0);
+        assert!(trajectory.warnings.iter().any(Warning::blocks), "{:?}", trajectory.warnings);
+        // Up to there they stay behind each other.
+        for frame in &trajectory.frames[..trajectory.frames.len() - 1] {
+            let x = |k: usize| frame.state.poses[k].position.x;
+            assert!(x(1) - x(0) > 0.055 && x(2) - x(1) > 0.055, "{} {} {}", x(0), x(1), x(2));
+        }
     }
 }
 

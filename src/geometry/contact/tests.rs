@@ -97,3 +97,27 @@ fn a_triangle_meets_a_wall_with_its_side_and_a_disc_with_its_tip() {
     assert!((point.gap - 0.001).abs() < 1e-15 && (point.normal - Vector::x()).norm() < 1e-12);
     assert!(matches!(point.follows, Follows::Between(..)));
 }
+
+#[test]
+fn what_comes_through_a_face_comes_out_of_it_again_beside_whatever_flank() {
+    // Every corner is nearer to a flank than to the face that it came through.
+    let square = Footprint::Rectangle { half: Vector::new(0.032, 0.032) };
+    let corners = [[0.0, 0.0], [0.064, 0.0], [0.064, 0.064], [0.0, 0.064]];
+    for (first, second) in [(&square, &square), (&prism(&corners), &square)] {
+        for aside in [0.0, 4e-4, -1e-3] {
+            let (p, q) = (Pose::new(-0.059, aside, 0.0), Pose::default());
+            let (points, count) = contact_points((first, &p), (second, &q), 0.001);
+            assert_eq!(count, 2);
+            for point in points.iter().flatten() {
+                assert!((point.gap + 0.005).abs() < 1e-12, "{aside}: {}", point.gap);
+                assert!((point.normal + Vector::x()).norm() < 1e-12);
+                assert!((point.on_first.x + 0.027).abs() < 1e-12);
+                assert!((point.on_second.x + 0.032).abs() < 1e-12);
+            }
+            let (back, _) = contact_points((second, &q), (first, &p), 0.001);
+            assert!(back[0].is_some_and(|point| (point.gap + 0.005).abs() < 1e-12));
+            // Asked for deep ones alone, they are found, too.
+            assert_eq!(contact_points((first, &p), (second, &q), -0.004).1, 2);
+        }
+    }
+}

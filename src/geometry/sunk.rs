@@ -1,0 +1,116 @@
+//! Shapes that have sunk into each other: along which face they have to come apart again.
+//!
+//! A corner that has sunk in may be nearest to a side that it never came through: where two boxes of
+//! one width are pressed together, each corner lies beside a flank of the other. Taken alone it says
+//! that they hardly overlap, and would let them pass through each other. What counts is the face
+//! along whose normal they overlap least (Gottschalk, Lin, Manocha 1996, doi:10.1145/237170.237244).
+
+use super::{MAX_CORNERS, Vector, cross};
+
+/// Faces are parallel up to this sine, as far as it matters which of both leads.
+const PARALLEL: f64 = 1e-3;
+
+/// How two shapes overlap, in the frame of the first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sunk {
+    /// Unit, from the second into the first.
+    pub normal: Vector,
+    /// Ends of what of both faces meets, deepest first: the place on the first, that on the second,
+    /// metres, and the gap, which is negative.
+    pub ends: [(Vector, Vector, f64); 2],
+    /// Whether the leading face is the first's, and whether the other's is parallel to it.
+    pub by_first: bool,
+    pub parallel: bool,
+}
+
+/// Corners of a convex shape, counter-clockwise.
+#[derive(Clone, Copy)]
+pub(super) struct Outline {
+    corners: [Vector; MAX_CORNERS],
+    count: usize,
+}
+
+impl Outline {
+    pub fn of(corners: impl Iterator<Item = Vector>) -> Self {
+        let mut own = Self { corners: [Vector::zeros(); MAX_CORNERS], count: 0 };
+        for (place, corner) in own.corners.iter_mut().zip(corners) {
+            *place = corner;
+            own.count += 1;
+        }
+        own
+    }
+
+    fn corners(&self) -> &[Vector] {
+        &self.corners[..self.count]
+    }
+
+    fn sides(&self) -> impl Iterator<Item = Side> {
+        let corners = self.corners();
+        (0..self.count).map(|k| Side::new(corners[k], corners[(k + 1) % corners.len()]))
+    }
+
+    /// How far the nearest corner is outside of a side, metres.
+    fn beyond(&self, side: &Side) -> f64 {
+        let out = |corner: &Vector| side.out.dot(&(corner - side.from));
+        self.corners().iter().map(out).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A straight side.
+#[derive(Clone, Copy)]
+struct Side {
+    from: Vector,
+    /// Unit, towards its other end.
+    along: Vector,
+    length: f64,
+    /// Unit, outwards.
+    out: Vector,
+}
+
+impl Side {
+    fn new(from: Vector, to: Vector) -> Self {
+        let length = (to - from).norm();
+        let along = (to - from) / length;
+        Self { from, along, length, out: Vector::new(along.y, -along.x) }
+    }
+}
+
+/// How these shapes overlap; `None` if they do not.
+pub(super) fn sunk(first: &Outline, second: &Outline) -> Option<Sunk> {
+    let mut best: Option<(f64, Side, bool)> = None;
+    for (own, other, by_first) in [(first, second, true), (second, first, false)] {
+        for side in own.sides() {
+            let beyond = other.beyond(&side);
+            if beyond >= 0.0 {
+                return None;
+            }
+            if best.is_none_or(|(most, ..)| beyond > most) {
+                best = Some((beyond, side, by_first));
+            }
+        }
+    }
+    let (_, side, by_first) = best?;
+    let other = if by_first { second } else { first };
+    // The side of the other that faces it.
+    let facing = |one: &Side| one.out.dot(&side.out);
+    let faced = other.sides().min_by(|a, b| facing(a).total_cmp(&facing(b)))?;
+    let place = |point: Vector| side.along.dot(&(point - side.from));
+    let (a, b) = (faced.from, faced.from + faced.length * faced.along);
+    let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
+    let (low, high) = (low.max(0.0), high.min(side.length));
+    let at = |along: f64| {
+        let span = place(b) - place(a);
+        let share = if span.abs() < 1e-12 { 0.5 } else { (along - place(a)) / span };
+        let theirs = a + share.clamp(0.0, 1.0) * (b - a);
+        let gap = side.out.dot(&(theirs - side.from));
+        let ours = theirs - gap * side.out;
+        if by_first { (ours, theirs, gap) } else { (theirs, ours, gap) }
+    };
+    let mut ends = [at(low), at(high)];
+    if ends[1].2 < ends[0].2 {
+        ends.swap(0, 1);
+    }
+    let parallel = cross(side.along, faced.along).abs() < PARALLEL;
+    let normal = if by_first { -side.out } else { side.out };
+    Some(Sunk { normal, ends, by_first, parallel })
+}
