@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::effect::EffectModel;
 use crate::plan::{
     Candidate, FOUND_RADIUS, RefineSettings, Refined, Rollouts, ScoredPush, Search, Workspace,
     alone, bare, is_behind, refine,
@@ -17,7 +16,8 @@ use crate::watch::Watch;
 use super::grade::{Class, Grade};
 use super::rank::{is_worth_verifying, sort};
 use super::reconsider::Way;
-use super::typical::typical;
+use super::tried::after;
+use super::typical::{error_p95, typical};
 use super::{PlanStatus, Planner, Refinement, Solution, Statistics};
 
 /// Later pushes get room for the model's error, but no more than this, metres: a longer approach
@@ -84,6 +84,8 @@ pub(super) struct Solving<'a> {
     pub refuted: Vec<Way>,
     /// The best plan that was replayed with disturbances.
     pub best: Option<(Grade, usize)>,
+    /// Where nothing is to be verified: whether any plan would be worth it. The search ends with the first.
+    pub promising: Option<bool>,
 }
 
 impl<'a> Solving<'a> {
@@ -112,6 +114,7 @@ impl<'a> Solving<'a> {
             disturbed: 0,
             refuted: Vec::new(),
             best: None,
+            promising: None,
         }
     }
 
@@ -122,6 +125,24 @@ impl<'a> Solving<'a> {
         if self.task.reached(&self.situation.start) {
             self.verify(&[0]);
         }
+        let search = self.search();
+        self.settle(Class::Fragile);
+        let status = match self.best {
+            Some((grade, _)) if grade.class > Class::Fails => grade.class.status(),
+            _ if self.tried.iter().any(|tried| tried.verdict.is_some()) => {
+                PlanStatus::FailedVerification
+            }
+            _ => PlanStatus::NoPlan,
+        };
+        let best = self.best.filter(|(grade, _)| grade.class > Class::Fails).map(|(_, k)| k);
+        self.statistics.search = search.statistics().clone();
+        self.candidates = search.scored().to_vec();
+        self.statistics.depth = search.depth();
+        self.ranked(status, best, began)
+    }
+
+    /// Looks at plans of one push, then of one more, until one is good enough.
+    pub(super) fn search(&mut self) -> Search<'a> {
         let errors = self.workspace.tools.iter().map(|tool| {
             let start = &self.situation.start;
             let job = Job::new(self.situation, typical(self.task, start, tool));
@@ -139,19 +160,7 @@ impl<'a> Solving<'a> {
                 self.clear_the_way(&mut clearings, without, &search);
             }
         }
-        self.settle(Class::Fragile);
-        let status = match self.best {
-            Some((grade, _)) if grade.class > Class::Fails => grade.class.status(),
-            _ if self.tried.iter().any(|tried| tried.verdict.is_some()) => {
-                PlanStatus::FailedVerification
-            }
-            _ => PlanStatus::NoPlan,
-        };
-        let best = self.best.filter(|(grade, _)| grade.class > Class::Fails).map(|(_, k)| k);
-        self.statistics.search = search.statistics().clone();
-        self.candidates = search.scored().to_vec();
-        self.statistics.depth = search.depth();
-        self.ranked(status, best, began)
+        search
     }
 
     /// The task's goals.
@@ -167,7 +176,7 @@ impl<'a> Solving<'a> {
             Class::Edge => depth <= self.tried[k].plan.steps.len(),
             Class::Passes | Class::Safe => false,
         });
-        wanted && !self.watch.cancelled()
+        wanted && self.promising != Some(true) && !self.watch.cancelled()
     }
 
     /// Searches, refines and verifies plans of one push more, until one is safe.
@@ -214,7 +223,7 @@ impl<'a> Solving<'a> {
             let safe = self.best.is_some_and(|(grade, _)| grade.class == Class::Safe);
             let enough = self.disturbed - before >= most_disturbed;
             // Where even the most promising plan leads through a wall, a few tries are enough.
-            if safe || enough || is_behind(self.tried[leader].score) {
+            if self.promising.is_some() || safe || enough || is_behind(self.tried[leader].score) {
                 break;
             }
             failed = indices;
@@ -342,6 +351,10 @@ impl<'a> Solving<'a> {
     /// Replays plans as written, in parallel, and the best of those that work with disturbances,
     /// until one is safe. Keeps the best.
     fn verify(&mut self, indices: &[usize]) {
+        if let Some(promising) = &mut self.promising {
+            *promising = true;
+            return;
+        }
         let verdicts: Vec<Verdict> = indices
             .par_iter()
             .map(|&k| {
@@ -382,16 +395,4 @@ impl<'a> Solving<'a> {
             }
         }
     }
-}
-
-/// What the model that decides made of a candidate after the one that screens had refined it.
-fn after(screened: &Refined, decided: Refined) -> Refined {
-    let mut rounds = screened.rounds.clone();
-    rounds.extend(decided.rounds);
-    Refined { off: [screened.off[0], decided.off[1]], rounds, ..decided }
-}
-
-/// 95th percentile of an effect model's error on pushes like this one, metres, if it was measured.
-fn error_p95(model: &dyn EffectModel, situation: &Situation, job: &Job) -> Option<f64> {
-    model.trust(&situation.scene, job).error().map(|error| error.p95)
 }

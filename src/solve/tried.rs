@@ -64,3 +64,10 @@ impl Solving<'_> {
         }
     }
 }
+
+/// What the model that decides made of a candidate after the one that screens had refined it.
+pub(super) fn after(screened: &Refined, decided: Refined) -> Refined {
+    let mut rounds = screened.rounds.clone();
+    rounds.extend(decided.rounds);
+    Refined { off: [screened.off[0], decided.off[1]], rounds, ..decided }
+}

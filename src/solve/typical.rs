@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::effect::EffectModel;
 use crate::geometry::Pose;
-use crate::scene::{Push, State, Task, Tool, ToolMotion};
+use crate::scene::{Job, Push, Situation, State, Task, Tool, ToolMotion};
 
 /// A push of the goal's object towards the goal by the tool's first part: what a model would be
 /// used for, as far as can be known beforehand.
@@ -19,4 +20,9 @@ pub(super) fn typical(task: &Task, start: &State, tool: &Arc<Tool>) -> ToolMotio
         speed: rules.speed,
     };
     ToolMotion::pushes(Arc::clone(tool), rules.lift, 0.0, &[push], true)
+}
+
+/// 95th percentile of an effect model's error on pushes like this one, metres, if it was measured.
+pub(super) fn error_p95(model: &dyn EffectModel, situation: &Situation, job: &Job) -> Option<f64> {
+    model.trust(&situation.scene, job).error().map(|error| error.p95)
 }

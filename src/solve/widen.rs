@@ -11,9 +11,10 @@ use crate::plan::{Search, distance_to_origin, is_behind};
 use crate::scene::{Directions, JointKind, Obstacle, Plan, Robot, Task, Tool, ToolChoice};
 use crate::watch::Watch;
 
+use super::check::check;
 use super::planner::stated;
 use super::solving::Solving;
-use super::{Cause, Planner};
+use super::{Cause, Planner, SolveError};
 
 /// Pushes that a wider task allows beyond its own.
 const MORE_PUSHES: usize = 2;
@@ -56,6 +57,29 @@ struct Way {
 }
 
 impl Planner {
+    /// Why a task of pushing has no plan, as [`Planner::solve`] would say; `None` if a plan is worth
+    /// verifying, which is not done here, or `watch` stopped it.
+    ///
+    /// # Errors
+    /// [`SolveError`] for bad input only.
+    pub fn why(
+        &self,
+        task: &Task,
+        library: &ToolLibrary,
+        watch: &dyn Watch,
+    ) -> Result<Option<Cause>, SolveError> {
+        let situation = stated(task);
+        let tools = task.tools(library)?;
+        check(task, &situation, &tools)?;
+        let mut solving = Solving::new(self, task, &situation, &tools, watch);
+        solving.promising = Some(task.reached(&situation.start));
+        solving.search();
+        match solving.promising {
+            Some(true) => Ok(None),
+            _ => Ok(self.cause(task, library, watch)),
+        }
+    }
+
     /// What keeps `task`, of which no plan was found, from being solved: each of its limits is widened,
     /// and the first with which a plan is predicted to reach the goal is it. A first look with the
     /// model that screens: nothing is verified.

@@ -323,3 +323,30 @@ fn files(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+#[test]
+fn check_says_why_there_is_no_plan_only_when_asked() {
+    let folder = TempDir::new().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (far, near) = (path("far.yaml"), path("near.yaml"));
+    let text = std::fs::read_to_string("tasks/pull-back.yaml").expect("a task");
+    std::fs::write(&near, &text).expect("a task");
+    std::fs::write(&far, format!("{text}pushes: {{max_count: 1, length: 0.06}}\n"))
+        .expect("a task");
+    let said = |arguments: &[&str], code| {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    assert_eq!(said(&["check", &far], 0), format!("{far}: task, fine\n"));
+    let told = said(&["check", "--why", &far, &near, "tasks/levers/raise-plate.yaml"], 4);
+    assert!(
+        told.contains("fine\n  no plan: it takes 2 pushes, and `pushes.max_count` is 1"),
+        "{told}"
+    );
+    assert!(
+        told.contains("fine\n  a plan may reach the goal; `pushplan solve` verifies it"),
+        "{told}"
+    );
+    assert!(told.ends_with("fine\n  of tasks of levering only `pushplan solve` tells\n"), "{told}");
+}

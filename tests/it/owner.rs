@@ -24,9 +24,12 @@ fn task(text: &str) -> Task {
     Task::parse(text, "task.yaml").unwrap_or_else(|faults| panic!("{faults}"))
 }
 
+fn planner() -> Planner {
+    Planner::for_effort(Effort::Draft).expect("its models").build()
+}
+
 fn solved(task: &Task) -> Solution {
-    let planner = Planner::for_effort(Effort::Draft).expect("its models").build();
-    planner.solve(task, &library()).expect("a sound task")
+    planner().solve(task, &library()).expect("a sound task")
 }
 
 /// A can before a pen whose way in is narrower than the can by `less` metres.
@@ -322,6 +325,8 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
         assert_eq!(found.status, PlanStatus::NoPlan, "{text}");
         let first = solution_document(&task, &found).title;
         let cause = found.cause.expect("a cause");
+        let why = planner().why(&task, &library(), &Unwatched).expect("a sound task");
+        assert_eq!(why.as_ref(), Some(&cause));
         assert!(first.starts_with(&format!("task: no plan: {cause}")), "{first}");
         // What is not clearly nearer than doing nothing is no plan to look at.
         let start = task.goal.error(&task.scene.start());
@@ -343,6 +348,7 @@ fn what_stands_in_the_way_of_a_plan_is_named() {
     let Cause::Far { allowed: 0.95, needed } = cause(&away) else { panic!("it is far away") };
     assert!((1.0..1.7).contains(&needed), "{needed}");
     assert_eq!(cause(PEN), Cause::Tool { needed: "finger".into() });
+    assert_eq!(planner().why(&task(FAR), &library(), &Unwatched).expect("a sound task"), None);
 }
 
 #[test]
