@@ -1,4 +1,4 @@
-//! Edits of a text, one after the other.
+//! Edits of a text: each at its place, or else in a text that is written anew.
 
 use serde::Deserialize;
 use serde_json::Value as Json;
@@ -93,3 +93,6 @@ pub(super) fn entry<'a>(value: &'a mut Yaml, step: &Step) -> Option<&'a mut Yaml
         Step::Item(index) => value.as_sequence_mut()?.get_mut(*index),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,9 +7,10 @@ use serde_yaml::Value as Yaml;
 use crate::asset::node::{Content, Node};
 use crate::asset::text::Source;
 
+use super::apply::Step;
 use super::flow::written;
 use super::place::{is_flow, line_end, line_start, span, start};
-use super::{Step, tree};
+use super::tree;
 
 /// The text with `value` at the end of `path`, or without what is there; `None` where that is not
 /// known to be possible. The caller reads what comes back.

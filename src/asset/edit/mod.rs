@@ -1,8 +1,8 @@
 //! Changes of single values in a file that somebody wrote: their comments and layout stay.
 //!
-//! A value is changed at its place, which the reader knows. What comes of that is read again and
-//! compared with what was wanted; where it is something else (anchors, words over several lines), the
-//! whole text is written anew, which loses comments and never a value.
+//! A value is changed at its place, which the reader knows (`place`, `change`, `flow`). What comes of that is
+//! read again and compared with what was wanted (`tree`); where it is something else (anchors, words over
+//! several lines), the whole text is written anew, which loses comments and never a value.
 
 mod apply;
 mod change;
@@ -11,6 +11,3 @@ mod place;
 mod tree;
 
 pub use apply::{Edit, Step, edit, values};
-
-#[cfg(test)]
-mod tests;

@@ -4,8 +4,7 @@ use serde_yaml::{Mapping, Value as Yaml};
 
 use crate::asset::node::{Content, Node};
 
-use super::Step;
-use super::apply::entry;
+use super::apply::{Step, entry};
 
 /// The values of a node.
 pub fn of(node: &Node) -> Yaml {

@@ -1,4 +1,4 @@
-//! What edits leave of a text.
+//! Texts before and after edits.
 
 use super::*;
 
