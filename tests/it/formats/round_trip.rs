@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pushplan::asset::PlanFile;
 use pushplan::export::mjcf;
 use pushplan::import::{Imported, ImportedScene, Wanted, objects, parse, tool};
-use pushplan::scene::{Plan, Push, PushForm, Robot, Scene, Task, Tool};
+use pushplan::scene::{Goal, Plan, Push, PushForm, Robot, Scene, Task, Tool};
 use pushplan::{JointKind, Pose, Shape, ToolLibrary, Vector};
 
 /// A plan of one push with a shipped tool.
@@ -119,6 +119,16 @@ fn every_shipped_task_comes_back_with_its_sizes_masses_frictions_and_places() {
     let library = ToolLibrary::embedded().unwrap();
     let stick = library.get("stick").unwrap();
     let tasks = tasks();
+    assert!(tasks.len() > 10);
+    // The importer makes objects of their own of the solids of a thing, and knows neither joints to the
+    // world nor goals but places in it.
+    let simple = |task: &Task| {
+        let scene = &task.scene;
+        let placed =
+            |goal: &Goal| goal.has_place() && goal.area.is_none() && goal.relative.is_none();
+        scene.mounts.is_empty() && scene.seams().next().is_none() && task.goals().all(placed)
+    };
+    let tasks: Vec<Task> = tasks.into_iter().filter(simple).collect();
     assert!(tasks.len() > 10);
     for task in tasks {
         let text = mjcf(&plan(task.clone(), stick)).unwrap();
