@@ -23,11 +23,9 @@ __all__ = [
     "CircleKeys",
     "CuboidKeys",
     "CylinderKeys",
-    "FixedKeys",
-    "FixedPrismKeys",
-    "FixedShapeKeys",
     "FrictionKeys",
     "GoalKeys",
+    "GoalRegionKeys",
     "GripKeys",
     "HandKeys",
     "JointKeys",
@@ -39,6 +37,7 @@ __all__ = [
     "ObjectPrismKeys",
     "ObjectShapeKeys",
     "ObstacleKeys",
+    "PartKeys",
     "PartKeys",
     "PolygonKeys",
     "PrismKeys",
@@ -86,14 +85,6 @@ class ObjectPrismKeys(PrismKeys):
     origin: NotRequired[Numbers]
 
 
-class FixedPrismKeys(TypedDict):
-    """A prism that is fixed on an object, metres."""
-
-    corners: Sequence[Numbers]
-    height: float
-    origin: NotRequired[Numbers]
-
-
 class ShapeKeys(TypedDict, total=False):
     """One solid: exactly one of the keys."""
 
@@ -108,13 +99,6 @@ class ObjectShapeKeys(TypedDict, total=False):
     cylinder: CylinderKeys
     cuboid: CuboidKeys
     prism: ObjectPrismKeys
-
-
-class FixedShapeKeys(TypedDict, total=False):
-    """A solid that is fixed on an object: exactly one of the keys."""
-
-    cuboid: CuboidKeys
-    prism: FixedPrismKeys
 
 
 class SupportKeys(TypedDict, total=False):
@@ -132,12 +116,17 @@ class TableKeys(TypedDict, total=False):
     position: Numbers
 
 
-class FixedKeys(TypedDict):
-    """What is fixed on an object; position [x, y] or [x, y, z] in metres."""
+class PartKeys(TypedDict):
+    """A part of an object; mass in kilograms, position [x, y] in the object's frame in metres; in a task
+    of levering it may have a third number."""
 
-    shape: FixedShapeKeys
+    shape: ObjectShapeKeys
     position: Numbers
+    name: NotRequired[str]
     yaw_deg: NotRequired[float]
+    mass: NotRequired[float]
+    friction: NotRequired[float]
+    support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
 
 
 class ObjectKeys(TypedDict):
@@ -151,7 +140,7 @@ class ObjectKeys(TypedDict):
     yaw_deg: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
     may_fall: NotRequired[bool]
-    parts: NotRequired[Sequence[FixedKeys]]
+    parts: NotRequired[Sequence[PartKeys]]
     clearance: NotRequired[float]
     z: NotRequired[float]
 
@@ -215,6 +204,7 @@ class RobotKeys(TypedDict):
     max_force: NotRequired[float]
     hand: NotRequired[Union[Literal["none"], HandKeys]]
     base: NotRequired[Union[Literal["none"], float]]
+    travel: NotRequired[float]
 
 
 class PushKeys(TypedDict, total=False):
@@ -230,15 +220,53 @@ class PushKeys(TypedDict, total=False):
     lift: float
 
 
+class CircleKeys(TypedDict):
+    """A circle, metres."""
+
+    radius: float
+
+
+class RectangleKeys(TypedDict):
+    """A rectangle, full extents [x, y] in metres."""
+
+    size: Numbers
+
+
+class PolygonKeys(TypedDict):
+    """A convex polygon, corners [x, y] in metres."""
+
+    corners: Sequence[Numbers]
+
+
+class AreaKeys(TypedDict, total=False):
+    """The outline of a region: exactly one of these."""
+
+    circle: CircleKeys
+    rectangle: RectangleKeys
+    polygon: PolygonKeys
+
+
+class GoalRegionKeys(TypedDict):
+    """Where an object's centre may lie; position [x, y] in metres."""
+
+    area: AreaKeys
+    position: NotRequired[Numbers]
+    yaw_deg: NotRequired[float]
+
+
 class GoalKeys(TypedDict):
     """Where an object must come to rest, and how; position [x, y] and lengths in metres."""
 
     object: str
-    position: Numbers
-    tolerance: float
+    position: NotRequired[Numbers]
+    tolerance: NotRequired[float]
+    region: NotRequired[GoalRegionKeys]
     heading_deg: NotRequired[float]
     heading_tolerance_deg: NotRequired[float]
     symmetric: NotRequired[bool]
+    relative_to: NotRequired[str]
+    joint_deg: NotRequired[float]
+    joint: NotRequired[float]
 
 
 class LeverGoalKeys(TypedDict):
@@ -268,32 +296,6 @@ class KeepKeys(TypedDict):
 
     objects: Sequence[str]
     within: NotRequired[float]
-
-
-class CircleKeys(TypedDict):
-    """A circle, metres."""
-
-    radius: float
-
-
-class RectangleKeys(TypedDict):
-    """A rectangle, full extents [x, y] in metres."""
-
-    size: Numbers
-
-
-class PolygonKeys(TypedDict):
-    """A convex polygon, corners [x, y] in metres."""
-
-    corners: Sequence[Numbers]
-
-
-class AreaKeys(TypedDict, total=False):
-    """The outline of a region: exactly one of these."""
-
-    circle: CircleKeys
-    rectangle: RectangleKeys
-    polygon: PolygonKeys
 
 
 RegionKeys = TypedDict(
