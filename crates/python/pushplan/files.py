@@ -34,10 +34,10 @@ __all__ = [
     "LeversKeys",
     "Numbers",
     "ObjectKeys",
+    "ObjectPartKeys",
     "ObjectPrismKeys",
     "ObjectShapeKeys",
     "ObstacleKeys",
-    "PartKeys",
     "PartKeys",
     "PolygonKeys",
     "PrismKeys",
@@ -116,7 +116,7 @@ class TableKeys(TypedDict, total=False):
     position: Numbers
 
 
-class PartKeys(TypedDict):
+class ObjectPartKeys(TypedDict):
     """A part of an object; mass in kilograms, position [x, y] in the object's frame in metres; in a task
     of levering it may have a third number."""
 
@@ -140,7 +140,7 @@ class ObjectKeys(TypedDict):
     yaw_deg: NotRequired[float]
     support: NotRequired[Union[Literal["even", "corners"], SupportKeys]]
     may_fall: NotRequired[bool]
-    parts: NotRequired[Sequence[PartKeys]]
+    parts: NotRequired[Sequence[ObjectPartKeys]]
     clearance: NotRequired[float]
     z: NotRequired[float]
 
