@@ -3,7 +3,7 @@
 use pushplan::asset::{ToolLibrary, load_task};
 use pushplan::effect::PRIOR_RANGES;
 use pushplan::geometry::Pose;
-use pushplan::scene::{Job, Push, Ranges, ToolMotion};
+use pushplan::scene::{Job, Object, Push, Ranges, ToolMotion};
 use pushplan_learn::dataset::Preset;
 
 use crate::ROOT;
@@ -25,6 +25,10 @@ fn shipped_tasks_and_tools_lie_in_the_ranges_that_training_covers() {
     let files = files.map(|entry| entry.unwrap().path());
     for path in files.filter(|path| path.extension().is_some_and(|end| end == "yaml")) {
         let task = load_task(path, &library).unwrap();
+        // No data set holds things of several solids, or what is joined to the world.
+        if task.scene.objects.iter().any(Object::is_part) || !task.scene.mounts.is_empty() {
+            continue;
+        }
         let jointed = !task.scene.joints.is_empty();
         let ranges = if jointed { all() } else { Preset::Tools.ranges() };
         let start = Pose::default().position;
