@@ -32,7 +32,7 @@ pub fn stage(task: &Task) -> Stage {
     }
 }
 
-/// The same as JSON, for whoever draws it elsewhere as the page does: see [`Stage`].
+/// The same as JSON, for whoever draws it elsewhere as the page does.
 pub fn task_stage(task: &Task) -> Json {
     // It holds no maps with odd keys.
     serde_json::to_value(stage(task)).unwrap_or_default()
