@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{
     geometry::{Pose, Vector, cross, perpendicular, wrap_angle},
-    scene::{JOINT_ARM, JointKind, Separation, State},
+    scene::{JOINT_ARM, JointKind, Separation, Span, State},
 };
 
 use super::{
@@ -49,19 +49,22 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         // A guessed axis is no reason to move anything.
         !joint.guessed && touched[bodies.mechanisms[joint.between[0]]]
     };
-    let joints: Vec<&Jointed> = bodies.joints.iter().filter(|joint| wanted(joint)).collect();
+    let own = bodies.joints.iter().filter(|joint| wanted(joint));
     let mounts = bodies.mounts.iter().filter(|mount| touched[bodies.mechanisms[mount.object]]);
-    let joints = Joints { joints, mounts: mounts.collect() };
-    if joints.joints.is_empty() && joints.mounts.is_empty() {
+    let joints: Vec<Held> = own
+        .map(|joint| Held::between(bodies, joint))
+        .chain(mounts.map(|mount| Held::to_world(bodies, mount)))
+        .collect();
+    if joints.is_empty() {
         return;
     }
     let members = bodies.groups.members.iter();
     let mut groups: Vec<Group> = members.map(|members| gather(bodies, state, members)).collect();
     groups.push(Group::WORLD);
     let places = place(bodies);
-    let mut limited = vec![false; joints.joints.len() + joints.mounts.len()];
+    let mut limited = vec![false; joints.len()];
     for _ in 0..STEPS {
-        let rows = rows(bodies, &joints, &places, &groups, &mut limited);
+        let rows = rows(&joints, &places, &groups, &mut limited);
         let missing = rows.iter().map(|row| row.missing.abs()).fold(0.0, f64::max);
         if missing < HELD {
             break;
@@ -73,7 +76,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
             });
         }
     }
-    let rows = rows(bodies, &joints, &places, &groups, &mut limited);
+    let rows = rows(&joints, &places, &groups, &mut limited);
     let speed = |row: &Row| {
         let [a, b] = row.between.map(|group| &groups[group.0]);
         let of = |group: &Group, turn: f64| row.shift.dot(&group.velocity) + turn * group.spin;
@@ -87,7 +90,7 @@ pub fn hold(bodies: &Bodies, state: &mut State, moved: impl Fn(usize) -> bool) {
         });
     }
     for (object, &group) in bodies.groups.of.iter().enumerate() {
-        if !joints.concern(object) {
+        if !joints.iter().any(|joint| joint.objects.contains(&Some(object))) {
             continue;
         }
         let Group { pose, velocity, spin, .. } = groups[group.0];
@@ -113,16 +116,39 @@ impl Group {
     };
 }
 
-/// The joints to hold.
-struct Joints<'a> {
-    joints: Vec<&'a Jointed>,
-    mounts: Vec<&'a Mounted>,
+/// A joint to hold: between two groups, of which one may be the world.
+struct Held<'a> {
+    between: [GroupIndex; 2],
+    /// Its objects; of the world there is none.
+    objects: [Option<usize>; 2],
+    /// Its frame as seen from each of them, or in the world.
+    frames: &'a [Pose; 2],
+    kind: JointKind,
+    limits: Option<Span>,
 }
 
-impl Joints<'_> {
-    fn concern(&self, object: usize) -> bool {
-        self.joints.iter().any(|joint| joint.between.contains(&object))
-            || self.mounts.iter().any(|mount| mount.object == object)
+impl<'a> Held<'a> {
+    /// Of two objects.
+    fn between(bodies: &Bodies, joint: &'a Jointed) -> Self {
+        let Jointed { frames, kind, limits, .. } = joint;
+        let between = joint.between.map(|object| bodies.groups.of[object]);
+        Self { between, objects: joint.between.map(Some), frames, kind: *kind, limits: *limits }
+    }
+
+    /// Of an object and the world, which comes after all groups.
+    fn to_world(bodies: &Bodies, mount: &'a Mounted) -> Self {
+        let Mounted { frames, kind, limits, object } = mount;
+        let between = [GroupIndex(bodies.groups.members.len()), bodies.groups.of[*object]];
+        Self { between, objects: [None, Some(*object)], frames, kind: *kind, limits: *limits }
+    }
+
+    /// How its sides stand when objects have these places in their groups.
+    fn separation(&self, groups: &[Group], places: &[Pose]) -> Separation {
+        let end = |side: usize| match self.objects[side] {
+            Some(object) => groups[self.between[side].0].pose * places[object],
+            None => Pose::default(),
+        };
+        Separation::of(self.frames, [end(0), end(1)])
     }
 }
 
@@ -238,22 +264,14 @@ impl Row {
 }
 
 /// The rows of all joints between different groups. A limit has one once it is exceeded.
-fn rows(
-    bodies: &Bodies,
-    joints: &Joints,
-    places: &[Pose],
-    groups: &[Group],
-    limited: &mut [bool],
-) -> Vec<Row> {
-    let mut rows = Vec::with_capacity(3 * limited.len());
-    let mut limited = limited.iter_mut();
-    for (joint, limited) in joints.joints.iter().zip(&mut limited) {
-        let between = joint.between.map(|object| bodies.groups.of[object]);
+fn rows(joints: &[Held], places: &[Pose], groups: &[Group], limited: &mut [bool]) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(3 * joints.len());
+    for (joint, limited) in joints.iter().zip(limited) {
+        let between = joint.between;
         if between[0] == between[1] {
             continue;
         }
-        let pose = |end: usize| groups[between[end].0].pose * places[joint.between[end]];
-        let separation = Separation::of(&joint.frames, [0, 1].map(pose));
+        let separation = joint.separation(groups, places);
         let (on, apart, turned) = (separation.ends, separation.apart(), separation.turned());
         let arms = between.map(|group| on[1].position - groups[group.0].pose.position);
         let mut beyond = |value: f64| {
@@ -275,37 +293,6 @@ fn rows(
                 rows.push(Row::of_turn(between, -turned));
                 let slid = apart.dot(&slide);
                 let held = beyond(slid);
-                rows.extend(held.map(|held| Row::of_shift(between, arms, slide, held)));
-            }
-        }
-    }
-    let world = GroupIndex(groups.len() - 1);
-    for (mount, limited) in joints.mounts.iter().zip(&mut limited) {
-        let between = [world, bodies.groups.of[mount.object]];
-        let pose = groups[between[1].0].pose * places[mount.object];
-        let ends = mount.separation(&pose).ends;
-        // Turns are counted, so that a limit beyond half of one is one.
-        let (apart, turned) =
-            (ends[1].position - ends[0].position, ends[1].heading - ends[0].heading);
-        let arms = between.map(|group| ends[1].position - groups[group.0].pose.position);
-        let mut beyond = |value: f64| {
-            let held = mount.limits.map(|limits| value.clamp(limits.low, limits.high) - value);
-            *limited |= held.is_some_and(|held| held != 0.0);
-            held.filter(|_| *limited)
-        };
-        match mount.kind {
-            JointKind::Fixed => {}
-            JointKind::Revolute { .. } => {
-                rows.push(Row::of_shift(between, arms, Vector::x(), -apart.x));
-                rows.push(Row::of_shift(between, arms, Vector::y(), -apart.y));
-                rows.extend(beyond(turned).map(|held| Row::of_turn(between, held)));
-            }
-            JointKind::Prismatic { .. } => {
-                let slide = ends[0].vector(Vector::x());
-                let across = perpendicular(slide);
-                rows.push(Row::of_shift(between, arms, across, -apart.dot(&across)));
-                rows.push(Row::of_turn(between, -turned));
-                let held = beyond(apart.dot(&slide));
                 rows.extend(held.map(|held| Row::of_shift(between, arms, slide, held)));
             }
         }

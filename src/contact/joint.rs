@@ -4,7 +4,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::{
     geometry::{Vector, perpendicular},
-    scene::{JOINT_ARM, JointKind},
+    scene::{JOINT_ARM, JointKind, Span},
 };
 
 use super::{
@@ -52,65 +52,107 @@ impl Rows {
     }
 }
 
-/// The rows of a joint between different groups where these have come to: first its own, then
-/// its limits. How many there are depends on the start of the frame alone.
-pub(super) fn rows(
-    Scenery { bodies, state, turns, .. }: Scenery,
-    joint: &Jointed,
-    axis: Vector,
-    unknowns: &[Unknown],
-    mut add: impl FnMut(Rows),
-) {
-    let between = joint.between.map(|object| bodies.groups.of[object]);
-    if between[0] == between[1] {
-        return;
+/// A joint between different groups, or between the world and a group, as a frame begins.
+pub(super) struct Held {
+    between: (Option<GroupIndex>, GroupIndex),
+    kind: JointKind,
+    limits: Option<Span>,
+    /// Where its frame is on either side, and the axis that a prismatic one slides along.
+    ends: [Vector; 2],
+    slides: Vector,
+    /// How far the second side is off the first, and turned against it.
+    apart: Vector,
+    turned: f64,
+}
+
+impl Held {
+    /// Of two objects; `None` if they are in one group.
+    pub fn between(Scenery { bodies, state, turns, .. }: Scenery, joint: &Jointed) -> Option<Self> {
+        let [first, second] = joint.between.map(|object| bodies.groups.of[object]);
+        if first == second {
+            return None;
+        }
+        let (start, slides) = joint.separation_turned(&state.poses, turns);
+        // A gap at a guessed joint is an error of the guess, not of the objects.
+        let (apart, turned) =
+            if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
+        Some(Self {
+            between: (Some(first), second),
+            kind: joint.kind,
+            limits: joint.limits,
+            ends: start.ends.map(|end| end.position),
+            slides,
+            apart,
+            turned,
+        })
     }
-    let (start, slides) = joint.separation_turned(&state.poses, turns);
-    // A gap at a guessed joint is an error of the guess, not of the objects.
-    let (apart, turned) =
-        if joint.guessed { (Vector::zeros(), 0.0) } else { (start.apart(), start.turned()) };
-    let groups = between.map(|group| &unknowns[group.0]);
-    let [on_first, on_second] = [0, 1].map(|end| groups[end].moved(start.ends[end].position));
-    let [centre_a, centre_b] = groups.map(|group| group.moved(group.centre));
-    let turn = Vector3::new(0.0, 0.0, JOINT_ARM);
-    let none = Vector3::zeros();
-    let between = (Some(between[0]), between[1]);
-    let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });
-    match joint.kind {
-        JointKind::Fixed => {}
-        JointKind::Revolute { .. } => {
-            // Along the tool's motion and across it, so that they turn with the scene.
-            let directions = [axis, perpendicular(axis)];
-            add(
-                directions.map(|d| along(d, on_second - centre_b)),
-                directions.map(|d| along(d, on_first - centre_a)),
-                directions.map(|d| -apart.dot(&d)),
-                false,
-            );
-            if let Some(limits) = joint.limits {
-                for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
-                    if left * JOINT_ARM < NEAR_LIMIT {
-                        let only = [sign * turn, none];
-                        add(only, only, [-left * JOINT_ARM, 0.0], true);
+
+    /// Of an object and the world.
+    pub fn to_world(Scenery { bodies, state, .. }: Scenery, mount: &Mounted) -> Self {
+        let start = mount.separation(&state.poses[mount.object]);
+        Self {
+            between: (None, bodies.groups.of[mount.object]),
+            kind: mount.kind,
+            limits: mount.limits,
+            ends: start.ends.map(|end| end.position),
+            slides: start.ends[0].vector(Vector::x()),
+            apart: start.apart(),
+            turned: start.turned(),
+        }
+    }
+
+    /// The rows where its groups have come to: first its own, then its limits. How many there are
+    /// depends on the start of the frame alone.
+    pub fn rows(&self, axis: Vector, unknowns: &[Unknown], mut add: impl FnMut(Rows)) {
+        let Self { between, limits, ends, slides, apart, turned, .. } = *self;
+        let first = between.0.map(|group| &unknowns[group.0]);
+        let second = &unknowns[between.1.0];
+        let on_second = second.moved(ends[1]);
+        let (turn, none) = (Vector3::new(0.0, 0.0, JOINT_ARM), Vector3::zeros());
+        let centre = second.moved(second.centre);
+        let to = |direction, at| along(direction, at - centre);
+        // The world does not move.
+        let other = first.map(|group| group.moved(group.centre));
+        let from = |direction, at| other.map_or(none, |centre| along(direction, at - centre));
+        let turn_from = if first.is_some() { turn } else { none };
+        let mut add = |to, from, target, limit| add(Rows { between, to, from, target, limit });
+        match self.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute { .. } => {
+                let on_first = first.map_or(ends[0], |group| group.moved(ends[0]));
+                // Along the tool's motion and across it, so that they turn with the scene.
+                let directions = [axis, perpendicular(axis)];
+                add(
+                    directions.map(|d| to(d, on_second)),
+                    directions.map(|d| from(d, on_first)),
+                    directions.map(|d| -apart.dot(&d)),
+                    false,
+                );
+                if let Some(limits) = limits {
+                    for (sign, left) in [(1.0, turned - limits.low), (-1.0, limits.high - turned)] {
+                        if left * JOINT_ARM < NEAR_LIMIT {
+                            let only = |turn: Vector3<f64>| [sign * turn, none];
+                            add(only(turn), only(turn_from), [-left * JOINT_ARM, 0.0], true);
+                        }
                     }
                 }
             }
-        }
-        JointKind::Prismatic { .. } => {
-            // Both bodies at the second's frame: it slides along an axis that turns with the
-            // first.
-            let slide = groups[0].turn.of(slides);
-            let across = perpendicular(slide);
-            let at = on_second;
-            let target = [-apart.dot(&perpendicular(slides)), -turned * JOINT_ARM];
-            let row = |centre| along(across, at - centre);
-            add([row(centre_b), turn], [row(centre_a), turn], target, false);
-            if let Some(limits) = joint.limits {
-                let slid = apart.dot(&slides);
-                for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
-                    if left < NEAR_LIMIT {
-                        let only = |centre| [along(sign * slide, at - centre), none];
-                        add(only(centre_b), only(centre_a), [-left, 0.0], true);
+            JointKind::Prismatic { .. } => {
+                // Both bodies at the second's frame: it slides along an axis that turns with the
+                // first.
+                let slide = first.map_or(slides, |group| group.turn.of(slides));
+                let across = perpendicular(slide);
+                let at = on_second;
+                let target = [-apart.dot(&perpendicular(slides)), -turned * JOINT_ARM];
+                add([to(across, at), turn], [from(across, at), turn_from], target, false);
+                if let Some(limits) = limits {
+                    let slid = apart.dot(&slides);
+                    for (sign, left) in [(1.0, slid - limits.low), (-1.0, limits.high - slid)] {
+                        if left < NEAR_LIMIT {
+                            let unit = sign * slide;
+                            let only = [to(unit, at), none];
+                            add(only, [from(unit, at), none], [-left, 0.0], true);
+                        }
                     }
                 }
             }
@@ -118,48 +160,11 @@ pub(super) fn rows(
     }
 }
 
-/// The same of a joint between an object and the world.
-pub(super) fn mounted_rows(
-    Scenery { bodies, state, .. }: Scenery,
-    mount: &Mounted,
-    axis: Vector,
-    unknowns: &[Unknown],
-    mut add: impl FnMut(Rows),
-) {
-    let index = bodies.groups.of[mount.object];
-    let group = &unknowns[index.0];
-    let start = mount.separation(&state.poses[mount.object]);
-    // Turns are counted, so that a limit beyond half of one is one.
-    let turned = start.ends[1].heading - start.ends[0].heading;
-    let arm = group.moved(start.ends[1].position) - group.moved(group.centre);
-    let (turn, none) = (Vector3::new(0.0, 0.0, JOINT_ARM), Vector3::zeros());
-    let between = (None, index);
-    let mut add = |to, target, limit| add(Rows { between, to, from: [none; 2], target, limit });
-    let (unit, come) = match mount.kind {
-        JointKind::Fixed => return,
-        JointKind::Revolute { .. } => {
-            let directions = [axis, perpendicular(axis)];
-            let target = directions.map(|d| -start.apart().dot(&d));
-            add(directions.map(|d| along(d, arm)), target, false);
-            (turn, turned * JOINT_ARM)
-        }
-        JointKind::Prismatic { .. } => {
-            let slide = start.ends[0].vector(Vector::x());
-            let across = perpendicular(slide);
-            let target = [-start.apart().dot(&across), -turned * JOINT_ARM];
-            add([along(across, arm), turn], target, false);
-            (along(slide, arm), start.apart().dot(&slide))
-        }
-    };
-    let scale = if matches!(mount.kind, JointKind::Revolute { .. }) { JOINT_ARM } else { 1.0 };
-    if let Some(limits) = mount.limits {
-        let (low, high) = (limits.low * scale, limits.high * scale);
-        for (sign, left) in [(1.0, come - low), (-1.0, high - come)] {
-            if left < NEAR_LIMIT {
-                add([sign * unit, none], [-left, 0.0], true);
-            }
-        }
-    }
+/// All joints of a frame: those between objects that move against each other, then those to the world.
+fn all(scenery: Scenery<'_>) -> impl Iterator<Item = Held> + '_ {
+    let bodies = scenery.bodies;
+    let between = bodies.joints.iter().filter_map(move |joint| Held::between(scenery, joint));
+    between.chain(bodies.mounts.iter().map(move |mount| Held::to_world(scenery, mount)))
 }
 
 /// Turns the rows of all joints, and of their limits, to where the groups have come to.
@@ -178,10 +183,5 @@ pub(super) fn turn_joints(
             ties.next().into_iter().for_each(|tie| rows.turn_tie(tie));
         }
     };
-    for joint in &scenery.bodies.joints {
-        rows(scenery, joint, axis, unknowns, &mut turn);
-    }
-    for mount in &scenery.bodies.mounts {
-        mounted_rows(scenery, mount, axis, unknowns, &mut turn);
-    }
+    all(scenery).for_each(|held| held.rows(axis, unknowns, &mut turn));
 }

@@ -9,7 +9,7 @@ use super::{
     bodies::Partner,
     constraint::{Constraint, Law},
     gain::Gain,
-    joint::{mounted_rows, rows, turn_joints},
+    joint::{Held, turn_joints},
     midway::{Midway, midway},
     motion::Motion,
     points::{Contact, Scenery},
@@ -108,20 +108,21 @@ impl Prior {
         }
         joints.clear();
         let System { unknowns, constraints, ties, .. } = &mut *system;
+        let mut add = |held: &Held| {
+            held.rows(axis, unknowns, |rows| match rows.limit {
+                true => constraints.push(rows.constraint()),
+                false => ties.push(rows.tie()),
+            });
+        };
+        let mut own = 0;
         for joint in &bodies.joints {
-            let before = ties.len();
-            rows(scenery, joint, axis, unknowns, |rows| match rows.limit {
-                true => constraints.push(rows.constraint()),
-                false => ties.push(rows.tie()),
-            });
-            joints.push((ties.len() > before).then_some(before));
+            // Each has one tie; they come before those to the world.
+            let held = Held::between(scenery, joint);
+            held.iter().for_each(&mut add);
+            joints.push(held.map(|_| own));
+            own += usize::from(joints.last().is_some_and(Option::is_some));
         }
-        for mount in &bodies.mounts {
-            mounted_rows(scenery, mount, axis, unknowns, |rows| match rows.limit {
-                true => constraints.push(rows.constraint()),
-                false => ties.push(rows.tie()),
-            });
-        }
+        bodies.mounts.iter().for_each(|mount| add(&Held::to_world(scenery, mount)));
         system.solve(scenery, |constraints, ties, unknowns| {
             unknowns.iter_mut().for_each(|unknown| unknown.look(HALF));
             for (contact, constraint) in contacts.iter().zip(&mut *constraints) {

@@ -202,7 +202,7 @@ impl Goal {
         self.off(state).norm()
     }
 
-    /// From the nearest place that is asked for to the object's centre, metres; nothing where it may lie
+    /// From the nearest place that is asked for to the object's centre, metres; zero where it may lie
     /// anywhere.
     pub fn off(&self, state: &State) -> Vector {
         if !self.has_place() {

@@ -11,7 +11,7 @@ use super::{Fixed, PushForm, PushStep, Robot, Scene, Task, Tool, ToolMotion};
 /// missed.
 const SPACING: f64 = 0.02;
 
-/// At most so many cells along a side.
+/// Most cells along a side of the grid.
 const CELLS: usize = 160;
 
 /// Nearer is touching, metres: rounding.

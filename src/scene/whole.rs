@@ -98,11 +98,11 @@ impl Scene {
 
     /// The centre of mass of an object with its parts where these are in `state`, metres.
     pub fn centre(&self, object: usize, state: &State) -> Vector {
-        let mut solids = self.parts_of(object).peekable();
-        if solids.peek().is_none() {
+        // This is asked in every frame, and most scenes have no parts, which would come last.
+        if self.objects.last().is_none_or(|last| !last.is_part()) {
             return state.poses[object].position;
         }
-        let solids = solids.chain([object]);
+        let solids = self.parts_of(object).chain([object]);
         let moments = solids.map(|k| self.objects[k].mass * state.poses[k].position);
         moments.sum::<Vector>() / self.mass(object)
     }

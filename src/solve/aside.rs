@@ -18,7 +18,7 @@ const TRIED: usize = 3;
 /// nearer.
 const NEAR: f64 = 2.0;
 
-/// So many pushes more than one for each object in the way may be made: what stands in a corner takes
+/// How many pushes may be made beyond one for each object in the way: what stands in a corner takes
 /// two.
 const MORE: usize = 1;
 

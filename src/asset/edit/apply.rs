@@ -1,4 +1,4 @@
-//! Edits of a text: each at its place, or else in a text that is written anew.
+//! Applies edits to a text: each where its value stands or, failing that, by writing the whole text again.
 
 use serde::Deserialize;
 use serde_json::Value as Json;

@@ -2,7 +2,8 @@
 //!
 //! A value is changed at its place, which the reader knows (`place`, `change`, `flow`). What comes of that is
 //! read again and compared with what was wanted (`tree`); where it is something else (anchors, words over
-//! several lines), the whole text is written anew, which loses comments and never a value.
+//! several lines), the whole text is written again, which loses comments but never a value. (`yamlpatch` does
+//! as much on tree-sitter, which is C; the page, and those who link the library, compile none.)
 
 mod apply;
 mod change;

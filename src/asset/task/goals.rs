@@ -8,6 +8,7 @@ use crate::geometry::{Footprint, Pose, clearance};
 use crate::scene::{Goal, JointKind, Scene};
 
 use super::keep::{AREA, AREA_POSITION, AREA_YAW, area, check_area};
+use super::mounts::moving;
 use super::parts::parts;
 use super::rules::{SLACK, body, is_below, known_object};
 use super::spec::default;
@@ -161,7 +162,7 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
         let advice = "name another object, or leave it out for the world";
         ledger.fault(other, "an object is always where it is to itself", advice);
     }
-    by_joint(goal, (name, section("joints")), ledger);
+    by_joint(goal, name, scene, ledger);
     let solid = object.get("shape").and_then(shape);
     if let (Some(solid), None) = (solid, goal.get("relative_to")) {
         room_at_the_goal(goal, (object, &solid.footprint()), name, obstacles, ledger);
@@ -217,7 +218,8 @@ fn demands(goal: &Node, ledger: &mut Ledger) {
 }
 
 /// An object whose joint is to come somewhere has one of the right kind.
-fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger) {
+fn by_joint(goal: &Node, object: &Node, scene: &Node, ledger: &mut Ledger) {
+    let joints = scene.get("joints").map(Node::items).unwrap_or_default();
     for (key, kind) in [("joint_deg", "revolute"), ("joint", "prismatic")] {
         let Some(node) = goal.get(key) else { continue };
         let own = joints.iter().filter(|joint| {
@@ -228,7 +230,9 @@ fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger
         let own: Vec<&Node> = own.collect();
         let name = object.text().unwrap_or("?");
         match own[..] {
-            [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {}
+            [joint] if joint.get("kind").and_then(Node::text) == Some(kind) => {
+                within_limits(node, (object, joint), scene, ledger);
+            }
             [_] => {
                 let message = format!("the joint of `{name}` is not {kind}");
                 let advice = "turns are asked for by `joint_deg`, shifts by `joint`";
@@ -248,6 +252,32 @@ fn by_joint(goal: &Node, (object, joints): (&Node, &[Node]), ledger: &mut Ledger
             let advice = "leave it out: a joint counts against what it joins";
             ledger.fault(other, format!("`{key}` is relative to something already"), advice);
         }
+    }
+}
+
+/// A joint does not come farther than its limits.
+fn within_limits(
+    wanted: &Node,
+    (object, joint): (&Node, &Node),
+    scene: &Node,
+    ledger: &mut Ledger,
+) {
+    let section = |key| scene.get(key).map(Node::items).unwrap_or_default();
+    let limits = joint.get("limits").or_else(|| joint.get("limits_deg"));
+    let [Some(low), Some(high)] =
+        [0, 1].map(|k| limits.and_then(|limits| limits.items().get(k)).and_then(Node::number))
+    else {
+        return;
+    };
+    let to_world = moving(joint, section("objects"), section("obstacles")).is_some();
+    let between = joint.get("between").map(Node::items).unwrap_or_default();
+    let first = between.first().and_then(Node::text) == object.text();
+    // Limits are those of the second object against the first.
+    let (low, high) = if first && !to_world { (-high, -low) } else { (low, high) };
+    if wanted.number().is_some_and(|wanted| wanted < low || wanted > high) {
+        let name = object.text().unwrap_or("?");
+        let message = format!("the joint of `{name}` only comes from {low} to {high}");
+        ledger.fault(wanted, message, "ask for less, or widen the joint's limits");
     }
 }
 

@@ -121,7 +121,7 @@ pub struct Goal {
     /// Index of the object.
     pub object: usize,
     pub at: [i64; 2],
-    /// Nothing where no place is asked for, or a region.
+    /// Zero where no place is asked for, and for a region.
     pub tolerance: i64,
     /// The region about `at`, where one is asked for.
     pub area: Option<Outline>,
