@@ -213,6 +213,13 @@ impl Goal {
         at - goal.area.map_or(goal.position, |area| area.nearest(at))
     }
 
+    /// The same as seen from the goal's own frame, metres along its axes.
+    pub fn off_as_seen(&self, state: &State) -> Vector {
+        let off = self.off(state);
+        let frame = self.relative.and_then(|other| state.poses.get(other));
+        frame.map_or(off, |frame| frame.local_vector(off))
+    }
+
     /// Turn from the wanted heading, or the nearest one that looks the same, to that of the object,
     /// radians to the left, where a heading is asked for.
     pub fn turned(&self, state: &State) -> Option<f64> {

@@ -234,9 +234,6 @@ fn missed(task: &Task, tried: &Tried) -> f64 {
 /// the effect model's own slopes, for the middle of where it ends in both engines, disturbed or
 /// not. `None` if that is on the goal already.
 fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
-    if goal.relative.is_some() {
-        return None;
-    }
     let (mut shift, mut turn, mut engines) = (Vector::zeros(), 0.0, 0.0);
     for engine in Engine::ALL {
         let all = verdict.nominal(engine).into_iter().chain(verdict.disturbed(engine));
@@ -246,7 +243,7 @@ fn aim(goal: &Goal, aim: &Goal, verdict: &Verdict) -> Option<Goal> {
             .collect();
         if !ends.is_empty() {
             let count = ends.len() as f64;
-            shift += ends.iter().map(|end| goal.off(end)).sum::<Vector>() / count;
+            shift += ends.iter().map(|end| goal.off_as_seen(end)).sum::<Vector>() / count;
             let turned = ends.iter().filter_map(|end| goal.turned(end));
             turn += turned.sum::<f64>() / count;
             engines += 1.0;

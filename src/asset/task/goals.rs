@@ -155,17 +155,28 @@ pub(super) fn check(goal: &Node, scene: &Node, ledger: &mut Ledger) {
     }
     let Some(name) = goal.get("object") else { return };
     let Some(object) = known_object(name, objects, obstacles, ledger) else { return };
-    if let Some(other) = goal.get("relative_to")
-        && let Some(found) = known_object(other, objects, obstacles, ledger)
-        && found.id == object.id
-    {
+    let relative = goal.get("relative_to");
+    let other = relative.and_then(|other| known_object(other, objects, obstacles, ledger));
+    if let Some(node) = relative.filter(|_| other.is_some_and(|other| other.id == object.id)) {
         let advice = "name another object, or leave it out for the world";
-        ledger.fault(other, "an object is always where it is to itself", advice);
+        ledger.fault(node, "an object is always where it is to itself", advice);
     }
     by_joint(goal, name, scene, ledger);
     let solid = object.get("shape").and_then(shape);
-    if let (Some(solid), None) = (solid, goal.get("relative_to")) {
-        room_at_the_goal(goal, (object, &solid.footprint()), name, obstacles, ledger);
+    if let Some(solid) = solid {
+        // In the frame of the goal: what does not move, or what it is relative to.
+        let fixed = obstacles.iter().filter(|fixed| !is_below(object, fixed, SLACK));
+        let there: Vec<(&Node, Footprint, Pose)> = match (relative, other) {
+            (None, _) => fixed
+                .filter_map(|fixed| body(fixed).map(|(solid, pose)| (fixed, solid, pose)))
+                .collect(),
+            (Some(_), Some(other)) if other.id != object.id => {
+                let solid = other.get("shape").and_then(shape);
+                solid.map(|solid| (other, solid.footprint(), Pose::default())).into_iter().collect()
+            }
+            _ => Vec::new(),
+        };
+        room_at_the_goal(goal, (name, &solid.footprint()), &there, ledger);
     }
     let round = solid.is_some_and(|solid| solid.is_cylinder()) && parts(object).is_empty();
     if let (Some(heading), true) = (goal.get("heading_deg"), round) {
@@ -281,13 +292,12 @@ fn within_limits(
     }
 }
 
-/// A goal at which the object would be inside an obstacle, however it is turned and wherever
+/// A goal at which the object would be inside something that is there, however it is turned and wherever
 /// within the tolerance it lies.
 fn room_at_the_goal(
     goal: &Node,
-    (whole, object): (&Node, &Footprint),
-    name: &Node,
-    obstacles: &[Node],
+    (name, object): (&Node, &Footprint),
+    there: &[(&Node, Footprint, Pose)],
     ledger: &mut Ledger,
 ) {
     let (Some(node), Some(tolerance)) =
@@ -300,16 +310,12 @@ fn room_at_the_goal(
     if core.inner_radius() <= 0.0 {
         return;
     }
-    for obstacle in obstacles {
-        let Some((solid, pose)) = body(obstacle) else { continue };
-        if is_below(whole, obstacle, SLACK) {
-            continue;
-        }
-        if clearance((&core, &at), (&solid, &pose), SLACK) <= 0.0 {
-            let [object, obstacle] = [name.text(), name_of(obstacle)].map(|n| n.unwrap_or("?"));
+    for (other, solid, pose) in there {
+        if clearance((&core, &at), (solid, pose), SLACK) <= 0.0 {
+            let [object, other] = [name.text(), name_of(other)].map(|n| n.unwrap_or("?"));
             ledger.fault(
                 node,
-                format!("at the goal `{object}` would be inside `{obstacle}`"),
+                format!("at the goal `{object}` would be inside `{other}`"),
                 "move the goal or the obstacle, or allow a larger tolerance",
             );
         }
